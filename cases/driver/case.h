@@ -1,0 +1,198 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_H
+#define MOR_CASES_DRIVER_CASE_H
+
+#include "core/particle/shape.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** @file
+ *  A case file after reading: every value in SI, every default filled in, everything multiplied by the case's scale.
+ *  Made by case_read.c, written back by case_write.c, consumed by build.c. Which key goes where: case_schema.c.
+ *
+ *  Members named `written` have bit k set when the file gave key k of the group's table in case_schema.c; the other
+ *  values are defaults. */
+
+enum {
+    MOR_CASE_POLYGON_POINTS_MAX = 4096,
+    MOR_CASE_SHAPE_PARTS_MAX = 256,
+    MOR_CASE_NAME_BYTES = 64,
+    MOR_CASE_TEXT_BYTES = 256,
+    MOR_CASE_PARAMETERS_MAX = 32,
+    MOR_CASE_SOILS_MAX = 8,
+    MOR_CASE_WALLS_MAX = 16,
+    MOR_CASE_PROBES_MAX = 64,
+    MOR_CASE_EXPECTATIONS_MAX = 32
+};
+
+/** Where in the file something was written, for messages of later checks. */
+typedef struct mor_case_place {
+    char file[MOR_CASE_TEXT_BYTES]; /* path as the user gave it */
+    int line;                       /* 1-based line */
+} mor_case_place;
+
+/** Kinds of shapes, in the order of mor_case_shape_groups. */
+typedef enum mor_case_shape_kind {
+    MOR_CASE_SHAPE_BOX,
+    MOR_CASE_SHAPE_CYLINDER,
+    MOR_CASE_SHAPE_SPHERE,
+    MOR_CASE_SHAPE_HALF_SPACE,
+    MOR_CASE_SHAPE_POLYGON,
+    MOR_CASE_SHAPE_UNION,
+    MOR_CASE_SHAPE_DIFFERENCE,
+    MOR_CASE_SHAPE_TRANSLATE,
+    MOR_CASE_SHAPE_ROTATE,
+    MOR_CASE_SHAPE_COUNT
+} mor_case_shape_kind;
+
+/** A shape as the case describes it, kept so that the case can be written back; mor_shape is what it builds. */
+typedef struct mor_case_shape {
+    mor_case_shape_kind kind;
+    bool is_flat;                    /* a box of two components: without end in z */
+    double first[3];                 /* lowest corner, base, center, point or move, m */
+    double second[3];                /* highest corner [m], axis [1] or normal [1] */
+    double radius;                   /* m */
+    double height;                   /* m */
+    double angle;                    /* rad */
+    double *points;                  /* shape [n_points,2], m; owned; corners of a polygon */
+    int n_points;                    /* number of corners */
+    struct mor_case_shape *children; /* shape [n_children]; owned; of a difference: from, then what is taken away */
+    int n_children;                  /* number of children */
+    uint64_t written;                /* see above */
+} mor_case_shape;
+
+typedef enum mor_case_stress { MOR_CASE_STRESS_NONE, MOR_CASE_STRESS_K0, MOR_CASE_STRESS_SETTLED } mor_case_stress;
+
+/** One soil region. */
+typedef struct mor_case_soil {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    mor_shape *shape;       /* owned by the case; in the scene frame (before the case's placement) */
+    mor_case_shape outline; /* what shape was built from; owned by the case */
+    char model[MOR_CASE_NAME_BYTES];
+    double density;                             /* initial density, kg/m3 */
+    double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
+    double velocity[3];                         /* initial velocity, m/s */
+    mor_case_stress initial_stress;
+    double lateral_ratio;      /* K0 of the initial stress; < 0: 1 - sin(friction angle) */
+    double surface_level;      /* height against gravity of the free surface, m; NaN: top of the region's particles */
+    double settle_time;        /* longest settling, s */
+    double settle_speed_ratio; /* settled when the 99th-percentile speed is under this times sqrt(|g| * height) */
+    uint64_t written, written_stress, written_material, written_parameters;
+} mor_case_soil;
+
+typedef enum mor_case_friction {
+    MOR_CASE_FRICTION_ROUGH,
+    MOR_CASE_FRICTION_SMOOTH,
+    MOR_CASE_FRICTION_COULOMB
+} mor_case_friction;
+
+/** One wall. */
+typedef struct mor_case_wall {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    mor_shape *shape;       /* the solid; owned by the case */
+    mor_case_shape outline; /* what shape was built from; owned by the case */
+    mor_case_friction friction;
+    double friction_coefficient; /* Coulomb only, 1 */
+    double velocity[3];          /* prescribed velocity, m/s */
+    uint64_t written;
+} mor_case_wall;
+
+/** Settings of the method, design.md "Fine grains". */
+typedef struct mor_case_numerics {
+    double smoothing_ratio;            /* h / spacing, 1.3 */
+    double courant;                    /* CFL number, 0.4 */
+    int dissipation;                   /* 0 separation, 1 approach, 2 both */
+    int wall_dissipation;              /* likewise for walls */
+    double dissipation_factor;         /* eta; default 20 * dimension */
+    bool density_pressure_term;        /* pressure part of U* in the density rate */
+    double stress_diffusion;           /* zeta; 0: off */
+    bool artificial_stress;            /* Z(27)-Z(31) */
+    double artificial_stress_exponent; /* n */
+    double artificial_stress_factor;   /* epsilon */
+    bool gradient_correction;          /* kernel-gradient correction of the velocity gradient and density rate */
+    double xsph;                       /* xi of H(13); 0: off */
+    bool shifting;                     /* penetration-based shifting H(16) */
+    int density_reinitialization;      /* steps between re-initializations; 0: off */
+    double skin_ratio;                 /* neighbor-list skin / spacing */
+    int sort_interval;                 /* steps between sorts */
+    double damping;                    /* velocity damping rate, 1/s; 0: off */
+    double gravity_ramp;               /* time over which gravity grows linearly from 0, s */
+} mor_case_numerics;
+
+/** One probe: a named result. */
+typedef struct mor_case_probe {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    char type[MOR_CASE_NAME_BYTES];    /* "run_out", "height", "repose_angle", "kinetic_energy", ... */
+    char measure[MOR_CASE_NAME_BYTES]; /* of a run-out: "mass_percentile" or "thickness" */
+    char wall[MOR_CASE_NAME_BYTES];    /* of a wall force */
+    bool is_radial;                    /* run-out measured as a radius about origin, else along direction */
+    double origin[3];                  /* m */
+    double direction[3];               /* unit vector; run-out and force component */
+    double percentile;                 /* percent of the mass (or of the particles sorted by the value), 0 to 100 */
+    double thickness;                  /* threshold, m; default half the spacing */
+    uint64_t written;
+} mor_case_probe;
+
+/** One expectation. */
+typedef struct mor_case_expectation {
+    char probe[MOR_CASE_NAME_BYTES]; /* name of a probe */
+    mor_case_place place;
+    double value;         /* reference in the probe's SI unit */
+    double tolerance;     /* relative to value, 1; or absolute when is_absolute */
+    double tolerance_low; /* allowed shortfall, same kind as tolerance; default: as tolerance */
+    bool is_absolute;
+    char source[MOR_CASE_TEXT_BYTES];
+    uint64_t written;
+} mor_case_expectation;
+
+/** What to write. */
+typedef struct mor_case_output {
+    int n_snapshots;           /* snapshots after the initial one, evenly spaced */
+    double series_interval;    /* s between rows of series.csv */
+    double checkpoint_seconds; /* wall seconds between checkpoints */
+    bool has_pictures;
+    char color_field[MOR_CASE_NAME_BYTES]; /* "speed", "plastic_strain", "pressure", ... */
+    double view[3];                        /* direction from the scene towards the camera; zero: chosen */
+    bool has_cut;                          /* leave out the quadrant / half nearest to the camera */
+} mor_case_output;
+
+/** A whole case. */
+typedef struct mor_case {
+    char path[MOR_CASE_TEXT_BYTES];
+    char title[MOR_CASE_TEXT_BYTES];
+    int dimension;            /* 2 (plane strain in x, y) or 3 */
+    double spacing;           /* m */
+    double lattice_origin[3]; /* a lattice node, m */
+    double gravity[3];        /* m/s2 */
+    double end;               /* simulated time, s */
+    double domain_minimum[3]; /* m; leaving the domain stops the run */
+    double domain_maximum[3]; /* m */
+    uint64_t seed;
+    double jitter_ratio; /* random displacement of the lattice / spacing */
+    /* Placement of the whole scene (geometry, lattice, gravity): x -> turn * x + move. */
+    double turn[9];           /* shape [3,3], rotation matrix, 1; made from the two that follow */
+    double placement_axis[3]; /* axis of the turn, any length but zero, 1 */
+    double placement_angle;   /* rad */
+    double move[3];           /* m */
+    /* Powers of two multiplying lengths, times and masses, for the unit-change check. */
+    double scale_length, scale_time, scale_mass; /* 1 */
+    uint64_t written, written_domain, written_lattice, written_placement, written_scale, written_numerics;
+    uint64_t written_output;
+    mor_case_soil soils[MOR_CASE_SOILS_MAX];
+    int n_soils;
+    mor_case_wall walls[MOR_CASE_WALLS_MAX];
+    int n_walls;
+    mor_case_numerics numerics;
+    mor_case_probe probes[MOR_CASE_PROBES_MAX];
+    int n_probes;
+    mor_case_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];
+    int n_expectations;
+    mor_case_output output;
+} mor_case;
+
+#endif

@@ -1,0 +1,268 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case_reader.h"
+
+#include "core/base/math.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Probes and expectations. */
+
+enum { WORDS_MAX = MOR_CASE_PROBES_MAX };
+
+/* ---- Probes ------------------------------------------------------------------------------------------------------ */
+
+static mor_status read_type(const mor_case_reader *reader, const mor_case_node *node, const mor_case_probe_type **type)
+{
+    const mor_case_node *name = NULL;
+    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "type", MOR_CASE_NODE_TEXT, &name));
+    *type = mor_case_probe_type_find(name->text);
+    if (*type != NULL) {
+        return MOR_OK;
+    }
+    const char *words[WORDS_MAX];
+    int n_words = 0;
+    for (const mor_case_probe_type *k = mor_case_probe_types; k->name != NULL && n_words < WORDS_MAX; ++k) {
+        words[n_words++] = k->name;
+    }
+    return mor_case_reader_refuse(reader, name, "type of probe", words, n_words);
+}
+
+/* Says which of the special keys a type takes. */
+static void list_keys(unsigned bits, char *text, size_t text_bytes)
+{
+    size_t used = (size_t)snprintf(text, text_bytes, "name, type");
+    for (int k = 0; mor_case_probe_key_names[k] != NULL && used < text_bytes; ++k) {
+        if ((bits >> k & 1U) != 0) {
+            used += (size_t)snprintf(text + used, text_bytes - used, ", %s", mor_case_probe_key_names[k]);
+        }
+    }
+}
+
+static mor_status check_special_keys(const mor_case_reader *reader, const mor_case_node *node,
+                                     const mor_case_probe_type *type)
+{
+    for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
+        const char *key = mor_case_probe_key_names[k];
+        const mor_case_node *child = mor_case_node_find(node, key);
+        if (child != NULL && (type->allowed >> k & 1U) == 0) {
+            char allowed[MOR_CASE_NODE_TEXT_BYTES];
+            list_keys(type->allowed, allowed, sizeof allowed);
+            return MOR_CASE_NODE_FAIL(reader->context, child,
+                                      "found '%s', which has no effect on a probe of type '%s'; "
+                                      "allowed: %s; remove it",
+                                      key, type->name, allowed);
+        }
+        if (child == NULL && (type->required >> k & 1U) != 0) {
+            return MOR_CASE_NODE_FAIL(reader->context, node,
+                                      "found no '%s' in a probe of type '%s'; allowed: one; add it", key, type->name);
+        }
+    }
+    return MOR_OK;
+}
+
+/* Of two keys that exclude each other, the one that lost is refused. */
+static mor_status refuse_idle(const mor_case_reader *reader, const mor_case_node *node, const char *key,
+                              const char *needed)
+{
+    const mor_case_node *child = mor_case_node_find(node, key);
+    if (child == NULL) {
+        return MOR_OK;
+    }
+    return MOR_CASE_NODE_FAIL(reader->context, child,
+                              "found '%s', which has no effect here; allowed: with %s; remove it", key, needed);
+}
+
+/* Brings a direction to length 1, leaving one that has it as it is, so that reading it again changes no bit. */
+static void normalize(double *direction)
+{
+    const double largest = fmax(fabs(direction[0]), fmax(fabs(direction[1]), fabs(direction[2])));
+    double scaled[3];
+    for (int a = 0; a < 3; ++a) {
+        scaled[a] = direction[a] / largest; /* so that squares neither vanish nor overflow */
+    }
+    const double length = mor_vector_length(scaled) * largest;
+    if (fabs(length - 1.0) <= 1.0e-15) { /* a few units in the last place: what a second pass would change */
+        return;
+    }
+    for (int a = 0; a < 3; ++a) {
+        direction[a] /= length;
+    }
+}
+
+static mor_status complete_probe(const mor_case_reader *reader, const mor_case_node *node, double spacing,
+                                 const mor_case_probe_type *type, mor_case_probe *probe)
+{
+    const mor_case_group *group = &mor_case_probe_group;
+    const bool has_direction = mor_case_reader_has(group, probe->written, "direction");
+    if (!mor_case_reader_has(group, probe->written, "name")) {
+        memcpy(probe->name, probe->type, sizeof probe->name);
+    }
+    if (!mor_case_reader_has(group, probe->written, "percentile")) {
+        probe->percentile = type->percentile;
+    }
+    if (!mor_case_reader_has(group, probe->written, "thickness")) {
+        probe->thickness = 0.5 * spacing;
+    }
+    if (!has_direction) {
+        memcpy(probe->direction, (double[]){1.0, 0.0, 0.0}, sizeof probe->direction);
+    }
+    normalize(probe->direction);
+    if (!mor_case_reader_has(group, probe->written, "radial")) {
+        const bool can_be_radial = (type->allowed & MOR_CASE_PROBE_RADIAL) != 0;
+        probe->is_radial = can_be_radial && reader->dimension == 3 && !has_direction;
+    }
+    if (probe->is_radial) {
+        MOR_TRY(reader->context, refuse_idle(reader, node, "direction", "radial = false"));
+    }
+    if ((type->allowed & MOR_CASE_PROBE_MEASURE) == 0) {
+        return MOR_OK;
+    }
+    return strcmp(probe->measure, "thickness") == 0
+               ? refuse_idle(reader, node, "percentile", "measure = \"mass_percentile\"")
+               : refuse_idle(reader, node, "thickness", "measure = \"thickness\"");
+}
+
+static mor_status check_probe_wall(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                   const char *wall)
+{
+    const mor_case_node *child = mor_case_node_find(node, "wall");
+    if (child == NULL) {
+        return MOR_OK;
+    }
+    const char *words[MOR_CASE_WALLS_MAX];
+    for (int k = 0; k < the_case->n_walls; ++k) {
+        words[k] = the_case->walls[k].name;
+        if (strcmp(words[k], wall) == 0) {
+            return MOR_OK;
+        }
+    }
+    return mor_case_reader_refuse(reader, child, "name of a wall", words, the_case->n_walls);
+}
+
+static mor_status read_probe(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                             mor_case_probe *probe)
+{
+    const mor_case_probe_type *type = NULL;
+    mor_case_reader_place(node, &probe->place);
+    MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_probe_group, NULL, NULL));
+    MOR_TRY(reader->context, read_type(reader, node, &type));
+    MOR_TRY(reader->context, check_special_keys(reader, node, type));
+    MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_probe_group, probe));
+    MOR_TRY(reader->context, complete_probe(reader, node, the_case->spacing, type, probe));
+    MOR_TRY(reader->context, check_probe_wall(reader, node, the_case, probe->wall));
+    for (const mor_case_probe *other = the_case->probes; other < probe; ++other) {
+        if (strcmp(other->name, probe->name) == 0) {
+            return MOR_CASE_NODE_FAIL(reader->context, node,
+                                      "found the probe name '%s' again; allowed: each name once (it "
+                                      "is taken by line %d); give it a name of its own",
+                                      probe->name, other->place.line);
+        }
+    }
+    return MOR_OK;
+}
+
+/* ---- Expectations ------------------------------------------------------------------------------------------------ */
+
+static const mor_case_probe *find_probe(const mor_case *the_case, const char *name)
+{
+    for (int k = 0; k < the_case->n_probes; ++k) {
+        if (strcmp(the_case->probes[k].name, name) == 0) {
+            return &the_case->probes[k];
+        }
+    }
+    return NULL;
+}
+
+static mor_status read_reference(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                 const mor_case_probe **probe)
+{
+    const mor_case_node *name = NULL;
+    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "probe", MOR_CASE_NODE_TEXT, &name));
+    *probe = find_probe(the_case, name->text);
+    if (*probe != NULL) {
+        return MOR_OK;
+    }
+    const char *words[WORDS_MAX];
+    for (int k = 0; k < the_case->n_probes; ++k) {
+        words[k] = the_case->probes[k].name;
+    }
+    return mor_case_reader_refuse(reader, name, "name of a probe of this case", words, the_case->n_probes);
+}
+
+enum { EXPECTATION_KEYS_MAX = 12 };
+
+/* The table of an expectation with the unit of its probe put in. */
+static void adapt_keys(const char *unit, bool is_absolute, mor_case_key *keys)
+{
+    const mor_case_key *source = mor_case_expectation_group.keys;
+    int k = 0;
+    for (; source[k].schema.key != NULL && k < EXPECTATION_KEYS_MAX - 1; ++k) {
+        memcpy(&keys[k], &source[k], sizeof keys[k]);
+        const bool is_tolerance = strncmp(source[k].schema.key, "tolerance", strlen("tolerance")) == 0;
+        if (strcmp(source[k].schema.key, "value") == 0 || (is_tolerance && is_absolute)) {
+            keys[k].schema.unit = unit;
+        }
+    }
+    keys[k].schema.key = NULL;
+}
+
+static mor_status check_expectation(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                    const mor_case_expectation *expectation)
+{
+    if (expectation->value == 0.0 && !expectation->is_absolute) {
+        return MOR_CASE_NODE_FAIL(
+            reader->context, mor_case_node_find(node, "value"),
+            "found value = 0 with a tolerance "
+            "that is a share of it; allowed: a tolerance in the unit of the probe; add absolute = "
+            "true");
+    }
+    for (const mor_case_expectation *other = the_case->expectations; other < expectation; ++other) {
+        if (strcmp(other->probe, expectation->probe) == 0 && strcmp(other->source, expectation->source) == 0) {
+            return MOR_CASE_NODE_FAIL(reader->context, node,
+                                      "found a second expectation of '%s' from the same source; "
+                                      "allowed: one for each source (line %d has it); remove one or name its source",
+                                      expectation->probe, other->place.line);
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status read_expectation(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                   mor_case_expectation *expectation)
+{
+    const mor_case_probe *probe = NULL;
+    mor_case_key keys[EXPECTATION_KEYS_MAX];
+    mor_case_group adapted = mor_case_expectation_group;
+    mor_case_reader_place(node, &expectation->place);
+    MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_expectation_group, NULL, NULL));
+    MOR_TRY(reader->context, read_reference(reader, node, the_case, &probe));
+    const mor_case_node *absolute = mor_case_node_find(node, "absolute");
+    const char *unit = mor_case_probe_unit(mor_case_probe_type_find(probe->type), reader->dimension);
+    adapt_keys(unit, absolute != NULL && absolute->truth, keys);
+    adapted.keys = keys;
+    MOR_TRY(reader->context, mor_case_reader_group(reader, node, &adapted, expectation));
+    if (!mor_case_reader_has(&adapted, expectation->written, "tolerance_low")) {
+        expectation->tolerance_low = expectation->tolerance;
+    }
+    return check_expectation(reader, node, the_case, expectation);
+}
+
+mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)
+{
+    const mor_case_node *list = NULL;
+    MOR_TRY(reader->context, mor_case_reader_list(reader, root, "probes", MOR_CASE_PROBES_MAX, &list));
+    for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
+        MOR_TRY(reader->context, read_probe(reader, node, the_case, &the_case->probes[the_case->n_probes]));
+        the_case->n_probes += 1;
+    }
+    MOR_TRY(reader->context, mor_case_reader_list(reader, root, "expect", MOR_CASE_EXPECTATIONS_MAX, &list));
+    for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
+        mor_case_expectation *expectation = &the_case->expectations[the_case->n_expectations];
+        MOR_TRY(reader->context, read_expectation(reader, node, the_case, expectation));
+        the_case->n_expectations += 1;
+    }
+    return MOR_OK;
+}

@@ -1,0 +1,127 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_READER_H
+#define MOR_CASES_DRIVER_CASE_READER_H
+
+#include "cases/driver/case_schema.h"
+#include "core/base/units.h"
+#include "core/io/case_file.h"
+
+/** @file
+ *  The parts that reading a case is made of; used by case_read*.c only. Every error names the place in the file, what was
+ *  found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
+
+/** What every part needs to know. */
+typedef struct mor_case_reader {
+    mor_context *context;
+    const mor_units *units;
+    const mor_registry *registry;
+    int dimension;    /* 2 or 3 */
+    int length_power; /* the scale of the case as powers of two */
+    int time_power;
+    int mass_power;
+} mor_case_reader;
+
+/** Reads the numbers of a real, vector, whole number, boolean or choice: unit, range and size checked, scaled.
+ *  @param reader      [in]   one object
+ *  @param node        [in]   one object
+ *  @param schema      [in]   one object
+ *  @param keeps_scale [in]   whether the scale of the case leaves it alone
+ *  @param values      [out]  shape [schema->n_components]; unit: of the schema; a vector of two has z = 0
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_INTERNAL for a schema without sense. */
+mor_status mor_case_reader_numbers(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema,
+                                   bool keeps_scale, double *values);
+
+/** Multiplies values by the scale of the case, exactly.
+ *  @param reader [in]      one object
+ *  @param unit   [in]      zero-terminated; unit of the values
+ *  @param values [in,out]  shape [n]; unit: as given
+ *  @param n      [in]      number of values
+ *  @param sign   [in]      1: multiply; -1: take the scale away again
+ *  Returns: MOR_OK; MOR_ERROR_INTERNAL when unit is none. */
+mor_status mor_case_reader_scale(const mor_case_reader *reader, const char *unit, double *values, int n, int sign);
+
+/** Reads all keys of a group into a record and fills in the constant defaults.
+ *  @param reader [in]      one object
+ *  @param node   [in]      one object; NULL: a group that was not written
+ *  @param group  [in]      one object; its keys
+ *  @param record [in,out]  one object of the struct that the group's offsets refer to
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_group(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
+                                 void *record);
+
+/** Refuses names that a group does not have.
+ *  @param reader [in]  one object
+ *  @param node   [in]  one object; NULL is accepted
+ *  @param group  [in]  one object
+ *  @param extra  [in]  zero-terminated name allowed besides; NULL: none
+ *  @param more   [in]  table ended by key NULL of keys allowed besides; NULL: none
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with the nearest name. */
+mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
+                                 const char *extra, const mor_schema *more);
+
+/** Finds a member that must exist and be of a kind.
+ *  @param reader [in]   one object
+ *  @param group  [in]   one object
+ *  @param name   [in]   zero-terminated
+ *  @param kind   [in]   the kind it must be of
+ *  @param child  [out]  one pointer; borrowed
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_member(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                  mor_case_node_kind kind, const mor_case_node **child);
+
+/** Finds a list of groups; checks that it is not empty nor too long and holds groups only.
+ *  @param reader [in]   one object
+ *  @param root   [in]   one object
+ *  @param name   [in]   zero-terminated
+ *  @param n_max  [in]   most entries
+ *  @param list   [out]  one pointer; borrowed; NULL when it was not written
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_list(const mor_case_reader *reader, const mor_case_node *root, const char *name, int n_max,
+                                const mor_case_node **list);
+
+/** Refuses a word that is none of a list, proposing the nearest.
+ *  @param reader  [in]  one object
+ *  @param node    [in]  one object; holds the word
+ *  @param what    [in]  zero-terminated; what the words are: "type of shape"
+ *  @param words   [in]  shape [n_words] of zero-terminated strings
+ *  @param n_words [in]  number of words
+ *  Returns: MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_node *node, const char *what,
+                                  const char *const *words, int n_words);
+
+/** Notes where a setting was written.
+ *  @param node  [in]   one object
+ *  @param place [out]  one object */
+void mor_case_reader_place(const mor_case_node *node, mor_case_place *place);
+
+/** Whether a key was written.
+ *  @param group   [in]  one object
+ *  @param written [in]  the group's mask
+ *  @param name    [in]  zero-terminated; a key of the group */
+bool mor_case_reader_has(const mor_case_group *group, uint64_t written, const char *name);
+
+/** Reads a shape and builds it.
+ *  @param reader  [in]   one object
+ *  @param node    [in]   one object
+ *  @param outline [out]  one object; zeroed before; owned by the case, free with mor_case_shape_clear also after failure
+ *  @param shape   [out]  one pointer; owned by the case; NULL after a failure
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_shape(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
+                                 mor_shape **shape);
+
+/** Reads the lists soil and walls.
+ *  @param reader   [in]      one object
+ *  @param root     [in]      one object
+ *  @param the_case [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
+/** Reads the lists probes and expect.
+ *  @param reader   [in]      one object
+ *  @param root     [in]      one object
+ *  @param the_case [in,out]  one object; walls are known
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
+#endif

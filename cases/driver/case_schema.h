@@ -1,0 +1,120 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_SCHEMA_H
+#define MOR_CASES_DRIVER_CASE_SCHEMA_H
+
+#include "cases/driver/case.h"
+#include "core/base/schema.h"
+#include "core/material/registry.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+/** @file
+ *  The language of case files as tables: every key with its type, unit, default, bounds, text, and the member of
+ *  struct mor_case it fills. Reading, writing and the printed reference all walk these tables. */
+
+/** How a value is stored. */
+typedef enum mor_case_storage {
+    MOR_CASE_STORE_REALS, /* double [n_components] */
+    MOR_CASE_STORE_INT,   /* int */
+    MOR_CASE_STORE_SEED,  /* uint64_t */
+    MOR_CASE_STORE_BOOL,  /* bool */
+    MOR_CASE_STORE_TEXT,  /* char [size], any text */
+    MOR_CASE_STORE_NAME,  /* char [size]; letters, digits, '_' and '-' */
+    MOR_CASE_STORE_WORD,  /* char [size]; the word of a choice */
+    MOR_CASE_STORE_CHOICE /* int or enum; the index of the word */
+} mor_case_storage;
+
+/** One key. A table ends with schema.key NULL. */
+typedef struct mor_case_key {
+    mor_schema schema; /* of a choice, default_value is the index of the word */
+    mor_case_storage storage;
+    size_t offset;        /* of the member in the record, bytes */
+    size_t size;          /* of the member, bytes */
+    const char *computed; /* words for a default that depends on other values; NULL: default_value */
+    bool is_direction;    /* a vector whose length means nothing, and which may not be zero */
+    bool keeps_scale;     /* not simulated time, so that the scale of the case does not touch it */
+} mor_case_key;
+
+/** A key that holds a group or a list of its own. A table ends with name NULL. */
+typedef struct mor_case_part {
+    const char *name; /* as written in the case file */
+    bool is_required;
+    const char *form; /* what the value looks like */
+    const char *text; /* one line for people */
+} mor_case_part;
+
+/** One group of keys. */
+typedef struct mor_case_group {
+    const char *name; /* as written in the case file; of a shape, its type */
+    const char *text; /* one line for people */
+    const mor_case_key *keys;
+    const mor_case_part *parts; /* NULL: none */
+    size_t written_offset;      /* of the member `written` in the record, bytes */
+} mor_case_group;
+
+/** The group of the top level; its record is mor_case. */
+extern const mor_case_group mor_case_root_group;
+
+/** Groups directly below the top whose record is mor_case; ends with name NULL. */
+extern const mor_case_group mor_case_settings_groups[];
+
+/** Members of the lists soil, walls, probes and expect, and the groups of a soil; records mor_case_soil, mor_case_wall,
+ *  mor_case_probe, mor_case_expectation. */
+extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
+    mor_case_probe_group, mor_case_expectation_group;
+
+/** One group per kind of shape, in the order of mor_case_shape_kind; record mor_case_shape. */
+extern const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT];
+
+/** Keys of a probe that only some types take. */
+enum {
+    MOR_CASE_PROBE_WALL = 1,
+    MOR_CASE_PROBE_MEASURE = 2,
+    MOR_CASE_PROBE_PERCENTILE = 4,
+    MOR_CASE_PROBE_THICKNESS = 8,
+    MOR_CASE_PROBE_ORIGIN = 16,
+    MOR_CASE_PROBE_DIRECTION = 32,
+    MOR_CASE_PROBE_RADIAL = 64
+};
+
+/** What a type of probe measures. */
+typedef struct mor_case_probe_type {
+    const char *name;
+    const char *unit;       /* SI unit of the value in three dimensions */
+    const char *unit_plane; /* in plane strain, where extensive values are per meter of thickness */
+    unsigned allowed;       /* MOR_CASE_PROBE_ bits of the keys it takes */
+    unsigned required;      /* and of those it cannot do without */
+    double percentile;      /* default of that key, percent */
+    const char *text;       /* one line for people */
+} mor_case_probe_type;
+
+/** The types of probes; ends with name NULL. */
+extern const mor_case_probe_type mor_case_probe_types[];
+
+/** Names of the keys that MOR_CASE_PROBE_ bits stand for, in the order of the bits; ends with NULL. */
+extern const char *const mor_case_probe_key_names[];
+
+/** Returns a type of probe, or NULL.
+ *  @param name [in]  zero-terminated */
+const mor_case_probe_type *mor_case_probe_type_find(const char *name);
+
+/** Returns the SI unit of a probe's value.
+ *  @param type      [in]  one object
+ *  @param dimension [in]  2 or 3 */
+const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension);
+
+/** Returns the place of a key in a table, or -1.
+ *  @param keys [in]  table ended by schema.key NULL
+ *  @param name [in]  zero-terminated */
+int mor_case_key_find(const mor_case_key *keys, const char *name);
+
+/** Prints the reference of case files in Markdown: every key of every group and every model.
+ *  @param context  [in,out]  one object
+ *  @param registry [in]      one object; the models to list
+ *  @param stream   [in,out]  one open stream
+ *  Returns: MOR_OK; MOR_ERROR_IO when the stream refuses. */
+mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, FILE *stream);
+
+#endif

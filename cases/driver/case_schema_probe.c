@@ -1,0 +1,134 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case_schema.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Probes and expectations: the tables. Entries follow mor_schema as in case_schema.c. */
+#define ANY -INFINITY, INFINITY, 0, 0
+#define NOT_NEGATIVE 0.0, INFINITY, 0, 0
+#define AT(record, member) .offset = offsetof(record, member), .size = sizeof(((record *)0)->member)
+#define END                                                                                                            \
+    {                                                                                                                  \
+        .schema = {.key = NULL }                                                                                       \
+    }
+
+static const mor_case_key probe_keys[] = {
+    {{"name", MOR_SCHEMA_TEXT, 1, "1", 0, NAN, ANY, NULL, "name of the result"},
+     MOR_CASE_STORE_NAME,
+     AT(mor_case_probe, name),
+     .computed = "the type"},
+    {{"type", MOR_SCHEMA_TEXT, 1, "1", 1, 0.0, ANY, NULL, "what is measured; see the table of types"},
+     MOR_CASE_STORE_NAME,
+     AT(mor_case_probe, type)},
+    {{"wall", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the wall that is pushed"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_probe, wall)},
+    {{"measure", MOR_SCHEMA_CHOICE, 1, "1", 0, 0.0, ANY, "mass_percentile|thickness",
+      "where the deposit ends: at a share of the mass, or where it is thinner than a threshold"},
+     MOR_CASE_STORE_WORD,
+     AT(mor_case_probe, measure)},
+    {{"percentile", MOR_SCHEMA_REAL, 1, "%", 0, NAN, 0.0, 100.0, 1, 0, NULL, "share of the mass (of the particles)"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, percentile),
+     .computed = "see the table of types"},
+    {{"thickness", MOR_SCHEMA_REAL, 1, "m", 0, NAN, 0.0, INFINITY, 1, 0, NULL, "thinnest deposit that counts"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, thickness),
+     .computed = "spacing / 2"},
+    {{"origin", MOR_SCHEMA_VECTOR, 3, "m", 0, 0.0, ANY, NULL, "point that distances and heights count from"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, origin)},
+    {{"direction", MOR_SCHEMA_VECTOR, 3, "1", 0, NAN, ANY, NULL, "direction that is measured along"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, direction),
+     .computed = "(1, 0, 0)",
+     .is_direction = true},
+    {{"radial", MOR_SCHEMA_BOOLEAN, 1, "1", 0, NAN, ANY, NULL,
+      "distance from the vertical through origin instead of along direction"},
+     MOR_CASE_STORE_BOOL,
+     AT(mor_case_probe, is_radial),
+     .computed = "true in 3D unless direction is given"},
+    END};
+
+const mor_case_group mor_case_probe_group = {"probes", "Results to measure (list)", probe_keys, NULL,
+                                             offsetof(mor_case_probe, written)};
+
+/* value and tolerance are in the unit of the probe, which replaces the one that stands here. */
+static const mor_case_key expectation_keys[] = {
+    {{"probe", MOR_SCHEMA_TEXT, 1, "1", 1, 0.0, ANY, NULL, "name of a probe"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_expectation, probe)},
+    {{"value", MOR_SCHEMA_REAL, 1, "1", 1, 0.0, ANY, NULL, "reference, in the unit of the probe"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_expectation, value)},
+    {{"tolerance", MOR_SCHEMA_REAL, 1, "1", 1, 0.0, NOT_NEGATIVE, NULL,
+      "allowed difference / value; with absolute, in the unit of the probe"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_expectation, tolerance)},
+    {{"tolerance_low", MOR_SCHEMA_REAL, 1, "1", 0, NAN, NOT_NEGATIVE, NULL, "the same for results below the value"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_expectation, tolerance_low),
+     .computed = "tolerance"},
+    {{"absolute", MOR_SCHEMA_BOOLEAN, 1, "1", 0, 0.0, ANY, NULL, "whether tolerances are differences, not shares"},
+     MOR_CASE_STORE_BOOL,
+     AT(mor_case_expectation, is_absolute)},
+    {{"source", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "where the reference is from"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_expectation, source)},
+    END};
+
+const mor_case_group mor_case_expectation_group = {"expect", "Reference values (list)", expectation_keys, NULL,
+                                                   offsetof(mor_case_expectation, written)};
+
+/* ---- Types of probes --------------------------------------------------------------------------------------------- */
+
+#define WALL MOR_CASE_PROBE_WALL
+#define PERCENTILE MOR_CASE_PROBE_PERCENTILE
+#define THICKNESS MOR_CASE_PROBE_THICKNESS
+#define ORIGIN MOR_CASE_PROBE_ORIGIN
+#define DIRECTION MOR_CASE_PROBE_DIRECTION
+#define ALONG (ORIGIN | DIRECTION | MOR_CASE_PROBE_RADIAL)
+#define FRONT (ALONG | MOR_CASE_PROBE_MEASURE | PERCENTILE | THICKNESS)
+
+const mor_case_probe_type mor_case_probe_types[] = {
+    {"run_out", "m", "m", FRONT, 0, 99.5, "distance the deposit reaches"},
+    {"front_speed", "m/s", "m/s", FRONT, 0, 99.5, "speed of the end of the deposit"},
+    {"height", "m", "m", PERCENTILE | ORIGIN, 0, 100.0, "height of the deposit, against gravity"},
+    {"repose_angle", "rad", "rad", ALONG, 0, 100.0, "slope of the free surface"},
+    {"stray_share", "1", "1", ALONG | THICKNESS, 0, 100.0, "share of the mass outside the deposit"},
+    {"kinetic_energy", "J", "J/m", 0, 0, 100.0, "kinetic energy"},
+    {"potential_energy", "J", "J/m", ORIGIN, 0, 100.0, "potential energy, zero at origin"},
+    {"elastic_energy", "J", "J/m", 0, 0, 100.0, "stored elastic energy"},
+    {"total_energy", "J", "J/m", ORIGIN, 0, 100.0, "kinetic, potential and elastic energy"},
+    {"energy_left", "1", "1", ORIGIN, 0, 100.0, "total energy / total energy at the start"},
+    {"dissipated_energy", "J", "J/m", ORIGIN, 0, 100.0, "total energy at the start less total energy"},
+    {"mass", "kg", "kg/m", 0, 0, 100.0, "mass of the soil"},
+    {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 100.0, "momentum along direction"},
+    {"center_of_mass", "m", "m", ORIGIN | DIRECTION, DIRECTION, 100.0, "center of mass from origin along direction"},
+    {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, 100.0, "force on a wall along direction"},
+    {"largest_speed", "m/s", "m/s", PERCENTILE, 0, 100.0, "largest speed of a particle"},
+    {"density_drift", "1", "1", PERCENTILE, 0, 99.0, "relative departure of the density from the initial one"},
+    {"stress_error", "1", "1", 0, 0, 100.0, "error of the vertical stress of a column at rest / the stress"},
+    {"stress_ratio", "1", "1", 0, 0, 100.0, "mean lateral stress / vertical stress"},
+    {"stress_noise", "Pa", "Pa", 0, 0, 100.0, "standard deviation of the vertical stress about its line"},
+    {NULL, NULL, NULL, 0, 0, 0.0, NULL}};
+
+const char *const mor_case_probe_key_names[] = {"wall",   "measure",   "percentile", "thickness",
+                                                "origin", "direction", "radial",     NULL};
+
+const mor_case_probe_type *mor_case_probe_type_find(const char *name)
+{
+    for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
+        if (strcmp(type->name, name) == 0) {
+            return type;
+        }
+    }
+    return NULL;
+}
+
+const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension)
+{
+    return dimension == 2 ? type->unit_plane : type->unit;
+}

@@ -1,0 +1,58 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_COMMAND_H
+#define MOR_CASES_DRIVER_COMMAND_H
+
+#include "core/base/context.h"
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+/** @file
+ *  The command line: its words, options, help and exit codes. main.c only passes it on. */
+
+/** Exit codes of the program. */
+enum {
+    MOR_EXIT_OK = 0,
+    MOR_EXIT_FAILED = 1,      /* the run failed */
+    MOR_EXIT_BAD_INPUT = 2,   /* the command line or the case is wrong */
+    MOR_EXIT_MISSED = 3,      /* an expectation was missed */
+    MOR_EXIT_INTERRUPTED = 130
+};
+
+enum { MOR_COMMAND_SETTINGS_MAX = 256, MOR_COMMAND_TEXT_BYTES = 4096 };
+
+/** A command line taken apart. Strings are borrowed from it. */
+typedef struct mor_command {
+    mor_context *context;               /* for errors and threads */
+    const char *subject;                /* case, run folder, plug-in or word; NULL when there is none */
+    const char *folder;                 /* -o; NULL when there is none */
+    const char *settings[MOR_COMMAND_SETTINGS_MAX]; /* shape [n_settings] of "key=value" */
+    int n_settings;
+    bool is_resume;
+    double stop_at;                     /* s; NaN: not asked */
+    char line[MOR_COMMAND_TEXT_BYTES];  /* the whole command line */
+    const volatile sig_atomic_t *stop;  /* non-zero when the user wants to stop */
+    FILE *output;                       /* results */
+    FILE *errors;                       /* messages */
+} mor_command;
+
+/** Takes a command line apart and does what it says.
+ *  @param argc [in]  number of words, >= 1
+ *  @param argv [in]  shape [argc] of zero-terminated words
+ *  @param stop [in]  one flag that a signal handler sets
+ *  Returns: the exit code. */
+int mor_command_main(int argc, char **argv, const volatile sig_atomic_t *stop);
+
+/** The commands. Each prints results to command->output and returns a status.
+ *  @param command   [in,out]  one object
+ *  @param exit_code [in,out]  one number; MOR_EXIT_OK on entry */
+mor_status mor_command_run(mor_command *command, int *exit_code);
+mor_status mor_command_check(mor_command *command, int *exit_code);
+mor_status mor_command_explain(mor_command *command, int *exit_code);
+mor_status mor_command_render(mor_command *command, int *exit_code);
+mor_status mor_command_list(mor_command *command, int *exit_code);
+mor_status mor_command_check_material(mor_command *command, int *exit_code);
+
+#endif

@@ -1,0 +1,251 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Commands that work on a case or a run's folder: run, check, explain, render. */
+#include "cases/driver/command.h"
+
+#include "cases/driver/case_read.h"
+#include "cases/driver/clock.h"
+#include "cases/driver/pictures.h"
+#include "cases/driver/run.h"
+#include "core/io/durable_file.h"
+#include "materials/builtin.h"
+#include "moraine_build.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* A registry with the built-in materials. */
+static mor_status make_registry(mor_context *context, mor_registry **registry)
+{
+    MOR_TRY(context, mor_registry_new(context, registry));
+    return mor_materials_register_builtin(context, *registry);
+}
+
+/* What a case command works on. */
+typedef struct scene {
+    mor_registry *registry;
+    mor_case the_case;
+    mor_simulation simulation;
+} scene;
+
+static mor_status read_scene(mor_command *command, scene *it)
+{
+    MOR_TRY(command->context, make_registry(command->context, &it->registry));
+    return mor_case_read(command->context, command->subject, command->settings, command->n_settings, it->registry,
+                         &it->the_case);
+}
+
+static void free_scene(mor_command *command, scene *it)
+{
+    mor_simulation_clear(command->context, &it->simulation);
+    mor_case_clear(command->context, &it->the_case);
+    mor_registry_free(command->context, &it->registry);
+    free(it);
+}
+
+/* Reads a case, builds it when asked, and hands it to a function. */
+static mor_status with_scene(mor_command *command, bool is_built, mor_status (*use)(mor_command *, scene *))
+{
+    scene *it = calloc(1, sizeof *it);
+    MOR_CHECK(command->context, it != NULL, MOR_ERROR_MEMORY, "no memory for a case");
+    mor_status status = read_scene(command, it);
+    if (status == MOR_OK && is_built) {
+        status = mor_simulation_init(command->context, &it->simulation, &it->the_case, it->registry);
+    }
+    if (status == MOR_OK) {
+        status = use(command, it);
+    }
+    free_scene(command, it);
+    return status;
+}
+
+static mor_status print_check(mor_command *command, scene *it)
+{
+    fprintf(command->output, "%s: ok. %lld soil particles, %d walls, %d probes, %d expectations\n", it->the_case.path,
+            (long long)it->simulation.soil.set.n_particles, it->the_case.n_walls, it->the_case.n_probes,
+            it->the_case.n_expectations);
+    return MOR_OK;
+}
+
+mor_status mor_command_check(mor_command *command, int *exit_code)
+{
+    (void)exit_code;
+    return with_scene(command, true, print_check);
+}
+
+static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *set)
+{
+    fprintf(out, "\nStages of a step of '%s'\n", stepper->name);
+    for (int k = 0; k < stepper->n_stages; ++k) {
+        const mor_stage *stage = &stepper->stages[k];
+        fprintf(out, "  %2d %-20s %s\n", k + 1, stage->name, stage->text);
+        const uint64_t bits[3] = {stage->reads, stage->writes, stage->accumulates};
+        static const char *const verbs[3] = {"reads", "writes", "updates"};
+        for (int verb = 0; verb < 3; ++verb) {
+            if (bits[verb] == 0) {
+                continue;
+            }
+            fprintf(out, "       %-8s", verbs[verb]);
+            for (int bit = 0; bit < 64; ++bit) {
+                if (bits[verb] >> bit & 1u) {
+                    fprintf(out, " %s", bit < set->n_fields                  ? set->fields[bit].name
+                                        : bit == MOR_RESOURCE_RECORDS        ? "(records)"
+                                        : bit == MOR_RESOURCE_LISTS          ? "(lists)"
+                                                                             : "(wall sums)");
+                }
+            }
+            fprintf(out, "\n");
+        }
+    }
+}
+
+/* Thinnest extent of the soil in spacings; warnings about what the method cannot resolve. */
+static void print_warnings(FILE *out, const mor_simulation *s)
+{
+    enum { THIN = 8 };
+    const mor_case *c = s->the_case;
+    const double *position = s->soil.set.data[MOR_FIELD_POSITION];
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 3 * s->soil.set.n_particles; ++k) {
+        low[k % 3] = fmin(low[k % 3], position[k]);
+        high[k % 3] = fmax(high[k % 3], position[k]);
+    }
+    for (int a = 0; a < c->dimension; ++a) {
+        const double n = (high[a] - low[a]) / c->spacing + 1.0;
+        if (n < THIN) {
+            fprintf(out, "warning: the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
+                         "smaller spacing\n",
+                    n, "xyz"[a], THIN);
+        }
+    }
+    if (c->n_walls == 0) {
+        fprintf(out, "warning: there is no wall; the soil falls freely\n");
+    }
+    if (c->n_probes == 0) {
+        fprintf(out, "warning: there is no probe; the run will report no result\n");
+    }
+}
+
+/* Times a few steps on a state that is thrown away. */
+static mor_status time_steps(mor_context *context, mor_simulation *s, double *seconds_per_step)
+{
+    enum { WARM_UP = 2, TIMED = 4 };
+    for (int k = 0; k < WARM_UP; ++k) {
+        MOR_TRY(context, mor_schedule_step(context, &s->schedule, s->schedule.end));
+    }
+    const double before = mor_clock_now();
+    for (int k = 0; k < TIMED; ++k) {
+        MOR_TRY(context, mor_schedule_step(context, &s->schedule, s->schedule.end));
+    }
+    *seconds_per_step = (mor_clock_now() - before) / TIMED;
+    return MOR_OK;
+}
+
+static mor_status print_explanation(mor_command *command, scene *it)
+{
+    mor_simulation *s = &it->simulation;
+    const mor_case *c = &it->the_case;
+    FILE *out = command->output;
+    double step = 0.0;
+    double seconds = 0.0;
+    const char *limit = "";
+    const mor_stepper *stepper = &s->schedule.steppers[0];
+    MOR_TRY(command->context, stepper->operations->propose(command->context, stepper->owner, &step, &limit));
+    int64_t n_walls = 0;
+    for (int w = 0; w < s->soil.n_walls; ++w) {
+        n_walls += s->soil.walls[w].n_points;
+    }
+    fprintf(out, "%s\n", c->title);
+    fprintf(out, "  dimension            %d\n", c->dimension);
+    fprintf(out, "  spacing              %g m, smoothing length %g m\n", c->spacing, s->soil.smoothing_length);
+    fprintf(out, "  soil particles       %lld\n", (long long)s->soil.set.n_particles);
+    fprintf(out, "  wall particles       %lld\n", (long long)n_walls);
+    fprintf(out, "  sound speed          %.4g m/s\n", s->soil.sound_speed);
+    fprintf(out, "  time step            about %.4g s, limited by %s\n", step, limit);
+    fprintf(out, "  steps                about %.0f for %g s\n", ceil(c->end / step), c->end);
+    fprintf(out, "  sub-steps per step   1 (soil alone)\n");
+    MOR_TRY(command->context, time_steps(command->context, s, &seconds));
+    fprintf(out, "  memory               %.1f MiB, %.0f bytes per soil particle\n",
+            (double)command->context->memory_peak_bytes / 1048576.0, mor_soil_bytes_per_particle(&s->soil));
+    fprintf(out, "  speed now            %.2f M particle-steps/s with %d threads (%s)\n",
+            1e-6 * (double)s->soil.set.n_particles / seconds, command->context->n_threads,
+            s->soil.table->instruction_set);
+    fprintf(out, "  expected time        %.1f min\n", ceil(c->end / step) * seconds / 60.0);
+    print_warnings(out, s);
+    print_stages(out, stepper, &s->soil.set);
+    return MOR_OK;
+}
+
+mor_status mor_command_explain(mor_command *command, int *exit_code)
+{
+    (void)exit_code;
+    return with_scene(command, true, print_explanation);
+}
+
+static mor_status draw_pictures(mor_command *command, scene *it)
+{
+    return mor_pictures_render(command->context, &it->the_case, command->folder, MOR_PICTURES_ALL, command->output);
+}
+
+mor_status mor_command_render(mor_command *command, int *exit_code)
+{
+    char path[MOR_PATH_BYTES];
+    (void)exit_code;
+    command->folder = command->subject;
+    MOR_TRY(command->context, mor_durable_file_join(command->context, path, command->folder, "case.resolved.cfg"));
+    MOR_CHECK(command->context, access(path, R_OK) == 0, MOR_ERROR_CONFIG,
+              "'%s' is not the folder of a run: it holds no case.resolved.cfg; give the folder that 'moraine run' wrote",
+              command->folder);
+    command->subject = path;
+    return with_scene(command, false, draw_pictures);
+}
+
+/* Default folder: runs/ and the name of the case's folder (or file, when that is not case.cfg). */
+static void name_folder(const char *case_path, char *folder, size_t room)
+{
+    const char *slash = strrchr(case_path, '/');
+    const char *file = slash != NULL ? slash + 1 : case_path;
+    const char *begin = file;
+    size_t length = strcspn(file, ".");
+    if (strcmp(file, "case.cfg") == 0 && slash != NULL) {
+        begin = slash;
+        while (begin > case_path && begin[-1] != '/') {
+            --begin;
+        }
+        length = (size_t)(slash - begin);
+    }
+    snprintf(folder, room, "runs/%.*s", (int)length, begin);
+}
+
+mor_status mor_command_run(mor_command *command, int *exit_code)
+{
+    char folder[MOR_PATH_BYTES];
+    mor_registry *registry = NULL;
+    mor_run_outcome outcome;
+    name_folder(command->subject, folder, sizeof folder);
+    const mor_run_options options = {.case_path = command->subject,
+                                     .folder = command->folder != NULL ? command->folder : folder,
+                                     .settings = command->settings,
+                                     .n_settings = command->n_settings,
+                                     .is_resume = command->is_resume,
+                                     .stop_at = command->stop_at,
+                                     .command = command->line,
+                                     .version = MOR_VERSION,
+                                     .commit = MOR_COMMIT,
+                                     .stop = command->stop,
+                                     .output = command->output,
+                                     .progress = isatty(fileno(command->errors)) ? command->errors : NULL};
+    mor_status status = make_registry(command->context, &registry);
+    if (status == MOR_OK) {
+        status = mor_run(command->context, &options, registry, &outcome);
+    }
+    mor_registry_free(command->context, &registry);
+    if (status == MOR_OK) {
+        *exit_code = outcome.is_interrupted ? MOR_EXIT_INTERRUPTED : outcome.n_missed > 0 ? MOR_EXIT_MISSED : MOR_EXIT_OK;
+    }
+    return status;
+}

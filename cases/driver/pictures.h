@@ -1,0 +1,30 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_PICTURES_H
+#define MOR_CASES_DRIVER_PICTURES_H
+
+#include "cases/driver/case.h"
+
+#include <stdio.h>
+
+/** @file
+ *  Pictures of a run's folder: the snapshots as particles with walls, the series as charts. */
+
+/** Which snapshots become pictures. */
+typedef enum mor_pictures_choice {
+    MOR_PICTURES_KEY, /* first, middle and last */
+    MOR_PICTURES_ALL
+} mor_pictures_choice;
+
+/** Draws images/<snapshot>_<color>.png for snapshots, all with the same camera, and images/energy.png and
+ *  images/<probe unit>.png charts of the series.
+ *  @param context  [in,out]  one object
+ *  @param the_case [in]      one object; the case of the run
+ *  @param folder   [in]      zero-terminated; the run's folder
+ *  @param choice   [in]      which snapshots
+ *  @param output   [in,out]  one open stream; the path of each picture is printed to it
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for a color that is not a field; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, const char *folder,
+                               mor_pictures_choice choice, FILE *output);
+
+#endif

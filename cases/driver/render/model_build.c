@@ -1,0 +1,237 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/render/model.h"
+
+#include "cases/driver/render/ticks.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { GRID_LINES = 16 };
+
+static const double stone_gray[3] = {0.60, 0.57, 0.54}; /* screen values */
+static const double ground_gray = 0.95;                 /* screen value */
+static const double box_slack = 1.001;                  /* room for rounding to single precision */
+static const double patch_share = 2.1;                  /* radius of the ground / half the width of the scene */
+static const double grazing = 0.05;                     /* a ground seen at a flatter angle is left out */
+
+/* The part the cut takes away: all points with positive coordinates along both directions. */
+typedef struct cut_corner {
+    bool is_cut;
+    double center[3]; /* m */
+    double first[3];  /* 1 */
+    double second[3]; /* 1; equal to first when half is cut */
+} cut_corner;
+
+static cut_corner find_corner(const mor_picture *picture, const mor_model *model)
+{
+    cut_corner corner = {.is_cut = picture->dimension == 3 && picture->cut != MOR_PICTURE_CUT_NONE};
+    const mor_camera *camera = &model->camera;
+    const double across = picture->cut == MOR_PICTURE_CUT_QUADRANT ? 1.0 : 0.0;
+    const double along = mor_vector_dot(camera->toward, model->up);
+    double ahead[3];
+    for (int a = 0; a < 3; ++a) {
+        corner.center[a] = 0.0;
+        for (int b = 0; b < 3; ++b) {
+            const double *axis = b == 0 ? camera->right : (b == 1 ? camera->up : camera->toward);
+            corner.center[a] += 0.5 * axis[a] * (model->extent.minimum[b] + model->extent.maximum[b]);
+        }
+        ahead[a] = camera->toward[a] - along * model->up[a];
+    }
+    /* Seen from straight above there is no nearest side: the lower half of the picture stands in. */
+    const double length = mor_vector_length(ahead);
+    for (int a = 0; a < 3; ++a) {
+        ahead[a] = length > 1e-6 ? ahead[a] / length : -camera->up[a];
+        corner.first[a] = ahead[a] + across * camera->right[a];
+        corner.second[a] = ahead[a] - across * camera->right[a];
+    }
+    return corner;
+}
+
+static bool is_left_out(const cut_corner *corner, const mor_picture_group *group, const double *x)
+{
+    if (!corner->is_cut || group->is_whole) {
+        return false;
+    }
+    const double from[3] = {x[0] - corner->center[0], x[1] - corner->center[1], x[2] - corner->center[2]};
+    return mor_vector_dot(from, corner->first) > 0.0 && mor_vector_dot(from, corner->second) > 0.0;
+}
+
+void mor_model_group_color(const mor_picture_group *group, double *screen)
+{
+    const bool is_unset = group->color[0] == 0.0 && group->color[1] == 0.0 && group->color[2] == 0.0;
+    memcpy(screen, is_unset ? stone_gray : group->color, sizeof stone_gray);
+}
+
+static void decode_group_color(const mor_picture_group *group, double *linear)
+{
+    double screen[3];
+    mor_model_group_color(group, screen);
+    for (int c = 0; c < 3; ++c) {
+        linear[c] = mor_colormap_decode(screen[c]);
+    }
+}
+
+static void add_group(const mor_picture *picture, const mor_picture_group *group, const mor_colormap *map,
+                      mor_model *model)
+{
+    mor_model_layer *layer = group->style == MOR_PICTURE_GHOST ? &model->ghost : &model->solid;
+    const cut_corner corner = find_corner(picture, model);
+    double color[3];
+    decode_group_color(group, color);
+    for (int64_t i = 0; i < group->n_particles; ++i) {
+        const double *x = group->position + 3 * i;
+        if (is_left_out(&corner, group, x)) {
+            continue;
+        }
+        const double point[3] = {x[0], x[1], picture->dimension == 3 ? x[2] : 0.0};
+        const double radius = model->camera.scale * mor_model_radius(picture, group, i);
+        double view[3];
+        mor_camera_to_view(&model->camera, point, view);
+        if (group->value != NULL) {
+            mor_colormap_at(map, (group->value[i] - model->range.low) / (model->range.high - model->range.low), color);
+        }
+        float *sphere = layer->spheres + 4 * layer->n_spheres;
+        for (int a = 0; a < 3; ++a) {
+            sphere[a] = (float)view[a];
+            layer->color[3 * layer->n_spheres + a] = (float)color[a];
+            model->low[a] = fmin(model->low[a], view[a] - box_slack * radius);
+            model->high[a] = fmax(model->high[a], view[a] + box_slack * radius);
+        }
+        sphere[3] = (float)radius;
+        layer->n_spheres += 1;
+    }
+}
+
+static bool is_in_layer(const mor_picture *picture, const mor_picture_group *group, bool is_ghost)
+{
+    if (picture->dimension == 3 && group->style == MOR_PICTURE_GROUND) {
+        return false;
+    }
+    return (group->style == MOR_PICTURE_GHOST) == is_ghost;
+}
+
+static mor_status reserve_layer(mor_context *context, const mor_picture *picture, bool is_ghost, mor_model_layer *layer)
+{
+    int64_t n = 0;
+    for (int g = 0; g < picture->n_groups; ++g) {
+        n += is_in_layer(picture, picture->groups + g, is_ghost) ? picture->groups[g].n_particles : 0;
+    }
+    MOR_TRY(context, MOR_NEW(context, &layer->spheres, 4 * n, "spheres of a picture"));
+    MOR_TRY(context, MOR_NEW(context, &layer->color, 3 * n, "colors of a picture"));
+    return MOR_OK;
+}
+
+static const mor_picture_group *find_ground_group(const mor_picture *picture)
+{
+    for (int g = 0; g < picture->n_groups; ++g) {
+        if (picture->groups[g].style == MOR_PICTURE_GROUND && picture->groups[g].n_particles > 0) {
+            return picture->groups + g;
+        }
+    }
+    return NULL;
+}
+
+/* Lowest point of what is framed, along up: known from the box, so that a series has one ground. */
+static double find_bottom(const mor_picture *picture, const mor_model *model)
+{
+    double bottom = DBL_MAX;
+    for (int corner = 0; picture->has_frame && corner < 8; ++corner) {
+        double height = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            const bool is_upper = (corner >> a & 1) != 0;
+            height += model->up[a] * (is_upper ? picture->frame.maximum[a] : picture->frame.minimum[a]);
+        }
+        bottom = fmin(bottom, height);
+    }
+    for (int g = 0; !picture->has_frame && g < picture->n_groups; ++g) {
+        const mor_picture_group *group = picture->groups + g;
+        for (int64_t i = 0; i < group->n_particles; ++i) {
+            const double radius = group->radii != NULL ? group->radii[i] : group->radius;
+            bottom = fmin(bottom, mor_vector_dot(model->up, group->position + 3 * i) - radius);
+        }
+    }
+    return bottom;
+}
+
+/* The patch is centered where the middle of the scene drops onto the plane; its grid passes through the origin's. */
+static void lay_ground(const mor_picture *picture, mor_model *model)
+{
+    const mor_picture_group *group = find_ground_group(picture);
+    const mor_camera *camera = &model->camera;
+    double normal[3];
+    memcpy(normal, model->up, sizeof normal);
+    const double level = group != NULL ? mor_model_plane(group, model->up, normal) : find_bottom(picture, model);
+    const double rise = level - mor_vector_dot(normal, camera->center);
+    double first[3];
+    double second[3];
+    double origin[3];
+    double center[3];
+    mor_camera_horizon(normal, first, second);
+    for (int a = 0; a < 3; ++a) {
+        origin[a] = level * normal[a];
+        center[a] = camera->center[a] + rise * normal[a];
+    }
+    mor_shade_ground *ground = &model->ground;
+    mor_camera_turn(camera, normal, ground->normal);
+    mor_camera_turn(camera, first, ground->first);
+    mor_camera_turn(camera, second, ground->second);
+    mor_camera_to_view(camera, origin, ground->origin);
+    mor_camera_to_view(camera, center, ground->center);
+    const mor_camera_extent *extent = &model->extent;
+    const double half_width =
+        0.5 * fmax(extent->maximum[0] - extent->minimum[0], extent->maximum[2] - extent->minimum[2]);
+    const double radius = patch_share * half_width;
+    model->grid = mor_ticks_choose(-radius, radius, GRID_LINES).step;
+    ground->radius = radius * camera->scale;
+    ground->spacing = model->grid * camera->scale;
+    ground->is_shown = ground->normal[2] > grazing;
+    for (int c = 0; c < 3; ++c) {
+        ground->color[c] = mor_colormap_decode(ground_gray);
+    }
+}
+
+static mor_status build_scene(mor_context *context, mor_model_layer *layer)
+{
+    if (layer->n_spheres > 0) {
+        MOR_TRY(context, mor_scene_new(context, &layer->scene, layer->spheres, layer->n_spheres));
+    }
+    return MOR_OK;
+}
+
+mor_status mor_model_build(mor_context *context, const mor_picture *picture, const mor_colormap *map, mor_model *model)
+{
+    MOR_TRY(context, reserve_layer(context, picture, false, &model->solid));
+    MOR_TRY(context, reserve_layer(context, picture, true, &model->ghost));
+    for (int a = 0; a < 3; ++a) {
+        model->low[a] = DBL_MAX;
+        model->high[a] = -DBL_MAX;
+    }
+    for (int g = 0; g < picture->n_groups; ++g) {
+        if (picture->dimension == 2 || picture->groups[g].style != MOR_PICTURE_GROUND) {
+            add_group(picture, picture->groups + g, map, model);
+        }
+    }
+    if (picture->dimension == 3 && !picture->hides_ground) {
+        lay_ground(picture, model);
+    }
+    MOR_TRY(context, build_scene(context, &model->solid));
+    MOR_TRY(context, build_scene(context, &model->ghost));
+    return MOR_OK;
+}
+
+static void clear_layer(mor_context *context, mor_model_layer *layer)
+{
+    mor_scene_free(context, &layer->scene);
+    MOR_FREE(context, &layer->spheres);
+    MOR_FREE(context, &layer->color);
+}
+
+void mor_model_clear(mor_context *context, mor_model *model)
+{
+    clear_layer(context, &model->solid);
+    clear_layer(context, &model->ghost);
+}

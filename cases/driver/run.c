@@ -1,0 +1,212 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/run_files.h"
+
+#include "cases/driver/case_read.h"
+#include "cases/driver/clock.h"
+#include "cases/driver/pictures.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Seconds between two lines of progress. */
+#define PROGRESS_SECONDS 0.5
+
+/* The clockwork of a run beside the simulation itself. */
+typedef struct pace {
+    double loop_seconds;     /* wall time spent in steps, s */
+    uint64_t n_loop_steps;   /* steps behind loop_seconds */
+    double last_save;        /* wall time of the last checkpoint, s */
+    double last_progress;    /* wall time of the last line of progress, s */
+    int64_t next_row;        /* number of the next row of the series */
+    int64_t next_snapshot;   /* number of the next snapshot */
+} pace;
+
+static int64_t snapshot_tick(const mor_simulation *s, int64_t number)
+{
+    const int n = s->the_case->output.n_snapshots;
+    /* In floating point: the product of ticks and number does not fit into 64 bits. */
+    return number >= n ? s->schedule.end : (int64_t)llround((double)s->schedule.end * ((double)number / n));
+}
+
+static int64_t row_tick(const mor_simulation *s, int64_t number)
+{
+    return mor_schedule_ticks(&s->schedule, (double)number * s->the_case->output.series_interval);
+}
+
+static void find_next_outputs(const mor_simulation *s, pace *p)
+{
+    p->next_row = 0;
+    p->next_snapshot = 1;
+    while (row_tick(s, p->next_row) <= s->schedule.now) {
+        ++p->next_row;
+    }
+    while (p->next_snapshot < s->the_case->output.n_snapshots && snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
+        ++p->next_snapshot;
+    }
+}
+
+static void show_progress(const mor_run_options *options, const mor_simulation *s, pace *p)
+{
+    const double now = mor_clock_now();
+    if (options->progress == NULL || now - p->last_progress < PROGRESS_SECONDS || p->n_loop_steps == 0) {
+        return;
+    }
+    p->last_progress = now;
+    const mor_schedule *schedule = &s->schedule;
+    const double part = (double)schedule->now / (double)schedule->end;
+    const double seconds_per_step = p->loop_seconds / (double)p->n_loop_steps;
+    const double steps_left = (double)(schedule->end - schedule->now) * schedule->tick / schedule->step_length;
+    const double left = steps_left * seconds_per_step;
+    fprintf(options->progress,
+            "\r%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  %.2f M particle-steps/s  %d min %02d s left   ",
+            100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
+            1e-6 * (double)s->soil.set.n_particles / seconds_per_step, (int)(left / 60.0), (int)fmod(left, 60.0));
+    fflush(options->progress);
+}
+
+/* Rows and snapshots that are due now. */
+static mor_status write_outputs(mor_context *context, mor_run_files *files, pace *p)
+{
+    const mor_simulation *s = files->simulation;
+    if (row_tick(s, p->next_row) <= s->schedule.now || s->schedule.now >= s->schedule.end) {
+        MOR_TRY(context, mor_run_files_add_row(context, files));
+    }
+    if (snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
+        MOR_TRY(context, mor_run_files_add_snapshot(context, files));
+    }
+    find_next_outputs(s, p);
+    if (mor_clock_now() - p->last_save >= files->the_case->output.checkpoint_seconds) {
+        MOR_TRY(context, mor_run_files_save(context, files));
+        p->last_save = mor_clock_now();
+    }
+    return MOR_OK;
+}
+
+static bool is_stopping(const mor_run_options *options, const mor_simulation *s)
+{
+    const bool is_asked = options->stop != NULL && *options->stop != 0;
+    return is_asked || (!isnan(options->stop_at) && mor_schedule_time(&s->schedule) >= options->stop_at);
+}
+
+/* Steps until the end or until the user stops. Snapshots fall on their times exactly; rows of the series are written at
+ * the first step at or after theirs, so that they do not change the steps. */
+static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
+{
+    mor_simulation *s = files->simulation;
+    while (s->schedule.now < s->schedule.end && !is_stopping(files->options, s)) {
+        const double before = mor_clock_now();
+        MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
+        p->loop_seconds += mor_clock_now() - before;
+        p->n_loop_steps += 1;
+        MOR_TRY(context, write_outputs(context, files, p));
+        show_progress(files->options, s, p);
+    }
+    return MOR_OK;
+}
+
+/* First state: restored, or built, settled and saved. */
+static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
+{
+    bool is_restored = false;
+    if (files->options->is_resume) {
+        MOR_TRY(context, mor_run_files_restore(context, files, &is_restored));
+    }
+    if (!is_restored) {
+        MOR_TRY(context, mor_simulation_settle(context, files->simulation));
+    }
+    MOR_TRY(context, mor_run_files_start(context, files, is_restored));
+    if (!is_restored) {
+        MOR_TRY(context, mor_run_files_add_row(context, files));
+        MOR_TRY(context, mor_run_files_add_snapshot(context, files));
+        MOR_TRY(context, mor_run_files_save(context, files));
+    }
+    find_next_outputs(files->simulation, p);
+    p->last_save = mor_clock_now();
+    return MOR_OK;
+}
+
+static mor_status finish_run(mor_context *context, mor_run_files *files, const pace *p, mor_run_outcome *outcome)
+{
+    const mor_simulation *s = files->simulation;
+    const mor_run_options *options = files->options;
+    const double speed =
+        p->loop_seconds > 0.0 ? (double)s->soil.set.n_particles * (double)p->n_loop_steps / p->loop_seconds : NAN;
+    outcome->is_finished = s->schedule.now >= s->schedule.end;
+    if (options->progress != NULL) {
+        fprintf(options->progress, "\r%*s\r", 110, "");
+    }
+    MOR_TRY(context, mor_run_files_save(context, files));
+    if (!outcome->is_finished) {
+        outcome->is_interrupted = options->stop != NULL && *options->stop != 0;
+        fprintf(options->output, "stopped at t = %.6g s of %.6g s, step %llu; go on with the same command and --resume\n",
+                mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
+        return MOR_OK;
+    }
+    fprintf(options->output, "%s\n%lld particles, %llu steps, %.3g M particle-steps/s, %.0f bytes per particle\n",
+            s->the_case->title, (long long)s->soil.set.n_particles, (unsigned long long)s->schedule.n_steps,
+            1e-6 * speed, mor_soil_bytes_per_particle(&s->soil));
+    MOR_TRY(context, mor_run_files_conclude(context, files, speed, &outcome->n_missed));
+    if (s->the_case->output.has_pictures) {
+        MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
+    }
+    return MOR_OK;
+}
+
+static mor_status run_simulation(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                 mor_run_outcome *outcome)
+{
+    pace p = {.last_progress = mor_clock_now()};
+    MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
+    mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
+    if (status == MOR_OK) {
+        status = start_run(context, files, &p);
+    }
+    if (status == MOR_OK) {
+        status = run_steps(context, files, &p);
+    }
+    if (status == MOR_OK) {
+        status = finish_run(context, files, &p, outcome);
+    } else if (files->options->progress != NULL) {
+        fprintf(files->options->progress, "\n");
+    }
+    if (status != MOR_OK) {
+        fprintf(files->log, "stopped: %s\n", context->message);
+    }
+    return status;
+}
+
+mor_status mor_run(mor_context *context, const mor_run_options *options, const mor_registry *registry,
+                   mor_run_outcome *outcome)
+{
+    memset(outcome, 0, sizeof *outcome);
+    mor_case *the_case = calloc(1, sizeof *the_case);
+    mor_simulation *simulation = calloc(1, sizeof *simulation);
+    mor_run_files *files = calloc(1, sizeof *files);
+    mor_status status = MOR_OK;
+    if (the_case == NULL || simulation == NULL || files == NULL) {
+        status = MOR_FAIL(context, MOR_ERROR_MEMORY, "no memory for a run");
+        goto out;
+    }
+    status = mor_case_read(context, options->case_path, options->settings, options->n_settings, registry, the_case);
+    if (status != MOR_OK) {
+        goto out;
+    }
+    status = mor_run_files_open(context, files, options);
+    if (status == MOR_OK) {
+        files->the_case = the_case;
+        files->simulation = simulation;
+        status = run_simulation(context, files, registry, outcome);
+    }
+    mor_run_files_close(context, files);
+    mor_simulation_clear(context, simulation);
+out:
+    if (the_case != NULL) {
+        mor_case_clear(context, the_case);
+    }
+    free(files);
+    free(simulation);
+    free(the_case);
+    return status;
+}

@@ -1,0 +1,258 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/run_files.h"
+
+#include "cases/driver/case_read.h"
+#include "cases/driver/probe.h"
+#include "core/base/hash.h"
+#include "core/base/memory.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define CASE_FILE "case.resolved.cfg"
+#define LOG_FILE "log.txt"
+
+/* Everything goes into log.txt; warnings and errors reach the terminal as well. */
+static void log_line(void *user, mor_log_level level, const char *text)
+{
+    static const char *const names[] = {"debug", "info", "warning", "error"};
+    mor_run_files *files = user;
+    fprintf(files->log, "%s: %s\n", names[level], text);
+    fflush(files->log);
+    if (level >= MOR_LOG_WARNING && files->previous_sink != NULL) {
+        files->previous_sink(files->previous_user, level, text);
+    }
+}
+
+static bool is_present(mor_context *context, const char *folder, const char *name)
+{
+    char path[MOR_PATH_BYTES];
+    return mor_durable_file_join(context, path, folder, name) == MOR_OK && access(path, F_OK) == 0;
+}
+
+/* Makes a folder and the folders it lies in. */
+static mor_status make_folders(mor_context *context, const char *path)
+{
+    char part[MOR_PATH_BYTES];
+    MOR_CHECK(context, strlen(path) < sizeof part, MOR_ERROR_CONFIG, "the name of the run's folder is too long: %s", path);
+    strcpy(part, path);
+    for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        MOR_TRY(context, mor_durable_file_make_folder(context, part));
+        *slash = '/';
+    }
+    return mor_durable_file_make_folder(context, part);
+}
+
+mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options)
+{
+    char path[MOR_PATH_BYTES];
+    memset(files, 0, sizeof *files);
+    files->options = options;
+    MOR_CHECK(context, options->is_resume || !is_present(context, options->folder, MOR_CHECKPOINT_FILE),
+              MOR_ERROR_CONFIG,
+              "the folder '%s' already holds a run; add --resume to go on with it, or choose another folder with -o",
+              options->folder);
+    MOR_TRY(context, make_folders(context, options->folder));
+    MOR_TRY(context, mor_durable_file_join(context, path, options->folder, "images"));
+    MOR_TRY(context, mor_durable_file_make_folder(context, path));
+    MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
+    files->log = fopen(path, options->is_resume ? "a" : "w");
+    MOR_CHECK(context, files->log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
+    files->previous_sink = context->log_sink;
+    files->previous_user = context->log_user;
+    context->log_sink = log_line;
+    context->log_user = files;
+    mor_context_log(context, MOR_LOG_INFO, "moraine %s, commit %s: %s", options->version, options->commit,
+                    options->command);
+    return MOR_OK;
+}
+
+/* The case as text, to compare it with the one the folder was started with. The caller frees it. */
+static mor_status print_case(mor_context *context, const mor_case *the_case, const mor_registry *registry, char **text,
+                             size_t *n_bytes)
+{
+    FILE *stream = open_memstream(text, n_bytes);
+    MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory to print the case");
+    const mor_status status = mor_case_write_stream(context, the_case, registry, stream);
+    const int is_bad = fclose(stream);
+    MOR_CHECK(context, status != MOR_OK || is_bad == 0, MOR_ERROR_MEMORY, "no memory to print the case");
+    return status;
+}
+
+/* Whether a file holds exactly these bytes. */
+static bool has_content(const char *path, const char *text, size_t n_bytes)
+{
+    FILE *file = fopen(path, "rb");
+    size_t k = 0;
+    int c = EOF;
+    while (file != NULL && (c = getc(file)) != EOF && k < n_bytes && (unsigned char)text[k] == c) {
+        ++k;
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    return file != NULL && c == EOF && k == n_bytes;
+}
+
+mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry)
+{
+    char path[MOR_PATH_BYTES];
+    char *text = NULL;
+    size_t n_bytes = 0;
+    const char *folder = files->options->folder;
+    MOR_TRY(context, mor_hash_file(context, files->options->case_path, &files->case_hash));
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, CASE_FILE));
+    if (!files->options->is_resume || access(path, F_OK) != 0) {
+        return mor_case_write(context, files->the_case, registry, path);
+    }
+    mor_status status = print_case(context, files->the_case, registry, &text, &n_bytes);
+    if (status == MOR_OK && !has_content(path, text, n_bytes)) {
+        status = MOR_FAIL(context, MOR_ERROR_CONFIG,
+                          "the case '%s' with its --set values is not the one that '%s' was started with (see %s); "
+                          "resume with the same case and values, or start a new run in another folder",
+                          files->options->case_path, folder, path);
+    }
+    free(text);
+    return status;
+}
+
+static void add_column(mor_run_files *files, const char *name, const char *unit)
+{
+    files->columns[files->n_columns++] = (mor_table_column){name, unit};
+}
+
+static void add_fact(mor_run_files *files, const char *key, const char *value)
+{
+    files->facts[files->n_facts++] = (mor_snapshot_fact){key, value};
+}
+
+static void set_facts(mor_run_files *files)
+{
+    snprintf(files->seed_text, sizeof files->seed_text, "%" PRIu64, files->the_case->seed);
+    mor_hash_print(files->case_hash, files->hash_text);
+    add_fact(files, "version", files->options->version);
+    add_fact(files, "commit", files->options->commit);
+    add_fact(files, "command", files->options->command);
+    add_fact(files, "seed", files->seed_text);
+    add_fact(files, "case", files->the_case->path);
+    add_fact(files, "case_xxh64", files->hash_text);
+    add_fact(files, "instruction_set", files->simulation->soil.table->instruction_set);
+}
+
+mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool is_resume)
+{
+    char path[MOR_PATH_BYTES];
+    const char *folder = files->options->folder;
+    const mor_schedule *schedule = &files->simulation->schedule;
+    set_facts(files);
+    const mor_snapshot_options options = {.facts = files->facts, .n_facts = files->n_facts};
+    MOR_TRY(context, mor_snapshot_writer_init(context, &files->snapshots, folder, &options,
+                                              is_resume ? (int64_t)schedule->n_steps : -1));
+    add_column(files, "time", "s");
+    add_column(files, "step", "1");
+    add_column(files, "step_length", "s");
+    add_column(files, "rate_ratio", "1");
+    files->first_probe = files->n_columns;
+    for (int k = 0; k < files->the_case->n_probes; ++k) {
+        add_column(files, files->the_case->probes[k].name, mor_probe_unit(files->the_case, k));
+    }
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_TABLE_SERIES_FILE));
+    return is_resume ? mor_table_resume(context, &files->series, path, files->columns, files->n_columns,
+                                        mor_schedule_time(schedule))
+                     : mor_table_create(context, &files->series, path, files->columns, files->n_columns);
+}
+
+void mor_run_files_close(mor_context *context, mor_run_files *files)
+{
+    if (files->series.stream != NULL) {
+        mor_table_close(context, &files->series);
+    }
+    mor_snapshot_writer_clear(context, &files->snapshots);
+    if (files->log != NULL) {
+        context->log_sink = files->previous_sink;
+        context->log_user = files->previous_user;
+        fclose(files->log);
+        files->log = NULL;
+    }
+}
+
+mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
+{
+    double row[MOR_RUN_COLUMNS_MAX];
+    const mor_schedule *schedule = &files->simulation->schedule;
+    row[0] = mor_schedule_time(schedule);
+    row[1] = (double)schedule->n_steps;
+    row[2] = schedule->step_length;
+    row[3] = 1.0; /* sub-steps of the finest stepper per step: soil alone takes one */
+    for (int k = 0; k < files->the_case->n_probes; ++k) {
+        MOR_TRY(context, mor_probe_evaluate(context, files->simulation, k, &row[files->first_probe + k]));
+    }
+    return mor_table_append(context, &files->series, row);
+}
+
+mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files)
+{
+    mor_set *const sets[] = {&files->simulation->soil.set};
+    const mor_schedule *schedule = &files->simulation->schedule;
+    return mor_snapshot_writer_add(context, &files->snapshots, sets, 1, (int64_t)schedule->n_steps,
+                                   mor_schedule_time(schedule));
+}
+
+/* What a run must remember beside the particles. Everything else follows from the case. */
+static int list_values(mor_simulation *s, mor_checkpoint_value *values)
+{
+    const mor_checkpoint_value list[] = {
+        {"schedule_now", MOR_HDF5_INT64, 1, &s->schedule.now},
+        {"schedule_end", MOR_HDF5_INT64, 1, &s->schedule.end},
+        {"schedule_steps", MOR_HDF5_UINT64, 1, &s->schedule.n_steps},
+        {"schedule_step_length", MOR_HDF5_DOUBLE, 1, &s->schedule.step_length},
+        {"soil_largest_speed", MOR_HDF5_DOUBLE, 1, &s->soil.largest_speed},
+        {"soil_largest_acceleration", MOR_HDF5_DOUBLE, 1, &s->soil.largest_acceleration},
+        {"soil_wall_impulse", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_impulse},
+        {"initial_energy", MOR_HDF5_DOUBLE, 1, &s->initial_energy},
+        {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},
+    };
+    memcpy(values, list, sizeof list);
+    return (int)(sizeof list / sizeof *list);
+}
+
+enum { VALUES_MAX = 16 };
+
+mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
+{
+    mor_checkpoint_value values[VALUES_MAX];
+    mor_set *const sets[] = {&files->simulation->soil.set};
+    const mor_checkpoint state = {sets, 1, values, list_values(files->simulation, values)};
+    MOR_TRY(context, mor_table_sync(context, &files->series));
+    return mor_checkpoint_write(context, files->options->folder, &state);
+}
+
+mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored)
+{
+    mor_checkpoint_value values[VALUES_MAX];
+    mor_soil *soil = &files->simulation->soil;
+    mor_set *const sets[] = {&soil->set};
+    const mor_checkpoint state = {sets, 1, values, list_values(files->simulation, values)};
+    const char *folder = files->options->folder;
+    *is_restored = is_present(context, folder, MOR_CHECKPOINT_FILE) ||
+                   is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
+    if (!*is_restored) {
+        mor_context_log(context, MOR_LOG_WARNING, "'%s' holds no checkpoint yet; the run starts from the beginning",
+                        folder);
+        return MOR_OK;
+    }
+    const int64_t end = files->simulation->schedule.end;
+    MOR_TRY(context, mor_checkpoint_read_latest(context, folder, &state));
+    MOR_CHECK(context, files->simulation->schedule.end == end, MOR_ERROR_CONFIG,
+              "the checkpoint in '%s' belongs to a run of another length; resume it with the same 'end'", folder);
+    soil->has_lists = false;
+    mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu",
+                    mor_schedule_time(&files->simulation->schedule),
+                    (unsigned long long)files->simulation->schedule.n_steps);
+    return MOR_OK;
+}

@@ -1,0 +1,97 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_RUN_FILES_H
+#define MOR_CASES_DRIVER_RUN_FILES_H
+
+#include "cases/driver/run.h"
+#include "core/io/checkpoint.h"
+#include "core/io/snapshot.h"
+#include "core/io/table.h"
+
+/** @file
+ *  The files of a run's folder as the run loop uses them: what goes into a checkpoint, a row of the series, the
+ *  summary. The formats are those of core/io. */
+
+enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16 };
+
+/** Open files of a run and the numbers that go into them. Owner: the run. */
+typedef struct mor_run_files {
+    const mor_run_options *options;   /* borrowed */
+    const mor_case *the_case;         /* borrowed */
+    mor_simulation *simulation;       /* borrowed */
+    FILE *log;                        /* log.txt */
+    mor_log_sink previous_sink;       /* where warnings and errors go as well */
+    void *previous_user;              /* its argument */
+    mor_snapshot_writer snapshots;
+    mor_snapshot_fact facts[MOR_RUN_FACTS_MAX]; /* provenance, shape [n_facts] */
+    int n_facts;
+    char seed_text[24];               /* seed as text, for the provenance */
+    char hash_text[24];               /* hash of the case file as text */
+    uint64_t case_hash;               /* of the case file */
+    mor_table series;
+    mor_table_column columns[MOR_RUN_COLUMNS_MAX]; /* shape [n_columns] */
+    int n_columns;
+    int first_probe;                  /* column of the first probe */
+} mor_run_files;
+
+/** Makes the folder and opens its log.
+ *  @param context [in,out]  one object; gets the log as its sink
+ *  @param files   [out]     one object
+ *  @param options [in]      one object; borrowed
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_CONFIG when a new run would overwrite an old one. */
+mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options);
+
+/** Writes case.resolved.cfg, or on a resume checks that the case is still the same.
+ *  @param context  [in,out]  one object
+ *  @param files    [in,out]  one object
+ *  @param registry [in]      one object
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the case has changed; MOR_ERROR_IO. */
+mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry);
+
+/** Opens snapshots and series, for a new run or behind the restored state.
+ *  @param context   [in,out]  one object
+ *  @param files     [in,out]  one object
+ *  @param is_resume [in]      whether the state was restored from a checkpoint
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool is_resume);
+
+/** Closes everything and gives the context its sink back; accepts a zeroed object.
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object */
+void mor_run_files_close(mor_context *context, mor_run_files *files);
+
+/** Adds a row to the series.
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_IO; what a probe returns. */
+mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files);
+
+/** Adds a snapshot.
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files);
+
+/** Writes the checkpoint.
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_save(mor_context *context, mor_run_files *files);
+
+/** Restores the newest good checkpoint of the folder.
+ *  @param context     [in,out]  one object
+ *  @param files       [in,out]  one object
+ *  @param is_restored [out]     one flag; false when the folder has no checkpoint yet
+ *  Returns: MOR_OK; MOR_ERROR_IO naming the damaged files; MOR_ERROR_CONFIG for the state of another case. */
+mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored);
+
+/** Evaluates all probes and expectations, prints the table, writes summary.json.
+ *  @param context                   [in,out]  one object
+ *  @param files                     [in,out]  one object
+ *  @param particle_steps_per_second [in]      speed of the time loop, unit 1/s
+ *  @param n_missed                  [out]     one number; expectations missed
+ *  Returns: MOR_OK; MOR_ERROR_IO; what a probe returns. */
+mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
+                                  int *n_missed);
+
+#endif

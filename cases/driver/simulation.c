@@ -1,0 +1,349 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/simulation.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/material/params.h"
+#include "core/sph/measure.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void mor_simulation_place_point(const mor_case *the_case, const double *point, double *placed)
+{
+    mor_matrix_apply(the_case->turn, point, placed);
+    for (int a = 0; a < 3; ++a) {
+        placed[a] += the_case->move[a];
+    }
+}
+
+/* The lattice that soil and walls share. */
+static void set_request(const mor_case *the_case, const mor_shape *shape, mor_lattice_request *request)
+{
+    mor_lattice_request_init(request);
+    request->shape = shape;
+    request->dimension = the_case->dimension;
+    request->spacing = the_case->spacing;
+    request->seed = the_case->seed;
+    memcpy(request->origin, the_case->lattice_origin, sizeof request->origin);
+    memcpy(request->domain.minimum, the_case->domain_minimum, sizeof request->domain.minimum);
+    memcpy(request->domain.maximum, the_case->domain_maximum, sizeof request->domain.maximum);
+    memcpy(request->turn, the_case->turn, sizeof request->turn);
+    memcpy(request->move, the_case->move, sizeof request->move);
+}
+
+mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall,
+                                    mor_lattice_points *points)
+{
+    const mor_shape *earlier[MOR_CASE_WALLS_MAX];
+    for (int w = 0; w < wall; ++w) {
+        earlier[w] = the_case->walls[w].shape;
+    }
+    const mor_case_wall *it = &the_case->walls[wall];
+    mor_lattice_request request;
+    set_request(the_case, it->shape, &request);
+    const double depth = MOR_SIMULATION_WALL_LAYERS * the_case->spacing;
+    request.depth = depth;
+    request.excluded = earlier;
+    request.n_excluded = wall;
+    /* Walls carry soil up to the very edge of the domain, so they reach beyond it by their own thickness. */
+    for (int a = 0; a < 3; ++a) {
+        request.domain.minimum[a] -= depth;
+        request.domain.maximum[a] += depth;
+    }
+    MOR_TRY(context, mor_lattice_fill(context, &request, points));
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
+              "inside the domain and outside earlier walls; make the wall thicker or move it",
+              it->place.file, it->place.line, it->name, the_case->spacing);
+    return MOR_OK;
+}
+
+/* Soil particles inside a wall or inside an earlier soil region are an error of the case. */
+static mor_status check_overlap(mor_context *context, const mor_case *the_case, int soil,
+                                const mor_lattice_points *points)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    for (int other = 0; other < the_case->n_walls + soil; ++other) {
+        const bool is_wall = other < the_case->n_walls;
+        const mor_shape *shape =
+            is_wall ? the_case->walls[other].shape : the_case->soils[other - the_case->n_walls].shape;
+        const char *name = is_wall ? the_case->walls[other].name : the_case->soils[other - the_case->n_walls].name;
+        int64_t n_inside = 0;
+        double first[3] = {0.0, 0.0, 0.0};
+        for (int64_t i = 0; i < points->n_points; ++i) {
+            double moved[3];
+            double point[3];
+            for (int a = 0; a < 3; ++a) {
+                moved[a] = points->positions[3 * i + a] - the_case->move[a];
+            }
+            mor_matrix_apply_transposed(the_case->turn, moved, point);
+            if (shape->operations->distance(shape, point) < 0.0 && n_inside++ == 0) {
+                memcpy(first, point, sizeof first);
+            }
+        }
+        MOR_CHECK(context, n_inside == 0, MOR_ERROR_CONFIG,
+                  "%s:%d: found soil '%s' overlapping %s '%s': %lld of its %lld particles lie inside, the first at "
+                  "(%g, %g, %g) m; allowed are none; move one of the shapes or cut it off with a difference",
+                  it->place.file, it->place.line, it->name, is_wall ? "wall" : "soil", name, (long long)n_inside,
+                  (long long)points->n_points, first[0], first[1], first[2]);
+    }
+    return MOR_OK;
+}
+
+static mor_status fill_soil(mor_context *context, const mor_case *the_case, int soil, mor_lattice_points *points)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    mor_lattice_request request;
+    set_request(the_case, it->shape, &request);
+    request.jitter_ratio = the_case->jitter_ratio;
+    MOR_TRY(context, mor_lattice_fill(context, &request, points));
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
+              "lattice point inside the domain; make the region larger, the spacing smaller, or move the domain",
+              it->place.file, it->place.line, it->name, the_case->spacing);
+    MOR_CHECK(context, it->initial_stress != MOR_CASE_STRESS_SETTLED || mor_vector_length(it->velocity) == 0.0,
+              MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' with a settled initial stress and a velocity of (%g, %g, %g) m/s; allowed is one "
+              "of them, because settling brings the soil to rest; remove 'velocity' or choose type = \"k0\"",
+              it->place.file, it->place.line, it->name, it->velocity[0], it->velocity[1], it->velocity[2]);
+    return check_overlap(context, the_case, soil, points);
+}
+
+/* All regions form one set, so they must be of one material. */
+static mor_status check_materials(mor_context *context, const mor_case *the_case, const mor_material *material)
+{
+    const mor_case_soil *first = &the_case->soils[0];
+    const int n = mor_params_count(material->parameters);
+    for (int k = 1; k < the_case->n_soils; ++k) {
+        const mor_case_soil *it = &the_case->soils[k];
+        const bool is_same = strcmp(it->model, first->model) == 0 && it->density == first->density &&
+                             memcmp(it->parameters, first->parameters, (size_t)n * sizeof(double)) == 0;
+        MOR_CHECK(context, is_same, MOR_ERROR_CONFIG,
+                  "%s:%d: found a material of soil '%s' that differs from that of soil '%s'; allowed is one material "
+                  "for all soil regions of a case; give both the same 'material'",
+                  it->place.file, it->place.line, it->name, first->name);
+    }
+    return MOR_OK;
+}
+
+/* Value of a parameter by name, or a fallback where the model has none of that name. */
+static double find_parameter(const mor_material *material, const double *parameters, const char *key, double fallback)
+{
+    int at = 0;
+    for (const mor_schema *schema = material->parameters; schema->key != NULL; ++schema) {
+        if (strcmp(schema->key, key) == 0) {
+            return parameters[at];
+        }
+        at += schema->kind == MOR_SCHEMA_VECTOR ? schema->n_components : 1;
+    }
+    return fallback;
+}
+
+/* Jaky's ratio for frictional models, hydrostatic for others. */
+static double find_lateral_ratio(const mor_material *material, const mor_case_soil *soil)
+{
+    return soil->lateral_ratio >= 0.0 ? soil->lateral_ratio
+                                      : 1.0 - sin(find_parameter(material, soil->parameters, "friction_angle", 0.0));
+}
+
+static void set_settings(const mor_simulation *simulation, const mor_material *material, mor_soil_settings *s)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_case_numerics *n = &c->numerics;
+    *s = (mor_soil_settings){
+        .dimension = c->dimension,
+        .spacing = c->spacing,
+        .smoothing_ratio = n->smoothing_ratio,
+        .courant = n->courant,
+        .dissipation = (mor_dissipation)n->dissipation,
+        .wall_dissipation = (mor_dissipation)n->wall_dissipation,
+        .dissipation_factor = n->dissipation_factor,
+        .has_density_pressure_term = n->density_pressure_term,
+        .stress_diffusion = n->stress_diffusion,
+        .lateral_ratio = find_lateral_ratio(material, &c->soils[0]),
+        .has_artificial_stress = n->artificial_stress,
+        .artificial_stress_exponent = n->artificial_stress_exponent,
+        .artificial_stress_factor = n->artificial_stress_factor,
+        .has_gradient_correction = n->gradient_correction,
+        .xsph = n->xsph,
+        .has_shifting = n->shifting,
+        .density_interval = n->density_reinitialization,
+        .skin_ratio = n->skin_ratio,
+        .sort_interval = n->sort_interval,
+        .damping = n->damping,
+        .gravity_ramp = n->gravity_ramp,
+        .reference_density = c->soils[0].density,
+    };
+    mor_matrix_apply(c->turn, c->gravity, s->gravity);
+    for (int a = 0; a < 3; ++a) {
+        s->domain_minimum[a] = INFINITY;
+        s->domain_maximum[a] = -INFINITY;
+    }
+    /* The box around the turned domain. */
+    for (int corner = 0; corner < 8; ++corner) {
+        double point[3];
+        double placed[3];
+        for (int a = 0; a < 3; ++a) {
+            point[a] = corner >> a & 1 ? c->domain_maximum[a] : c->domain_minimum[a];
+        }
+        mor_simulation_place_point(c, point, placed);
+        for (int a = 0; a < 3; ++a) {
+            s->domain_minimum[a] = fmin(s->domain_minimum[a], placed[a]);
+            s->domain_maximum[a] = fmax(s->domain_maximum[a], placed[a]);
+        }
+    }
+}
+
+/* Geostatic stress of a region: vertical from the weight above, lateral by the ratio. */
+static void set_stress(mor_simulation *simulation, const mor_case_soil *it, double lateral, int64_t first, int64_t n)
+{
+    mor_soil *soil = &simulation->soil;
+    const double *up = simulation->up;
+    const double *position = soil->set.data[MOR_FIELD_POSITION];
+    const double weight = it->density * mor_vector_length(soil->settings.gravity);
+    double top = -INFINITY;
+    for (int64_t i = first; i < first + n; ++i) {
+        top = fmax(top, mor_vector_dot(position + 3 * i, up));
+    }
+    top += 0.5 * simulation->the_case->spacing;
+    if (!isnan(it->surface_level)) {
+        double origin[3];
+        mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+        top = it->surface_level + mor_vector_dot(origin, up);
+    }
+    simulation->surface_height = fmax(simulation->surface_height, top);
+    for (int64_t i = first; i < first + n && it->initial_stress != MOR_CASE_STRESS_NONE; ++i) {
+        const double vertical = -weight * fmax(top - mor_vector_dot(position + 3 * i, up), 0.0);
+        double *stress = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
+        for (int a = 0; a < 3; ++a) {
+            stress[a] = vertical * (lateral + (1.0 - lateral) * up[a] * up[a]);
+            stress[3 + a] = vertical * (1.0 - lateral) * up[a] * up[(a + 1) % 3];
+        }
+    }
+}
+
+/* Copies the regions' points into the set and gives them mass, density, velocity and stress. */
+static void set_particles(mor_simulation *simulation, const mor_lattice_points *regions)
+{
+    const mor_case *c = simulation->the_case;
+    double *const *data = simulation->soil.set.data;
+    const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
+    int64_t first = 0;
+    simulation->surface_height = -INFINITY;
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        const int64_t n = regions[k].n_points;
+        double velocity[3];
+        mor_matrix_apply(c->turn, it->velocity, velocity);
+        memcpy(data[MOR_FIELD_POSITION] + 3 * first, regions[k].positions, (size_t)(3 * n) * sizeof(double));
+        for (int64_t i = first; i < first + n; ++i) {
+            memcpy(data[MOR_FIELD_VELOCITY] + 3 * i, velocity, sizeof velocity);
+            data[MOR_FIELD_DENSITY][i] = it->density;
+            data[MOR_FIELD_MASS][i] = it->density * volume;
+        }
+        set_stress(simulation, it, find_lateral_ratio(simulation->material->material, it), first, n);
+        simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
+        first += n;
+    }
+}
+
+static mor_status add_walls(mor_context *context, mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
+    for (int w = 0; w < c->n_walls; ++w) {
+        mor_lattice_points points = {NULL, 0};
+        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &points));
+        mor_wall_request request = {.name = c->walls[w].name,
+                                    .points = points.positions,
+                                    .n_points = points.n_points,
+                                    .point_volume = volume,
+                                    .friction = (mor_wall_friction)c->walls[w].friction,
+                                    .friction_coefficient = c->walls[w].friction_coefficient};
+        mor_matrix_apply(c->turn, c->walls[w].velocity, request.velocity);
+        const mor_status status = mor_soil_add_wall(context, &simulation->soil, &request);
+        mor_lattice_clear(context, &points);
+        MOR_TRY(context, status);
+    }
+    return MOR_OK;
+}
+
+static mor_status build_soil(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_material *material = NULL;
+    mor_lattice_points regions[MOR_CASE_SOILS_MAX] = {{NULL, 0}};
+    mor_soil_settings settings;
+    int64_t n_particles = 0;
+    MOR_TRY(context, mor_registry_require(context, registry, c->soils[0].model, &material));
+    MOR_TRY(context, check_materials(context, c, material));
+    mor_status status =
+        mor_material_create(context, material, c->soils[0].density, c->soils[0].parameters, &simulation->material);
+    if (status != MOR_OK) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: %s", c->soils[0].place.file, c->soils[0].place.line,
+                        context->message);
+    }
+    for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
+        status = fill_soil(context, c, k, &regions[k]);
+        n_particles += regions[k].n_points;
+    }
+    if (status == MOR_OK) {
+        set_settings(simulation, material, &settings);
+        status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
+    }
+    if (status == MOR_OK) {
+        set_particles(simulation, regions);
+    }
+    for (int k = 0; k < c->n_soils; ++k) {
+        mor_lattice_clear(context, &regions[k]);
+    }
+    MOR_TRY(context, status);
+    MOR_TRY(context, add_walls(context, simulation));
+    MOR_TRY(context, mor_soil_init_state(context, &simulation->soil));
+    return mor_soil_sort(context, &simulation->soil);
+}
+
+static mor_status build_schedule(mor_context *context, mor_simulation *simulation)
+{
+    mor_stepper stepper;
+    uint64_t evolving = 0;
+    MOR_TRY(context, mor_schedule_init(context, &simulation->schedule, simulation->the_case->end));
+    mor_soil_stepper(&simulation->soil, &stepper, &evolving);
+    return mor_schedule_add(context, &simulation->schedule, &stepper, evolving);
+}
+
+mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation, const mor_case *the_case,
+                               const mor_registry *registry)
+{
+    memset(simulation, 0, sizeof *simulation);
+    simulation->the_case = the_case;
+    simulation->has_settled = true;
+    double gravity[3];
+    mor_matrix_apply(the_case->turn, the_case->gravity, gravity);
+    const double strength = mor_vector_length(gravity);
+    const double fallback[3] = {0.0, the_case->dimension == 2 ? 1.0 : 0.0, the_case->dimension == 2 ? 0.0 : 1.0};
+    if (strength > 0.0) {
+        for (int a = 0; a < 3; ++a) {
+            simulation->up[a] = -gravity[a] / strength;
+        }
+    } else {
+        mor_matrix_apply(the_case->turn, fallback, simulation->up);
+    }
+    mor_status status = build_soil(context, simulation, registry);
+    if (status == MOR_OK) {
+        status = build_schedule(context, simulation);
+    }
+    if (status != MOR_OK) {
+        mor_simulation_clear(context, simulation);
+    }
+    return status;
+}
+
+void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
+{
+    mor_soil_clear(context, &simulation->soil);
+    mor_material_destroy(context, &simulation->material);
+    memset(simulation, 0, sizeof *simulation);
+}

@@ -1,0 +1,76 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_SIMULATION_H
+#define MOR_CASES_DRIVER_SIMULATION_H
+
+#include "cases/driver/case.h"
+#include "core/material/registry.h"
+#include "core/sph/soil.h"
+#include "core/time/schedule.h"
+#include "relaxation/lattice.h"
+
+/** @file
+ *  The composition root: a case becomes particles, walls, a material and a schedule. It runs nothing and writes no
+ *  file. Everything here is in the placed frame (after the case's turn and move). */
+
+enum {
+    MOR_SIMULATION_WALL_LAYERS = 4 /* layers of wall particles; they fill the kernel's support */
+};
+
+/** A case made ready to run. Owner: the caller, who ends it with mor_simulation_clear. */
+typedef struct mor_simulation {
+    const mor_case *the_case; /* borrowed; outlives the simulation */
+    mor_material_instance *material;
+    mor_soil soil;
+    mor_schedule schedule;
+    double up[3];             /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
+    double surface_height;    /* of the initial soil along up over the placed origin, m */
+    double initial_energy;    /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    bool has_settled;         /* the initial settling converged, or none was asked for */
+} mor_simulation;
+
+/** Builds a simulation: checks that soil and walls do not overlap, fills the shapes with particles, sets the initial
+ *  stress. Settling, when asked for, is the caller's (mor_simulation_settle).
+ *  @param context    [in,out]  one object
+ *  @param simulation [out]     one object; storage supplied by the caller; cleared after a failure
+ *  @param the_case   [in]      one object; borrowed
+ *  @param registry   [in]      one object; the material models
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line when the scene cannot be built; MOR_ERROR_MEMORY. */
+mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation, const mor_case *the_case,
+                               const mor_registry *registry);
+
+/** Frees what the simulation owns; accepts a zeroed one.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in,out]  one object */
+void mor_simulation_clear(mor_context *context, mor_simulation *simulation);
+
+/** Lets the soil come to rest under damping when a region asks for a settled initial stress, then sets velocities, the
+ *  clock and the material's state back, and records the initial energy. To be called once before the first step, also
+ *  when nothing settles; not after a resume.
+ *  @param context    [in,out]  one object; logs "converged" or "timed out" with the speed reached
+ *  @param simulation [in,out]  one object
+ *  Returns: MOR_OK, also when timed out (has_settled is then false); what a step returns. */
+mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation);
+
+/** Maps a point, or a direction, of the case into the placed frame.
+ *  @param the_case [in]   one object
+ *  @param point    [in]   shape [3], unit m
+ *  @param placed   [out]  shape [3], unit m; may not alias point */
+void mor_simulation_place_point(const mor_case *the_case, const double *point, double *placed);
+
+/** Fills one wall of a case with particles, in the placed frame.
+ *  @param context  [in,out]  one object
+ *  @param the_case [in]      one object
+ *  @param wall     [in]      index of the wall; earlier walls are left out
+ *  @param points   [out]     one object; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the wall holds no particle; as mor_lattice_fill. */
+mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall,
+                                    mor_lattice_points *points);
+
+/** Kinetic, potential and elastic energy now, unit J (J/m in 2D); potential energy counts from the placed origin.
+ *  @param simulation [in]   one object
+ *  @param elastic    [out]  one number, unit J; NULL: not asked
+ *  Returns: the total, unit J. */
+double mor_simulation_energy(const mor_simulation *simulation, double *elastic);
+
+#endif

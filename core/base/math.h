@@ -1,0 +1,76 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_BASE_MATH_H
+#define MOR_CORE_BASE_MATH_H
+
+#include <math.h>
+
+/** @file
+ *  Small inline vector and tensor algebra. Storage orders are stated here and nowhere else:
+ *  vector [3] = (x, y, z); matrix [9] = row-major, m[3 * a + b]; symmetric tensor [6] = (xx, yy, zz, xy, yz, zx). */
+
+#define MOR_PI 3.14159265358979323846
+
+enum { MOR_XX, MOR_YY, MOR_ZZ, MOR_XY, MOR_YZ, MOR_ZX };
+
+/** Inner product of two vectors, shape [3] each; unit: product of theirs. */
+static inline double mor_vector_dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** Length of a vector, shape [3]; unit: that of the vector. */
+static inline double mor_vector_length(const double *a)
+{
+    return sqrt(mor_vector_dot(a, a));
+}
+
+/** out = matrix * a; matrix shape [3,3], a and out shape [3], not aliased. */
+static inline void mor_matrix_apply(const double *matrix, const double *a, double *out)
+{
+    for (int row = 0; row < 3; ++row) {
+        out[row] = mor_vector_dot(matrix + 3 * row, a);
+    }
+}
+
+/** out = transpose(matrix) * a; matrix shape [3,3], a and out shape [3], not aliased. */
+static inline void mor_matrix_apply_transposed(const double *matrix, const double *a, double *out)
+{
+    for (int column = 0; column < 3; ++column) {
+        out[column] = matrix[column] * a[0] + matrix[3 + column] * a[1] + matrix[6 + column] * a[2];
+    }
+}
+
+/** out = tensor * a; symmetric tensor shape [6], a and out shape [3], not aliased. */
+static inline void mor_symmetric_apply(const double *tensor, const double *a, double *out)
+{
+    out[0] = tensor[MOR_XX] * a[0] + tensor[MOR_XY] * a[1] + tensor[MOR_ZX] * a[2];
+    out[1] = tensor[MOR_XY] * a[0] + tensor[MOR_YY] * a[1] + tensor[MOR_YZ] * a[2];
+    out[2] = tensor[MOR_ZX] * a[0] + tensor[MOR_YZ] * a[1] + tensor[MOR_ZZ] * a[2];
+}
+
+/** Trace of a symmetric tensor, shape [6]; unit: that of the tensor. */
+static inline double mor_symmetric_trace(const double *tensor)
+{
+    return tensor[MOR_XX] + tensor[MOR_YY] + tensor[MOR_ZZ];
+}
+
+/** Rotation matrix, shape [3,3], for a turn by angle [rad] about a unit axis, shape [3] (Rodrigues). */
+static inline void mor_matrix_rotation(const double *axis, double angle, double *matrix)
+{
+    const double c = cos(angle);
+    const double s = sin(angle);
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            matrix[3 * a + b] = (1.0 - c) * axis[a] * axis[b] + (a == b ? c : 0.0);
+        }
+    }
+    matrix[1] -= s * axis[2];
+    matrix[2] += s * axis[1];
+    matrix[3] += s * axis[2];
+    matrix[5] -= s * axis[0];
+    matrix[6] -= s * axis[1];
+    matrix[7] += s * axis[0];
+}
+
+#endif

@@ -1,0 +1,35 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_BASE_SCHEMA_H
+#define MOR_CORE_BASE_SCHEMA_H
+
+/** @file
+ *  One record type for everything a user may set and everything a material declares: case keys, material parameters,
+ *  material state variables. The host reads, checks and converts; the owner of the schema gets plain numbers in SI. */
+
+typedef enum mor_schema_kind {
+    MOR_SCHEMA_REAL,    /* one number with a unit */
+    MOR_SCHEMA_INTEGER, /* one whole number */
+    MOR_SCHEMA_BOOLEAN, /* true or false */
+    MOR_SCHEMA_TEXT,    /* free text */
+    MOR_SCHEMA_CHOICE,  /* one of the words in choices */
+    MOR_SCHEMA_VECTOR   /* n_components numbers with one unit */
+} mor_schema_kind;
+
+/** One entry. A table of entries ends with key == NULL. All strings are static. */
+typedef struct mor_schema {
+    const char *key;           /* as written in the case file */
+    mor_schema_kind kind;      /* type of the value */
+    int n_components;          /* of a vector or a state variable; 1 otherwise */
+    const char *unit;          /* SI unit the owner wants, "1" for dimensionless */
+    int is_required;           /* non-zero: there is no default */
+    double default_value;      /* in unit; used when not required and not written (every component of a vector) */
+    double minimum;            /* smallest allowed value in unit, -INFINITY for none */
+    double maximum;            /* largest allowed value in unit, INFINITY for none */
+    int excludes_minimum;      /* non-zero: value must be > minimum */
+    int excludes_maximum;      /* non-zero: value must be < maximum */
+    const char *choices;       /* for a choice: words separated by '|'; the first is the default */
+    const char *text;          /* one line for people */
+} mor_schema;
+
+#endif

@@ -1,0 +1,70 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_IO_CHECKPOINT_H
+#define MOR_CORE_IO_CHECKPOINT_H
+
+#include "core/io/hdf5_file.h"
+#include "core/particle/set.h"
+
+/** @file
+ *  The complete state of a run in one sealed file, and its return bit for bit. It saves what it is handed and decides
+ *  neither when to save nor what belongs to the state beyond the evolving fields of the sets.
+ *
+ *  Files of a run's folder: checkpoint.h5 is the newest, checkpoint.previous.h5 the one before. A new one is written to
+ *  checkpoint.h5.tmp, sealed and synced; then the newest, if it is intact, is kept as the previous one, and one rename
+ *  makes the new one valid. A process killed at any moment leaves at least one intact checkpoint once there was one.
+ *
+ *  Layout (version 1): /sets/<set> with attribute n_particles and arrays id [n] and <field> [n, components], in current
+ *  particle order, each field with attributes unit and text; /values/<name> [n]. */
+
+#define MOR_CHECKPOINT_FILE "checkpoint.h5"
+#define MOR_CHECKPOINT_PREVIOUS_FILE "checkpoint.previous.h5"
+
+enum { MOR_CHECKPOINT_VERSION = 1 };
+
+/** A named number or array that belongs to the state: step, scheduler clock, ... */
+typedef struct mor_checkpoint_value {
+    const char *name;   /* zero-terminated, unique, without '/' */
+    mor_hdf5_kind kind; /* MOR_HDF5_INT64, MOR_HDF5_UINT64 or MOR_HDF5_DOUBLE */
+    int64_t n;          /* number of numbers, >= 0 */
+    void *data;         /* shape [n] of int64_t, uint64_t or double; borrowed */
+} mor_checkpoint_value;
+
+/** What is saved and restored: a view; everything in it is borrowed. */
+typedef struct mor_checkpoint {
+    mor_set *const *sets;               /* shape [n_sets]; names unique and without '/' */
+    int n_sets;                         /* number of sets */
+    const mor_checkpoint_value *values; /* shape [n_values] */
+    int n_values;                       /* number of values */
+} mor_checkpoint;
+
+/** Saves the state as checkpoint.h5 of a folder and keeps the one before.
+ *  @param context [in,out]  one object; a damaged checkpoint.h5 that is not kept is logged as a warning
+ *  @param folder  [in]      zero-terminated path of an existing folder
+ *  @param state   [in]      one object; unchanged
+ *  Returns: MOR_OK; MOR_ERROR_IO, then an intact checkpoint.h5 is still in the folder if there was one;
+ *           MOR_ERROR_ARGUMENT for a name that cannot be used; MOR_ERROR_MEMORY.
+ *  Cost: writes and reads the state once; allocates. */
+mor_status mor_checkpoint_write(mor_context *context, const char *folder, const mor_checkpoint *state);
+
+/** Restores the state from one file, bit for bit. The sets and values must be those that were saved: same names,
+ *  numbers of particles, fields, components, units, kinds and lengths. Everything is checked before anything changes.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated path of the file
+ *  @param state   [in]      one object; the arrays it points to are overwritten
+ *  Gives: set->generation + 1 for each set, since particles may stand in another order.
+ *  Returns: MOR_OK; MOR_ERROR_IO when the file is missing or damaged; MOR_ERROR_UNSUPPORTED when it is of another
+ *           version; MOR_ERROR_CONFIG when it holds the state of another case; MOR_ERROR_MEMORY.
+ *  Cost: reads the file twice; allocates. */
+mor_status mor_checkpoint_read(mor_context *context, const char *path, const mor_checkpoint *state);
+
+/** Restores the newest intact state of a folder: checkpoint.h5, or checkpoint.previous.h5 when the former is missing or
+ *  damaged, which is logged as a warning.
+ *  @param context [in,out]  one object
+ *  @param folder  [in]      zero-terminated path of the folder
+ *  @param state   [in]      one object; the arrays it points to are overwritten
+ *  Gives: as mor_checkpoint_read.
+ *  Returns: MOR_OK; MOR_ERROR_IO naming both files when neither can be used; otherwise as mor_checkpoint_read. */
+mor_status mor_checkpoint_read_latest(mor_context *context, const char *folder, const mor_checkpoint *state);
+
+#endif

@@ -1,0 +1,404 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/io/summary.h"
+
+#include "core/base/hash.h"
+#include "core/base/memory.h"
+#include "core/io/durable_file.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- checks before writing --------------------------------------------------------------------------------------- */
+
+static const mor_summary_result *find_result(const mor_summary *summary, const char *probe)
+{
+    for (int k = 0; k < summary->n_results; ++k) {
+        if (strcmp(summary->results[k].probe, probe) == 0) {
+            return &summary->results[k];
+        }
+    }
+    return NULL;
+}
+
+static mor_status check_texts(mor_context *context, const mor_summary *summary)
+{
+    MOR_CHECK(context, summary->version != NULL && summary->commit != NULL && summary->command != NULL,
+              MOR_ERROR_ARGUMENT, "a summary needs version, commit and command; \"\" stands for unknown");
+    for (int k = 0; k < summary->n_results; ++k) {
+        const mor_summary_result *result = &summary->results[k];
+        MOR_CHECK(context, result->probe != NULL && result->probe[0] != '\0' && result->unit != NULL,
+                  MOR_ERROR_ARGUMENT, "result %d of a summary has no name or no unit; \"1\" stands for no dimension",
+                  k + 1);
+        MOR_CHECK(context, find_result(summary, result->probe) == result, MOR_ERROR_ARGUMENT,
+                  "two results of a summary are named '%s'; rename one probe", result->probe);
+    }
+    for (int k = 0; k < summary->n_inputs; ++k) {
+        MOR_CHECK(context, summary->inputs[k].path != NULL, MOR_ERROR_ARGUMENT,
+                  "input %d of a summary has no path", k + 1);
+    }
+    return MOR_OK;
+}
+
+static mor_status check_expectations(mor_context *context, const mor_summary *summary)
+{
+    for (int k = 0; k < summary->n_expectations; ++k) {
+        const mor_summary_expectation *expectation = &summary->expectations[k];
+        MOR_CHECK(context, expectation->probe != NULL, MOR_ERROR_ARGUMENT, "expectation %d of a summary has no probe",
+                  k + 1);
+        const mor_summary_result *result = find_result(summary, expectation->probe);
+        MOR_CHECK(context, result != NULL, MOR_ERROR_ARGUMENT,
+                  "expectation %d of a summary is about '%s', which is not among the results", k + 1,
+                  expectation->probe);
+        const bool is_same = result->value == expectation->measured ||
+                             (isnan(result->value) && isnan(expectation->measured));
+        MOR_CHECK(context, is_same, MOR_ERROR_ARGUMENT,
+                  "expectation %d of a summary has measured %.17g for '%s', whose result is %.17g", k + 1,
+                  expectation->measured, expectation->probe, result->value);
+        MOR_CHECK(context, !expectation->passes || isfinite(expectation->measured), MOR_ERROR_ARGUMENT,
+                  "expectation %d of a summary passes with %g measured for '%s'", k + 1, expectation->measured,
+                  expectation->probe);
+    }
+    return MOR_OK;
+}
+
+/* ---- writing ----------------------------------------------------------------------------------------------------- */
+
+static json_t *make_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* A copy with question marks for all bytes that are not ASCII; the caller frees it. */
+static mor_status copy_clean(mor_context *context, const char *text, char **copy)
+{
+    const size_t n_bytes = strlen(text) + 1;
+    MOR_TRY(context, MOR_NEW(context, copy, (int64_t)n_bytes, "a text of the summary"));
+    for (size_t k = 0; k < n_bytes; ++k) {
+        (*copy)[k] = (unsigned char)text[k] >= 0x80 ? '?' : text[k];
+    }
+    return MOR_OK;
+}
+
+/* A text as it is when it is UTF-8, else cleaned; NULL when memory runs out. */
+static json_t *make_text(mor_context *context, const char *text)
+{
+    json_t *value = json_string(text);
+    char *clean = NULL;
+    if (value == NULL && copy_clean(context, text, &clean) == MOR_OK) {
+        value = json_string(clean);
+    }
+    MOR_FREE(context, &clean);
+    return value;
+}
+
+static json_t *make_hash(uint64_t hash)
+{
+    char text[MOR_HASH_TEXT_BYTES];
+    mor_hash_print(hash, text);
+    return json_string(text);
+}
+
+static json_t *make_seed(uint64_t seed)
+{
+    return seed <= INT64_MAX ? json_integer((json_int_t)seed) : json_sprintf("%" PRIu64, seed);
+}
+
+/* Adds a member and takes the value; 0 on success. A name taken already is a failure. */
+static int add_member(json_t *object, const char *name, json_t *value)
+{
+    if (json_object_get(object, name) != NULL) {
+        json_decref(value);
+        return -1;
+    }
+    return json_object_set_new(object, name, value);
+}
+
+/* Likewise under a name of any bytes. */
+static int add_named(mor_context *context, json_t *object, const char *name, json_t *value)
+{
+    json_t *clean = make_text(context, name);
+    if (clean == NULL) {
+        json_decref(value);
+        return -1;
+    }
+    const int error = add_member(object, json_string_value(clean), value);
+    json_decref(clean);
+    return error;
+}
+
+static json_t *make_results(mor_context *context, const mor_summary *summary)
+{
+    json_t *results = json_object();
+    int error = 0;
+    for (int k = 0; k < summary->n_results; ++k) {
+        json_t *result = json_object();
+        error |= add_member(result, "value", make_number(summary->results[k].value));
+        error |= add_member(result, "unit", make_text(context, summary->results[k].unit));
+        error |= add_named(context, results, summary->results[k].probe, result);
+    }
+    if (error != 0) {
+        json_decref(results);
+        return NULL;
+    }
+    return results;
+}
+
+static int fill_expectation(mor_context *context, json_t *item, const mor_summary_expectation *expectation,
+                            const char *unit)
+{
+    int error = add_member(item, "probe", make_text(context, expectation->probe));
+    error |= add_member(item, "measured", make_number(expectation->measured));
+    error |= add_member(item, "reference", make_number(expectation->reference));
+    error |= add_member(item, "tolerance", make_number(expectation->tolerance));
+    error |= add_member(item, "tolerance_low", make_number(expectation->tolerance_low));
+    error |= add_member(item, "tolerance_kind", json_string(expectation->is_absolute ? "absolute" : "relative"));
+    error |= add_member(item, "unit", make_text(context, unit));
+    error |= add_member(item, "pass", json_boolean(expectation->passes));
+    error |= add_member(item, "source", make_text(context, expectation->source == NULL ? "" : expectation->source));
+    return error;
+}
+
+static json_t *make_expectations(mor_context *context, const mor_summary *summary)
+{
+    json_t *list = json_array();
+    int error = 0;
+    for (int k = 0; k < summary->n_expectations; ++k) {
+        const mor_summary_expectation *expectation = &summary->expectations[k];
+        json_t *item = json_object();
+        error |= fill_expectation(context, item, expectation, find_result(summary, expectation->probe)->unit);
+        error |= json_array_append_new(list, item);
+    }
+    if (error != 0) {
+        json_decref(list);
+        return NULL;
+    }
+    return list;
+}
+
+static json_t *make_provenance(mor_context *context, const mor_summary *summary)
+{
+    json_t *provenance = json_object();
+    json_t *inputs = json_object();
+    int error = add_member(provenance, "version", make_text(context, summary->version));
+    error |= add_member(provenance, "commit", make_text(context, summary->commit));
+    error |= add_member(provenance, "seed", make_seed(summary->seed));
+    error |= add_member(provenance, "command", make_text(context, summary->command));
+    error |= add_member(provenance, "threads", json_integer(summary->n_threads));
+    for (int k = 0; k < summary->n_inputs; ++k) {
+        error |= add_named(context, inputs, summary->inputs[k].path, make_hash(summary->inputs[k].hash));
+    }
+    error |= add_member(provenance, "inputs", inputs);
+    if (error != 0) {
+        json_decref(provenance);
+        return NULL;
+    }
+    return provenance;
+}
+
+/* The whole document, NULL when memory runs out or two names are the same. */
+static json_t *make_document(mor_context *context, const mor_summary *summary)
+{
+    json_t *speed = json_object();
+    json_t *memory = json_object();
+    json_t *document = json_object();
+    int error = add_member(speed, "particle_steps_per_second", make_number(summary->particle_steps_per_second));
+    error |= add_member(memory, "bytes_per_fine_particle", make_number(summary->bytes_per_fine_particle));
+    error |= add_member(document, "version", json_integer(MOR_SUMMARY_VERSION));
+    error |= add_member(document, "results", make_results(context, summary));
+    error |= add_member(document, "expect", make_expectations(context, summary));
+    error |= add_member(document, "state_hash", make_hash(summary->state_hash));
+    error |= add_member(document, "speed", speed);
+    error |= add_member(document, "memory", memory);
+    error |= add_member(document, "provenance", make_provenance(context, summary));
+    if (error != 0) {
+        json_decref(document);
+        return NULL;
+    }
+    return document;
+}
+
+mor_status mor_summary_write(mor_context *context, const char *path, const mor_summary *summary)
+{
+    MOR_TRY(context, check_texts(context, summary));
+    MOR_TRY(context, check_expectations(context, summary));
+    json_t *document = make_document(context, summary);
+    MOR_CHECK(context, document != NULL, MOR_ERROR_ARGUMENT,
+              "the summary '%s' cannot be made: two probes or two inputs have the same name, or memory ran out", path);
+    mor_durable_file file;
+    mor_status status = mor_durable_file_open(context, &file, path);
+    if (status == MOR_OK) {
+        /* A failing write leaves its mark on the stream, which the commit looks at. */
+        json_dumpf(document, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+        fputc('\n', file.stream);
+        status = mor_durable_file_commit(context, &file);
+    }
+    json_decref(document);
+    return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
+}
+
+/* ---- checking and reading ---------------------------------------------------------------------------------------- */
+
+static mor_status fail_member(mor_context *context, const char *path, const char *member, const char *expected)
+{
+    return MOR_FAIL(context, MOR_ERROR_IO, "'%s' is not a complete summary: '%s' must be %s", path, member, expected);
+}
+
+static bool is_number_or_null(const json_t *value)
+{
+    return json_is_number(value) || json_is_null(value);
+}
+
+static bool is_hash(const json_t *value)
+{
+    const char *text = json_string_value(value);
+    return text != NULL && strlen(text) == MOR_HASH_TEXT_BYTES - 1 &&
+           strspn(text, "0123456789abcdef") == MOR_HASH_TEXT_BYTES - 1;
+}
+
+static mor_status check_results(mor_context *context, const char *path, json_t *results)
+{
+    if (!json_is_object(results)) {
+        return fail_member(context, path, "results", "an object");
+    }
+    const char *name = NULL;
+    json_t *result = NULL;
+    json_object_foreach(results, name, result) {
+        if (!is_number_or_null(json_object_get(result, "value")) || !json_is_string(json_object_get(result, "unit"))) {
+            return fail_member(context, path, name, "an object with a number or null as value and a text as unit");
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status check_expectation(mor_context *context, const char *path, const json_t *item, const json_t *results)
+{
+    static const char *const numbers[] = {"measured", "reference", "tolerance", "tolerance_low"};
+    static const char *const texts[] = {"probe", "tolerance_kind", "unit", "source"};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
+        if (!is_number_or_null(json_object_get(item, numbers[k]))) {
+            return fail_member(context, path, numbers[k], "a number or null in each expectation");
+        }
+    }
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; ++k) {
+        if (!json_is_string(json_object_get(item, texts[k]))) {
+            return fail_member(context, path, texts[k], "a text in each expectation");
+        }
+    }
+    if (!json_is_boolean(json_object_get(item, "pass"))) {
+        return fail_member(context, path, "pass", "true or false in each expectation");
+    }
+    const json_t *result = json_object_get(results, json_string_value(json_object_get(item, "probe")));
+    if (result == NULL || !json_equal(json_object_get(result, "value"), json_object_get(item, "measured"))) {
+        return fail_member(context, path, json_string_value(json_object_get(item, "probe")),
+                           "among the results with the value that its expectation calls measured");
+    }
+    return MOR_OK;
+}
+
+static mor_status check_provenance(mor_context *context, const char *path, const json_t *provenance)
+{
+    static const char *const texts[] = {"version", "commit", "command"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; ++k) {
+        if (!json_is_string(json_object_get(provenance, texts[k]))) {
+            return fail_member(context, path, texts[k], "a text in the provenance");
+        }
+    }
+    const json_t *seed = json_object_get(provenance, "seed");
+    if (!json_is_integer(seed) && !json_is_string(seed)) {
+        return fail_member(context, path, "seed", "a whole number or a text in the provenance");
+    }
+    if (!json_is_integer(json_object_get(provenance, "threads"))) {
+        return fail_member(context, path, "threads", "a whole number in the provenance");
+    }
+    json_t *inputs = json_object_get(provenance, "inputs");
+    if (!json_is_object(inputs)) {
+        return fail_member(context, path, "inputs", "an object in the provenance");
+    }
+    const char *name = NULL;
+    json_t *hash = NULL;
+    json_object_foreach(inputs, name, hash) {
+        if (!is_hash(hash)) {
+            return fail_member(context, path, name, "16 hexadecimal digits");
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status check_document(mor_context *context, const char *path, const json_t *document)
+{
+    const json_t *version = json_object_get(document, "version");
+    if (!json_is_integer(version) || json_integer_value(version) != MOR_SUMMARY_VERSION) {
+        return fail_member(context, path, "version", "1");
+    }
+    json_t *results = json_object_get(document, "results");
+    MOR_TRY(context, check_results(context, path, results));
+    const json_t *expectations = json_object_get(document, "expect");
+    if (!json_is_array(expectations)) {
+        return fail_member(context, path, "expect", "an array");
+    }
+    for (size_t k = 0; k < json_array_size(expectations); ++k) {
+        MOR_TRY(context, check_expectation(context, path, json_array_get(expectations, k), results));
+    }
+    if (!is_hash(json_object_get(document, "state_hash"))) {
+        return fail_member(context, path, "state_hash", "16 hexadecimal digits");
+    }
+    const json_t *speed = json_object_get(document, "speed");
+    if (!is_number_or_null(json_object_get(speed, "particle_steps_per_second"))) {
+        return fail_member(context, path, "speed.particle_steps_per_second", "a number or null");
+    }
+    const json_t *memory = json_object_get(document, "memory");
+    if (!is_number_or_null(json_object_get(memory, "bytes_per_fine_particle"))) {
+        return fail_member(context, path, "memory.bytes_per_fine_particle", "a number or null");
+    }
+    MOR_TRY(context, check_provenance(context, path, json_object_get(document, "provenance")));
+    return MOR_OK;
+}
+
+static mor_status load_document(mor_context *context, const char *path, json_t **document)
+{
+    json_error_t error;
+    *document = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+    MOR_CHECK(context, *document != NULL, MOR_ERROR_IO, "cannot read '%s' as JSON: line %d: %s", path, error.line,
+              error.text);
+    const mor_status status = check_document(context, path, *document);
+    if (status != MOR_OK) {
+        json_decref(*document);
+        *document = NULL;
+    }
+    return status;
+}
+
+mor_status mor_summary_check(mor_context *context, const char *path)
+{
+    json_t *document = NULL;
+    MOR_TRY(context, load_document(context, path, &document));
+    json_decref(document);
+    return MOR_OK;
+}
+
+mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value,
+                                   char *unit, size_t n_bytes)
+{
+    *value = NAN;
+    unit[0] = '\0';
+    json_t *document = NULL;
+    MOR_TRY(context, load_document(context, path, &document));
+    const json_t *result = json_object_get(json_object_get(document, "results"), probe);
+    const char *found = json_string_value(json_object_get(result, "unit"));
+    mor_status status = MOR_OK;
+    if (result == NULL) {
+        status = MOR_FAIL(context, MOR_ERROR_IO, "'%s' has no result named '%s'", path, probe);
+    } else if (strlen(found) >= n_bytes) {
+        status = MOR_FAIL(context, MOR_ERROR_IO, "the unit '%s' of result '%s' in '%s' is longer than %zu bytes", found,
+                          probe, path, n_bytes - 1);
+    } else {
+        const json_t *number = json_object_get(result, "value");
+        *value = json_is_null(number) ? NAN : json_number_value(number);
+        memcpy(unit, found, strlen(found) + 1);
+    }
+    json_decref(document);
+    return status;
+}

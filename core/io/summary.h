@@ -1,0 +1,98 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_IO_SUMMARY_H
+#define MOR_CORE_IO_SUMMARY_H
+
+#include "core/base/context.h"
+
+#include <stdbool.h>
+
+/** @file
+ *  The outcome of a run as summary.json, and the JSON door. It writes what it is handed and judges nothing.
+ *
+ *      { "version": 1,
+ *        "results": { "<probe>": { "value": number, "unit": text }, ... },
+ *        "expect": [ { "probe", "measured", "reference", "tolerance", "tolerance_low", "tolerance_kind", "unit",
+ *                      "pass", "source" }, ... ],
+ *        "state_hash": "16 hexadecimal digits",
+ *        "speed": { "particle_steps_per_second": number },
+ *        "memory": { "bytes_per_fine_particle": number },
+ *        "provenance": { "version", "commit", "seed", "command", "threads", "inputs": { "<file>": "<hash>", ... } } }
+ *
+ *  Numbers that are not finite are null, since JSON has no other word for them; finite ones are read back exactly. A
+ *  seed above 2^63 - 1 is text. Bytes that are not UTF-8, as a command line may have, become question marks. */
+
+#define MOR_SUMMARY_FILE "summary.json"
+
+enum { MOR_SUMMARY_VERSION = 1 };
+
+/** One probe's result. */
+typedef struct mor_summary_result {
+    const char *probe; /* zero-terminated, unique */
+    double value;      /* in unit */
+    const char *unit;  /* zero-terminated; "1" for dimensionless */
+} mor_summary_result;
+
+/** One comparison with a reference. Its unit is that of the probe's result. */
+typedef struct mor_summary_expectation {
+    const char *probe;    /* zero-terminated; one of the results */
+    double measured;      /* in the probe's unit; the same number as the result */
+    double reference;     /* in the probe's unit */
+    double tolerance;     /* allowed excess: relative to reference, 1; or in the probe's unit when is_absolute */
+    double tolerance_low; /* allowed shortfall, same kind and unit as tolerance */
+    bool is_absolute;
+    bool passes;        /* false when measured is not finite */
+    const char *source; /* where the reference is from, zero-terminated; NULL or "" for none */
+} mor_summary_expectation;
+
+/** One file that the run read. */
+typedef struct mor_summary_input {
+    const char *path; /* zero-terminated, unique */
+    uint64_t hash;    /* mor_hash_file of it */
+} mor_summary_input;
+
+/** Everything in the file. A view: nothing in it is owned. */
+typedef struct mor_summary {
+    const mor_summary_result *results; /* shape [n_results] */
+    int n_results;
+    const mor_summary_expectation *expectations; /* shape [n_expectations] */
+    int n_expectations;
+    uint64_t state_hash;              /* over all evolving fields of all sets at the end */
+    double particle_steps_per_second; /* fine particles times fine steps per wall second of the time loop, 1/s */
+    double bytes_per_fine_particle;   /* largest memory / number of fine particles, 1 */
+    const char *version;              /* of the program, zero-terminated */
+    const char *commit;               /* the program was built from, zero-terminated; "" when unknown */
+    uint64_t seed;
+    const char *command; /* command line, zero-terminated */
+    int n_threads;
+    const mor_summary_input *inputs; /* shape [n_inputs] */
+    int n_inputs;
+} mor_summary;
+
+/** Replaces the summary at a path, durably.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated
+ *  @param summary [in]      one object
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY; MOR_ERROR_ARGUMENT when a name is empty or taken twice, a text is
+ *           NULL, or an expectation has no result, another measured number than its result, or passes without a finite
+ *           one. */
+mor_status mor_summary_write(mor_context *context, const char *path, const mor_summary *summary);
+
+/** Checks that a file is a complete summary: all members above, of the right types, and nothing that contradicts them.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_IO naming the member that is wrong, or the line where the file is not JSON. */
+mor_status mor_summary_check(mor_context *context, const char *path);
+
+/** Reads one result from a summary after checking the file.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated
+ *  @param probe   [in]      zero-terminated name of the probe
+ *  @param value   [out]     one number, in the unit written beside it; NaN where the file has null
+ *  @param unit    [out]     shape [n_bytes]; zero-terminated
+ *  @param n_bytes [in]      room for the unit
+ *  Returns: MOR_OK; MOR_ERROR_IO, also when there is no such probe or the unit has no room. */
+mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value,
+                                   char *unit, size_t n_bytes);
+
+#endif

@@ -1,0 +1,70 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_MATERIAL_PLUGIN_H
+#define MOR_CORE_MATERIAL_PLUGIN_H
+
+#include "core/material/registry.h"
+
+/** @file
+ *  Materials from a shared object. The object exports one function, mor_plugin_materials; nothing registers itself and
+ *  no folder is searched. Its code must stay loaded while anything made from it lives: destroy the instances and free
+ *  the registry first, unload last. */
+
+/** What the exported function returns. Constant and static in the plug-in. */
+typedef struct mor_plugin_list {
+    uint32_t abi;                         /* MOR_MATERIAL_ABI the plug-in was built for */
+    int32_t n_materials;                  /* number of models, >= 1 */
+    const mor_material *const *materials; /* shape [n_materials] of pointers to descriptors */
+} mor_plugin_list;
+
+/** Type of the exported function.
+ *  @param host_abi [in]  MOR_MATERIAL_ABI of the program that loads the plug-in
+ *  Returns: the list; NULL when the plug-in cannot serve this program. */
+typedef const mor_plugin_list *(*mor_plugin_entry)(uint32_t host_abi);
+
+/** Name of the exported function. */
+#define MOR_PLUGIN_SYMBOL "mor_plugin_materials"
+
+/** Put before the exported function when the rest of the object is compiled with hidden symbols. */
+#define MOR_PLUGIN_EXPORT __attribute__((visibility("default")))
+
+/** Largest number of models in one shared object. */
+enum { MOR_PLUGIN_MATERIALS_MAX = 256 };
+
+typedef struct mor_plugin mor_plugin;
+
+/** Loads a shared object and verifies every model in it.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated; the file, absolute or from the working folder
+ *  @param plugin  [out]     one pointer; owned by the caller; NULL on failure
+ *  Returns: MOR_OK; MOR_ERROR_IO when there is no such file; MOR_ERROR_PLUGIN saying what is wrong with it;
+ *  MOR_ERROR_MEMORY.
+ *  Cost: allocates. Threads: not concurrently. */
+mor_status mor_plugin_load(mor_context *context, const char *path, mor_plugin **plugin);
+
+/** Adds all models of a plug-in to a registry, or none of them.
+ *  @param context  [in,out]  one object
+ *  @param plugin   [in]      one object; must outlive the registry
+ *  @param registry [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_PLUGIN when a name is taken; MOR_ERROR_MEMORY. */
+mor_status mor_plugin_register(mor_context *context, const mor_plugin *plugin, mor_registry *registry);
+
+/** Number of models.
+ *  @param plugin [in]  one object */
+int mor_plugin_count(const mor_plugin *plugin);
+
+/** Returns a model by place; NULL outside 0 .. count - 1.
+ *  @param plugin [in]  one object
+ *  @param index  [in]  0 <= index < mor_plugin_count */
+const mor_material *mor_plugin_get(const mor_plugin *plugin, int index);
+
+/** Returns the absolute path of the file, zero-terminated, owned by the plug-in; for the provenance of a run.
+ *  @param plugin [in]  one object */
+const char *mor_plugin_path(const mor_plugin *plugin);
+
+/** Unloads the object and sets the pointer to NULL; NULL is accepted. Descriptors from it are gone afterwards.
+ *  @param context [in,out]  one object
+ *  @param plugin  [in,out]  the address of one pointer */
+void mor_plugin_unload(mor_context *context, mor_plugin **plugin);
+
+#endif

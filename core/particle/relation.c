@@ -1,0 +1,241 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/particle/relation.h"
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+/* STACK: pending nodes of a descent. GRAIN: clusters a thread takes at once. SLACK: spare room against regrowth, 1/n. */
+enum { STACK = 64, GRAIN = 16, SLACK = 4, FIRST_CAPACITY = 4096 };
+
+mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
+                             int64_t n_clusters)
+{
+    memset(relation, 0, sizeof *relation);
+    relation->configuration = configuration;
+    relation->n_clusters = n_clusters;
+    relation->n_buffers = context->n_threads;
+    mor_status status = MOR_NEW(context, &relation->lists, n_clusters, "neighbor list starts");
+    if (status == MOR_OK) {
+        status = MOR_NEW(context, &relation->counts, n_clusters, "neighbor list lengths");
+    }
+    if (status == MOR_OK) {
+        status = MOR_NEW(context, &relation->occupied, n_clusters, "clusters with neighbors");
+    }
+    if (status == MOR_OK) {
+        status = MOR_NEW(context, &relation->buffers, relation->n_buffers, "neighbor buffers");
+    }
+    if (status == MOR_OK) {
+        status = MOR_NEW(context, &relation->capacities, relation->n_buffers, "neighbor buffer sizes");
+    }
+    if (status != MOR_OK) {
+        mor_relation_clear(context, relation);
+    }
+    return status;
+}
+
+void mor_relation_clear(mor_context *context, mor_relation *relation)
+{
+    for (int buffer = 0; relation->buffers != NULL && buffer < relation->n_buffers; ++buffer) {
+        MOR_FREE(context, &relation->buffers[buffer]);
+    }
+    MOR_FREE(context, &relation->buffers);
+    MOR_FREE(context, &relation->capacities);
+    MOR_FREE(context, &relation->occupied);
+    MOR_FREE(context, &relation->counts);
+    MOR_FREE(context, &relation->lists);
+    memset(relation, 0, sizeof *relation);
+}
+
+/* Squared distance between two boxes. */
+static double box_gap(const double *p, const double *q)
+{
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double above = p[a] - q[3 + a];
+        const double below = q[a] - p[3 + a];
+        const double larger = above > below ? above : below;
+        const double gap = larger + fabs(larger); /* twice the positive part, without a branch */
+        sum += gap * gap;
+    }
+    return 0.25 * sum;
+}
+
+/* One number for each of the eight. */
+typedef double vec __attribute__((vector_size(MOR_CLUSTER * sizeof(double))));
+typedef int64_t mask __attribute__((vector_size(MOR_CLUSTER * sizeof(int64_t))));
+
+/* The eight source positions by component, and their box. */
+typedef struct lanes {
+    vec x, y, z;
+    double box[6];
+} lanes;
+
+static void load_lanes(const mor_relation_points *source, int64_t cluster, lanes *out)
+{
+    for (int64_t lane = 0; lane < MOR_CLUSTER; ++lane) {
+        /* The last cluster repeats its last particle. */
+        int64_t i = cluster * MOR_CLUSTER + lane;
+        i = i < source->tree->n_points ? i : source->tree->n_points - 1;
+        const double *record = source->records + i * source->stride;
+        out->x[lane] = record[0];
+        out->y[lane] = record[1];
+        out->z[lane] = record[2];
+    }
+    const vec *components[3] = {&out->x, &out->y, &out->z};
+    for (int a = 0; a < 3; ++a) {
+        out->box[a] = out->box[3 + a] = (*components[a])[0];
+        for (int lane = 1; lane < MOR_CLUSTER; ++lane) {
+            const double x = (*components[a])[lane];
+            out->box[a] = x < out->box[a] ? x : out->box[a];
+            out->box[3 + a] = x > out->box[3 + a] ? x : out->box[3 + a];
+        }
+    }
+}
+
+/* Whether one of the eight is nearer to a point than the square root of reach2. The sign bits of the differences are
+ * joined by halves: fewer steps than one comparison after another. */
+static inline bool is_seen(const lanes *eight, const double *point, double reach2)
+{
+    const vec dx = eight->x - point[0];
+    const vec dy = eight->y - point[1];
+    const vec dz = eight->z - point[2];
+    const mask seen = dx * dx + dy * dy + dz * dz < reach2;
+    return (seen[0] | seen[1] | seen[2] | seen[3] | seen[4] | seen[5] | seen[6] | seen[7]) != 0;
+}
+
+/* Appends the points of one target cluster that one of the eight sees; returns the new count. */
+static inline int64_t append_cluster(const lanes *eight, const mor_relation_points *target, int64_t cluster, double reach2,
+                              int32_t *out, int64_t room)
+{
+    const int64_t begin = cluster * MOR_CLUSTER;
+    const int64_t end = begin + MOR_CLUSTER < target->tree->n_points ? begin + MOR_CLUSTER : target->tree->n_points;
+    int64_t count = 0;
+    for (int64_t j = begin; j < end; ++j) {
+        const double *record = target->records + j * target->stride;
+        if (is_seen(eight, record, reach2)) {
+            if (count < room) {
+                out[count] = (int32_t)j;
+            }
+            ++count;
+        }
+    }
+    return count;
+}
+
+/* Lists one source cluster; returns the number of entries, of which at most room were written. */
+MOR_TARGET_CLONES
+static int64_t list_cluster(const mor_relation_points *source, const mor_relation_points *target, int64_t cluster,
+                            double reach2, int32_t *out, int64_t room)
+{
+    lanes eight;
+    load_lanes(source, cluster, &eight);
+    struct { int64_t node, begin, end; } stack[STACK];
+    int depth = 0;
+    int64_t count = 0;
+    stack[0].node = 0;
+    stack[0].begin = 0;
+    stack[depth++].end = target->tree->n_clusters;
+    while (depth > 0) {
+        --depth;
+        const int64_t node = stack[depth].node;
+        const int64_t begin = stack[depth].begin;
+        const int64_t end = stack[depth].end;
+        if (!(box_gap(eight.box, target->tree->boxes + 6 * node) < reach2)) {
+            continue;
+        }
+        if (end - begin == 1) {
+            count += append_cluster(&eight, target, begin, reach2, out + count, room - count);
+            continue;
+        }
+        /* The left half is pushed last and so visited first: lists ascend. */
+        const int64_t left = mor_tree_left(end - begin);
+        stack[depth].node = node + 2 * left;
+        stack[depth].begin = begin + left;
+        stack[depth++].end = end;
+        stack[depth].node = node + 1;
+        stack[depth].begin = begin;
+        stack[depth++].end = begin + left;
+    }
+    return count;
+}
+
+/* One attempt; used[b] becomes the entries buffer b needs, whether or not they fit. */
+static void list_all(mor_context *context, mor_relation *relation, const mor_relation_points *source,
+                     const mor_relation_points *target, int64_t *used)
+{
+    const double reach2 = relation->reach * relation->reach;
+    const int64_t share = (relation->n_clusters + relation->n_buffers - 1) / relation->n_buffers;
+    MOR_PARALLEL_FOR (context, buffer, relation->n_buffers, 1) {
+        const int64_t first = buffer * share;
+        const int64_t last = first + share < relation->n_clusters ? first + share : relation->n_clusters;
+        int64_t total = 0;
+        for (int64_t cluster = first; cluster < last; ++cluster) {
+            const int64_t room = relation->capacities[buffer] - total;
+            int32_t *out = relation->buffers[buffer] + total;
+            const int64_t count = list_cluster(source, target, cluster, reach2, out, room > 0 ? room : 0);
+            relation->lists[cluster] = out;
+            relation->counts[cluster] = (int32_t)count;
+            total += count;
+        }
+        used[buffer] = total;
+    }
+}
+
+static void find_occupied(mor_relation *relation)
+{
+    relation->n_entries = 0;
+    relation->n_occupied = 0;
+    for (int64_t cluster = 0; cluster < relation->n_clusters; ++cluster) {
+        relation->n_entries += relation->counts[cluster];
+        if (relation->counts[cluster] > 0) {
+            relation->occupied[relation->n_occupied++] = (int32_t)cluster;
+        }
+    }
+}
+
+/* Gives every buffer that was too small the room it needed and some more; says whether one was. */
+static mor_status grow_buffers(mor_context *context, mor_relation *relation, const int64_t *used, bool *has_grown)
+{
+    *has_grown = false;
+    for (int buffer = 0; buffer < relation->n_buffers; ++buffer) {
+        if (used[buffer] <= relation->capacities[buffer]) {
+            continue;
+        }
+        *has_grown = true;
+        MOR_FREE(context, &relation->buffers[buffer]);
+        relation->capacities[buffer] = 0;
+        const int64_t capacity = used[buffer] + used[buffer] / SLACK + FIRST_CAPACITY;
+        MOR_TRY(context, MOR_NEW(context, &relation->buffers[buffer], capacity, "neighbor lists"));
+        relation->capacities[buffer] = capacity;
+    }
+    return MOR_OK;
+}
+
+mor_status mor_relation_build(mor_context *context, mor_relation *relation, const mor_relation_points *source,
+                              const mor_relation_points *target, double reach)
+{
+    enum { BUFFERS_MAX = 1024 };
+    int64_t used[BUFFERS_MAX];
+    MOR_CHECK(context, relation->n_buffers <= BUFFERS_MAX, MOR_ERROR_ARGUMENT, "%d threads; at most %d are allowed",
+              relation->n_buffers, BUFFERS_MAX);
+    MOR_CHECK(context, relation->n_clusters == source->tree->n_clusters, MOR_ERROR_INTERNAL,
+              "a relation of %lld clusters was built over %lld", (long long)relation->n_clusters,
+              (long long)source->tree->n_clusters);
+    relation->reach = reach;
+    relation->n_builds += 1;
+    if (target->tree->n_clusters == 0) {
+        memset(relation->counts, 0, (size_t)relation->n_clusters * sizeof *relation->counts);
+    } else if (relation->n_clusters > 0) {
+        bool has_grown = true;
+        while (has_grown) {
+            list_all(context, relation, source, target, used);
+            MOR_TRY(context, grow_buffers(context, relation, used, &has_grown));
+        }
+    }
+    find_occupied(relation);
+    return MOR_OK;
+}

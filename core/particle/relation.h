@@ -1,0 +1,69 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_PARTICLE_RELATION_H
+#define MOR_CORE_PARTICLE_RELATION_H
+
+#include "core/particle/tree.h"
+
+#include <stdbool.h>
+
+/** @file
+ *  Who sees whom: for each cluster of eight source particles one ascending list of target particles, the union of what
+ *  the eight see within the reach. Sums must vanish beyond the support of the kernel, for the list also holds targets
+ *  that only some of the eight see. Because lists ascend and strangers add exactly zero, a particle's sum does not
+ *  depend on the reach, on when the list was built, or on threads. */
+
+/** When a relation is rebuilt. */
+typedef enum mor_configuration {
+    MOR_CONFIGURATION_CURRENT,  /* rebuilt when particles have moved half the skin */
+    MOR_CONFIGURATION_REFERENCE /* built once */
+} mor_configuration;
+
+/** One edge of the graph source set -> target set. Owner: the stepper that uses it. */
+typedef struct mor_relation {
+    mor_configuration configuration;
+    double reach;             /* targets nearer than this to one of the eight are listed, m */
+    int64_t n_clusters;       /* source clusters */
+    const int32_t **lists;    /* shape [n_clusters]; start of each cluster's list in one of the buffers */
+    int32_t *counts;          /* shape [n_clusters]; entries in each list */
+    int n_buffers;            /* one per thread */
+    int32_t **buffers;        /* shape [n_buffers] of [capacities] */
+    int64_t *capacities;      /* shape [n_buffers]; entries */
+    int64_t n_entries;        /* entries in all lists */
+    int64_t n_occupied;       /* clusters with a list that is not empty */
+    int32_t *occupied;        /* shape [n_clusters]; those clusters, ascending */
+    uint64_t n_builds;        /* how often it was built */
+} mor_relation;
+
+/** Makes an empty relation for a number of source clusters.
+ *  @param context       [in,out]  one object; the number of threads is taken now
+ *  @param relation      [out]     one object
+ *  @param configuration [in]      current or reference
+ *  @param n_clusters    [in]      clusters of the source set
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
+mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
+                             int64_t n_clusters);
+
+/** Frees what the relation owns; accepts a zeroed one.
+ *  @param context  [in,out]  one object
+ *  @param relation [in,out]  one object */
+void mor_relation_clear(mor_context *context, mor_relation *relation);
+
+/** Points in cluster order, as the build reads them. */
+typedef struct mor_relation_points {
+    const mor_tree *tree;  /* one object, fitted to the points */
+    const double *records; /* shape [n_points padded to 8, stride]; x, y, z first, unit m */
+    int stride;            /* doubles per record */
+} mor_relation_points;
+
+/** Builds the lists.
+ *  @param context  [in,out]  one object
+ *  @param relation [in,out]  one object
+ *  @param source   [in]      one object; who looks
+ *  @param target   [in]      one object; who is seen; may be the same as source (a particle then lists itself too)
+ *  @param reach    [in]      kernel support plus skin, unit m
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: O(n log n); allocates only when the buffers are too small. */
+mor_status mor_relation_build(mor_context *context, mor_relation *relation, const mor_relation_points *source,
+                              const mor_relation_points *target, double reach);
+
+#endif

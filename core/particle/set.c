@@ -1,0 +1,126 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/particle/set.h"
+
+#include "core/base/memory.h"
+#include "core/base/random.h"
+
+#include <string.h>
+
+/* Room behind the last particle, so that vector code may read whole clusters. */
+enum { PADDING = 8 };
+
+mor_status mor_set_init(mor_context *context, mor_set *set, const char *name, int64_t n_particles, uint64_t field_mask)
+{
+    memset(set, 0, sizeof *set);
+    MOR_CHECK(context, n_particles >= 0 && n_particles < INT32_MAX - 64, MOR_ERROR_ARGUMENT,
+              "a set of %lld particles was asked for; at most %d are allowed", (long long)n_particles, INT32_MAX - 64);
+    strncpy(set->name, name, sizeof set->name - 1);
+    set->n_particles = n_particles;
+    set->n_fields = MOR_FIELD_CORE_COUNT;
+    mor_status status = MOR_NEW(context, &set->id, n_particles + PADDING, "particle ids");
+    for (int field = 0; field < MOR_FIELD_CORE_COUNT && status == MOR_OK; ++field) {
+        set->fields[field] = *mor_field_core_info((mor_field_id)field);
+        if ((field_mask >> field & 1u) != 0) {
+            const int64_t n_values = (n_particles + PADDING) * set->fields[field].n_components;
+            status = MOR_NEW(context, &set->data[field], n_values, set->fields[field].name);
+        }
+    }
+    if (status != MOR_OK) {
+        mor_set_clear(context, set);
+        return status;
+    }
+    for (int64_t i = 0; i < n_particles; ++i) {
+        set->id[i] = i;
+    }
+    return MOR_OK;
+}
+
+void mor_set_clear(mor_context *context, mor_set *set)
+{
+    for (int field = 0; field < MOR_FIELDS_MAX; ++field) {
+        MOR_FREE(context, &set->data[field]);
+    }
+    MOR_FREE(context, &set->id);
+    set->n_particles = 0;
+    set->n_fields = 0;
+}
+
+mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field_info *info, int *index)
+{
+    *index = -1;
+    MOR_CHECK(context, set->n_fields < MOR_FIELDS_MAX, MOR_ERROR_ARGUMENT,
+              "set '%s' already has %d fields, the most allowed; field '%s' cannot be added", set->name, MOR_FIELDS_MAX,
+              info->name);
+    MOR_CHECK(context, mor_set_find_field(set, info->name) < 0, MOR_ERROR_ARGUMENT,
+              "field '%s' is already declared in set '%s'; rename the material's state variable", info->name,
+              set->name);
+    MOR_CHECK(context, info->n_components >= 1 && info->n_components <= 9, MOR_ERROR_ARGUMENT,
+              "field '%s' has %d components; 1 to 9 are allowed", info->name, info->n_components);
+    const int field = set->n_fields;
+    MOR_TRY(context, MOR_NEW(context, &set->data[field], (set->n_particles + PADDING) * info->n_components,
+                             "a material's state variable"));
+    set->fields[field] = *info;
+    set->n_fields += 1;
+    *index = field;
+    return MOR_OK;
+}
+
+int mor_set_find_field(const mor_set *set, const char *name)
+{
+    for (int field = 0; field < set->n_fields; ++field) {
+        if (strcmp(set->fields[field].name, name) == 0) {
+            return field;
+        }
+    }
+    return -1;
+}
+
+void mor_set_permute(mor_context *context, mor_set *set, const int32_t *order, double *scratch)
+{
+    const int64_t n = set->n_particles;
+    (void)context;
+    for (int field = 0; field < set->n_fields; ++field) {
+        double *data = set->data[field];
+        if (data == NULL || (set->fields[field].flags & MOR_FIELD_EVOLVES) == 0) {
+            continue;
+        }
+        const int n_components = set->fields[field].n_components;
+        for (int64_t i = 0; i < n; ++i) {
+            const double *from = data + (int64_t)order[i] * n_components;
+            for (int a = 0; a < n_components; ++a) {
+                scratch[i * n_components + a] = from[a];
+            }
+        }
+        memcpy(data, scratch, (size_t)(n * n_components) * sizeof *data);
+    }
+    int64_t *id_scratch = (int64_t *)scratch;
+    for (int64_t i = 0; i < n; ++i) {
+        id_scratch[i] = set->id[order[i]];
+    }
+    memcpy(set->id, id_scratch, (size_t)n * sizeof *set->id);
+    set->generation += 1;
+}
+
+uint64_t mor_set_checksum(const mor_set *set)
+{
+    /* Each number is mixed with its id and place and the results are added: wrapping addition does not depend on
+     * order, so no sort by id is needed. */
+    uint64_t sum = mor_random_mix((uint64_t)set->n_particles);
+    for (int field = 0; field < set->n_fields; ++field) {
+        const double *data = set->data[field];
+        if (data == NULL || (set->fields[field].flags & MOR_FIELD_EVOLVES) == 0) {
+            continue;
+        }
+        const int n_components = set->fields[field].n_components;
+        for (int64_t i = 0; i < set->n_particles; ++i) {
+            for (int a = 0; a < n_components; ++a) {
+                uint64_t bits = 0;
+                memcpy(&bits, &data[i * n_components + a], sizeof bits);
+                const uint64_t place = (uint64_t)set->id[i] << 10 | (uint64_t)field << 4 | (uint64_t)a;
+                sum += mor_random_mix(bits ^ mor_random_mix(place));
+            }
+        }
+    }
+    return sum;
+}

@@ -1,0 +1,68 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_PARTICLE_SET_H
+#define MOR_CORE_PARTICLE_SET_H
+
+#include "core/base/context.h"
+#include "core/particle/field.h"
+
+/** @file
+ *  A particle set: named fields in aligned arrays, one record of ids. Permuting the set permutes every evolving field.
+ *  It does not know what its particles are made of.
+ *
+ *  Fields are stored one array each, components interleaved: value a of particle i is data[i * n_components + a]. */
+
+/** One set. Invariant between calls: every declared field has room for n_particles particles, ids are unique.
+ *  Owner: the run. Field pointers are borrowed until the next resize or permute, which raise `generation`. */
+typedef struct mor_set {
+    char name[MOR_FIELD_NAME_BYTES];
+    int64_t n_particles;                  /* number of particles */
+    int n_fields;                         /* declared fields; the built-in ones come first */
+    mor_field_info fields[MOR_FIELDS_MAX]; /* shape [n_fields] */
+    double *data[MOR_FIELDS_MAX];         /* shape [n_fields] of [n_particles, n_components]; NULL for unused fields */
+    int64_t *id;                          /* shape [n_particles]; number given at creation, unchanged by sorting */
+    uint64_t generation;                  /* raised by every resize or permute */
+} mor_set;
+
+/** Makes a set with the given built-in fields.
+ *  @param context     [in,out]  one object
+ *  @param set         [out]     one object; storage supplied by the caller
+ *  @param name        [in]      zero-terminated; copied
+ *  @param n_particles [in]      number of particles, >= 0; ids become 0 .. n_particles - 1
+ *  @param field_mask  [in]      bit (1 << mor_field_id) set for each built-in field to have
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY.
+ *  Cost: allocates. */
+mor_status mor_set_init(mor_context *context, mor_set *set, const char *name, int64_t n_particles, uint64_t field_mask);
+
+/** Frees everything the set owns; accepts a zeroed or half-made set.
+ *  @param context [in,out]  one object
+ *  @param set     [in,out]  one object */
+void mor_set_clear(mor_context *context, mor_set *set);
+
+/** Adds a field declared by a material or a body; its values are zero.
+ *  @param context [in,out]  one object
+ *  @param set     [in,out]  one object
+ *  @param info    [in]      one object; copied
+ *  @param index   [out]     one number; the index of the field in set->data
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when the name is taken or the table is full; MOR_ERROR_MEMORY. */
+mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field_info *info, int *index);
+
+/** Returns the index of a field by name, or -1.
+ *  @param set  [in]  one object
+ *  @param name [in]  zero-terminated */
+int mor_set_find_field(const mor_set *set, const char *name);
+
+/** Reorders the particles: new place i holds what was at order[i]. Scratch fields are left as they are.
+ *  @param context [in,out]  one object
+ *  @param set     [in,out]  one object
+ *  @param order   [in]      shape [n_particles]; a permutation of 0 .. n_particles - 1
+ *  @param scratch [in,out]  shape [9 * n_particles]; overwritten
+ *  Gives: generation + 1. Cost: O(n), allocates nothing. */
+void mor_set_permute(mor_context *context, mor_set *set, const int32_t *order, double *scratch);
+
+/** Returns a 64-bit hash of all evolving fields, bit patterns in particle-id order.
+ *  @param set [in]  one object
+ *  Returns: the same value for the same state in any particle order and for any number of threads. */
+uint64_t mor_set_checksum(const mor_set *set);
+
+#endif

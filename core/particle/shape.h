@@ -1,0 +1,39 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_PARTICLE_SHAPE_H
+#define MOR_CORE_PARTICLE_SHAPE_H
+
+#include "core/base/context.h"
+
+#include <stdbool.h>
+
+/** @file
+ *  The signed-distance contract that soil regions, walls and meshes share, and the analytic shapes. Distances are
+ *  negative inside. A shape is a small tree owned by its root. */
+
+typedef struct mor_shape mor_shape;
+
+/** Axis-aligned bounds; a component is -INFINITY or INFINITY where the shape is unbounded. */
+typedef struct mor_bounds {
+    double minimum[3]; /* shape [3], unit m */
+    double maximum[3]; /* shape [3], unit m */
+} mor_bounds;
+
+/** What a shape can do. One constant table per kind. */
+typedef struct mor_shape_operations {
+    const char *kind; /* word used in messages */
+    /** Signed distance [m] from point, shape [3], unit m: negative inside. Exact near the surface; for differences and
+     *  unions a lower bound of the magnitude elsewhere. Safe to call concurrently. */
+    double (*distance)(const mor_shape *shape, const double *point);
+    /** Writes the bounds of the inside. */
+    void (*bounds)(const mor_shape *shape, mor_bounds *bounds);
+    /** Frees what the shape owns, children included, and the shape itself. */
+    void (*free)(mor_context *context, mor_shape *shape);
+} mor_shape_operations;
+
+/** Base of every shape; a concrete shape has it as first member. */
+struct mor_shape {
+    const mor_shape_operations *operations; /* never NULL */
+};
+
+#endif

@@ -1,0 +1,228 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/particle/shape_analytic.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/particle/shape_check.h"
+
+#include <float.h>
+#include <string.h>
+
+typedef struct union_shape {
+    mor_shape base;
+    int n_parts;
+    mor_shape **parts; /* shape [n_parts]; owned, as what they point to */
+} union_shape;
+
+typedef struct difference_shape {
+    mor_shape base;
+    mor_shape *from;  /* owned */
+    mor_shape *minus; /* owned */
+} difference_shape;
+
+typedef struct placed_shape {
+    mor_shape base;
+    mor_shape *child; /* owned */
+    double turn[9];
+    double move[3];
+} placed_shape;
+
+static double union_distance(const mor_shape *shape, const double *point)
+{
+    const union_shape *whole = (const union_shape *)shape;
+    double nearest = INFINITY;
+    for (int i = 0; i < whole->n_parts; ++i) {
+        nearest = fmin(nearest, mor_shape_distance(whole->parts[i], point));
+    }
+    return nearest;
+}
+
+static void union_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    const union_shape *whole = (const union_shape *)shape;
+    mor_shape_bounds(whole->parts[0], bounds);
+    for (int i = 1; i < whole->n_parts; ++i) {
+        mor_bounds part;
+        mor_shape_bounds(whole->parts[i], &part);
+        for (int a = 0; a < 3; ++a) {
+            bounds->minimum[a] = fmin(bounds->minimum[a], part.minimum[a]);
+            bounds->maximum[a] = fmax(bounds->maximum[a], part.maximum[a]);
+        }
+    }
+}
+
+static void union_free(mor_context *context, mor_shape *shape)
+{
+    union_shape *whole = (union_shape *)shape;
+    for (int i = 0; i < whole->n_parts; ++i) {
+        mor_shape_free(context, &whole->parts[i]);
+    }
+    MOR_FREE(context, &whole->parts);
+    MOR_FREE(context, &whole);
+}
+
+static double difference_distance(const mor_shape *shape, const double *point)
+{
+    const difference_shape *rest = (const difference_shape *)shape;
+    return fmax(mor_shape_distance(rest->from, point), -mor_shape_distance(rest->minus, point));
+}
+
+static void difference_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    mor_shape_bounds(((const difference_shape *)shape)->from, bounds);
+}
+
+static void difference_free(mor_context *context, mor_shape *shape)
+{
+    difference_shape *rest = (difference_shape *)shape;
+    mor_shape_free(context, &rest->from);
+    mor_shape_free(context, &rest->minus);
+    MOR_FREE(context, &rest);
+}
+
+static double placed_distance(const mor_shape *shape, const double *point)
+{
+    const placed_shape *placed = (const placed_shape *)shape;
+    const double offset[3] = {point[0] - placed->move[0], point[1] - placed->move[1], point[2] - placed->move[2]};
+    double local[3];
+    mor_matrix_apply_transposed(placed->turn, offset, local);
+    return mor_shape_distance(placed->child, local);
+}
+
+static void placed_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    const placed_shape *placed = (const placed_shape *)shape;
+    mor_bounds child;
+    mor_shape_bounds(placed->child, &child);
+    for (int a = 0; a < 3; ++a) {
+        bounds->minimum[a] = placed->move[a];
+        bounds->maximum[a] = placed->move[a];
+        for (int b = 0; b < 3; ++b) {
+            const double part = placed->turn[3 * a + b];
+            /* Zero times infinity would be NaN: a direction that does not contribute is left out. */
+            if (part != 0.0) {
+                bounds->minimum[a] += part * (part > 0.0 ? child.minimum[b] : child.maximum[b]);
+                bounds->maximum[a] += part * (part > 0.0 ? child.maximum[b] : child.minimum[b]);
+            }
+        }
+    }
+}
+
+static void placed_free(mor_context *context, mor_shape *shape)
+{
+    placed_shape *placed = (placed_shape *)shape;
+    mor_shape_free(context, &placed->child);
+    MOR_FREE(context, &placed);
+}
+
+static const mor_shape_operations union_operations = {"union", union_distance, union_bounds, union_free};
+static const mor_shape_operations difference_operations = {"difference", difference_distance, difference_bounds,
+                                                           difference_free};
+static const mor_shape_operations placed_operations = {"placed", placed_distance, placed_bounds, placed_free};
+
+mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_parts, mor_shape **shape)
+{
+    *shape = NULL;
+    MOR_CHECK(context, parts != NULL && n_parts >= 1, MOR_ERROR_ARGUMENT,
+              "the union has %d parts: give at least one shape", n_parts);
+    for (int i = 0; i < n_parts; ++i) {
+        MOR_CHECK(context, parts[i] != NULL, MOR_ERROR_ARGUMENT, "part %d of %d of the union is missing: give a shape",
+                  i + 1, n_parts);
+        for (int j = 0; j < i; ++j) {
+            MOR_CHECK(context, parts[i] != parts[j], MOR_ERROR_ARGUMENT,
+                      "parts %d and %d of the union are the same object: make one shape for each", j + 1, i + 1);
+        }
+    }
+    union_shape *whole = NULL;
+    MOR_TRY(context, MOR_NEW(context, &whole, 1, "union"));
+    const mor_status status = MOR_NEW(context, &whole->parts, n_parts, "parts of a union");
+    if (status != MOR_OK) {
+        MOR_FREE(context, &whole);
+        return mor_context_pass(context, status, MOR_HERE);
+    }
+    whole->base.operations = &union_operations;
+    whole->n_parts = n_parts;
+    for (int i = 0; i < n_parts; ++i) {
+        whole->parts[i] = parts[i];
+        parts[i] = NULL;
+    }
+    *shape = &whole->base;
+    return MOR_OK;
+}
+
+mor_status mor_shape_new_difference(mor_context *context, mor_shape **from, mor_shape **minus, mor_shape **shape)
+{
+    *shape = NULL;
+    MOR_CHECK(context, from != NULL && *from != NULL && minus != NULL && *minus != NULL, MOR_ERROR_ARGUMENT,
+              "the difference needs two shapes: the one to cut from and the one to cut away");
+    MOR_CHECK(context, *from != *minus, MOR_ERROR_ARGUMENT,
+              "the difference of a shape and itself is empty: make two shapes");
+    difference_shape *rest = NULL;
+    MOR_TRY(context, MOR_NEW(context, &rest, 1, "difference"));
+    rest->base.operations = &difference_operations;
+    rest->from = *from;
+    rest->minus = *minus;
+    *from = NULL;
+    *minus = NULL;
+    *shape = &rest->base;
+    return MOR_OK;
+}
+
+mor_status mor_shape_new_placed(mor_context *context, const double *turn, const double *move, mor_shape **child,
+                                mor_shape **shape)
+{
+    *shape = NULL;
+    MOR_CHECK(context, child != NULL && *child != NULL, MOR_ERROR_ARGUMENT,
+              "there is nothing to move or turn: give a shape");
+    MOR_TRY(context, mor_shape_check_turn(context, turn));
+    MOR_TRY(context, mor_shape_check_vector(context, move, "the move"));
+    placed_shape *placed = NULL;
+    MOR_TRY(context, MOR_NEW(context, &placed, 1, "placed shape"));
+    placed->base.operations = &placed_operations;
+    memcpy(placed->turn, turn, sizeof placed->turn);
+    memcpy(placed->move, move, sizeof placed->move);
+    placed->child = *child;
+    *child = NULL;
+    *shape = &placed->base;
+    return MOR_OK;
+}
+
+mor_status mor_shape_new_translate(mor_context *context, const double *move, mor_shape **child, mor_shape **shape)
+{
+    const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    MOR_TRY(context, mor_shape_new_placed(context, identity, move, child, shape));
+    return MOR_OK;
+}
+
+/* A quarter turn by a rounded angle leaves 6e-17 where 0 is meant: that would make bounds infinite. */
+static void snap_matrix(double *matrix)
+{
+    for (int i = 0; i < 9; ++i) {
+        const double whole = round(matrix[i]);
+        if (fabs(matrix[i] - whole) < 4.0 * DBL_EPSILON) {
+            matrix[i] = whole;
+        }
+    }
+}
+
+mor_status mor_shape_new_rotate(mor_context *context, const double *axis, double angle, const double *center,
+                                mor_shape **child, mor_shape **shape)
+{
+    *shape = NULL;
+    double unit[3];
+    MOR_TRY(context, mor_shape_check_direction(context, axis, "the axis of the rotation", unit));
+    MOR_TRY(context, mor_shape_check_vector(context, center, "the center of the rotation"));
+    MOR_CHECK(context, isfinite(angle), MOR_ERROR_ARGUMENT, "the angle of the rotation is %g rad: give a finite angle",
+              angle);
+    double turn[9];
+    double move[3];
+    mor_matrix_rotation(unit, angle, turn);
+    snap_matrix(turn);
+    mor_matrix_apply(turn, center, move);
+    for (int a = 0; a < 3; ++a) {
+        move[a] = center[a] - move[a];
+    }
+    MOR_TRY(context, mor_shape_new_placed(context, turn, move, child, shape));
+    return MOR_OK;
+}

@@ -1,0 +1,186 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/particle/tree.h"
+
+#include "core/base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Enough for the pending halves of 2^31 points. */
+enum { STACK = 64 };
+
+
+mor_status mor_tree_init(mor_context *context, mor_tree *tree, int64_t n_points)
+{
+    memset(tree, 0, sizeof *tree);
+    tree->n_points = n_points;
+    tree->n_clusters = (n_points + MOR_CLUSTER - 1) / MOR_CLUSTER;
+    const int64_t n_nodes = tree->n_clusters > 0 ? 2 * tree->n_clusters - 1 : 0;
+    return MOR_NEW(context, &tree->boxes, 6 * n_nodes, "bounding boxes of particle clusters");
+}
+
+void mor_tree_clear(mor_context *context, mor_tree *tree)
+{
+    MOR_FREE(context, &tree->boxes);
+    memset(tree, 0, sizeof *tree);
+}
+
+/* Where a coordinate of the point named at a place of the order is found. */
+typedef struct view {
+    const double *points;
+    int stride;
+    int axis;
+} view;
+
+static int is_before(const view *v, int32_t a, int32_t b)
+{
+    const double x = v->points[(int64_t)a * v->stride + v->axis];
+    const double y = v->points[(int64_t)b * v->stride + v->axis];
+    return x < y || (x == y && a < b);
+}
+
+static void swap_places(int32_t *order, int64_t a, int64_t b)
+{
+    const int32_t kept = order[a];
+    order[a] = order[b];
+    order[b] = kept;
+}
+
+/* Moves the median of three to the middle, where the partition expects its pivot. */
+static void order_three(const view *v, int32_t *order, int64_t low, int64_t middle, int64_t high)
+{
+    if (is_before(v, order[middle], order[low])) {
+        swap_places(order, middle, low);
+    }
+    if (is_before(v, order[high], order[low])) {
+        swap_places(order, high, low);
+    }
+    if (is_before(v, order[high], order[middle])) {
+        swap_places(order, high, middle);
+    }
+}
+
+/* Quickselect: places [low, nth) then hold what comes before, [nth, high] the rest. */
+static void select_nth(const view *v, int32_t *order, int64_t low, int64_t high, int64_t nth)
+{
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        order_three(v, order, low, middle, high);
+        const int32_t pivot = order[middle];
+        int64_t i = low;
+        int64_t j = high;
+        while (i <= j) {
+            while (is_before(v, order[i], pivot)) {
+                ++i;
+            }
+            while (is_before(v, pivot, order[j])) {
+                --j;
+            }
+            if (i <= j) {
+                swap_places(order, i, j);
+                ++i;
+                --j;
+            }
+        }
+        if (nth <= j) {
+            high = j;
+        } else if (nth >= i) {
+            low = i;
+        } else {
+            return;
+        }
+    }
+}
+
+static int longest_axis(const double *points, int stride, const int32_t *order, int64_t begin, int64_t end)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t place = begin; place < end; ++place) {
+        const double *point = points + (int64_t)order[place] * stride;
+        for (int a = 0; a < 3; ++a) {
+            low[a] = point[a] < low[a] ? point[a] : low[a];
+            high[a] = point[a] > high[a] ? point[a] : high[a];
+        }
+    }
+    int axis = 0;
+    for (int a = 1; a < 3; ++a) {
+        axis = high[a] - low[a] > high[axis] - low[axis] ? a : axis;
+    }
+    return axis;
+}
+
+void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order)
+{
+    for (int64_t place = 0; place < n_points; ++place) {
+        order[place] = (int32_t)place;
+    }
+    struct { int64_t begin, end; } stack[STACK];
+    int depth = 0;
+    stack[depth].begin = 0;
+    stack[depth++].end = (n_points + MOR_CLUSTER - 1) / MOR_CLUSTER;
+    while (depth > 0) {
+        --depth;
+        const int64_t begin = stack[depth].begin;
+        const int64_t end = stack[depth].end;
+        if (end - begin < 2) {
+            continue;
+        }
+        const int64_t middle = begin + mor_tree_left(end - begin);
+        const int64_t last = end * MOR_CLUSTER < n_points ? end * MOR_CLUSTER : n_points;
+        const view v = {points, stride, longest_axis(points, stride, order, begin * MOR_CLUSTER, last)};
+        select_nth(&v, order, begin * MOR_CLUSTER, last - 1, middle * MOR_CLUSTER);
+        stack[depth].begin = begin;
+        stack[depth++].end = middle;
+        stack[depth].begin = middle;
+        stack[depth++].end = end;
+    }
+}
+
+static void fit_cluster(const mor_tree *tree, const double *points, int stride, int64_t cluster, double *box)
+{
+    const int64_t begin = cluster * MOR_CLUSTER;
+    const int64_t end = begin + MOR_CLUSTER < tree->n_points ? begin + MOR_CLUSTER : tree->n_points;
+    for (int a = 0; a < 3; ++a) {
+        box[a] = INFINITY;
+        box[3 + a] = -INFINITY;
+    }
+    for (int64_t i = begin; i < end; ++i) {
+        for (int a = 0; a < 3; ++a) {
+            const double x = points[i * stride + a];
+            box[a] = x < box[a] ? x : box[a];
+            box[3 + a] = x > box[3 + a] ? x : box[3 + a];
+        }
+    }
+}
+
+static void join_boxes(const double *left, const double *right, double *box)
+{
+    for (int a = 0; a < 3; ++a) {
+        box[a] = left[a] < right[a] ? left[a] : right[a];
+        box[3 + a] = left[3 + a] > right[3 + a] ? left[3 + a] : right[3 + a];
+    }
+}
+
+/* Depth is at most 31, so recursion is safe. */
+static void fit_node(mor_tree *tree, const double *points, int stride, int64_t node, int64_t begin, int64_t end)
+{
+    double *box = tree->boxes + 6 * node;
+    if (end - begin == 1) {
+        fit_cluster(tree, points, stride, begin, box);
+        return;
+    }
+    const int64_t left = mor_tree_left(end - begin);
+    fit_node(tree, points, stride, node + 1, begin, begin + left);
+    fit_node(tree, points, stride, node + 2 * left, begin + left, end);
+    join_boxes(tree->boxes + 6 * (node + 1), tree->boxes + 6 * (node + 2 * left), box);
+}
+
+void mor_tree_fit(mor_context *context, mor_tree *tree, const double *points, int stride)
+{
+    (void)context;
+    if (tree->n_clusters > 0) {
+        fit_node(tree, points, stride, 0, 0, tree->n_clusters);
+    }
+}

@@ -1,0 +1,61 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_PARTICLE_TREE_H
+#define MOR_CORE_PARTICLE_TREE_H
+
+#include "core/base/context.h"
+
+#include <stdint.h>
+
+/** @file
+ *  Clusters of eight particles and the tree of their bounding boxes. Splitting the longest side of the box at a
+ *  multiple of eight again and again gives compact clusters, which share one neighbor list (core/particle/relation.h).
+ *  The tree's shape depends only on the number of clusters, so refitting it to moved particles is one sweep. */
+
+enum {
+    MOR_CLUSTER = 8 /* particles per cluster: one 512-bit register of doubles */
+};
+
+/** Boxes of a tree in depth-first order: the left child of node k is k + 1, the right child is
+ *  k + 2 * (clusters of the left child). Owner: whoever called mor_tree_init. */
+typedef struct mor_tree {
+    int64_t n_points;   /* points covered */
+    int64_t n_clusters; /* ceil(n_points / 8) */
+    double *boxes;      /* shape [2 * n_clusters - 1, 6]; minimum and maximum corner, unit m */
+} mor_tree;
+
+/** Makes a tree for a number of points.
+ *  @param context  [in,out]  one object
+ *  @param tree     [out]     one object
+ *  @param n_points [in]      number of points, >= 0
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
+mor_status mor_tree_init(mor_context *context, mor_tree *tree, int64_t n_points);
+
+/** Frees what the tree owns; accepts a zeroed tree.
+ *  @param context [in,out]  one object
+ *  @param tree    [in,out]  one object */
+void mor_tree_clear(mor_context *context, mor_tree *tree);
+
+/** Finds an order in which every eight consecutive points form a compact cluster. Equal coordinates are told apart by
+ *  place, so the order is a pure function of the points in their present order.
+ *  @param points   [in]      shape [n_points, stride]; the first three numbers of a record are x, y, z; unit m
+ *  @param stride   [in]      doubles per record, >= 3
+ *  @param n_points [in]      number of points
+ *  @param order    [out]     shape [n_points]; the point that belongs at each place
+ *  Cost: O(n log n), allocates nothing. */
+void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order);
+
+/** Fits the boxes to the points, which must lie in tree order.
+ *  @param context [in]      one object; its number of threads is used
+ *  @param tree    [in,out]  one object
+ *  @param points  [in]      shape [n_points, stride]; unit m
+ *  @param stride  [in]      doubles per record, >= 3 */
+void mor_tree_fit(mor_context *context, mor_tree *tree, const double *points, int stride);
+
+/** Number of clusters in the left child of a node with n_clusters >= 2 clusters, 1. */
+static inline int64_t mor_tree_left(int64_t n_clusters)
+{
+    return n_clusters / 2;
+}
+
+#endif

@@ -1,0 +1,482 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Compiled once per instruction set; MOR_ISA is its name. */
+#include "core/base/math.h"
+#include "core/sph/pair.h"
+
+#include <math.h>
+#include <string.h>
+
+#ifndef MOR_ISA
+#define MOR_ISA baseline
+#endif
+#define MOR_JOIN_(a, b) a##b
+#define MOR_JOIN(a, b) MOR_JOIN_(a, b)
+#define MOR_TEXT_(a) #a
+#define MOR_TEXT(a) MOR_TEXT_(a)
+
+/* Numbers in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others, so
+ * that a particle's sums do not depend on the width. */
+#if defined(__AVX512F__)
+#define LANES 8
+#elif defined(__AVX__)
+#define LANES 4
+#else
+#define LANES 2
+#endif
+enum { PARTS = MOR_CLUSTER / LANES };
+
+/* One number for each of LANES particles. */
+typedef double vec __attribute__((vector_size(LANES * sizeof(double))));
+typedef int64_t mask __attribute__((vector_size(LANES * sizeof(int64_t))));
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE vec spread(double a)
+{
+    return a - (vec){0.0};
+}
+
+INLINE vec pick(mask where, vec a, vec b)
+{
+    return (vec)(((mask)a & where) | ((mask)b & ~where));
+}
+
+INLINE vec positive_part(vec a)
+{
+    return (vec)((mask)a & (a > 0.0));
+}
+
+INLINE vec smaller(vec a, vec b)
+{
+    return pick(a < b, a, b);
+}
+
+INLINE vec magnitude(vec a)
+{
+    return (vec)((mask)a & INT64_MAX);
+}
+
+INLINE vec square_root(vec a)
+{
+    vec root;
+    for (int lane = 0; lane < LANES; ++lane) {
+        root[lane] = sqrt(a[lane]);
+    }
+    return root;
+}
+
+/* One component of consecutive records. */
+INLINE vec load(const double *records, int stride, int component)
+{
+    vec a;
+    for (int lane = 0; lane < LANES; ++lane) {
+        a[lane] = records[lane * stride + component];
+    }
+    return a;
+}
+
+INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
+{
+    for (int lane = 0; lane < n_lanes; ++lane) {
+        out[lane * stride + component] = a[lane];
+    }
+}
+
+/* Lanes from a first particle on that hold particles of the set. */
+INLINE int lanes_of(int64_t first, int64_t n_particles)
+{
+    const int64_t left = n_particles - first;
+    return left < LANES ? (left > 0 ? (int)left : 0) : LANES;
+}
+
+/* Where a cluster is and the constants of the kernel. */
+typedef struct frame {
+    vec x[3];
+    double half_inverse_h; /* 1 / (2 h) */
+    double tiny;           /* added to squared distances so that nothing divides by zero; vanishes beside h^2 */
+} frame;
+
+INLINE frame frame_of(const mor_pair_constants *constants, const double *records, int stride)
+{
+    const double h = constants->smoothing_length;
+    return (frame){{load(records, stride, 0), load(records, stride, 1), load(records, stride, 2)},
+                   0.5 / h,
+                   h * h * 0x1p-100};
+}
+
+/* Separation of a pair. */
+typedef struct pair {
+    vec r[3];      /* r_i - r_j, m */
+    vec distance2; /* |r|^2 + tiny */
+    vec distance;
+    vec reach; /* 1 - q/2 inside the support, 0 outside */
+} pair;
+
+INLINE pair pair_of(const frame *f, const double *target, const int dimension)
+{
+    pair p;
+    p.r[0] = f->x[0] - target[0];
+    p.r[1] = f->x[1] - target[1];
+    p.distance2 = p.r[0] * p.r[0] + p.r[1] * p.r[1];
+    p.r[2] = spread(0.0);
+    if (dimension == 3) {
+        p.r[2] = f->x[2] - target[2];
+        p.distance2 += p.r[2] * p.r[2];
+    }
+    p.distance2 += f->tiny;
+    p.distance = square_root(p.distance2);
+    p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
+    return p;
+}
+
+INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
+{
+    const vec sum = a * p->r[0] + b * p->r[1];
+    return dimension == 3 ? sum + c * p->r[2] : sum;
+}
+
+/* Closing speeds on which the limiter acts, eq. 23. */
+INLINE vec limited_speed(vec closing, const mor_dissipation mode)
+{
+    if (mode == MOR_DISSIPATION_SEPARATION) {
+        return positive_part(-closing);
+    }
+    return mode == MOR_DISSIPATION_APPROACH ? positive_part(closing) : magnitude(closing);
+}
+
+/* What the momentum loop keeps of its own eight particles, and its sums. */
+typedef struct momentum {
+    vec v[3], impedance, pressure; /* own state */
+    vec force[3];                  /* sum k (stress_j + 2 extra) r */
+    vec weight[3];                 /* sum k r */
+    vec spread_stress[6];          /* sum kd stress_j */
+    vec spread_weight;             /* sum kd */
+    vec spread_height;             /* sum kd (g . r) */
+} momentum;
+
+INLINE void add_stress(momentum *m, const pair *p, vec k, vec extra, const double *s, const int dimension)
+{
+    const vec kr[3] = {k * p->r[0], k * p->r[1], k * p->r[2]};
+    m->weight[0] += kr[0];
+    m->weight[1] += kr[1];
+    m->force[0] += kr[0] * (s[MOR_XX] + extra) + kr[1] * s[MOR_XY];
+    m->force[1] += kr[1] * (s[MOR_YY] + extra) + kr[0] * s[MOR_XY];
+    if (dimension == 3) {
+        m->weight[2] += kr[2];
+        m->force[0] += kr[2] * s[MOR_ZX];
+        m->force[1] += kr[2] * s[MOR_YZ];
+        m->force[2] += kr[0] * s[MOR_ZX] + kr[1] * s[MOR_YZ] + kr[2] * (s[MOR_ZZ] + extra);
+    }
+}
+
+INLINE void add_diffusion(momentum *m, const pair *p, const mor_pair_constants *c, vec kd, const double *s)
+{
+    for (int a = 0; a < 6; ++a) {
+        m->spread_stress[a] += kd * s[a];
+    }
+    m->spread_weight += kd;
+    m->spread_height += kd * (p->r[0] * c->gravity_direction[0] + p->r[1] * c->gravity_direction[1] +
+                              p->r[2] * c->gravity_direction[2]);
+}
+
+/* f^n (R_i + R_j) r, eq. 27. The power is taken lane by lane and only where the pair is under tension. */
+INLINE void add_artificial(momentum *m, const pair *p, const mor_pair_constants *c, vec k, const double *own,
+                           const double *other, const int dimension)
+{
+    vec ratio = p->reach * p->reach;
+    ratio = ratio * ratio * (4.0 * (1.0 - p->reach) + 1.0) * (c->kernel_normalization / c->spacing_kernel);
+    vec power;
+    for (int lane = 0; lane < LANES; ++lane) {
+        power[lane] = ratio[lane] > 0.0 ? pow(ratio[lane], c->artificial_exponent) : 0.0;
+    }
+    vec s[6];
+    for (int a = 0; a < 6; ++a) {
+        s[a] = (load(own, 6, a) + other[a]) * power;
+    }
+    m->force[0] += k * dot_r(p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], dimension);
+    m->force[1] += k * dot_r(p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], dimension);
+    if (dimension == 3) {
+        m->force[2] += k * dot_r(p, s[MOR_ZX], s[MOR_YZ], s[MOR_ZZ], dimension);
+    }
+}
+
+INLINE void momentum_pair(momentum *m, const frame *f, const mor_pair_constants *c, const double *target,
+                          vec *k_out, pair *p_out, const int dimension, const mor_dissipation mode, const int diffuses)
+{
+    const pair p = pair_of(f, target, dimension);
+    const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+    const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
+    const double h = c->smoothing_length;
+    const vec regular = p.distance2 + 0.01 * h * h;
+    /* Division is slow: one serves all three quotients. */
+    const vec product = p.distance * impedance_sum;
+    const vec inverse = 1.0 / (product * regular);
+    const vec inverse_sum = inverse * p.distance * regular;
+    const vec inverse_distance = inverse * impedance_sum * regular;
+    const vec *v = m->v;
+    const vec closing = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], dimension) * inverse_distance;
+    const vec limiter = smaller(limited_speed(closing, mode) * c->limiter_rate, spread(1.0));
+    /* Twice (mean pressure - P*), eq. 20. */
+    const vec pressure_part =
+        (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]) * inverse_sum;
+    const vec reduced = m->impedance * target[MOR_RECORD_IMPEDANCE] * inverse_sum;
+    const vec extra = pressure_part - 2.0 * limiter * reduced * closing;
+    add_stress(m, &p, k, extra, target + MOR_RECORD_STRESS, dimension);
+    if (diffuses) {
+        add_diffusion(m, &p, c, k * p.distance2 * (inverse * product), target + MOR_RECORD_STRESS);
+    }
+    *k_out = k;
+    *p_out = p;
+}
+
+INLINE void momentum_finish(const momentum *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                            int64_t first, const int dimension, const int diffuses)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const int n_lanes = lanes_of(first, arrays->n_particles);
+    vec s[6];
+    for (int a = 0; a < 6; ++a) {
+        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
+    }
+    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    const vec *w = m->weight;
+    double *out = arrays->acceleration + first * 3;
+    store(out, 3, 0, n_lanes, factor * (m->force[0] + s[MOR_XX] * w[0] + s[MOR_XY] * w[1] + s[MOR_ZX] * w[2]));
+    store(out, 3, 1, n_lanes, factor * (m->force[1] + s[MOR_XY] * w[0] + s[MOR_YY] * w[1] + s[MOR_YZ] * w[2]));
+    if (dimension == 3) {
+        store(out, 3, 2, n_lanes, factor * (m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]));
+    } else {
+        store(out, 3, 2, n_lanes, spread(0.0));
+    }
+    if (diffuses) {
+        const double rate = -c->gradient_factor * c->diffusion_rate;
+        for (int a = 0; a < 6; ++a) {
+            /* Height is -g . r, hence the plus. */
+            const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * m->spread_height;
+            store(arrays->stress_diffusion + first * 6, 6, a, n_lanes, rate * sum);
+        }
+    }
+}
+
+INLINE void momentum_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                          const int dimension, const mor_dissipation mode, const int diffuses, const int artificial)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    momentum m;
+    memset(&m, 0, sizeof m);
+    for (int a = 0; a < 3; ++a) {
+        m.v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
+    }
+    m.impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
+    m.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
+    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
+    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const int64_t j = list[entry];
+        vec k;
+        pair p;
+        momentum_pair(&m, &f, c, arrays->records + j * MOR_RECORD_SIZE, &k, &p, dimension, mode, diffuses);
+        if (artificial) {
+            add_artificial(&m, &p, c, k, arrays->artificial_stress + first * 6,
+                           arrays->artificial_stress + j * 6, dimension);
+        }
+    }
+    momentum_finish(&m, c, arrays, first, dimension, diffuses);
+}
+
+/* The choices are hoisted out of the loops: each combination is its own copy of the inlined body. */
+INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                           const int dimension)
+{
+    const int diffuses = c->diffusion_rate > 0.0;
+    const int artificial = c->has_artificial_stress;
+#define MOR_MOMENTUM_CASE(mode, diffusion, tension)                                                                    \
+    if (c->dissipation == (mode) && diffuses == (diffusion) && artificial == (tension)) {                              \
+        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
+            momentum_part(c, arrays, part * LANES, dimension, mode, diffusion, tension);                               \
+        }                                                                                                              \
+    }
+#define MOR_MOMENTUM_MODES(diffusion, tension)                                                                         \
+    MOR_MOMENTUM_CASE(MOR_DISSIPATION_SEPARATION, diffusion, tension)                                                  \
+    MOR_MOMENTUM_CASE(MOR_DISSIPATION_APPROACH, diffusion, tension)                                                    \
+    MOR_MOMENTUM_CASE(MOR_DISSIPATION_BOTH, diffusion, tension)
+    MOR_MOMENTUM_MODES(0, 0)
+    MOR_MOMENTUM_MODES(0, 1)
+    MOR_MOMENTUM_MODES(1, 0)
+    MOR_MOMENTUM_MODES(1, 1)
+}
+
+static void momentum_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    momentum_range(c, arrays, first, last, 2);
+}
+
+static void momentum_3d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    momentum_range(c, arrays, first, last, 3);
+}
+
+/* What the gradient loop keeps of its own eight particles, and its sums. */
+typedef struct gradient {
+    vec v[3], impedance, pressure; /* own state */
+    vec moment[9];                 /* sum k v_j (x) r */
+    vec weight[3];                 /* sum k r */
+    vec rate;                      /* sum k t (v_i - v_j) . r */
+} gradient;
+
+INLINE void gradient_pair(gradient *g, const frame *f, const double *target, const int dimension, const int pressure)
+{
+    const pair p = pair_of(f, target, dimension);
+    const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+    /* Share of the closing speed that v_i - v* takes, doubled, eqs. 15 and 19. */
+    const vec inverse_sum = 1.0 / (g->impedance + target[MOR_RECORD_IMPEDANCE]);
+    const vec share = 2.0 * target[MOR_RECORD_IMPEDANCE] * inverse_sum;
+    for (int b = 0; b < dimension; ++b) {
+        const vec kr = k * p.r[b];
+        g->weight[b] += kr;
+        for (int a = 0; a < dimension; ++a) {
+            g->moment[3 * a + b] += kr * target[MOR_RECORD_VELOCITY + a];
+        }
+    }
+    const vec *v = g->v;
+    g->rate += k * share * dot_r(&p, v[0] - target[4], v[1] - target[5], v[2] - target[6], dimension);
+    if (pressure) {
+        g->rate += k * 2.0 * inverse_sum * (g->pressure - target[MOR_RECORD_PRESSURE]) * p.distance;
+    }
+}
+
+INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                          const int dimension, const int pressure)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    gradient g;
+    memset(&g, 0, sizeof g);
+    for (int a = 0; a < 3; ++a) {
+        g.v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
+    }
+    g.impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
+    g.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
+    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
+    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        gradient_pair(&g, &f, arrays->records + (int64_t)list[entry] * MOR_RECORD_SIZE, dimension, pressure);
+    }
+    const int n_lanes = lanes_of(first, arrays->n_particles);
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            /* Exactly zero out of the plane, where both sums are zero. */
+            const vec sum = -c->gradient_factor * (g.moment[3 * a + b] - g.v[a] * g.weight[b]);
+            store(arrays->velocity_gradient + first * 9, 9, 3 * a + b, n_lanes, sum);
+        }
+    }
+    const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    store(arrays->density_rate + first, 1, 0, n_lanes, -c->gradient_factor * density * g.rate);
+}
+
+INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                           const int dimension)
+{
+    if (c->has_pressure_term) {
+        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+            gradient_part(c, arrays, part * LANES, dimension, 1);
+        }
+    } else {
+        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+            gradient_part(c, arrays, part * LANES, dimension, 0);
+        }
+    }
+}
+
+static void gradient_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    gradient_range(c, arrays, first, last, 2);
+}
+
+static void gradient_3d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    gradient_range(c, arrays, first, last, 3);
+}
+
+INLINE void kernel_part(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first, double *out)
+{
+    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    vec sums[MOR_KERNEL_SUMS];
+    memset(sums, 0, sizeof sums);
+    const int32_t *list = job->relation->lists[first / MOR_CLUSTER];
+    const int32_t count = job->relation->counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const double *target = job->target + (int64_t)list[entry] * job->target_stride;
+        const pair p = pair_of(&f, target, 3);
+        const vec cube = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+        sums[MOR_KERNEL_SUM_VALUE] += cube * p.reach * (5.0 - 4.0 * p.reach);
+        const vec kr[3] = {cube * p.r[0], cube * p.r[1], cube * p.r[2]};
+        for (int a = 0; a < 3; ++a) {
+            sums[MOR_KERNEL_SUM_GRADIENT + a] -= kr[a];
+            sums[MOR_KERNEL_SUM_MOMENT + a] += kr[a] * p.r[a];
+            sums[MOR_KERNEL_SUM_MOMENT + 3 + a] += kr[a] * p.r[(a + 1) % 3];
+        }
+    }
+    store(out, MOR_KERNEL_SUMS, 0, LANES, sums[0] * c->kernel_normalization);
+    for (int a = 1; a < MOR_KERNEL_SUMS; ++a) {
+        store(out, MOR_KERNEL_SUMS, a, LANES, sums[a] * c->gradient_factor);
+    }
+}
+
+static void kernel_range(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first, int64_t last)
+{
+    for (int64_t place = first; place < last; ++place) {
+        const int64_t cluster = job->by_occupied ? job->relation->occupied[place] : place;
+        for (int64_t part = 0; part < PARTS; ++part) {
+            double *out = job->sums + ((place - first) * MOR_CLUSTER + part * LANES) * MOR_KERNEL_SUMS;
+            kernel_part(c, job, cluster * MOR_CLUSTER + part * LANES, out);
+        }
+    }
+}
+
+/* XSPH velocity, Hu et al. (2021) eq. 13, and the sum of the penetration-based shift, eq. 16. */
+INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    const vec v[3] = {load(own, MOR_RECORD_SIZE, 4), load(own, MOR_RECORD_SIZE, 5), load(own, MOR_RECORD_SIZE, 6)};
+    vec sums[6];
+    memset(sums, 0, sizeof sums);
+    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
+    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const double *target = arrays->records + (int64_t)list[entry] * MOR_RECORD_SIZE;
+        const pair p = pair_of(&f, target, 3);
+        const vec square = p.reach * p.reach;
+        const vec weight = square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
+        const vec overlap = 1.0 - p.distance / c->shift_diameter;
+        const vec floored = -smaller(-overlap, spread(0.1));
+        const vec push = pick(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
+        const vec inside = pick(p.reach > 0.0, push, spread(0.0));
+        for (int a = 0; a < 3; ++a) {
+            sums[a] += weight * (target[MOR_RECORD_VELOCITY + a] - v[a]);
+            sums[3 + a] += inside * p.r[a];
+        }
+    }
+    for (int a = 0; a < 6; ++a) {
+        store(arrays->regularization + first * 6, 6, a, lanes_of(first, arrays->n_particles), sums[a]);
+    }
+}
+
+static void regularize_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+        regularize_part(c, arrays, part * LANES);
+    }
+}
+
+const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void);
+
+const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void)
+{
+    static const mor_pair_table table = {
+        MOR_TEXT(MOR_ISA), {momentum_2d, momentum_3d}, {gradient_2d, gradient_3d}, regularize_range, kernel_range};
+    return &table;
+}

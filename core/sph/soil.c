@@ -1,0 +1,286 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/sph/soil_internal.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/sph/kernel.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define BIT(name) MOR_BIT(MOR_FIELD_##name)
+#define RECORDS MOR_BIT(MOR_RESOURCE_RECORDS)
+#define LISTS MOR_BIT(MOR_RESOURCE_LISTS)
+#define WALL_SUMS MOR_BIT(MOR_RESOURCE_WALL_SUMS)
+
+/* Diameters of the sphere and of the disc whose volume is one: (6 / pi)^(1/3) and 2 / sqrt(pi). */
+#define SPHERE_DIAMETER 1.2407009817988
+#define DISC_DIAMETER 1.1283791670955126
+
+/* One step, Zhang et al. (2024) eqs. 54-56: positions to the middle, forces there, velocity, positions, stress. */
+static const mor_stage soil_stages[] = {
+    {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
+     "positions and densities to the middle of the step"},
+    {"neighbors", mor_soil_find_neighbors, BIT(POSITION), LISTS, 0, "sort at an interval; lists when the skin is used up"},
+    {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), RECORDS, 0,
+     "one record per particle for the pair loops"},
+    {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over the walls in reach"},
+    {"density", mor_soil_reinitialize_density, RECORDS | LISTS | WALL_SUMS | BIT(MASS), 0, BIT(DENSITY) | RECORDS,
+     "density by summation at an interval"},
+    {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
+     "against tensile instability, when switched on"},
+    {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS),
+     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION), 0, "acceleration and stress diffusion by the neighbors"},
+    {"wall push", mor_soil_push_walls, RECORDS | WALL_SUMS, 0, BIT(ACCELERATION), "acceleration by the walls"},
+    {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step"},
+    {"velocity gradient", mor_soil_sum_gradient, RECORDS | LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
+     "velocity gradient and density rate by the neighbors"},
+    {"wall drag", mor_soil_drag_walls, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
+     "the walls' part of both"},
+    {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
+     "exact for linear fields, when switched on"},
+    {"regularization", mor_soil_regularize, RECORDS | LISTS | BIT(VELOCITY_GRADIENT), 0, BIT(POSITION) | BIT(VELOCITY),
+     "XSPH and shifting, when switched on"},
+    {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
+     "positions and densities to the end of the step"},
+    {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0, BIT(STRESS),
+     "the material's update"},
+};
+
+static const uint64_t evolving_fields =
+    BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS);
+
+/* Sum of V W over the lattice the soil starts from; fills the place of 1 in the density summation. */
+static double sum_lattice(const mor_soil_settings *settings, double smoothing_length)
+{
+    const double spacing = settings->spacing;
+    const int reach = (int)(MOR_KERNEL_SUPPORT * smoothing_length / spacing) + 1;
+    double sum = 0.0;
+    for (int x = -reach; x <= reach; ++x) {
+        for (int y = -reach; y <= reach; ++y) {
+            for (int z = settings->dimension == 3 ? -reach : 0; z <= (settings->dimension == 3 ? reach : 0); ++z) {
+                const double distance = spacing * sqrt((double)(x * x + y * y + z * z));
+                sum += mor_kernel_value(distance, smoothing_length, settings->dimension);
+            }
+        }
+    }
+    return sum * (settings->dimension == 3 ? spacing * spacing * spacing : spacing * spacing);
+}
+
+static void set_constants(mor_soil *soil)
+{
+    const mor_soil_settings *s = &soil->settings;
+    const double h = s->smoothing_ratio * s->spacing;
+    soil->smoothing_length = h;
+    soil->lattice_sum = sum_lattice(s, h);
+    soil->constants = (mor_pair_constants){
+        .dimension = s->dimension,
+        .dissipation = s->dissipation,
+        .has_artificial_stress = s->has_artificial_stress,
+        .has_pressure_term = s->has_density_pressure_term,
+        .smoothing_length = h,
+        .gradient_factor = mor_kernel_gradient_factor(h, s->dimension),
+        .limiter_rate = s->dissipation_factor / soil->sound_speed,
+        .diffusion_rate = 2.0 * s->stress_diffusion * h * soil->sound_speed,
+        .artificial_exponent = s->artificial_stress_exponent,
+        .shift_diameter = s->spacing * (s->dimension == 3 ? SPHERE_DIAMETER : DISC_DIAMETER),
+        .spacing_kernel = mor_kernel_value(s->spacing, h, s->dimension),
+        .kernel_normalization = mor_kernel_normalization(h, s->dimension),
+    };
+    const double strength = mor_vector_length(s->gravity);
+    for (int a = 0; a < 3 && strength > 0.0; ++a) {
+        soil->constants.gravity_direction[a] = s->gravity[a] / strength;
+    }
+}
+
+static mor_status add_state_fields(mor_context *context, mor_soil *soil)
+{
+    const mor_schema *state = soil->material->material->state;
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        mor_field_info info = {.n_components = state[k].n_components,
+                               .unit = state[k].unit,
+                               .writer = "stress",
+                               .flags = MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT,
+                               .text = state[k].text};
+        snprintf(info.name, sizeof info.name, "%s", state[k].key);
+        MOR_TRY(context, mor_set_add_field(context, &soil->set, &info, &soil->state_fields[k]));
+    }
+    return MOR_OK;
+}
+
+/* The wave speed of the unstressed material; it sets the step and the impedance, eq. 22. */
+static mor_status find_sound_speed(mor_context *context, mor_soil *soil)
+{
+    const double stress[6] = {0.0};
+    double speed = 0.0;
+    double values[MOR_MATERIAL_STATES_MAX][9] = {{0.0}};
+    double *state[MOR_MATERIAL_STATES_MAX];
+    const double *state_in[MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < MOR_MATERIAL_STATES_MAX; ++k) {
+        state[k] = values[k];
+        state_in[k] = values[k];
+    }
+    mor_batch batch = {.n = 1, .density = &soil->settings.reference_density, .stress_in = stress, .state_in = state_in,
+                       .state_out = state};
+    const mor_material_operations *operations = &soil->material->operations;
+    mor_status status = operations->init_state(soil->material, &batch);
+    if (status == MOR_OK) {
+        status = operations->wave_speed(soil->material, &batch, &speed);
+    }
+    MOR_CHECK(context, status == MOR_OK && speed > 0.0 && isfinite(speed), MOR_ERROR_NUMERIC,
+              "material '%s' gives a wave speed of %g m/s; it must be positive and finite",
+              soil->material->material->name, speed);
+    soil->sound_speed = speed;
+    return MOR_OK;
+}
+
+static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_particles)
+{
+    const mor_soil_settings *s = &soil->settings;
+    MOR_TRY(context, mor_tree_init(context, &soil->tree, n_particles));
+    MOR_TRY(context, mor_relation_init(context, &soil->inner, MOR_CONFIGURATION_CURRENT, soil->tree.n_clusters));
+    const int64_t padded = soil->tree.n_clusters * MOR_CLUSTER;
+    MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
+    MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
+    if (s->xsph > 0.0 || s->has_shifting) {
+        MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
+    }
+    if (s->has_gradient_correction) {
+        MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
+    }
+    MOR_TRY(context, MOR_NEW(context, &soil->block_values, n_particles / 128 + 2, "reduction blocks"));
+    return MOR_OK;
+}
+
+mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name, const mor_soil_settings *settings,
+                         const mor_material_instance *material, int64_t n_particles)
+{
+    memset(soil, 0, sizeof *soil);
+    soil->settings = *settings;
+    soil->material = material;
+    soil->table = mor_pair_select(NULL);
+    MOR_CHECK(context, n_particles >= 1, MOR_ERROR_ARGUMENT,
+              "soil '%s' has no particles; its shape must hold at least one lattice point: make the shape larger or the "
+              "spacing smaller",
+              name);
+    MOR_CHECK(context, material->material->form == MOR_MATERIAL_RATE, MOR_ERROR_ARGUMENT,
+              "material '%s' is for elastic bodies; soil needs a material in rate form", material->material->name);
+    uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
+    fields &= settings->has_artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
+    fields &= settings->stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
+    mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
+    if (status == MOR_OK) {
+        status = add_state_fields(context, soil);
+    }
+    if (status == MOR_OK) {
+        status = find_sound_speed(context, soil);
+    }
+    if (status == MOR_OK) {
+        status = allocate_soil(context, soil, n_particles);
+    }
+    if (status != MOR_OK) {
+        mor_soil_clear(context, soil);
+        return status;
+    }
+    set_constants(soil);
+    soil->largest_acceleration = mor_vector_length(settings->gravity);
+    return MOR_OK;
+}
+
+void mor_soil_clear(mor_context *context, mor_soil *soil)
+{
+    for (int w = 0; w < soil->n_walls; ++w) {
+        mor_soil_contact_clear(context, &soil->walls[w]);
+    }
+    mor_relation_clear(context, &soil->inner);
+    mor_tree_clear(context, &soil->tree);
+    MOR_FREE(context, &soil->block_values);
+    MOR_FREE(context, &soil->moments);
+    MOR_FREE(context, &soil->regularization);
+    MOR_FREE(context, &soil->order);
+    MOR_FREE(context, &soil->records);
+    mor_set_clear(context, &soil->set);
+    memset(soil, 0, sizeof *soil);
+}
+
+mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request)
+{
+    MOR_CHECK(context, soil->n_walls < MOR_SOIL_WALLS_MAX, MOR_ERROR_ARGUMENT,
+              "wall '%s' is one too many; at most %d walls are allowed: join some with a union", request->name,
+              MOR_SOIL_WALLS_MAX);
+    MOR_TRY(context, mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, soil->tree.n_clusters));
+    soil->n_walls += 1;
+    return MOR_OK;
+}
+
+/* Z (51) and the limit by acceleration; the speed of waves counts from moving particles. */
+static mor_status propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
+{
+    const mor_soil *soil = owner;
+    (void)context;
+    const double h = soil->smoothing_length;
+    *step_length = soil->settings.courant * h / (soil->sound_speed + soil->largest_speed);
+    *limit = "the speed of sound in the soil";
+    if (soil->largest_acceleration > 0.0) {
+        const double by_acceleration = 0.25 * sqrt(h / soil->largest_acceleration);
+        if (by_acceleration < *step_length) {
+            *step_length = by_acceleration;
+            *limit = "the acceleration of the soil";
+        }
+    }
+    return MOR_OK;
+}
+
+void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
+{
+    static const mor_stepper_operations operations = {"soil", propose_step};
+    *stepper = (mor_stepper){soil->set.name,
+                             &operations,
+                             soil,
+                             soil_stages,
+                             (int)(sizeof soil_stages / sizeof *soil_stages),
+                             soil->set.n_particles};
+    *evolving = evolving_fields;
+}
+
+double mor_soil_bytes_per_particle(const mor_soil *soil)
+{
+    const double n = (double)soil->set.n_particles;
+    const double padded = (double)(soil->tree.n_clusters * MOR_CLUSTER);
+    double bytes = n * (sizeof *soil->set.id + sizeof *soil->order) + padded * MOR_RECORD_SIZE * sizeof(double);
+    for (int field = 0; field < soil->set.n_fields; ++field) {
+        bytes += soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
+    }
+    bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);
+    bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 2 * sizeof(int32_t));
+    for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {
+        bytes += (double)soil->inner.capacities[buffer] * sizeof(int32_t);
+    }
+    return bytes / n;
+}
+
+mor_status mor_soil_init_state(mor_context *context, mor_soil *soil)
+{
+    double *state[MOR_MATERIAL_STATES_MAX];
+    const double *state_in[MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        state[k] = soil->set.data[soil->state_fields[k]];
+        state_in[k] = state[k];
+    }
+    int64_t failed = 0;
+    const mor_batch batch = {.n = soil->set.n_particles,
+                             .density = soil->set.data[MOR_FIELD_DENSITY],
+                             .stress_in = soil->set.data[MOR_FIELD_STRESS],
+                             .state_in = state_in,
+                             .state_out = state,
+                             .failed = &failed};
+    const mor_status status = soil->material->operations.init_state(soil->material, &batch);
+    MOR_CHECK(context, status == MOR_OK, status < 0 ? status : MOR_ERROR_NUMERIC,
+              "material '%s' refused the initial state of particle %lld of set '%s'", soil->material->material->name,
+              (long long)soil->set.id[failed], soil->set.name);
+    return MOR_OK;
+}

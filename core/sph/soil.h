@@ -1,0 +1,122 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_SOIL_H
+#define MOR_CORE_SPH_SOIL_H
+
+#include "core/material/material.h"
+#include "core/particle/set.h"
+#include "core/sph/soil_contact.h"
+#include "core/time/stepper.h"
+
+/** @file
+ *  Fine grains: updated-Lagrangian Riemann SPH of one particle set with one material, with walls. One step is the
+ *  list of stages in soil_stages.c; time belongs to the schedule.
+ *  Theory: Zhang et al. (2024) eqs. 13-35, 51, 54-56; docs/theory/soil.md. */
+
+enum { MOR_SOIL_WALLS_MAX = 32 };
+
+/** What the user may choose. Plain data. */
+typedef struct mor_soil_settings {
+    int dimension;                     /* 2 (plane strain in x, y) or 3 */
+    double spacing;                    /* initial particle spacing, m */
+    double smoothing_ratio;            /* h / spacing, 1 */
+    double courant;                    /* CFL number, 1 */
+    mor_dissipation dissipation;       /* between soil particles */
+    mor_dissipation wall_dissipation;  /* against walls */
+    double dissipation_factor;         /* eta, 1 */
+    bool has_density_pressure_term;    /* pressure part of U* in the density rate */
+    double stress_diffusion;           /* zeta, 1; 0: off */
+    double lateral_ratio;              /* K0 of the stress-diffusion operator, 1 */
+    bool has_artificial_stress;
+    double artificial_stress_exponent; /* n, 1 */
+    double artificial_stress_factor;   /* epsilon, 1 */
+    bool has_gradient_correction;      /* velocity gradient and density rate exact for linear fields */
+    double xsph;                       /* xi, 1; 0: off */
+    bool has_shifting;                 /* penetration-based shifting */
+    int density_interval;              /* steps between re-initializations of density; 0: never */
+    double skin_ratio;                 /* neighbor-list skin / spacing, 1 */
+    int sort_interval;                 /* steps between sorts, >= 1 */
+    double damping;                    /* rate of velocity damping, 1/s */
+    double gravity_ramp;               /* time over which gravity grows from zero, s; 0: at once */
+    double gravity[3];                 /* m/s2 */
+    double domain_minimum[3];          /* m */
+    double domain_maximum[3];          /* m */
+    double reference_density;          /* rho_0, kg/m3 */
+} mor_soil_settings;
+
+/** One soil. Owner: the run. */
+typedef struct mor_soil {
+    mor_soil_settings settings;
+    mor_set set;
+    const mor_material_instance *material; /* borrowed; outlives the soil */
+    int state_fields[MOR_MATERIAL_STATES_MAX]; /* indices of the material's state variables in the set */
+    const mor_pair_table *table;
+    mor_pair_constants constants;
+    double *records;                       /* shape [n_particles padded to 8, 16] */
+    double *regularization;                /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
+    double *moments;                       /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
+    double *block_values;                  /* shape [n_particles / 128 + 2]; partial results of reductions */
+    int32_t *order;                        /* shape [n_particles]; scratch of the sort */
+    mor_tree tree;
+    mor_relation inner;
+    mor_soil_contact walls[MOR_SOIL_WALLS_MAX];
+    int n_walls;
+    double sound_speed;                    /* c0, m/s */
+    double smoothing_length;               /* h, m */
+    double lattice_sum;                    /* sum V W on the perfect lattice, 1 */
+    double largest_speed;                  /* after the last kick, m/s */
+    double largest_acceleration;           /* in the last step, m/s2 */
+    double drift;                          /* bound of any particle's motion since the lists were built, m */
+    bool has_lists;                        /* lists exist and belong to the present order */
+    double gravity[3];                     /* in the last step, with the ramp, m/s2 */
+    double wall_impulse[MOR_SOIL_WALLS_MAX][3]; /* of the soil on each wall since the start, N s */
+} mor_soil;
+
+/** Makes a soil from particles whose position, velocity, mass, density, stress are then set by the caller through
+ *  soil->set, before mor_soil_prepare.
+ *  @param context     [in,out]  one object
+ *  @param soil        [out]     one object
+ *  @param name        [in]      zero-terminated
+ *  @param settings    [in]      one object; copied
+ *  @param material    [in]      one object; rate form; borrowed
+ *  @param n_particles [in]      number of particles, >= 1
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
+mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name, const mor_soil_settings *settings,
+                         const mor_material_instance *material, int64_t n_particles);
+
+/** Frees what the soil owns; accepts a zeroed one.
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object */
+void mor_soil_clear(mor_context *context, mor_soil *soil);
+
+/** Adds a wall.
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object
+ *  @param request [in]      one object
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
+mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
+
+/** Initializes the material's state for the present density and stress (a resume restores it instead).
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object
+ *  Returns: MOR_OK; what the material returns. */
+mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
+
+/** Sorts the particles into clusters. To be called once when positions have been set, not after a resume.
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object
+ *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
+mor_status mor_soil_sort(mor_context *context, mor_soil *soil);
+
+/** Returns the soil as a stepper: its stages and step limit.
+ *  @param soil     [in]   one object; becomes the owner
+ *  @param stepper  [out]  one object
+ *  @param evolving [out]  one number; bits valid at the start of a step */
+void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving);
+
+/** Returns the bytes held for fine particles alone, lists included, walls not, per particle.
+ *  @param soil [in]  one object
+ *  Returns: bytes per particle, 1. */
+double mor_soil_bytes_per_particle(const mor_soil *soil);
+
+#endif

@@ -1,0 +1,217 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Stages that sum over neighbors and walls, and the material's update. */
+#include "core/sph/soil_internal.h"
+
+#include "core/base/eigen.h"
+#include "core/base/parallel.h"
+
+#include <string.h>
+
+/* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once.
+ * HALVINGS: how often a batch may ask for a smaller step before the run stops. */
+enum { CLUSTERS = 32, BATCH = 128, HALVINGS = 8 };
+
+static void run_loop(mor_context *context, const mor_soil *soil, mor_pair_loop loop)
+{
+    const mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
+    const int64_t n = soil->tree.n_clusters;
+    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
+        const int64_t last = (chunk + 1) * CLUSTERS;
+        loop(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
+    }
+}
+
+mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    for (int w = 0; w < soil->n_walls; ++w) {
+        mor_soil_contact_sum(context, &soil->walls[w], soil->table, &soil->constants, soil->records,
+                             soil->set.n_particles);
+    }
+    return MOR_OK;
+}
+
+/* Principal tensions answered by -epsilon times themselves, eqs. 28-31, in two and three dimensions. */
+static void find_artificial(const double *stress, double factor, double *artificial)
+{
+    double values[3];
+    double directions[9];
+    for (int a = 0; a < 6; ++a) {
+        artificial[a] = 0.0;
+    }
+    mor_symmetric_eigen(stress, values, directions);
+    for (int k = 0; k < 3; ++k) {
+        if (values[k] > 0.0) {
+            const double *d = directions + k;
+            const double answer = -factor * values[k];
+            artificial[MOR_XX] += answer * d[0] * d[0];
+            artificial[MOR_YY] += answer * d[3] * d[3];
+            artificial[MOR_ZZ] += answer * d[6] * d[6];
+            artificial[MOR_XY] += answer * d[0] * d[3];
+            artificial[MOR_YZ] += answer * d[3] * d[6];
+            artificial[MOR_ZX] += answer * d[6] * d[0];
+        }
+    }
+}
+
+mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    if (!soil->settings.has_artificial_stress) {
+        return MOR_OK;
+    }
+    const double *stress = soil->set.data[MOR_FIELD_STRESS];
+    double *artificial = soil->set.data[MOR_FIELD_ARTIFICIAL_STRESS];
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, BATCH) {
+        find_artificial(stress + 6 * i, soil->settings.artificial_stress_factor, artificial + 6 * i);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    const mor_soil_settings *s = &soil->settings;
+    const double ramp = s->gravity_ramp > 0.0 && step->time < s->gravity_ramp ? step->time / s->gravity_ramp : 1.0;
+    const double weight = ramp * s->reference_density * mor_vector_length(s->gravity);
+    const double *g = soil->constants.gravity_direction;
+    /* Stress per height at rest, eq. 26 for any direction of gravity. */
+    const double lateral = s->lateral_ratio;
+    for (int a = 0; a < 3; ++a) {
+        soil->constants.rest_gradient[a] = weight * (lateral + (1.0 - lateral) * g[a] * g[a]);
+        soil->constants.rest_gradient[3 + a] = weight * (1.0 - lateral) * g[a] * g[(a + 1) % 3];
+    }
+    run_loop(context, soil, soil->table->momentum[s->dimension - 2]);
+    return MOR_OK;
+}
+
+mor_status mor_soil_push_walls(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    for (int w = 0; w < soil->n_walls; ++w) {
+        mor_soil_contact_push(context, &soil->walls[w], soil->settings.wall_dissipation, soil->constants.limiter_rate,
+                              soil->records, soil->set.n_particles, soil->set.data[MOR_FIELD_ACCELERATION]);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    run_loop(context, soil, soil->table->gradient[soil->settings.dimension - 2]);
+    return MOR_OK;
+}
+
+mor_status mor_soil_drag_walls(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    for (int w = 0; w < soil->n_walls; ++w) {
+        mor_soil_contact_drag(context, &soil->walls[w], soil->records, soil->set.n_particles,
+                              soil->set.data[MOR_FIELD_VELOCITY_GRADIENT], soil->set.data[MOR_FIELD_DENSITY_RATE]);
+    }
+    return MOR_OK;
+}
+
+/* Start values of a batch, kept so that it can be done again with smaller steps. */
+typedef struct batch_start {
+    double stress[BATCH * 6];
+    double state[MOR_MATERIAL_STATES_MAX][BATCH * 9];
+} batch_start;
+
+/* Copies the evolving values of a batch into the store or back. */
+static void copy_start(const mor_soil *soil, int64_t first, int64_t n, batch_start *start, bool is_restore)
+{
+    for (int k = -1; k < soil->material->n_state; ++k) {
+        const int field = k < 0 ? MOR_FIELD_STRESS : soil->state_fields[k];
+        const int64_t n_components = soil->set.fields[field].n_components;
+        double *data = soil->set.data[field] + first * n_components;
+        double *kept = k < 0 ? start->stress : start->state[k];
+        memcpy(is_restore ? data : kept, is_restore ? kept : data, (size_t)(n * n_components) * sizeof *data);
+    }
+}
+
+/* Updates a batch in place over n_steps equal steps. */
+static mor_status advance_equal_steps(const mor_soil *soil, int64_t first, int64_t n, double length, int n_steps,
+                                      int64_t *failed)
+{
+    double *const *data = soil->set.data;
+    double *state[MOR_MATERIAL_STATES_MAX];
+    const double *state_in[MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        const int field = soil->state_fields[k];
+        state[k] = data[field] + first * soil->set.fields[field].n_components;
+        state_in[k] = state[k];
+    }
+    const double *diffusion = data[MOR_FIELD_STRESS_DIFFUSION];
+    const mor_batch batch = {.n = n,
+                             .time_step = length / n_steps,
+                             .density = data[MOR_FIELD_DENSITY] + first,
+                             .velocity_gradient = data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * first,
+                             .extra_stress_rate = diffusion != NULL ? diffusion + 6 * first : NULL,
+                             .stress_in = data[MOR_FIELD_STRESS] + 6 * first,
+                             .stress_out = data[MOR_FIELD_STRESS] + 6 * first,
+                             .state_in = state_in,
+                             .state_out = state,
+                             .failed = failed};
+    mor_status status = MOR_OK;
+    for (int k = 0; k < n_steps && status == MOR_OK; ++k) {
+        status = soil->material->operations.advance_rate(soil->material, &batch);
+    }
+    return status;
+}
+
+/* A material that asks for a smaller step gets its batch divided in time; the velocity gradient is constant over the
+ * step, so nothing but the law's own integration changes. On failure the start values are back in place. */
+static mor_status advance_batch(const mor_soil *soil, int64_t first, double length, int64_t *failed)
+{
+    const int64_t left = soil->set.n_particles - first;
+    const int64_t n = left < BATCH ? left : BATCH;
+    batch_start start;
+    copy_start(soil, first, n, &start, false);
+    mor_status status = MOR_RETRY_SMALLER_STEP;
+    for (int halving = 0; halving <= HALVINGS && status > MOR_OK; ++halving) {
+        status = advance_equal_steps(soil, first, n, length, 1 << halving, failed);
+        if (status != MOR_OK) {
+            copy_start(soil, first, n, &start, true);
+        }
+    }
+    return status;
+}
+
+/* Does the failed batch again to learn which particle it was. */
+static mor_status report_stress(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t first)
+{
+    int64_t failed = 0;
+    const mor_status status = advance_batch(soil, first, step->length, &failed);
+    const int64_t i = first + failed;
+    const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+    const double *s = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
+    return MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
+                    "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
+                    "t = %.6g s, step %llu (%s, after %d halvings of the step at most); stress (xx, yy, zz, xy, yz, "
+                    "zx) = (%.4g, %.4g, %.4g, %.4g, %.4g, %.4g) Pa. A smaller 'courant' may help",
+                    soil->material->material->name, (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2],
+                    step->time + step->length, (unsigned long long)step->number, mor_status_text(status), HALVINGS,
+                    s[0], s[1], s[2], s[3], s[4], s[5]);
+}
+
+mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    const int64_t n_batches = (soil->set.n_particles + BATCH - 1) / BATCH;
+    MOR_PARALLEL_FOR (context, k, n_batches, 4) {
+        soil->block_values[k] = advance_batch(soil, k * BATCH, step->length, NULL);
+    }
+    for (int64_t k = 0; k < n_batches; ++k) {
+        if (soil->block_values[k] != MOR_OK) {
+            return report_stress(context, soil, step, k * BATCH);
+        }
+    }
+    return MOR_OK;
+}

@@ -1,0 +1,31 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_SOIL_INTERNAL_H
+#define MOR_CORE_SPH_SOIL_INTERNAL_H
+
+#include "core/sph/soil.h"
+
+/** @file
+ *  What the files of the soil solver share among themselves. Not for others. */
+
+/** Stages of a step; owner is one mor_soil. Each returns MOR_OK or what went wrong. */
+mor_status mor_soil_drift_first(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_find_neighbors(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_pack(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_push_walls(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_drag_walls(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step);
+
+/** Arrays of the soil as the pair loops want them; borrowed until the next resize or permute. */
+mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil);
+
+#endif

@@ -1,0 +1,61 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_TIME_SCHEDULE_H
+#define MOR_CORE_TIME_SCHEDULE_H
+
+#include "core/time/stepper.h"
+
+#include <stdbool.h>
+
+/** @file
+ *  Time on an integer line. A tick is a power of two of a second so small that the whole run has about 2^52 of them;
+ *  every time is a whole number of ticks and therefore exact: steps add up to output times and to the end without
+ *  rounding, and a change of the unit of time by a power of two changes no bit of the rest. */
+
+enum { MOR_SCHEDULE_STEPPERS_MAX = 16 };
+
+/** The clock and what it drives. Owner: the run. */
+typedef struct mor_schedule {
+    double tick;        /* length of a tick, s */
+    int64_t now;        /* ticks since the start */
+    int64_t end;        /* ticks of the whole run */
+    uint64_t n_steps;   /* steps done */
+    double step_length; /* of the last step, s; 0 before the first */
+    const char *limit;  /* what limited it; static */
+    mor_stepper steppers[MOR_SCHEDULE_STEPPERS_MAX];
+    int n_steppers;
+} mor_schedule;
+
+/** Sets the clock to zero.
+ *  @param context  [in,out]  one object
+ *  @param schedule [out]     one object
+ *  @param end      [in]      simulated time, > 0 and finite, unit s
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_schedule_init(mor_context *context, mor_schedule *schedule, double end);
+
+/** Adds a stepper after checking its stages.
+ *  @param context  [in,out]  one object
+ *  @param schedule [in,out]  one object
+ *  @param stepper  [in]      one object; copied
+ *  @param evolving [in]      bits valid at the start of a step, see mor_stage_verify
+ *  Returns: MOR_OK; MOR_ERROR_INTERNAL; MOR_ERROR_ARGUMENT when the table is full. */
+mor_status mor_schedule_add(mor_context *context, mor_schedule *schedule, const mor_stepper *stepper,
+                            uint64_t evolving);
+
+/** Returns the number of whole ticks nearest to a time, unit s.
+ *  @param schedule [in]  one object
+ *  @param time     [in]  time, unit s */
+int64_t mor_schedule_ticks(const mor_schedule *schedule, double time);
+
+/** Returns the present time, unit s.
+ *  @param schedule [in]  one object */
+double mor_schedule_time(const mor_schedule *schedule);
+
+/** Takes one step, not beyond a given tick. Two steps of equal length are taken where one and a crumb would be needed.
+ *  @param context  [in,out]  one object
+ *  @param schedule [in,out]  one object
+ *  @param until    [in]      tick not to be passed, > now
+ *  Returns: MOR_OK; MOR_ERROR_NUMERIC when the step collapses, naming what limits it; what a stage returns. */
+mor_status mor_schedule_step(mor_context *context, mor_schedule *schedule, int64_t until);
+
+#endif

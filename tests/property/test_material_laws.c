@@ -1,0 +1,376 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/memory.h"
+#include "core/material/conformance.h"
+#include "core/material/plugin.h"
+#include "materials/builtin.h"
+#include "materials/drucker_prager.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { PATH_BYTES = 512, COMMAND_BYTES = 8192, LINE_BYTES = 1024 };
+
+static const mor_conformance_row *find_row(const mor_conformance_report *report, const char *words)
+{
+    for (int k = 0; k < report->n_rows; ++k) {
+        if (strstr(report->rows[k].law, words) != NULL) {
+            return &report->rows[k];
+        }
+    }
+    fail_msg("no law is called '%s'", words);
+    return NULL;
+}
+
+static void run_on(const mor_material *material, const double *parameters, mor_conformance_report *report)
+{
+    mor_context context;
+    mor_context_init(&context);
+    const mor_status status = mor_conformance_run(&context, material, parameters, 2000.0, report);
+    if (status != MOR_OK) {
+        fail_msg("%s", context.message);
+    }
+    assert_int_equal(context.memory_bytes, 0);
+    assert_int_equal(context.status, MOR_OK);
+}
+
+/* Every law must hold; those named may be skipped. */
+static void check_all(const mor_material *material, const char *may_skip)
+{
+    mor_conformance_report report;
+    run_on(material, NULL, &report);
+    assert_true(report.n_rows >= 18);
+    for (int k = 0; k < report.n_rows; ++k) {
+        char line[LINE_BYTES];
+        mor_conformance_format(&report.rows[k], line, sizeof line);
+        if (report.rows[k].verdict == MOR_VERDICT_FAIL) {
+            fail_msg("%s: %s", material->name, line);
+        }
+        const int is_allowed =
+            report.rows[k].verdict == MOR_VERDICT_PASS || strstr(may_skip, report.rows[k].law) != NULL;
+        if (!is_allowed) {
+            fail_msg("%s skipped: %s", material->name, line);
+        }
+    }
+    assert_int_equal(report.n_failed, 0);
+}
+
+static void every_registered_material_obeys_all_laws(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    mor_registry *registry = NULL;
+    assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
+    assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK);
+    assert_true(mor_registry_count(registry) >= 1);
+    for (int k = 0; k < mor_registry_count(registry); ++k) {
+        check_all(mor_registry_get(registry, k), "");
+    }
+    mor_registry_free(&context, &registry);
+}
+
+static void special_soils_obey_all_laws(void **state)
+{
+    (void)state;
+    const double soils[][MOR_DRUCKER_PRAGER_COUNT] = {
+        {5.98e6, 0.3, 0.5235987755982988, 0, 0, 0, 1},
+        {5.98e6, 0.3, 0.52, 0, 0.52, 1, 1},
+        {1e7, 0.0, 0.0, 1e4, 0, 0, 1},
+        {1e7, 0.45, 0.0, 0, 0, 2, 0},
+        {3e9, 0.35, 0.26, 8.4e3, 0, 0, 1},
+        {3e9, 0.35, 0.26, 8.4e3, 0.2, 2, 0.3},
+        {1e6, -0.5, 1.5, 1e3, 1.5, 1, 0},
+        {1e-3, 0.3, 0.5, 1e-6, 0.1, 0, 1},
+    };
+    for (size_t k = 0; k < sizeof soils / sizeof soils[0]; ++k) {
+        mor_conformance_report report;
+        run_on(&mor_drucker_prager, soils[k], &report);
+        for (int r = 0; r < report.n_rows; ++r) {
+            char line[LINE_BYTES];
+            mor_conformance_format(&report.rows[r], line, sizeof line);
+            if (report.rows[r].verdict == MOR_VERDICT_FAIL) {
+                fail_msg("soil %zu: %s", k, line);
+            }
+        }
+    }
+}
+
+static void template_plugin_builds_as_its_readme_says_and_obeys_all_laws(void **state)
+{
+    (void)state;
+    const char *scratch = getenv("TMPDIR") != NULL ? getenv("TMPDIR") : "/tmp";
+    char folder[PATH_BYTES];
+    char command[COMMAND_BYTES];
+    snprintf(folder, sizeof folder, "%s/mor_template_XXXXXX", scratch);
+    assert_non_null(mkdtemp(folder));
+    snprintf(command, sizeof command,
+             "cmake -S '%s/materials/template' -B '%s' -DMORAINE_INCLUDE_DIR='%s' > '%s/log' 2>&1 && "
+             "cmake --build '%s' >> '%s/log' 2>&1 || { cat '%s/log' >&2; exit 1; }",
+             MOR_SOURCE_DIR, folder, MOR_SOURCE_DIR, folder, folder, folder, folder);
+    assert_int_equal(system(command), 0);
+
+    mor_context context;
+    mor_context_init(&context);
+    mor_plugin *plugin = NULL;
+    mor_registry *registry = NULL;
+    char path[PATH_BYTES + 32];
+    snprintf(path, sizeof path, "%s/undrained_clay.so", folder);
+    assert_int_equal(mor_plugin_load(&context, path, &plugin), MOR_OK);
+    assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
+    assert_int_equal(mor_plugin_register(&context, plugin, registry), MOR_OK);
+    assert_int_equal(mor_registry_count(registry), 1);
+    check_all(mor_registry_find(registry, "undrained_clay"), "");
+    mor_registry_free(&context, &registry);
+    mor_plugin_unload(&context, &plugin);
+    assert_int_equal(context.memory_bytes, 0);
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    assert_int_equal(system(command), 0);
+}
+
+/* Laws must be able to fail: Drucker-Prager with one operation spoiled, and the law that must notice. */
+
+static mor_status spoil(const mor_material_instance *instance, const mor_batch *batch, int kind)
+{
+    const mor_status status = mor_drucker_prager.operations.advance_rate(instance, batch);
+    for (int64_t i = 0; i < batch->n && status == MOR_OK; ++i) {
+        const double *l = batch->velocity_gradient + 9 * i;
+        double *s = batch->stress_out + 6 * i;
+        s[0] *= kind == 0 ? 1.0 + 1e-9 : 1.0;                                  /* grows by itself */
+        s[3] += kind == 1 ? 1e3 * (l[3] - l[1]) * batch->time_step : 0.0;      /* sees the spin */
+        s[1] += kind == 2 && i == 7 ? 1.0 : 0.0;                               /* asks for the place in the batch */
+        s[0] += kind == 3 ? 1e-3 : 0.0;                                        /* a constant with a hidden unit */
+        s[2] += kind == 4 ? fabs(s[2]) + 1e5 : 0.0;                            /* leaves the cone */
+        s[5] = kind == 5 && i == batch->n - 1 && i < 20 ? NAN : s[5];          /* forgets the last one */
+        s[5] = kind == 9 && fabs(l[0] * batch->time_step) > 0.04 ? NAN : s[5]; /* breaks down in large steps */
+        if (batch->dissipation != NULL) {
+            batch->dissipation[i] *= kind == 6 ? -1.0 : (kind == 7 ? 1.5 : 1.0);
+        }
+        if (kind == 8 && i == 0 && batch->n < 20) {
+            ((double *)(uintptr_t)batch->density)[0] += 1.0; /* writes into its input */
+        }
+    }
+    return status;
+}
+
+#define SPOILED(kind)                                                                                                  \
+    static mor_status advance_spoiled_##kind(const mor_material_instance *instance, const mor_batch *batch)            \
+    {                                                                                                                  \
+        return spoil(instance, batch, kind);                                                                           \
+    }
+SPOILED(0)
+SPOILED(1)
+SPOILED(2)
+SPOILED(3)
+SPOILED(4)
+SPOILED(5)
+SPOILED(6)
+SPOILED(7)
+SPOILED(8)
+SPOILED(9)
+
+/* Forgets to free; the test frees afterwards. */
+enum { KEPT_MAX = 1000 };
+static void *kept[KEPT_MAX];
+static int n_kept = 0;
+
+static void leak(const mor_services *services, mor_material_instance *instance)
+{
+    (void)services;
+    assert_true(n_kept < KEPT_MAX);
+    kept[n_kept++] = instance->data;
+    instance->data = NULL;
+}
+
+static void each_law_notices_its_breach(void **state)
+{
+    (void)state;
+    const struct {
+        mor_status (*advance)(const mor_material_instance *, const mor_batch *);
+        const char *law;
+    } breaches[] = {
+        {advance_spoiled_0, "step zero"},
+        {advance_spoiled_1, "rigid spin"},
+        {advance_spoiled_1, "superposed rotation"},
+        {advance_spoiled_2, "one by one"},
+        {advance_spoiled_2, "any split"},
+        {advance_spoiled_3, "powers of two"},
+        {advance_spoiled_4, "ends admissible"},
+        {advance_spoiled_5, "outputs are all written"},
+        {advance_spoiled_9, "extreme input"},
+        {advance_spoiled_6, "dissipation is not negative"},
+        {advance_spoiled_7, "work is stored or dissipated"},
+        {advance_spoiled_8, "outputs are all written"},
+    };
+    const double soil[MOR_DRUCKER_PRAGER_COUNT] = {5.98e6, 0.3, 0.52, 1e3, 0.1, 0, 1};
+    for (size_t k = 0; k < sizeof breaches / sizeof breaches[0]; ++k) {
+        mor_material spoiled = mor_drucker_prager;
+        spoiled.operations.advance_rate = breaches[k].advance;
+        mor_conformance_report report;
+        run_on(&spoiled, soil, &report);
+        const mor_conformance_row *row = find_row(&report, breaches[k].law);
+        if (row->verdict != MOR_VERDICT_FAIL) {
+            fail_msg("breach %zu was not noticed by '%s' (figure %g)", k, row->law, row->figure);
+        }
+    }
+}
+
+static void a_leak_is_noticed(void **state)
+{
+    (void)state;
+    mor_material spoiled = mor_drucker_prager;
+    spoiled.operations.destroy = leak;
+    const double soil[MOR_DRUCKER_PRAGER_COUNT] = {5.98e6, 0.3, 0.52, 1e3, 0.1, 0, 1};
+    mor_context context;
+    mor_context_init(&context);
+    mor_conformance_report report;
+    assert_int_equal(mor_conformance_run(&context, &spoiled, soil, 2000.0, &report), MOR_OK);
+    assert_int_equal(find_row(&report, "memory")->verdict, MOR_VERDICT_FAIL);
+    assert_true(context.memory_bytes > 0);
+    while (n_kept > 0) {
+        mor_memory_free(&context, &kept[--n_kept]);
+    }
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+/* A total-form model: Saint Venant-Kirchhoff, one modulus. */
+
+static const mor_schema ROCK_PARAMETERS[] = {{.key = "modulus",
+                                              .kind = MOR_SCHEMA_REAL,
+                                              .n_components = 1,
+                                              .unit = "Pa",
+                                              .is_required = 1,
+                                              .minimum = 0.0,
+                                              .maximum = INFINITY,
+                                              .excludes_minimum = 1,
+                                              .text = "Young's modulus"},
+                                             {.key = NULL}};
+static const mor_schema NO_STATE[] = {{.key = NULL}};
+
+static mor_status rock_create(const mor_services *services, mor_material_instance *instance)
+{
+    (void)services;
+    (void)instance;
+    return MOR_OK;
+}
+
+static void rock_destroy(const mor_services *services, mor_material_instance *instance)
+{
+    (void)services;
+    (void)instance;
+}
+
+static mor_status rock_wave_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed)
+{
+    for (int64_t i = 0; i < batch->n; ++i) {
+        speed[i] = sqrt(instance->parameters[0] / instance->density);
+    }
+    return MOR_OK;
+}
+
+/* Green strain, shape [9]. */
+static void strain_of(const double *f, double *strain)
+{
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            const double product = f[a] * f[b] + f[3 + a] * f[3 + b] + f[6 + a] * f[6 + b];
+            strain[3 * a + b] = 0.5 * (product - (a == b ? 1.0 : 0.0));
+        }
+    }
+}
+
+static mor_status rock_stress(const mor_material_instance *instance, const mor_batch *batch)
+{
+    for (int64_t i = 0; i < batch->n; ++i) {
+        const double *f = batch->deformation_gradient + 9 * i;
+        const double det = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
+                           f[2] * (f[3] * f[7] - f[4] * f[6]);
+        if (!(det > 0.0) || !isfinite(det)) {
+            *batch->failed = i;
+            return isfinite(det) ? MOR_RETRY_SMALLER_STEP : MOR_ERROR_NUMERIC;
+        }
+        double strain[9];
+        strain_of(f, strain);
+        for (int a = 0; a < 3; ++a) {
+            for (int b = 0; b < 3; ++b) {
+                const double sum = f[3 * a] * strain[b] + f[3 * a + 1] * strain[3 + b] + f[3 * a + 2] * strain[6 + b];
+                batch->first_piola_out[9 * i + 3 * a + b] = instance->parameters[0] * sum;
+            }
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status rock_energy(const mor_material_instance *instance, const mor_batch *batch, double *stored)
+{
+    for (int64_t i = 0; i < batch->n; ++i) {
+        double strain[9];
+        strain_of(batch->deformation_gradient + 9 * i, strain);
+        stored[i] = 0.0;
+        for (int k = 0; k < 9; ++k) {
+            stored[i] += 0.5 * instance->parameters[0] * strain[k] * strain[k];
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status rock_skewed_stress(const mor_material_instance *instance, const mor_batch *batch)
+{
+    const mor_status status = rock_stress(instance, batch);
+    for (int64_t i = 0; i < batch->n && status == MOR_OK; ++i) {
+        batch->first_piola_out[9 * i + 1] += 1e-6 * instance->parameters[0];
+    }
+    return status;
+}
+
+static const mor_material ROCK = {
+    .abi = MOR_MATERIAL_ABI,
+    .struct_bytes = sizeof(mor_material),
+    .name = "test_rock",
+    .version = "1",
+    .text = "Saint Venant-Kirchhoff",
+    .literature = "textbook",
+    .form = MOR_MATERIAL_TOTAL,
+    .capabilities = MOR_MATERIAL_EXACT_SCALING,
+    .parameters = ROCK_PARAMETERS,
+    .state = NO_STATE,
+    .operations = {.create = rock_create,
+                   .destroy = rock_destroy,
+                   .wave_speed = rock_wave_speed,
+                   .stress_total = rock_stress,
+                   .energy = rock_energy},
+};
+
+static void total_form_is_tried_by_its_own_laws(void **state)
+{
+    (void)state;
+    check_all(&ROCK, "");
+    mor_material skewed = ROCK;
+    skewed.operations.stress_total = rock_skewed_stress;
+    mor_conformance_report report;
+    run_on(&skewed, NULL, &report);
+    const char *const laws[] = {"no deformation", "no moment", "a rotation turns", "derivative of the energy"};
+    for (int k = 0; k < 4; ++k) {
+        assert_int_equal(find_row(&report, laws[k])->verdict, MOR_VERDICT_FAIL);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_registered_material_obeys_all_laws),
+        cmocka_unit_test(special_soils_obey_all_laws),
+        cmocka_unit_test(template_plugin_builds_as_its_readme_says_and_obeys_all_laws),
+        cmocka_unit_test(each_law_notices_its_breach),
+        cmocka_unit_test(a_leak_is_noticed),
+        cmocka_unit_test(total_form_is_tried_by_its_own_laws),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,241 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case_read.h"
+#include "materials/builtin.h"
+
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#ifndef MOR_SOURCE_DIR
+#define MOR_SOURCE_DIR "."
+#endif
+
+/* Each file in bad_cases/ is base.cfg with one defect. The message must name the file, the line, what was found there,
+ * and what to write instead. */
+
+#define FOLDER MOR_SOURCE_DIR "/tests/regression/bad_cases"
+
+enum { PATH_BYTES = 1024 };
+
+typedef struct bad_case {
+    const char *name;
+    int line;
+    const char *found;
+    const char *allowed;
+} bad_case;
+
+static const bad_case bad_cases[] = {
+    {"unknown_top_level", 3, "unknown name 'spcing'", "did you mean 'spacing'?"},
+    {"unknown_in_group", 23, "unknown name 'corant' in numerics", "did you mean 'courant'?"},
+    {"unknown_parameter", 15, "unknown name 'frction_angle'", "did you mean 'friction_angle'?"},
+    {"unknown_in_soil", 8, "unknown name 'nam' in soil[0]", "allowed: name, velocity, shape"},
+    {"unknown_in_shape", 9, "unknown name 'radius' in soil[0].shape", "allowed: type, min, max"},
+    {"unknown_model", 11, "\"druker_prager\"", "did you mean 'drucker_prager'?"},
+    {"unknown_shape", 9, "\"bocks\"", "allowed: box, cylinder, sphere, half_space, polygon, union"},
+    {"unknown_probe_type", 24, "\"runout\"", "did you mean 'run_out'?"},
+    {"unknown_probe", 25, "\"height\"", "allowed: run_out"},
+    {"unknown_word", 21, "\"ruff\"", "allowed: rough, smooth, coulomb"},
+    {"unknown_wall", 24, "\"flor\"", "did you mean 'floor'?"},
+    {"wrong_type_number", 3, "spacing = true", "allowed: > 0 m"},
+    {"wrong_type_text", 1, "title = 5", "allowed: a text in quotes"},
+    {"wrong_type_whole", 2, "dimension = 3,", "allowed: a whole number in [2, 3]"},
+    {"wrong_type_switch", 23, "numerics.shifting = \"yes\"", "allowed: true or false"},
+    {"wrong_type_vector", 5, "gravity = \"-9.81 m/s2\"", "allowed: 3 numbers in ( )"},
+    {"wrong_type_group", 23, "numerics = 5", "allowed: a group"},
+    {"wrong_type_list", 23, "probes = a group", "allowed: a list of 1 to 64 groups"},
+    {"wrong_type_entry", 24, "probes[0] = \"run_out\"", "allowed: a group"},
+    {"wrong_type_shape", 9, "soil[0].shape = \"box\"", "allowed: a group"},
+    {"wrong_unit", 3, "spacing = \"5 kg\"", "converts to m"},
+    {"wrong_unit_in_vector", 5, "gravity[2] = \"-9.81 m/s\"", "converts to m/s2"},
+    {"wrong_unit_of_angle", 14, "poissons_ratio = \"30 deg\"", "allowed: in (-1, 0.5)"},
+    {"wrong_unit_of_value", 25, "value = \"0.2 J\"", "converts to m"},
+    {"unknown_unit", 4, "'parsec_s' is not a unit", "allowed: > 0 s"},
+    {"shifted_unit", 4, "'degC' is a unit with a shifted zero", "allowed: > 0 s"},
+    {"no_number", 4, "end = \"soon\"", "does not start with a number"},
+    {"two_numbers", 3, "'10 mm' cannot be a unit", "allowed: > 0 m"},
+    {"not_a_number_text", 4, "end = \"nan\"", "does not start with a number"},
+    {"infinite_text", 4, "end = \"inf s\"", "does not start with a number"},
+    {"infinite_number", 4, "end = inf", "not finite or beyond 1e30"},
+    {"huge_number", 6, "domain.max[2] = 1e+31", "not finite or beyond 1e30"},
+    {"tiny_number", 3, "spacing = \"1e-40 m\"", "neither zero nor beyond 1e-30"},
+    {"out_of_range_low", 3, "spacing = \"-10 mm\", out of range", "allowed: > 0 m"},
+    {"out_of_range_zero", 4, "end = 0", "allowed: > 0 s"},
+    {"out_of_range_high", 23, "numerics.courant = 1.5", "allowed: in (0, 1]"},
+    {"out_of_range_dimension", 2, "dimension = 4", "allowed: a whole number in [2, 3]"},
+    {"out_of_range_parameter", 14, "poissons_ratio = 0.5", "allowed: in (-1, 0.5)"},
+    {"angle_in_bare_degrees", 15, "friction_angle = 30", "with their unit, as \"30 deg\""},
+    {"parameters_at_odds", 10, "found parameters that 'drucker_prager' refuses", "dilation_angle"},
+    {"long_name", 8, "soil[0].name = \"aaaa", "shorten it"},
+    {"bad_name", 8, "soil[0].name = \"a heap\"", "letters, digits, '_' and '-' only"},
+    {"duplicate_key", 4, "spacing = \"20 mm\"", "allowed: each name once"},
+    {"duplicate_wall", 22, "the name 'floor' again", "taken by line 18"},
+    {"duplicate_probe", 24, "the probe name 'run_out' again", "allowed: each name once"},
+    {"duplicate_expectation", 26, "a second expectation of 'run_out'", "line 25 has it"},
+    {"missing_spacing", 0, "found no 'spacing' in the file", "allowed: > 0 m"},
+    {"missing_domain", 0, "found no 'domain' in the file", "allowed: a group"},
+    {"missing_soil", 0, "found no 'soil' in the file", "allowed: a list"},
+    {"missing_shape", 18, "found no 'shape' in walls[0]", "allowed: a group"},
+    {"missing_parameter", 10, "found no 'youngs_modulus'", "allowed: > 0 Pa"},
+    {"missing_radius", 9, "found no 'radius' in soil[0].shape", "allowed: > 0 m"},
+    {"missing_coefficient", 18, "found no 'friction_coefficient'", "allowed: >= 0"},
+    {"idle_coefficient", 22, "'friction_coefficient', which has no effect", "with friction = \"coulomb\""},
+    {"idle_probe_key", 24, "'wall', which has no effect on a probe of type 'run_out'", "allowed: name, type, measure"},
+    {"idle_thickness", 24, "'thickness', which has no effect here", "with measure = \"thickness\""},
+    {"idle_stress_key", 17, "'settle_time', which has no effect", "\"settled\""},
+    {"direction_of_zero", 20, "normal = a list of 3, a direction of length zero", "give it a length"},
+    {"empty_list", 23, "found probes = an empty list", "allowed: a list of 1 to 64 groups"},
+    {"empty_union", 9, "found soil[0].shape.parts with 0 shapes", "allowed: 1 to 255"},
+    {"empty_box", 9, "found a box that cannot be made", "correct its numbers"},
+    {"few_corners", 9, "found a polygon of 2 corners", "allowed: 3 to 4096"},
+    {"crossed_polygon", 9, "found a polygon that cannot be made", "correct its numbers"},
+    {"short_vector", 5, "found gravity = a list of 2", "allowed: 3 numbers in ( )"},
+    {"domain_inside_out", 6, "domain.max that is not above domain.min along y", "allowed: max > min"},
+    {"odd_scale", 23, "found scale.length = 8", "allowed: even powers of two"},
+    {"relative_to_zero", 25, "found value = 0 with a tolerance that is a share of it", "add absolute = true"},
+    {"gravity_out_of_plane", 5, "found gravity along z in plane strain", "allowed: x and y"},
+    {"include", 23, "found '@' of an @include", "allowed: one file"},
+    {"unquoted_unit", 3, "found '10mm'", "put a value with a unit into quotes"},
+    {"misplaced_text", 4, "found a text where none can stand", "look for a missing '='"},
+    {"syntax_error", 4, "found 'end 0.1;', which does not parse", "allowed: 'name = value;'"},
+    {"mixed_array", 6, "array [ ] of different types", "write ( )"},
+    {"open_text", 1, "a text whose closing quote is not on its line", "add the quote"},
+    {"open_comment", 3, "a comment that is still open", "add the closing mark"},
+    {"open_bracket", 7, "'(' that is still open at the end of the file", "add ')'"},
+    {"wrong_bracket", 6, "found ')'; allowed: '}' to close the '{' of line 6", "put that first"},
+    {"spare_bracket", 23, "'}' without its opening bracket", "remove it"},
+    {"large_whole_number", 2, "found the whole number 30000000000", "allowed: -2147483648 to 2147483647"},
+    {"control_byte", 1, "control byte 0x07", "allowed: plain text"},
+    {"zero_byte", 4, "control byte 0x00", "allowed: plain text"},
+    {"deep_nesting", 1, "brackets nested more than 64 deep", "allowed: at most 64"},
+    {"empty_file", 0, "found no 'dimension' in the file", "allowed: a whole number"},
+    {"binary_file", 1, "control byte", "is this a case file?"},
+};
+
+enum { N_BAD_CASES = sizeof bad_cases / sizeof bad_cases[0] };
+
+typedef struct fixture {
+    mor_context context;
+    mor_registry *registry;
+    mor_case the_case;
+} fixture;
+
+static int set_up(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+    if (f == NULL) {
+        return 1;
+    }
+    *state = f;
+    mor_context_init(&f->context);
+    return mor_registry_new(&f->context, &f->registry) != MOR_OK ||
+           mor_materials_register_builtin(&f->context, f->registry) != MOR_OK;
+}
+
+static int tear_down(void **state)
+{
+    fixture *f = *state;
+    mor_registry_free(&f->context, &f->registry);
+    const int is_leaking = f->context.memory_bytes != 0;
+    free(f);
+    return is_leaking;
+}
+
+/* Returns what is wrong with the answer to one bad case, NULL when nothing is. */
+static const char *judge(const fixture *f, const bad_case *bad, mor_status status, const char *path)
+{
+    char start[PATH_BYTES];
+    snprintf(start, sizeof start, "%s:%d: found ", path, bad->line);
+    if (status != MOR_ERROR_CONFIG || f->context.status != MOR_ERROR_CONFIG) {
+        return "the status is not MOR_ERROR_CONFIG";
+    }
+    if (strncmp(f->context.message, start, strlen(start)) != 0) {
+        return "the message does not start with file, line and 'found'";
+    }
+    const char *found = strstr(f->context.message, bad->found);
+    if (found == NULL) {
+        return "the message does not say what was found";
+    }
+    if (strstr(f->context.message, bad->allowed) == NULL) {
+        return "the message does not say what is allowed";
+    }
+    return strchr(f->context.message, ';') == NULL ? "the message has no advice" : NULL;
+}
+
+static void every_bad_case_is_refused_with_place_finding_and_advice(void **state)
+{
+    fixture *f = *state;
+    int n_wrong = 0;
+    for (int k = 0; k < N_BAD_CASES; ++k) {
+        char path[PATH_BYTES];
+        snprintf(path, sizeof path, "%s/%s.cfg", FOLDER, bad_cases[k].name);
+        mor_context_clear_error(&f->context);
+        const mor_status status = mor_case_read(&f->context, path, NULL, 0, f->registry, &f->the_case);
+        const char *fault = judge(f, &bad_cases[k], status, path);
+        if (fault != NULL) {
+            print_error("%s: %s\n  message: %s\n", bad_cases[k].name, fault, f->context.message);
+            ++n_wrong;
+        }
+        mor_case_clear(&f->context, &f->the_case);
+    }
+    assert_int_equal(n_wrong, 0);
+}
+
+static void the_base_of_the_bad_cases_is_good(void **state)
+{
+    fixture *f = *state;
+    const mor_status status = mor_case_read(&f->context, FOLDER "/base.cfg", NULL, 0, f->registry, &f->the_case);
+    if (status != MOR_OK) {
+        fail_msg("%s", f->context.message);
+    }
+    mor_case_clear(&f->context, &f->the_case);
+}
+
+static int is_listed(const char *file)
+{
+    for (int k = 0; k < N_BAD_CASES; ++k) {
+        char name[PATH_BYTES];
+        snprintf(name, sizeof name, "%s.cfg", bad_cases[k].name);
+        if (strcmp(name, file) == 0) {
+            return 1;
+        }
+    }
+    return strcmp(file, "base.cfg") == 0;
+}
+
+static void every_file_of_the_folder_is_listed(void **state)
+{
+    (void)state;
+    DIR *folder = opendir(FOLDER);
+    assert_non_null(folder);
+    int n_files = 0;
+    int n_unlisted = 0;
+    for (const struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
+        if (entry->d_name[0] == '.') {
+            continue;
+        }
+        ++n_files;
+        if (!is_listed(entry->d_name)) {
+            print_error("%s is not in the list of this test\n", entry->d_name);
+            ++n_unlisted;
+        }
+    }
+    closedir(folder);
+    assert_int_equal(n_unlisted, 0);
+    assert_int_equal(n_files, N_BAD_CASES + 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_base_of_the_bad_cases_is_good),
+        cmocka_unit_test(every_bad_case_is_refused_with_place_finding_and_advice),
+        cmocka_unit_test(every_file_of_the_folder_is_listed),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

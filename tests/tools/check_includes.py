@@ -1,0 +1,152 @@
+# Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+# SPDX-License-Identifier: Apache-2.0
+"""Refuses an include that the folder may not have, an include cycle, an outside library away from its door, and OpenMP
+away from core/base/parallel.h. The table below is the one place that states who may include whom."""
+
+import posixpath
+import re
+import sys
+
+import source
+
+CORE = ("core/base", "core/particle", "core/material", "core/time", "core/sph", "core/io")
+EVERYTHING = CORE + ("core", "materials", "bodies", "relaxation", "cases/driver", "cases/driver/render")
+
+# Folder (with what lies below it, unless listed itself) -> folders or single headers it may include, besides its own.
+ALLOWED = {
+    "core": CORE,
+    "core/base": (),
+    "core/particle": ("core/base",),
+    "core/material": ("core/base",),
+    "core/time": ("core/base", "core/particle"),
+    "core/sph": ("core/base", "core/particle", "core/material", "core/time"),
+    "core/io": ("core/base", "core/particle", "core/material/params.h"),
+    "materials": ("core/base", "core/material"),
+    "bodies": CORE,
+    "relaxation": ("core/base", "core/particle", "core/sph/kernel.h"),
+    "cases/driver/render": ("core/base", "core/particle/shape.h"),
+    "cases/driver": EVERYTHING,
+    "tests": EVERYTHING,
+}
+
+# Outside header (pattern) -> the files that may include it.
+DOORS = {
+    r"hdf5\.h|H5\w+\.h": ("core/io/hdf5_file.c",),
+    r"libconfig\.h": ("core/io/case_file.c",),
+    r"(udunits2/)?udunits2?\.h": ("core/base/units.c",),
+    r"(sundials|arkode|cvode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*": ("core/time/ode.c",),
+    r"embree3/.*": ("cases/driver/render/scene.c", "relaxation/distance.c"),
+    r"cairo(/cairo)?(-\w+)?\.h": ("cases/driver/render/canvas.c",),
+    r"png\.h": (),
+    r"jansson\.h": ("core/io/summary.c",),
+    r"(gdal/)?(gdal|cpl_|ogr).*\.h": ("bodies/terrain.c",),
+    r"assimp/.*": ("relaxation/mesh.c",),
+    r"dlfcn\.h": ("core/material/plugin.c",),
+    r"omp\.h": ("core/base/parallel.h",),
+    r"cmocka\.h|setjmp\.h": ("tests/",),
+    r"(x86|imm)intrin\.h|arm_neon\.h": ("core/base/", "core/sph/", "core/material/", "materials/"),
+}
+
+LIBC = re.compile(
+    r"(assert|complex|ctype|dirent|errno|fcntl|fenv|float|inttypes|iso646|libgen|limits|locale|math|poll|pthread|sched"
+    r"|semaphore|signal|spawn|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|stdnoreturn|string|strings"
+    r"|tgmath|threads|time|uchar|unistd|wchar|wctype|ftw|getopt|malloc"
+    r"|sys/(ioctl|mman|random|resource|stat|time|times|types|uio|utsname|wait))\.h")
+
+GENERATED = {"moraine_build.h": "cases/driver"}
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
+OPENMP = re.compile(r'#[ \t]*pragma[ \t]+omp\b|_Pragma[ \t]*\([ \t]*"[ \t]*omp\b|MOR_PRAGMA_\([ \t]*omp\b')
+
+
+def folder_rule(path):
+    """The folder of the table that a path falls under: the longest that fits."""
+    folder = posixpath.dirname(path)
+    while folder and folder not in ALLOWED:
+        folder = posixpath.dirname(folder)
+    return folder
+
+
+def may_include(path, header):
+    folder = folder_rule(path)
+    if folder == folder_rule(header):
+        return True
+    return header in ALLOWED.get(folder, ()) or folder_rule(header) in ALLOWED.get(folder, ())
+
+
+def check_project_header(path, header, known):
+    if header in GENERATED:
+        if folder_rule(path) != GENERATED[header]:
+            return f'"{header}" is for {GENERATED[header]} only'
+        return None
+    if header not in known:
+        return f'"{header}" is no file of the project; write the path from the top folder, as "core/base/context.h"'
+    if not may_include(path, header):
+        allowed = ", ".join(ALLOWED.get(folder_rule(path), ())) or "nothing else"
+        return f'"{header}": {folder_rule(path) or "this folder"} may include its own headers and {allowed}'
+    return None
+
+
+def check_outside_header(path, header):
+    for pattern, places in DOORS.items():
+        if re.fullmatch(pattern, header):
+            if any(path == place or (place.endswith("/") and path.startswith(place)) for place in places):
+                return None
+            doors = " or ".join(places) or "no file yet; add its door to DOORS in tests/tools/check_includes.py"
+            return f"<{header}> belongs behind its door: {doors}"
+    if LIBC.fullmatch(header):
+        return None
+    return f"<{header}> is neither libc nor a library with a door in tests/tools/check_includes.py"
+
+
+def find_cycle(graph):
+    """One cycle of the include graph as a list of files, or None."""
+    state = {}
+
+    def visit(node, trail):
+        state[node] = "open"
+        for follower in graph.get(node, ()):
+            if state.get(follower) == "open":
+                return trail[trail.index(follower):] + [follower]
+            if follower not in state:
+                cycle = visit(follower, trail + [follower])
+                if cycle:
+                    return cycle
+        state[node] = "done"
+        return None
+
+    for node in sorted(graph):
+        if node not in state:
+            cycle = visit(node, [node])
+            if cycle:
+                return cycle
+    return None
+
+
+def check(root):
+    files = source.list_files(root, (".c", ".h", ".def"))
+    known = set(files)
+    problems = []
+    graph = {}
+    for path in files:
+        text = source.without_comments(source.read_text(root, path))
+        graph[path] = []
+        for match in INCLUDE.finditer(text):
+            ours, outside = match.groups()
+            problem = check_project_header(path, ours, known) if ours else check_outside_header(path, outside)
+            if problem:
+                problems.append(f"{path}:{source.line_of(text, match.start(ours and 1 or 2))}: {problem}")
+            elif ours in known:
+                graph[path].append(ours)
+        if path != "core/base/parallel.h":
+            for match in OPENMP.finditer(text):
+                problems.append(f"{path}:{source.line_of(text, match.start())}: OpenMP is written in "
+                                "core/base/parallel.h only; use or add a macro there")
+    cycle = find_cycle(graph)
+    if cycle:
+        problems.append(f"{cycle[0]}: include cycle: {' -> '.join(cycle)}")
+    return problems
+
+
+if __name__ == "__main__":
+    sys.exit(source.report("Forbidden includes", check(source.parse_root().root),
+                           "Move the code to the folder that may see what it needs, or pass it as an argument."))

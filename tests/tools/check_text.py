@@ -1,0 +1,80 @@
+# Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+# SPDX-License-Identifier: Apache-2.0
+"""Refuses text that has no place in the project: missing licence tags, long lines, tabs, words of unfinished work,
+traces of one machine, and links of the documentation that lead nowhere."""
+
+import os
+import posixpath
+import re
+import sys
+
+import source
+
+TAG = ("Moraine: soil-rock mixtures by smoothed particle hydrodynamics.", "SPDX-License-Identifier: Apache-2.0")
+TAGGED = (".c", ".h", ".def", ".py", ".sh", ".cmake", "CMakeLists.txt")
+TEXT = TAGGED + (".md", ".cfg", ".json", ".dict", "dev", ".ci/run", ".clang-format", ".gitignore")
+TABLES = (".def",)  # one entry a line, however long
+LINE_LENGTH = 120
+DELIBERATE = ("tests/regression/bad_", "tests/fuzz/corpus/")  # malformed on purpose
+
+# The project speaks of itself alone. Paths outside it may be named in tests, which look for optional data there.
+OUTSIDE_PATHS = re.compile(r"(?<![\w.])/work/|\.\./shared\b|/tmp/bash|\.library\b|/root/|/home/")
+WORDS = re.compile(r"\b(helpers?|sessions?|subagents?|closing note|before-stop)\b", re.IGNORECASE)
+UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b|\b(stub(bed)?|placeholders?|not (yet )?implemented|dummy value)\b")
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s#]+)(?:#[^)\s]*)?\)")
+
+
+def check_lines(path, text):
+    lines = text.split("\n")
+    for number, line in enumerate(lines, 1):
+        place = f"{path}:{number}"
+        if path.endswith(TAGGED) and not path.endswith(TABLES) and len(line) > LINE_LENGTH:
+            yield f"{place}: {len(line)} characters, {LINE_LENGTH} are allowed; break the line"
+        if path.endswith(TAGGED) and "\t" in line:
+            yield f"{place}: a tab; indent with spaces"
+        if path.endswith(TAGGED) and line != line.rstrip():
+            yield f"{place}: spaces at the end of the line; remove them"
+        if not path.startswith("tests/"):
+            for match in OUTSIDE_PATHS.finditer(line):
+                yield f"{place}: '{match.group(0)}' is a path of one machine; name places relative to the project"
+        if not path.startswith("tests/tools/"):
+            for match in WORDS.finditer(line):
+                yield f"{place}: '{match.group(0)}' says how the project was made, not what it is; say it otherwise"
+            for match in UNFINISHED.finditer(line):
+                yield f"{place}: '{match.group(0)}' marks unfinished work; finish it or leave it out"
+    if text and not text.endswith("\n"):
+        yield f"{path}:{len(lines)}: no line break at the end of the file; add one"
+
+
+def check_tag(path, text):
+    top = text.split("\n", 3)[:3]
+    if not any(first.endswith(TAG[0]) and TAG[1] in second for first, second in zip(top, top[1:])):
+        yield f"{path}:1: no licence tag; begin as core/base/context.h does"
+
+
+def check_links(root, path, text):
+    for match in LINK.finditer(text):
+        target = match.group(1)
+        if re.match(r"[a-z]+:", target):
+            continue
+        place = posixpath.normpath(posixpath.join(posixpath.dirname(path), target))
+        if not os.path.exists(os.path.join(root, place)):
+            yield f"{path}:{source.line_of(text, match.start())}: the link {target} leads nowhere; there is no {place}"
+
+
+def check(root):
+    problems = []
+    for path in source.list_files(root):
+        if not path.endswith(TEXT) or path.startswith(DELIBERATE):
+            continue
+        text = source.read_text(root, path)
+        problems.extend(check_lines(path, text))
+        if path.endswith(TAGGED):
+            problems.extend(check_tag(path, text))
+        if path.endswith(".md"):
+            problems.extend(check_links(root, path, text))
+    return problems
+
+
+if __name__ == "__main__":
+    sys.exit(source.report("Text to mend", check(source.parse_root().root), "One style everywhere, and no loose ends."))

@@ -1,0 +1,375 @@
+# Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+# SPDX-License-Identifier: Apache-2.0
+"""Proves that each check accepts good source and refuses bad source: every sample is a small project in a temporary
+folder with one defect."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import check_docstrings
+import check_headers
+import check_includes
+import check_sizes
+import check_symbols
+import check_tests
+import check_text
+import source
+
+COMPILER = "cc"
+TAG = "/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.\n * SPDX-License-Identifier: Apache-2.0 */\n"
+
+
+def header(path, body):
+    guard = check_headers.expected_guard(path)
+    return f"{TAG}#ifndef {guard}\n#define {guard}\n\n{body}\n#endif\n"
+
+
+GOOD = {
+    "core/base/context.h": header("core/base/context.h", "typedef struct mor_context { int n; } mor_context;\n"),
+    "core/base/length.h": header("core/base/length.h", """#include "core/base/context.h"
+
+/** Returns the length of a vector.
+ *  @param a [in]  shape [3], unit m
+ *  Returns: unit m. */
+double mor_length(const double *a);
+"""),
+    "core/base/length.c": TAG + """#include "core/base/length.h"
+
+#include <math.h>
+
+double mor_length(const double *a)
+{
+    /* "{" in a comment and in a string must not matter: { */
+    const char *const brace = "{";
+    return sqrt(a[0] * a[0]) * (brace[0] == '{');
+}
+""",
+    "core/particle/set.h": header("core/particle/set.h", '#include "core/base/context.h"\n'),
+    "materials/clay.c": TAG + '#include "core/base/context.h"\n',
+    "tests/unit/test_length.c": TAG + """#include "core/base/length.h"
+
+static void length_is_positive(void **state)
+{
+    (void)state;
+    assert_true(1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(length_is_positive)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+""",
+    "README.md": "# Moraine\n\nSee [the code](core/base/length.c) and [Debian](https://www.debian.org).\n",
+}
+
+
+class Sample(unittest.TestCase):
+    """A small good project, changed by each test."""
+
+    def setUp(self):
+        self.root = tempfile.mkdtemp(prefix="moraine_checks_")
+        self.addCleanup(shutil.rmtree, self.root)
+        for path, text in GOOD.items():
+            self.write(path, text)
+
+    def write(self, path, text):
+        place = os.path.join(self.root, path)
+        os.makedirs(os.path.dirname(place), exist_ok=True)
+        with open(place, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def expect(self, problems, *fragments):
+        """Exactly one problem, whose message holds all fragments; none when no fragment is given."""
+        problems = list(problems)
+        self.assertEqual(len(problems), 1 if fragments else 0, problems)
+        for fragment in fragments:
+            self.assertIn(fragment, problems[0])
+
+
+class Includes(Sample):
+    def refuse(self, path, line, *fragments):
+        self.write(path, TAG + line + "\n")
+        self.expect(check_includes.check(self.root), path + ":3", *fragments)
+
+    def test_good_source_passes(self):
+        self.expect(check_includes.check(self.root))
+
+    def test_base_must_not_see_particles(self):
+        self.refuse("core/base/bad.c", '#include "core/particle/set.h"', "core/particle/set.h", "nothing else")
+
+    def test_materials_must_not_see_particles(self):
+        self.refuse("materials/sand.c", '#include "core/particle/set.h"', "core/base, core/material")
+
+    def test_materials_template_is_held_to_the_same_rule(self):
+        self.refuse("materials/template/sand.c", '#include "core/particle/set.h"', "core/base, core/material")
+
+    def test_files_see_one_header_of_the_material_kit_only(self):
+        self.write("core/material/params.h", TAG)
+        self.write("core/material/material.h", TAG)
+        self.write("core/io/good.c", TAG + '#include "core/material/params.h"\n')
+        self.refuse("core/io/bad.c", '#include "core/material/material.h"', "core/material/params.h")
+
+    def test_nobody_includes_cases(self):
+        self.write("cases/driver/case.h", TAG)
+        self.write("cases/driver/main.c", TAG + '#include "cases/driver/case.h"\n')
+        self.refuse("bodies/bad.c", '#include "cases/driver/case.h"', "bodies may include")
+
+    def test_nobody_includes_tests(self):
+        self.write("tests/common/tools.h", TAG)
+        self.refuse("cases/driver/bad.c", '#include "tests/common/tools.h"', "cases/driver may include")
+
+    def test_paths_start_at_the_top(self):
+        self.refuse("core/base/bad.c", '#include "context.h"', "write the path from the top folder")
+
+    def test_outside_library_stays_behind_its_door(self):
+        self.write("core/io/hdf5_file.c", TAG + "#include <hdf5.h>\n")
+        self.refuse("core/io/bad.c", "#include <hdf5.h>", "core/io/hdf5_file.c")
+
+    def test_every_outside_library_has_a_door(self):
+        for outside in ("libconfig.h", "udunits2.h", "udunits2/udunits2.h", "embree3/rtcore.h", "cairo.h", "cairo/cairo.h",
+                        "cvode/cvode.h", "nvector/nvector_serial.h", "sundials/sundials_types.h", "jansson.h", "gdal.h",
+                        "gdal/gdal.h", "assimp/scene.h", "dlfcn.h", "omp.h", "png.h", "cmocka.h"):
+            with self.subTest(outside):
+                self.refuse("core/sph/bad.c", f"#include <{outside}>", outside, "behind its door")
+
+    def test_unknown_library_is_refused(self):
+        self.refuse("core/base/bad.c", "#include <gsl/gsl_math.h>", "neither libc nor")
+
+    def test_openmp_stays_in_one_file(self):
+        self.write("core/base/parallel.h", TAG + "#pragma omp parallel\n")
+        for line in ("#pragma omp simd", '_Pragma("omp simd")', "MOR_PRAGMA_(omp simd)"):
+            with self.subTest(line):
+                self.refuse("core/sph/bad.c", line, "core/base/parallel.h only")
+
+    def test_comments_do_not_count(self):
+        self.write("core/base/fine.c", TAG + '/* #include "core/particle/set.h" */\n// #pragma omp simd\n')
+        self.expect(check_includes.check(self.root))
+
+    def test_cycles_are_refused(self):
+        self.write("core/base/a.h", TAG + '#include "core/base/b.h"\n')
+        self.write("core/base/b.h", TAG + '#include "core/base/a.h"\n')
+        self.expect(check_includes.check(self.root), "include cycle", "core/base/a.h -> core/base/b.h -> core/base/a.h")
+
+
+class Headers(Sample):
+    def test_good_source_passes(self):
+        self.expect(check_headers.check(self.root, COMPILER))
+
+    def test_missing_include_is_refused(self):
+        self.write("core/base/bad.h", header("core/base/bad.h", "int64_t mor_bad(void);\n"))
+        self.expect(check_headers.check(self.root, COMPILER), "core/base/bad.h:1", "does not compile alone", "int64_t")
+
+    def test_missing_guard_is_refused(self):
+        self.write("core/base/bad.h", TAG + "int mor_bad(void);\n")
+        self.expect(check_headers.check(self.root, COMPILER), "no guard MOR_CORE_BASE_BAD_H")
+
+
+class Sizes(Sample):
+    def write_function(self, n_lines):
+        body = "    a += 1;\n" * (n_lines - 5)
+        self.write("core/base/long.c", f"{TAG}static int\nmor_long(int a)\n{{\n{body}    return a;\n}}\n")
+
+    def test_good_source_passes(self):
+        self.assertEqual(check_sizes.check(self.root), ([], []))
+
+    def test_long_function_is_noted(self):
+        self.write_function(61)
+        problems, notes = check_sizes.check(self.root)
+        self.expect(problems)
+        self.expect(notes, "core/base/long.c:3: mor_long has 61 lines")
+
+    def test_function_of_the_largest_size_passes(self):
+        self.write_function(120)
+        self.expect(check_sizes.check(self.root)[0])
+
+    def test_longer_function_is_refused(self):
+        self.write_function(121)
+        self.expect(check_sizes.check(self.root)[0], "mor_long has 121 lines, 120 are allowed")
+
+    def test_long_file_is_refused(self):
+        self.write("core/base/long.c", TAG + "int a;\n" * 599)
+        self.expect(check_sizes.check(self.root)[0], "has 601 lines, 600 are allowed")
+
+    def test_long_macro_is_refused(self):
+        self.write("core/base/long.c", TAG + "#define LONG \\\n" + "    a += 1; \\\n" * 60 + "\n")
+        self.expect(check_sizes.check(self.root)[0], "a macro has 62 lines")
+
+    def test_unbalanced_braces_are_refused(self):
+        self.write("core/base/odd.c", TAG + "#ifdef A\nint f(void) {\n#else\nint g(void) {\n#endif\n}\n")
+        self.expect(check_sizes.check(self.root)[0], "braces do not balance")
+
+    def test_every_function_is_found(self):
+        text = """struct a { int b; };
+static const int table[] = {1, 2};
+int *first(int (*call)(void)) { return 0; }
+__attribute__((noinline)) static double second(void)
+{
+    if (1) { }
+    return 0;
+}
+typedef enum e { A, B } e;
+"""
+        self.assertEqual(source.find_functions(text), [("first", 3, 3), ("second", 4, 8)])
+
+
+class Symbols(Sample):
+    def check_code(self, code, library="libmor_base.a", name="part"):
+        self.write(f"{name}.c", code)
+        place = os.path.join(self.root, name)
+        subprocess.run([COMPILER, "-O1", "-c", "-fPIE", f"{place}.c", "-o", f"{place}.o"], check=True)
+        subprocess.run(["ar", "rcs", os.path.join(self.root, library), f"{place}.o"], check=True)
+        return check_symbols.check(self.root)
+
+    def test_constants_pass(self):
+        self.expect(self.check_code('const char *const names[] = {"a", "b"};\nstatic const int n = 3;\n'
+                                    "int f(void);\nint f(void) { static const int k[2] = {1, 2}; return k[n - 2]; }\n"))
+
+    def test_variables_are_refused(self):
+        for code in ("int counter;", "int counter = 1;", "static int counter; int f(void) { return counter++; }",
+                     "int f(void) { static int counter = 5; return counter++; }", "_Thread_local int counter;",
+                     "_Thread_local int counter = 3;", 'const char *counter = "a";'):
+            with self.subTest(code):
+                self.expect(self.check_code(code + "\n"), "counter", "mutable variable of file scope")
+
+    def test_calls_that_belong_to_the_program_are_refused(self):
+        for call, reason in (("exit(1)", "ends the process"), ("abort()", "ends the process"), ('puts("a")', "prints"),
+                             ('fprintf(stderr, "%d", 1)', "prints"), ('getenv("A")', "environment"),
+                             ("rand()", "not reproducible"), ("malloc(3)", "memory")):
+            with self.subTest(call):
+                value = "" if call.startswith(("exit", "abort")) else "return (long)"
+                code = f"#include <stdio.h>\n#include <stdlib.h>\nlong f(void);\nlong f(void) {{ {value}{call}; }}\n"
+                self.expect(self.check_code(code), reason)
+
+    def test_program_may_print_and_exit(self):
+        self.expect(self.check_code('#include <stdio.h>\nint f(void) { return puts("a"); }\n', "libmor_driver.a"))
+
+    def test_memory_is_taken_in_one_place(self):
+        code = "#include <stdlib.h>\nvoid *f(void) { return malloc(3); }\n"
+        self.expect(self.check_code(code, name="memory.c"))
+
+    def test_empty_build_is_refused(self):
+        self.expect(check_symbols.check(self.root), "build first")
+
+
+class Docstrings(Sample):
+    def check_text(self, body):
+        return [message for _, message in check_docstrings.check_header(header("core/base/bad.h", body))]
+
+    def test_good_source_passes(self):
+        self.expect(check_docstrings.check(self.root))
+
+    def test_good_forms_pass(self):
+        for body in (
+                "/** Sets n. */\nvoid mor_f(int n);\n",
+                "/** @param a [in]  one object\n *  @param x [in]  shape [n,3]; unit m/s2\n *  Returns: MOR_OK. */\n"
+                "mor_status mor_f(const mor_a *a, const double *x);\n",
+                "/** Length of a vector, shape [3]; unit: that of the vector. */\n"
+                "static inline double mor_f(const double *a)\n{\n    return a[0];\n}\n",
+                "/** @param user [in,out]  owned by the caller */\nvoid mor_f(void *user);\n",
+                "/** A record. */\ntypedef struct mor_a {\n    double x[3]; /* position, m */\n"
+                "    double *y;   /* shape [n]; unit kg/m3 */\n    int n;\n} mor_a;\n",
+                "/** A record, SI. */\ntypedef struct mor_a {\n    double x, y;\n} mor_a;\n",
+                "/** A table. */\ntypedef struct mor_a {\n    /** Distance [m] of a point, shape [3], unit m. */\n"
+                "    double (*f)(const mor_a *a, const double *point);\n} mor_a;\n"):
+            with self.subTest(body):
+                self.expect(self.check_text(body))
+
+    def test_bad_forms_are_refused(self):
+        for body, fragment in (
+                ("void mor_f(int n);\n", "mor_f has no docstring"),
+                ("/** @param x [in]  unit m */\nvoid mor_f(const double *x);\n", "parameter x has no shape"),
+                ("/** @param x [in]  shape [n] */\nvoid mor_f(const double *x);\n", "parameter x has no unit"),
+                ("/** @param x [in]  how long it takes */\nvoid mor_f(double x);\n", "parameter x has no unit"),
+                ("/** @param a [in]  the thing */\nvoid mor_f(const mor_a *a);\n", "parameter a has no shape"),
+                ("/** @param n [in]  a count */\nvoid mor_f(int n, int m);\n", "parameter m is not described"),
+                ("/** @param n [in]  a count */\nmor_status mor_f(int n);\n", "no 'Returns:'"),
+                ("/** Returns how much. */\ndouble mor_f(void);\n", "what it returns has no unit"),
+                ("/** Returns how much. */\nstatic inline double mor_f(void)\n{\n    return 1.0;\n}\n", "returns has no"),
+                ("/** A record. */\ntypedef struct mor_a {\n    double x; /* place */\n} mor_a;\n", "x has no unit"),
+                ("/** A record. */\ntypedef struct mor_a {\n    int *x; /* places */\n} mor_a;\n", "x has no shape"),
+                ("/** A table. */\ntypedef struct mor_a {\n    void (*f)(const double *point);\n} mor_a;\n",
+                 "f has no docstring")):
+            with self.subTest(body):
+                self.expect(self.check_text(body), fragment)
+
+
+class Text(Sample):
+    def refuse(self, path, text, *fragments):
+        self.write(path, text)
+        self.expect(check_text.check(self.root), path, *fragments)
+
+    def test_good_source_passes(self):
+        self.expect(check_text.check(self.root))
+
+    def test_missing_tag_is_refused(self):
+        self.refuse("core/base/bad.c", "int a;\n", "no licence tag")
+
+    def test_layout_is_checked(self):
+        for line, fragment in (("int a; //" + "x" * 112, "121 characters"), ("\tint a;", "a tab"), ("int a; ", "spaces at")):
+            with self.subTest(fragment):
+                self.refuse("core/base/bad.c", TAG + line + "\n", ":3", fragment)
+
+    def test_last_line_must_end(self):
+        self.refuse("core/base/bad.c", TAG + "int a;", "no line break")
+
+    def test_input_that_is_malformed_on_purpose_passes(self):
+        self.write("tests/regression/bad_cases/cut.cfg", "title = ")
+        self.write("tests/fuzz/corpus/case/cut.cfg", "TODO")
+        self.expect(check_text.check(self.root))
+
+    def test_traces_of_how_it_was_made_are_refused(self):
+        for word in ("/work/main", "../shared/x.md", "a helper", "this session", "Subagent"):
+            with self.subTest(word):
+                self.refuse("docs/bad.md", f"See {word}.\n", "docs/bad.md:1")
+
+    def test_optional_data_outside_may_be_named_in_tests(self):
+        self.write("tests/physics/test_a.c", TAG + '/* "../shared/data" */\n')
+        self.expect(check_text.check(self.root))
+
+    def test_unfinished_work_is_refused(self):
+        for word in ("TODO", "FIXME", "a stub", "placeholder", "not implemented", "not yet implemented"):
+            with self.subTest(word):
+                self.refuse("core/base/bad.c", f"{TAG}/* {word} */\n", "unfinished")
+
+    def test_dead_link_is_refused(self):
+        self.refuse("docs/bad.md", "[there](../core/base/none.c#top)\n", "leads nowhere", "core/base/none.c")
+
+
+class Tests(Sample):
+    def test_good_source_passes(self):
+        self.expect(check_tests.check(self.root, {"unit/test_length"}))
+
+    def test_unregistered_test_is_refused(self):
+        self.expect(check_tests.check(self.root, {"unit/other"}), "tests/unit/test_length.c", "CTest does not run it")
+
+    def test_unregistered_fuzzer_is_refused(self):
+        self.write("tests/fuzz/fuzz_a.c", TAG)
+        self.expect(check_tests.check(self.root, {"unit/test_length"}), "fuzz_a.c", "CTest does not run it")
+
+    def test_file_without_assertion_is_refused(self):
+        text = GOOD["tests/unit/test_length.c"].replace("assert_true(1)", "/* assert_true(1) */")
+        self.write("tests/unit/test_length.c", text)
+        self.expect(check_tests.check(self.root, {"unit/test_length"}), "nothing in it asserts")
+
+    def test_function_in_no_group_is_refused(self):
+        text = GOOD["tests/unit/test_length.c"].replace("cmocka_unit_test(length_is_positive)", "")
+        self.write("tests/unit/test_length.c", text)
+        self.expect(check_tests.check(self.root, {"unit/test_length"}), "length_is_positive is in no group")
+
+    def test_registered_tests_are_read_from_ctest(self):
+        self.write("CTestTestfile.cmake", "add_test(unit/test_length true)\n")
+        self.assertEqual(check_tests.list_registered(self.root, CTEST), {"unit/test_length"})
+
+
+CTEST = "ctest"
+
+if __name__ == "__main__":
+    if len(sys.argv) == 3:
+        COMPILER, CTEST = sys.argv[1:]
+        del sys.argv[1:]
+    unittest.main(verbosity=1)

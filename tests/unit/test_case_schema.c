@@ -1,0 +1,156 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case_schema.h"
+#include "core/base/units.h"
+#include "materials/builtin.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { GROUPS_MAX = 32 };
+
+typedef struct fixture {
+    mor_context context;
+    mor_units *units;
+    mor_registry *registry;
+} fixture;
+
+static int set_up(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+    if (f == NULL) {
+        return 1;
+    }
+    *state = f;
+    mor_context_init(&f->context);
+    return mor_units_new(&f->context, &f->units) != MOR_OK || mor_registry_new(&f->context, &f->registry) != MOR_OK ||
+           mor_materials_register_builtin(&f->context, f->registry) != MOR_OK;
+}
+
+static int tear_down(void **state)
+{
+    fixture *f = *state;
+    mor_registry_free(&f->context, &f->registry);
+    mor_units_free(&f->context, &f->units);
+    const int is_leaking = f->context.memory_bytes != 0;
+    free(f);
+    return is_leaking;
+}
+
+static size_t stored_bytes(const mor_case_key *key)
+{
+    switch (key->storage) {
+    case MOR_CASE_STORE_REALS:
+        return sizeof(double) * (size_t)key->schema.n_components;
+    case MOR_CASE_STORE_INT:
+    case MOR_CASE_STORE_CHOICE:
+        return sizeof(int);
+    case MOR_CASE_STORE_SEED:
+        return sizeof(uint64_t);
+    case MOR_CASE_STORE_BOOL:
+        return sizeof(bool);
+    case MOR_CASE_STORE_TEXT:
+    case MOR_CASE_STORE_NAME:
+    case MOR_CASE_STORE_WORD:
+        break;
+    }
+    return key->size > 16 ? key->size : 0;
+}
+
+static void check_table(fixture *f, const mor_case_group *group)
+{
+    mor_dimension dimension;
+    int n_keys = 0;
+    for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
+        const mor_schema *s = &key->schema;
+        const bool is_sound = stored_bytes(key) == key->size && s->text != NULL && s->minimum <= s->maximum &&
+                              mor_case_key_find(group->keys, s->key) == n_keys &&
+                              mor_units_dimension(&f->context, f->units, s->unit, &dimension) == MOR_OK &&
+                              (s->is_required || key->computed != NULL || s->kind == MOR_SCHEMA_TEXT ||
+                               (s->default_value >= s->minimum && s->default_value <= s->maximum)) &&
+                              (s->kind == MOR_SCHEMA_CHOICE) == (s->choices != NULL);
+        if (!is_sound) {
+            fail_msg("the entry '%s' of '%s' is not sound", s->key, group->name);
+        }
+        ++n_keys;
+    }
+    assert_true(n_keys <= 64); /* exact: bits of the mask */
+}
+
+static int list_groups(const mor_case_group **groups)
+{
+    static const mor_case_group *const single[] = {
+        &mor_case_root_group, &mor_case_soil_group,  &mor_case_material_group,   &mor_case_stress_group,
+        &mor_case_wall_group, &mor_case_probe_group, &mor_case_expectation_group};
+    int n = 0;
+    for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
+        groups[n++] = single[k];
+    }
+    for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
+        groups[n++] = group;
+    }
+    for (int k = 0; k < MOR_CASE_SHAPE_COUNT; ++k) {
+        groups[n++] = &mor_case_shape_groups[k];
+    }
+    return n;
+}
+
+static void the_tables_are_sound(void **state)
+{
+    fixture *f = *state;
+    const mor_case_group *groups[GROUPS_MAX];
+    mor_dimension dimension;
+    const int n_groups = list_groups(groups);
+    for (int k = 0; k < n_groups; ++k) {
+        check_table(f, groups[k]);
+    }
+    for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
+        assert_int_equal(mor_units_dimension(&f->context, f->units, type->unit, &dimension), MOR_OK);
+        assert_int_equal(mor_units_dimension(&f->context, f->units, type->unit_plane, &dimension), MOR_OK);
+        assert_int_equal(type->required & ~type->allowed, 0);
+        assert_ptr_equal(mor_case_probe_type_find(type->name), type);
+    }
+    for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
+        assert_true(mor_case_key_find(mor_case_probe_group.keys, mor_case_probe_key_names[k]) >= 0);
+    }
+}
+
+static void the_printed_reference_names_every_key(void **state)
+{
+    fixture *f = *state;
+    char *text = NULL;
+    size_t n_bytes = 0;
+    FILE *stream = open_memstream(&text, &n_bytes);
+    assert_non_null(stream);
+    assert_int_equal(mor_case_schema_print(&f->context, f->registry, stream), MOR_OK);
+    fclose(stream);
+    const mor_case_group *groups[GROUPS_MAX];
+    const int n_groups = list_groups(groups);
+    for (int g = 0; g < n_groups; ++g) {
+        for (const mor_case_key *key = groups[g]->keys; key->schema.key != NULL; ++key) {
+            char row[128];
+            snprintf(row, sizeof row, "\n| `%s` | ", key->schema.key);
+            assert_non_null(strstr(text, row));
+        }
+    }
+    assert_non_null(strstr(text, "`drucker_prager`"));
+    assert_non_null(strstr(text, "\n| `youngs_modulus` | number | Pa | **required** | > 0 |"));
+    assert_non_null(strstr(text, "\n| `wall_dissipation` | word |  | approach | separation, approach, both |"));
+    assert_non_null(strstr(text, "\n| `kinetic_energy` | J (J/m) |"));
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_tables_are_sound),
+        cmocka_unit_test(the_printed_reference_names_every_key),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
