@@ -10,8 +10,8 @@
 #include <stdio.h>
 
 /** @file
- *  From a case file to struct mor_case and back. What a case file may say stands in case_schema.c; whether the particles
- *  it asks for fit into memory is for the builder to find out. */
+ *  From a case file to struct mor_case and back. What a case file may say stands in case_schema.c; whether the
+ *  particles it asks for fit into memory is for the builder to find out. */
 
 /** The text of a case that is in no file. */
 typedef struct mor_case_text {
@@ -55,8 +55,8 @@ void mor_case_clear(mor_context *context, mor_case *the_case);
  *  @param outline [in,out]  one object, read or zeroed */
 void mor_case_shape_clear(mor_context *context, mor_case_shape *outline);
 
-/** Writes a case with every value that is used, in SI and with units, defaults marked by a comment. Reading it again gives
- *  the same case bit for bit (values stand before the scale, which is an exact factor).
+/** Writes a case with every value that is used, in SI and with units, defaults marked by a comment. Reading it again
+ *  gives the same case bit for bit (values stand before the scale, which is an exact factor).
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object, from mor_case_read
  *  @param registry [in]      one object; the models the case was read with

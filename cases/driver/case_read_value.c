@@ -11,7 +11,13 @@
 
 /* Single values: from a node and a schema to numbers and members of a record. */
 
-enum { PATH_BYTES = MOR_CASE_NODE_TEXT_BYTES, ALLOWED_BYTES = 320, COMPONENTS_MAX = 9, CHOICE_WORDS_MAX = 16 };
+enum {
+    PATH_BYTES = MOR_CASE_NODE_TEXT_BYTES,
+    RANGE_BYTES = 256,
+    ALLOWED_BYTES = 320,
+    COMPONENTS_MAX = 9,
+    CHOICE_WORDS_MAX = 16
+};
 
 /* Beyond these a number is a slip of the pen, and its powers come near the ends of double. */
 static const double largest_size = 1.0e30;
@@ -20,7 +26,7 @@ static const double smallest_size = 1.0e-30;
 /* What a key allows, for people. */
 static void describe_allowed(const mor_case_reader *reader, const mor_schema *schema, char *text, size_t text_bytes)
 {
-    char range[ALLOWED_BYTES];
+    char range[RANGE_BYTES];
     mor_params_range(schema, range, sizeof range);
     switch (schema->kind) {
     case MOR_SCHEMA_BOOLEAN:

@@ -8,8 +8,8 @@
 #include "core/io/case_file.h"
 
 /** @file
- *  The parts that reading a case is made of; used by case_read*.c only. Every error names the place in the file, what was
- *  found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
+ *  The parts that reading a case is made of; used by case_read*.c only. Every error names the place in the file, what
+ *  was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
 
 /** What every part needs to know. */
 typedef struct mor_case_reader {
@@ -104,7 +104,8 @@ bool mor_case_reader_has(const mor_case_group *group, uint64_t written, const ch
 /** Reads a shape and builds it.
  *  @param reader  [in]   one object
  *  @param node    [in]   one object
- *  @param outline [out]  one object; zeroed before; owned by the case, free with mor_case_shape_clear also after failure
+ *  @param outline [out]  one object; zeroed before; owned by the case; mor_case_shape_clear frees it, after a
+ *                        failure, too
  *  @param shape   [out]  one pointer; owned by the case; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_shape(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,

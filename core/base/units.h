@@ -11,8 +11,8 @@
  *  Units as people write them: "5.98 MPa" to a plain number in SI, and the powers of meter, kilogram and second that a
  *  unit stands for. The door of UDUNITS-2. It knows nothing of case files.
  *
- *  Beyond the words of UDUNITS, "deg" is an angle (so is the degree sign). An angle is not a plain number here: "30 deg"
- *  is refused where a ratio is wanted. Units with a shifted zero (degC), logarithms and dates are refused.
+ *  Beyond the words of UDUNITS, "deg" is an angle (so is the degree sign). An angle is not a plain number here:
+ *  "30 deg" is refused where a ratio is wanted. Units with a shifted zero (degC), logarithms and dates are refused.
  *  Numbers have a decimal point whatever the locale. */
 
 /** The base quantities, in the order of mor_dimension. */

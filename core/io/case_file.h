@@ -11,8 +11,8 @@
  *  A case file as a tree of settings that remember where they were written. The door of libconfig: the file is parsed,
  *  copied into the tree, and libconfig is gone. It does not know which settings exist or what they mean.
  *
- *  Every message has the form "place: found ...; allowed ...; do ...", where place is "file:line" (line 0: the file as a
- *  whole) or "--set 'key=value'". */
+ *  Every message has the form "place: found ...; allowed ...; do ...", where place is "file:line" (line 0: the file as
+ *  a whole) or "--set 'key=value'". */
 
 enum { MOR_CASE_NODE_TEXT_BYTES = 160, MOR_CASE_PLACE_BYTES = 320 };
 

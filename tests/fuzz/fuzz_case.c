@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Any bytes as a case file: read without a crash, a leak or a hang, refused with a message or accepted; an accepted case,
- * written and read again, is accepted again. The first line may be a setting of the command line: "#--set key=value". */
+/* Any bytes as a case file: read without a crash, a leak or a hang, refused with a message or accepted; an accepted
+ * case, written and read again, is accepted again. The first line may be a setting of the command line:
+ * "#--set key=value". */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes);
 

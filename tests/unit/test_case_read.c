@@ -158,7 +158,7 @@ static void values_arrive_in_si(void **state)
     assert_int_equal(c->walls[1].friction, MOR_CASE_FRICTION_COULOMB);
     assert_true(c->walls[1].friction_coefficient == 0.3 && c->walls[1].velocity[2] == 1.0); /* exact */
     assert_int_equal(c->numerics.dissipation, 2);
-    assert_int_equal(c->numerics.wall_dissipation, 1);
+    assert_int_equal(c->numerics.wall_dissipation, 0);
     assert_true(c->numerics.dissipation_factor == 50.0 && c->numerics.damping == 2.0); /* exact */
     assert_true(c->numerics.artificial_stress);
     assert_int_equal(c->numerics.density_reinitialization, 0);
@@ -177,7 +177,7 @@ static void what_is_not_written_gets_its_default(void **state)
     assert_true(c->numerics.smoothing_ratio == 1.3 && c->numerics.courant == 0.4); /* exact */
     assert_true(c->numerics.dissipation_factor == 40.0);                           /* exact: 20 * dimension */
     assert_int_equal(c->numerics.dissipation, 0);
-    assert_int_equal(c->numerics.wall_dissipation, 1);
+    assert_int_equal(c->numerics.wall_dissipation, 0);
     assert_int_equal(c->numerics.density_reinitialization, 20);
     assert_int_equal(c->numerics.sort_interval, 100);
     assert_true(c->output.series_interval == 1.0 / 200.0); /* exact: the same operation */

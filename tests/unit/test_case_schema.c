@@ -141,7 +141,7 @@ static void the_printed_reference_names_every_key(void **state)
     }
     assert_non_null(strstr(text, "`drucker_prager`"));
     assert_non_null(strstr(text, "\n| `youngs_modulus` | number | Pa | **required** | > 0 |"));
-    assert_non_null(strstr(text, "\n| `wall_dissipation` | word |  | approach | separation, approach, both |"));
+    assert_non_null(strstr(text, "\n| `wall_dissipation` | word |  | separation | separation, approach, both |"));
     assert_non_null(strstr(text, "\n| `kinetic_energy` | J (J/m) |"));
     free(text);
 }
