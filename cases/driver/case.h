@@ -104,9 +104,11 @@ typedef struct mor_case_wall {
 /** Settings of the method, design.md "Fine grains". */
 typedef struct mor_case_numerics {
     double smoothing_ratio;            /* h / spacing, 1.3 */
+    bool lattice_normalization;       /* kernel gradient exact for linear fields on the initial lattice */
     double courant;                    /* CFL number, 0.4 */
     int dissipation;                   /* 0 separation, 1 approach, 2 both */
     int wall_dissipation;              /* likewise for walls */
+    int wall_stress;                  /* 0 uniform, 1 along, 2 linear */
     double dissipation_factor;         /* eta; default 20 * dimension */
     bool density_pressure_term;        /* pressure part of U* in the density rate */
     double stress_diffusion;           /* zeta; 0: off */

@@ -32,7 +32,8 @@ static const char options_text[] =
     "Options\n"
     "  -o, --output DIR      folder of the run (default runs/NAME)\n"
     "  -t, --threads N       threads (default: as many as the machine has cores)\n"
-    "  -s, --set KEY=VALUE   overrides a key of the case, such as --set spacing='2 mm' or --set 'soil[0].material.cohesion=1 kPa'\n"
+    "  -s, --set KEY=VALUE   overrides a key of the case, such as --set spacing='2 mm' or --set "
+    "'soil[0].material.cohesion=1 kPa'\n"
     "      --resume          go on from the last good checkpoint of the folder\n"
     "      --stop-at T       stop with a checkpoint once the simulated time reaches T seconds\n"
     "  -h, --help            this text\n"
@@ -41,7 +42,8 @@ static const char options_text[] =
 
 static void print_usage(FILE *stream)
 {
-    fprintf(stream, "Moraine simulates mixtures of soil and rocks.\n\nUsage: moraine COMMAND SUBJECT [OPTION]...\n\nCommands\n");
+    fprintf(stream, "Moraine simulates mixtures of soil and rocks.\n\nUsage: moraine COMMAND SUBJECT [OPTION]...\n\n"
+                    "Commands\n");
     for (int k = 0; k < N_COMMANDS; ++k) {
         fprintf(stream, "  %-14s %-5s %s\n", commands[k].name, commands[k].subject, commands[k].text);
     }
@@ -95,7 +97,8 @@ static mor_status take_option(mor_command *command, int option, const char *valu
     case 'T':
         return set_stop(command, value);
     default:
-        return MOR_FAIL(context, MOR_ERROR_CONFIG, "found an option that is not known or lacks its value; see moraine --help");
+        return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                        "found an option that is not known or lacks its value; see moraine --help");
     }
 }
 

@@ -198,7 +198,8 @@ mor_status mor_command_render(mor_command *command, int *exit_code)
     command->folder = command->subject;
     MOR_TRY(command->context, mor_durable_file_join(command->context, path, command->folder, "case.resolved.cfg"));
     MOR_CHECK(command->context, access(path, R_OK) == 0, MOR_ERROR_CONFIG,
-              "'%s' is not the folder of a run: it holds no case.resolved.cfg; give the folder that 'moraine run' wrote",
+              "'%s' is not the folder of a run: it holds no case.resolved.cfg; give the folder that 'moraine run' "
+              "wrote",
               command->folder);
     command->subject = path;
     return with_scene(command, false, draw_pictures);
@@ -245,7 +246,9 @@ mor_status mor_command_run(mor_command *command, int *exit_code)
     }
     mor_registry_free(command->context, &registry);
     if (status == MOR_OK) {
-        *exit_code = outcome.is_interrupted ? MOR_EXIT_INTERRUPTED : outcome.n_missed > 0 ? MOR_EXIT_MISSED : MOR_EXIT_OK;
+        *exit_code = outcome.is_interrupted   ? MOR_EXIT_INTERRUPTED
+                     : outcome.n_missed > 0 ? MOR_EXIT_MISSED
+                                            : MOR_EXIT_OK;
     }
     return status;
 }

@@ -48,8 +48,8 @@ static mor_status list_fields(mor_context *context, const mor_registry *registry
     for (int k = 0; k < mor_registry_count(registry); ++k) {
         const mor_material *material = mor_registry_get(registry, k);
         for (const mor_schema *state = material->state; state->key != NULL; ++state) {
-            fprintf(out, "%-20s %d x [%s] in snapshots; %s; state of %s\n", state->key, state->n_components, state->unit,
-                    state->text, material->name);
+            fprintf(out, "%-20s %d x [%s] in snapshots; %s; state of %s\n", state->key, state->n_components,
+                    state->unit, state->text, material->name);
         }
     }
     return MOR_OK;

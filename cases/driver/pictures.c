@@ -72,8 +72,8 @@ static mor_status read_field(mor_context *context, const mor_snapshot *snapshot,
 {
     const mor_snapshot_field *field = mor_snapshot_find_field(set, name);
     MOR_CHECK(context, field != NULL, MOR_ERROR_CONFIG,
-              "the snapshots have no field '%s' to color by; allowed are speed, pressure, vertical_stress and the output "
-              "fields that 'moraine list fields' prints; change 'color' in the group 'output'",
+              "the snapshots have no field '%s' to color by; allowed are speed, pressure, vertical_stress and the "
+              "output fields that 'moraine list fields' prints; change 'color' in the group 'output'",
               name);
     *n_components = field->n_components;
     MOR_TRY(context, MOR_NEW(context, values, set->n_particles * field->n_components, "a field for a picture"));
@@ -199,7 +199,8 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     }
     const int n_written = snprintf(path, sizeof path, "%s/images/step_%06lld_%s.png", g->folder,
                                    (long long)snapshot->step, c->output.color_field);
-    MOR_CHECK(context, n_written > 0 && n_written < (int)sizeof path, MOR_ERROR_IO, "the path of a picture is too long");
+    MOR_CHECK(context, n_written > 0 && n_written < (int)sizeof path, MOR_ERROR_IO,
+              "the path of a picture is too long");
     MOR_TRY(context, mor_picture_write(context, &picture, path));
     fprintf(output, "picture: %s\n", path);
     return MOR_OK;

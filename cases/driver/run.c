@@ -42,7 +42,8 @@ static void find_next_outputs(const mor_simulation *s, pace *p)
     while (row_tick(s, p->next_row) <= s->schedule.now) {
         ++p->next_row;
     }
-    while (p->next_snapshot < s->the_case->output.n_snapshots && snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
+    while (p->next_snapshot < s->the_case->output.n_snapshots &&
+           snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
         ++p->next_snapshot;
     }
 }
@@ -140,7 +141,8 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     MOR_TRY(context, mor_run_files_save(context, files));
     if (!outcome->is_finished) {
         outcome->is_interrupted = options->stop != NULL && *options->stop != 0;
-        fprintf(options->output, "stopped at t = %.6g s of %.6g s, step %llu; go on with the same command and --resume\n",
+        fprintf(options->output,
+                "stopped at t = %.6g s of %.6g s, step %llu; go on with the same command and --resume\n",
                 mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
         return MOR_OK;
     }

@@ -38,7 +38,8 @@ static bool is_present(mor_context *context, const char *folder, const char *nam
 static mor_status make_folders(mor_context *context, const char *path)
 {
     char part[MOR_PATH_BYTES];
-    MOR_CHECK(context, strlen(path) < sizeof part, MOR_ERROR_CONFIG, "the name of the run's folder is too long: %s", path);
+    MOR_CHECK(context, strlen(path) < sizeof part, MOR_ERROR_CONFIG, "the name of the run's folder is too long: %s",
+              path);
     strcpy(part, path);
     for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
@@ -62,7 +63,8 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     MOR_TRY(context, mor_durable_file_make_folder(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
     files->log = fopen(path, options->is_resume ? "a" : "w");
-    MOR_CHECK(context, files->log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
+    MOR_CHECK(context, files->log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions",
+              path);
     files->previous_sink = context->log_sink;
     files->previous_user = context->log_user;
     context->log_sink = log_line;

@@ -156,6 +156,7 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
         .dimension = c->dimension,
         .spacing = c->spacing,
         .smoothing_ratio = n->smoothing_ratio,
+        .has_lattice_normalization = n->lattice_normalization,
         .courant = n->courant,
         .dissipation = (mor_dissipation)n->dissipation,
         .wall_dissipation = (mor_dissipation)n->wall_dissipation,
@@ -260,6 +261,8 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
                                     .points = points.positions,
                                     .n_points = points.n_points,
                                     .point_volume = volume,
+                                    .dimension = c->dimension,
+                                    .stress = (mor_wall_stress)c->numerics.wall_stress,
                                     .friction = (mor_wall_friction)c->walls[w].friction,
                                     .friction_coefficient = c->walls[w].friction_coefficient};
         mor_matrix_apply(c->turn, c->walls[w].velocity, request.velocity);

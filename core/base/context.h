@@ -67,7 +67,8 @@ mor_status mor_context_fail(mor_context *context, mor_status status, const mor_f
 /** Adds a frame to the call chain of the last error and returns status.
  *  @param context [in,out]  one object
  *  @param status  [in]      the code being passed on
- *  @param place   [in]      one object; where it passes */
+ *  @param place   [in]      one object; where it passes
+ *  Returns: status, whatever it is. */
 mor_status mor_context_pass(mor_context *context, mor_status status, const mor_frame *place);
 
 /** Sends one line to the log sink.

@@ -25,7 +25,7 @@ static inline double mor_vector_length(const double *a)
     return sqrt(mor_vector_dot(a, a));
 }
 
-/** out = matrix * a; matrix shape [3,3], a and out shape [3], not aliased. */
+/** out = matrix * a; matrix shape [3,3], a and out shape [3], not aliased; unit of out: product of theirs. */
 static inline void mor_matrix_apply(const double *matrix, const double *a, double *out)
 {
     for (int row = 0; row < 3; ++row) {
@@ -33,7 +33,8 @@ static inline void mor_matrix_apply(const double *matrix, const double *a, doubl
     }
 }
 
-/** out = transpose(matrix) * a; matrix shape [3,3], a and out shape [3], not aliased. */
+/** out = transpose(matrix) * a; matrix shape [3,3], a and out shape [3], not aliased; unit of out: product of
+ *  theirs. */
 static inline void mor_matrix_apply_transposed(const double *matrix, const double *a, double *out)
 {
     for (int column = 0; column < 3; ++column) {
@@ -41,7 +42,7 @@ static inline void mor_matrix_apply_transposed(const double *matrix, const doubl
     }
 }
 
-/** out = tensor * a; symmetric tensor shape [6], a and out shape [3], not aliased. */
+/** out = tensor * a; symmetric tensor shape [6], a and out shape [3], not aliased; unit of out: product of theirs. */
 static inline void mor_symmetric_apply(const double *tensor, const double *a, double *out)
 {
     out[0] = tensor[MOR_XX] * a[0] + tensor[MOR_XY] * a[1] + tensor[MOR_ZX] * a[2];

@@ -13,7 +13,8 @@ enum { MOR_MEMORY_ALIGNMENT_BYTES = 64 };
 
 /** Allocates n_items * item_bytes zeroed bytes aligned to 64.
  *  @param context    [in,out]  one object; its counters are updated
- *  @param block      [out]     the address of one pointer (cast to void **); receives the memory, NULL when n_items is 0
+ *  @param block      [out]     the address of one pointer (cast to void **); receives the memory, NULL when n_items is
+ *                              0
  *  @param n_items    [in]      number of items, >= 0
  *  @param item_bytes [in]      size of one item in bytes, > 0
  *  @param label      [in]      static zero-terminated string naming the use, for error messages

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* STACK: pending nodes of a descent. GRAIN: clusters a thread takes at once. SLACK: spare room against regrowth, 1/n. */
-enum { STACK = 64, GRAIN = 16, SLACK = 4, FIRST_CAPACITY = 4096 };
+/* STACK: pending nodes of a descent. SLACK: spare room against regrowth, 1/n. */
+enum { STACK = 64, SLACK = 4, FIRST_CAPACITY = 4096 };
 
 mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
                              int64_t n_clusters)
@@ -108,8 +108,8 @@ static inline bool is_seen(const lanes *eight, const double *point, double reach
 }
 
 /* Appends the points of one target cluster that one of the eight sees; returns the new count. */
-static inline int64_t append_cluster(const lanes *eight, const mor_relation_points *target, int64_t cluster, double reach2,
-                              int32_t *out, int64_t room)
+static inline int64_t append_cluster(const lanes *eight, const mor_relation_points *target, int64_t cluster,
+                                     double reach2, int32_t *out, int64_t room)
 {
     const int64_t begin = cluster * MOR_CLUSTER;
     const int64_t end = begin + MOR_CLUSTER < target->tree->n_points ? begin + MOR_CLUSTER : target->tree->n_points;

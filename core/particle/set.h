@@ -19,7 +19,8 @@ typedef struct mor_set {
     int64_t n_particles;                  /* number of particles */
     int n_fields;                         /* declared fields; the built-in ones come first */
     mor_field_info fields[MOR_FIELDS_MAX]; /* shape [n_fields] */
-    double *data[MOR_FIELDS_MAX];         /* shape [n_fields] of [n_particles, n_components]; NULL for unused fields */
+    double *data[MOR_FIELDS_MAX];         /* shape [n_fields] of [n_particles, n_components], NULL for unused
+                                             fields; unit: of the field */
     int64_t *id;                          /* shape [n_particles]; number given at creation, unchanged by sorting */
     uint64_t generation;                  /* raised by every resize or permute */
 } mor_set;
@@ -56,7 +57,7 @@ int mor_set_find_field(const mor_set *set, const char *name);
  *  @param context [in,out]  one object
  *  @param set     [in,out]  one object
  *  @param order   [in]      shape [n_particles]; a permutation of 0 .. n_particles - 1
- *  @param scratch [in,out]  shape [9 * n_particles]; overwritten
+ *  @param scratch [in,out]  shape [9 * n_particles]; overwritten; holds values of every field in turn, any unit
  *  Gives: generation + 1. Cost: O(n), allocates nothing. */
 void mor_set_permute(mor_context *context, mor_set *set, const int32_t *order, double *scratch);
 

@@ -7,7 +7,8 @@
 
 /** @file
  *  The Wendland C2 kernel, Zhang et al. (2024) eq. 61: W(q) = alpha_d (1 - q/2)^4 (2 q + 1), q = r / h <= 2.
- *  Its gradient is -(5 alpha_d / h^2) (1 - q/2)^3 (r_i - r_j): the pair loops use this form, which needs no division. */
+ *  Its gradient is -(5 alpha_d / h^2) (1 - q/2)^3 (r_i - r_j): the pair loops use this form, which needs no
+ *  division. */
 
 /** Kernel support over smoothing length, 1. */
 #define MOR_KERNEL_SUPPORT 2.0

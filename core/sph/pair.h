@@ -41,28 +41,28 @@ typedef struct mor_pair_constants {
     bool has_artificial_stress;     /* artificial_stress is read */
     bool has_pressure_term;         /* pressure part of U* in the density rate */
     double smoothing_length;        /* h, m */
-    double gradient_factor;         /* mor_kernel_gradient_factor, 1/m^(d+2) */
+    double gradient_factor;         /* mor_kernel_gradient_factor, unit 1/m^(d+2) */
     double limiter_rate;            /* eta / c0, s/m: slope of the dissipation limiter */
     double diffusion_rate;          /* 2 zeta h c0, m2/s; 0 without stress diffusion */
     double gravity_direction[3];    /* unit vector, 1; zero without gravity */
     double rest_gradient[6];        /* d stress / d height at rest, symmetric tensor, Pa/m */
     double artificial_exponent;     /* n, 1 */
-    double spacing_kernel;          /* W(spacing), 1/m^d */
-    double kernel_normalization;    /* alpha_d, 1/m^d */
+    double spacing_kernel;          /* W(spacing), unit 1/m^d */
+    double kernel_normalization;    /* alpha_d, unit 1/m^d */
     double shift_diameter;          /* of the sphere (disc) with a particle's volume, m */
 } mor_pair_constants;
 
 /** Arrays of one set for the pair loops; borrowed. */
 typedef struct mor_pair_arrays {
     int64_t n_particles;
-    const double *records;           /* shape [n padded to 8, 16] */
+    const double *records;           /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const mor_relation *inner;       /* one object, current */
     const double *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
     double *acceleration;            /* shape [n, 3], m/s2 */
     double *stress_diffusion;        /* shape [n, 6], Pa/s; NULL without */
     double *velocity_gradient;       /* shape [n, 9], 1/s */
     double *density_rate;            /* shape [n], kg/m3/s */
-    double *regularization;          /* shape [n, 6], m/s and 1; NULL without */
+    double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
 } mor_pair_arrays;
 
 /** A sum over the clusters [first, last); writes its own particles only. */
@@ -71,12 +71,12 @@ typedef void (*mor_pair_loop)(const mor_pair_constants *constants, const mor_pai
 
 /** Sums of kernel values over soil and, through a contact relation, over walls. */
 typedef struct mor_pair_kernel_job {
-    const double *source;        /* shape [n padded to 8, 16]; records of who gathers */
+    const double *source;        /* shape [n padded to 8, 16]; records of who gathers, units of MOR_RECORD_... */
     int64_t n_source;            /* particles that gather */
-    const double *target;        /* shape [n_target, target_stride]; x, y, z, volume first */
+    const double *target;        /* shape [n_target, target_stride]; x, y, z, volume first; unit m, volume m3 (m2) */
     int target_stride;           /* doubles per target record */
     const mor_relation *relation; /* one object: source -> target */
-    double *sums;                /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range asked for; see enum */
+    double *sums;                /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range; units of the enum */
     bool by_occupied;            /* clusters are counted along relation->occupied */
 } mor_pair_kernel_job;
 
@@ -91,6 +91,18 @@ enum {
 typedef void (*mor_pair_kernel_loop)(const mor_pair_constants *constants, const mor_pair_kernel_job *job, int64_t first,
                                      int64_t last);
 
+/** The stress divergence by soil neighbors, along and across a wall apart, for the particles that see it. */
+typedef struct mor_pair_tangent_job {
+    const double *records;     /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const mor_relation *inner; /* one object, current */
+    const int32_t *occupied;   /* shape [n_occupied]; clusters that see the wall */
+    const double *sums;        /* shape [n_occupied * 8, MOR_KERNEL_SUMS]; over the wall; units of the enum */
+    double *out;               /* shape [n_occupied * 8, 2, 3], Pa/m; along, then across the wall */
+} mor_pair_tangent_job;
+
+typedef void (*mor_pair_tangent_loop)(const mor_pair_constants *constants, const mor_pair_tangent_job *job,
+                                      int64_t first, int64_t last);
+
 /** The routines of one instruction set. Static, shared. */
 typedef struct mor_pair_table {
     const char *instruction_set; /* "avx512", "avx2", "baseline" */
@@ -98,6 +110,7 @@ typedef struct mor_pair_table {
     mor_pair_loop gradient[2];   /* by dimension - 2: velocity gradient and density rate, eqs. 15, 24 */
     mor_pair_loop regularize;    /* XSPH and shifting sums, Hu et al. (2021) eqs. 13, 16 */
     mor_pair_kernel_loop kernel; /* kernel sums */
+    mor_pair_tangent_loop tangent; /* stress divergence along and across a wall */
 } mor_pair_table;
 
 /** Returns the routines for the best instruction set this processor has, or those asked for.

@@ -230,6 +230,17 @@ INLINE void momentum_pair(momentum *m, const frame *f, const mor_pair_constants 
     *p_out = p;
 }
 
+/* Eq. 25 with the operator of eq. 26 for any direction of gravity: what departs from the line of rest spreads. */
+INLINE void finish_diffusion(const momentum *m, const mor_pair_constants *c, const vec *s, double *out, int n_lanes)
+{
+    const double rate = -c->gradient_factor * c->diffusion_rate;
+    for (int a = 0; a < 6; ++a) {
+        /* Height is -g . r, hence the plus. */
+        const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * m->spread_height;
+        store(out, 6, a, n_lanes, rate * sum);
+    }
+}
+
 INLINE void momentum_finish(const momentum *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                             int64_t first, const int dimension, const int diffuses)
 {
@@ -250,12 +261,7 @@ INLINE void momentum_finish(const momentum *m, const mor_pair_constants *c, cons
         store(out, 3, 2, n_lanes, spread(0.0));
     }
     if (diffuses) {
-        const double rate = -c->gradient_factor * c->diffusion_rate;
-        for (int a = 0; a < 6; ++a) {
-            /* Height is -g . r, hence the plus. */
-            const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * m->spread_height;
-            store(arrays->stress_diffusion + first * 6, 6, a, n_lanes, rate * sum);
-        }
+        finish_diffusion(m, c, s, arrays->stress_diffusion + first * 6, n_lanes);
     }
 }
 
@@ -436,6 +442,61 @@ static void kernel_range(const mor_pair_constants *c, const mor_pair_kernel_job 
     }
 }
 
+/* Sums over soil neighbors of V_j (stress_j - stress_i) . grad_i W, the parts of grad_i W along and across a wall apart. */
+INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t slot)
+{
+    const double *own = job->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    const double *gradients = job->sums + slot * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    vec n[3];
+    for (int a = 0; a < 3; ++a) {
+        n[a] = load(gradients, MOR_KERNEL_SUMS, a);
+    }
+    const vec length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    /* No normal where the wall is out of reach: everything is then tangential, and the caller's factor is zero. */
+    const vec inverse = pick(length2 > 0.0, 1.0 / length2, spread(0.0));
+    vec s[6];
+    for (int a = 0; a < 6; ++a) {
+        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
+    }
+    vec sum[6];
+    memset(sum, 0, sizeof sum);
+    const int32_t *list = job->inner->lists[first / MOR_CLUSTER];
+    const int32_t count = job->inner->counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const double *target = job->records + (int64_t)list[entry] * MOR_RECORD_SIZE;
+        const pair p = pair_of(&f, target, 3);
+        const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+        const vec across = k * (p.r[0] * n[0] + p.r[1] * n[1] + p.r[2] * n[2]) * inverse;
+        vec d[6];
+        for (int a = 0; a < 6; ++a) {
+            d[a] = target[MOR_RECORD_STRESS + a] - s[a];
+        }
+        for (int part = 0; part < 2; ++part) {
+            vec t[3];
+            for (int a = 0; a < 3; ++a) {
+                t[a] = part == 0 ? k * p.r[a] - across * n[a] : across * n[a];
+            }
+            sum[3 * part] += d[MOR_XX] * t[0] + d[MOR_XY] * t[1] + d[MOR_ZX] * t[2];
+            sum[3 * part + 1] += d[MOR_XY] * t[0] + d[MOR_YY] * t[1] + d[MOR_YZ] * t[2];
+            sum[3 * part + 2] += d[MOR_ZX] * t[0] + d[MOR_YZ] * t[1] + d[MOR_ZZ] * t[2];
+        }
+    }
+    for (int a = 0; a < 6; ++a) {
+        store(job->out + slot * 6, 6, a, LANES, -c->gradient_factor * sum[a]);
+    }
+}
+
+static void tangent_range(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t last)
+{
+    for (int64_t place = first; place < last; ++place) {
+        for (int64_t part = 0; part < PARTS; ++part) {
+            const int64_t particle = (int64_t)job->occupied[place] * MOR_CLUSTER + part * LANES;
+            tangent_part(c, job, particle, place * MOR_CLUSTER + part * LANES);
+        }
+    }
+}
+
 /* XSPH velocity, Hu et al. (2021) eq. 13, and the sum of the penetration-based shift, eq. 16. */
 INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
 {
@@ -477,6 +538,6 @@ const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void);
 const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void)
 {
     static const mor_pair_table table = {
-        MOR_TEXT(MOR_ISA), {momentum_2d, momentum_3d}, {gradient_2d, gradient_3d}, regularize_range, kernel_range};
+        MOR_TEXT(MOR_ISA), {momentum_2d, momentum_3d}, {gradient_2d, gradient_3d}, regularize_range, kernel_range, tangent_range};
     return &table;
 }

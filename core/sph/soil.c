@@ -33,7 +33,7 @@ static const mor_stage soil_stages[] = {
      "against tensile instability, when switched on"},
     {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION), 0, "acceleration and stress diffusion by the neighbors"},
-    {"wall push", mor_soil_push_walls, RECORDS | WALL_SUMS, 0, BIT(ACCELERATION), "acceleration by the walls"},
+    {"wall push", mor_soil_push_walls, RECORDS | LISTS | WALL_SUMS, 0, BIT(ACCELERATION), "acceleration by the walls"},
     {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step"},
     {"velocity gradient", mor_soil_sum_gradient, RECORDS | LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
      "velocity gradient and density rate by the neighbors"},
@@ -52,21 +52,28 @@ static const mor_stage soil_stages[] = {
 static const uint64_t evolving_fields =
     BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS);
 
-/* Sum of V W over the lattice the soil starts from; fills the place of 1 in the density summation. */
-static double sum_lattice(const mor_soil_settings *settings, double smoothing_length)
+/* Sums over the lattice the soil starts from: of V W, and of V (r_j - r_i) (x) grad_i W, one diagonal entry. */
+static void sum_lattice(const mor_soil_settings *settings, double smoothing_length, double *value, double *moment)
 {
     const double spacing = settings->spacing;
     const int reach = (int)(MOR_KERNEL_SUPPORT * smoothing_length / spacing) + 1;
-    double sum = 0.0;
+    const int reach_z = settings->dimension == 3 ? reach : 0;
+    *value = 0.0;
+    *moment = 0.0;
     for (int x = -reach; x <= reach; ++x) {
         for (int y = -reach; y <= reach; ++y) {
-            for (int z = settings->dimension == 3 ? -reach : 0; z <= (settings->dimension == 3 ? reach : 0); ++z) {
-                const double distance = spacing * sqrt((double)(x * x + y * y + z * z));
-                sum += mor_kernel_value(distance, smoothing_length, settings->dimension);
+            for (int z = -reach_z; z <= reach_z; ++z) {
+                const double r = spacing * sqrt((double)(x * x + y * y + z * z));
+                *value += mor_kernel_value(r, smoothing_length, settings->dimension);
+                *moment -= r > 0.0 ? mor_kernel_derivative(r, smoothing_length, settings->dimension) * spacing *
+                                         spacing * (double)(x * x) / r
+                                   : 0.0;
             }
         }
     }
-    return sum * (settings->dimension == 3 ? spacing * spacing * spacing : spacing * spacing);
+    const double volume = settings->dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+    *value *= volume;
+    *moment *= volume;
 }
 
 static void set_constants(mor_soil *soil)
@@ -74,14 +81,15 @@ static void set_constants(mor_soil *soil)
     const mor_soil_settings *s = &soil->settings;
     const double h = s->smoothing_ratio * s->spacing;
     soil->smoothing_length = h;
-    soil->lattice_sum = sum_lattice(s, h);
+    double moment = 0.0;
+    sum_lattice(s, h, &soil->lattice_sum, &moment);
     soil->constants = (mor_pair_constants){
         .dimension = s->dimension,
         .dissipation = s->dissipation,
         .has_artificial_stress = s->has_artificial_stress,
         .has_pressure_term = s->has_density_pressure_term,
         .smoothing_length = h,
-        .gradient_factor = mor_kernel_gradient_factor(h, s->dimension),
+        .gradient_factor = mor_kernel_gradient_factor(h, s->dimension) / (s->has_lattice_normalization ? moment : 1.0),
         .limiter_rate = s->dissipation_factor / soil->sound_speed,
         .diffusion_rate = 2.0 * s->stress_diffusion * h * soil->sound_speed,
         .artificial_exponent = s->artificial_stress_exponent,

@@ -20,6 +20,7 @@ typedef struct mor_soil_settings {
     int dimension;                     /* 2 (plane strain in x, y) or 3 */
     double spacing;                    /* initial particle spacing, m */
     double smoothing_ratio;            /* h / spacing, 1 */
+    bool has_lattice_normalization;    /* kernel gradient exact for linear fields on the initial lattice */
     double courant;                    /* CFL number, 1 */
     mor_dissipation dissipation;       /* between soil particles */
     mor_dissipation wall_dissipation;  /* against walls */
@@ -52,10 +53,10 @@ typedef struct mor_soil {
     int state_fields[MOR_MATERIAL_STATES_MAX]; /* indices of the material's state variables in the set */
     const mor_pair_table *table;
     mor_pair_constants constants;
-    double *records;                       /* shape [n_particles padded to 8, 16] */
+    double *records;                       /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
     double *regularization;                /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;                       /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
-    double *block_values;                  /* shape [n_particles / 128 + 2]; partial results of reductions */
+    double *block_values;                  /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
     int32_t *order;                        /* shape [n_particles]; scratch of the sort */
     mor_tree tree;
     mor_relation inner;
@@ -105,7 +106,8 @@ mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
 /** Sorts the particles into clusters. To be called once when positions have been set, not after a resume.
  *  @param context [in,out]  one object
  *  @param soil    [in,out]  one object
- *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
+ *  Gives: a new generation of the set; the lists are rebuilt in the next step.
+ *  Returns: MOR_OK. */
 mor_status mor_soil_sort(mor_context *context, mor_soil *soil);
 
 /** Returns the soil as a stepper: its stages and step limit.

@@ -11,6 +11,9 @@
 /* POINT: doubles per wall point. GRAIN: clusters a thread takes at once. */
 enum { POINT = 4, GRAIN = 16 };
 
+/* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
+#define LARGEST_SHARE 0.6
+
 static mor_status copy_points(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request)
 {
     const int64_t n = request->n_points;
@@ -40,6 +43,8 @@ mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact
     memset(contact, 0, sizeof *contact);
     strncpy(contact->name, request->name, sizeof contact->name - 1);
     contact->n_points = request->n_points;
+    contact->stress = request->stress;
+    contact->dimension = request->dimension;
     contact->friction = request->friction;
     contact->friction_coefficient = request->friction_coefficient;
     memcpy(contact->velocity, request->velocity, sizeof contact->velocity);
@@ -66,6 +71,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->sums);
     MOR_FREE(context, &contact->stick);
     MOR_FREE(context, &contact->push);
+    MOR_FREE(context, &contact->divergence);
     mor_tree_clear(context, &contact->tree);
     mor_relation_clear(context, &contact->relation);
     memset(contact, 0, sizeof *contact);
@@ -95,9 +101,12 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
         MOR_FREE(context, &contact->sums);
         MOR_FREE(context, &contact->stick);
         MOR_FREE(context, &contact->push);
+        MOR_FREE(context, &contact->divergence);
         MOR_TRY(context, MOR_NEW(context, &contact->sums, capacity * MOR_CLUSTER * MOR_KERNEL_SUMS, "wall sums"));
         MOR_TRY(context, MOR_NEW(context, &contact->stick, capacity * MOR_CLUSTER, "wall stick"));
         MOR_TRY(context, MOR_NEW(context, &contact->push, capacity * MOR_CLUSTER * 3, "wall push"));
+        const int64_t n_values = contact->stress != MOR_WALL_STRESS_UNIFORM ? capacity * MOR_CLUSTER * 6 : 0;
+        MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_values, "stress divergence at walls"));
         contact->capacity = capacity;
     }
     return MOR_OK;
@@ -112,6 +121,53 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
         double *sums = contact->sums + first * MOR_CLUSTER * MOR_KERNEL_SUMS;
         const mor_pair_kernel_job job = {records, n_particles, contact->points, POINT, &contact->relation, sums, true};
         table->kernel(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
+    }
+}
+
+void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                               const mor_pair_constants *constants, const double *records, const mor_relation *inner)
+{
+    const int64_t n = contact->relation.n_occupied;
+    if (contact->stress == MOR_WALL_STRESS_UNIFORM) {
+        return;
+    }
+    const mor_pair_tangent_job job = {records, inner, contact->relation.occupied, contact->sums, contact->divergence};
+    MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
+        const int64_t first = chunk * GRAIN;
+        table->tangent(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
+    }
+}
+
+/* What the wall adds to a divergence when it carries a share of the kernel's moment and the soil the rest. */
+static double continuation(double share)
+{
+    const double limited = share < LARGEST_SHARE ? share : LARGEST_SHARE;
+    return limited / (1.0 - limited);
+}
+
+/* Continues the soil's stress into the wall. At a smooth wall the mirror image's shear has the other sign. */
+static void add_continuation(const mor_soil_contact *contact, int64_t slot, const double *record, double *acceleration)
+{
+    const double *sums = contact->sums + slot * MOR_KERNEL_SUMS;
+    const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
+    const double *moment = sums + MOR_KERNEL_SUM_MOMENT;
+    const double *divergence = contact->divergence + 6 * slot;
+    const double length2 = mor_vector_dot(gradient, gradient);
+    if (!(length2 > 0.0)) {
+        return;
+    }
+    double turned[3];
+    mor_symmetric_apply(moment, gradient, turned);
+    const double across = mor_vector_dot(turned, gradient) / length2;
+    const double along = (mor_symmetric_trace(moment) - across) / (contact->dimension - 1);
+    const double factor_along = continuation(along) / record[MOR_RECORD_DENSITY];
+    const double factor_across =
+        contact->stress == MOR_WALL_STRESS_LINEAR ? continuation(across) / record[MOR_RECORD_DENSITY] : 0.0;
+    const double flip =
+        contact->friction == MOR_WALL_SMOOTH ? 2.0 * mor_vector_dot(divergence, gradient) / length2 : 0.0;
+    for (int a = 0; a < 3; ++a) {
+        acceleration[a] +=
+            factor_along * (divergence[a] - flip * gradient[a]) + factor_across * divergence[3 + a];
     }
 }
 
@@ -191,6 +247,9 @@ void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_
             push[0] = push[1] = push[2] = 0.0;
             contact->stick[slot] = push_particle(contact, dissipation, limiter_rate,
                                                  records + (first + lane) * MOR_RECORD_SIZE, gradient, push);
+            if (contact->stress != MOR_WALL_STRESS_UNIFORM) {
+                add_continuation(contact, slot, records + (first + lane) * MOR_RECORD_SIZE, push);
+            }
             for (int a = 0; a < 3; ++a) {
                 acceleration[(first + lane) * 3 + a] += push[a];
             }

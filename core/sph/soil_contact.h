@@ -17,6 +17,13 @@ typedef enum mor_wall_friction {
     MOR_WALL_COULOMB /* shear traction at most the coefficient times the compressive normal traction */
 } mor_wall_friction;
 
+/** The stress a soil particle sees in a wall. */
+typedef enum mor_wall_stress {
+    MOR_WALL_STRESS_UNIFORM, /* its own everywhere, as in the source */
+    MOR_WALL_STRESS_ALONG,   /* its own, varying along the wall as it varies in the soil */
+    MOR_WALL_STRESS_LINEAR   /* its own, varying along and across the wall as it varies in the soil */
+} mor_wall_stress;
+
 /** What a wall is made from. Borrowed during mor_soil_contact_init only. */
 typedef struct mor_wall_request {
     const char *name;            /* zero-terminated */
@@ -26,23 +33,29 @@ typedef struct mor_wall_request {
     mor_wall_friction friction;
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
     double velocity[3];          /* prescribed, m/s */
+    int dimension;               /* 2 or 3 */
+    mor_wall_stress stress;
 } mor_wall_request;
 
 /** One wall and its relation to the soil. Owner: the soil solver. */
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_points;
-    double *points; /* shape [n_points padded to 8, 4]; x, y, z in m and volume, in cluster order */
-    double *base;   /* shape [n_points, 4]; points before any displacement; NULL for a fixed wall */
+    double *points; /* shape [n_points padded to 8, 4]; x, y, z, volume in cluster order; unit m, volume m3 (m2) */
+    double *base;   /* shape [n_points, 4]; points before any displacement, units as points; NULL: fixed wall */
     mor_tree tree;
     mor_relation relation; /* soil -> wall */
     mor_wall_friction friction;
     double friction_coefficient; /* 1 */
     double velocity[3];          /* m/s */
-    double *sums;                /* shape [capacity * 8, MOR_KERNEL_SUMS]; kernel sums of the occupied clusters */
-    double *stick;               /* shape [capacity * 8]; part of the tangential motion the wall mirrors, 0 to 1 */
+    double *sums;                /* shape [capacity * 8, MOR_KERNEL_SUMS]; of occupied clusters; units of the enum */
+    double *stick;               /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
     double *push;                /* shape [capacity * 8, 3]; acceleration of the soil by the wall, m/s2 */
-    int64_t capacity;            /* clusters that sums, stick and push have room for */
+    double *divergence;          /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the wall, Pa/m;
+                                  * NULL with uniform stress */
+    int64_t capacity;            /* clusters that the arrays above have room for */
+    int dimension;               /* 2 or 3 */
+    mor_wall_stress stress;
     double force[3];             /* of the soil on the wall in the last step, N (N/m in plane strain) */
 } mor_soil_contact;
 
@@ -79,17 +92,30 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
  *  @param contact   [in,out]  one object
  *  @param table     [in]      one object; pair routines
  *  @param constants [in]      one object
- *  @param records   [in]      shape [n_particles padded to 8, 16]; the soil's
+ *  @param records   [in]      shape [n_particles padded to 8, 16]; the soil's, units of MOR_RECORD_...
  *  @param n_particles [in]    number of soil particles */
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                           const mor_pair_constants *constants, const double *records, int64_t n_particles);
+
+/** Sums the divergence of the soil's stress along and across the wall, unless the wall's stress is uniform.
+ *  A wall that holds a particle's own stress everywhere hides how stress varies, and the particle gets only the part of
+ *  that variation that soil neighbors carry: about half of it, right at the wall. Continuing the soil's own variation
+ *  into the wall gives the other part.
+ *  @param context   [in,out]  one object
+ *  @param contact   [in,out]  one object; sums must be current
+ *  @param table     [in]      one object; pair routines
+ *  @param constants [in]      one object
+ *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
+ *  @param inner     [in]      one object; soil -> soil, current */
+void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                               const mor_pair_constants *constants, const double *records, const mor_relation *inner);
 
 /** Adds the wall's part of the acceleration and sets stick and force.
  *  @param context      [in,out]  one object
  *  @param contact      [in,out]  one object; sums must be current
  *  @param dissipation  [in]      on which sign of the closing speed the limiter acts
  *  @param limiter_rate [in]      eta / c0, unit s/m
- *  @param records      [in]      shape [n_particles padded to 8, 16]
+ *  @param records      [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles  [in]      number of soil particles
  *  @param acceleration [in,out]  shape [n_particles, 3], unit m/s2; added to */
 void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
@@ -98,7 +124,8 @@ void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_
 /** Adds the wall's part of the velocity gradient and of the density rate.
  *  @param context           [in,out]  one object
  *  @param contact           [in,out]  one object; sums and stick must be current
- *  @param records           [in]      shape [n_particles padded to 8, 16]; with the new velocities
+ *  @param records           [in]      shape [n_particles padded to 8, 16]; with the new velocities, units of
+ *                                      MOR_RECORD_...
  *  @param n_particles       [in]      number of soil particles
  *  @param velocity_gradient [in,out]  shape [n_particles, 9], unit 1/s; added to
  *  @param density_rate      [in,out]  shape [n_particles], unit kg/m3/s; added to */

@@ -93,6 +93,7 @@ mor_status mor_soil_push_walls(mor_context *context, void *owner, const mor_step
     mor_soil *soil = owner;
     (void)step;
     for (int w = 0; w < soil->n_walls; ++w) {
+        mor_soil_contact_continue(context, &soil->walls[w], soil->table, &soil->constants, soil->records, &soil->inner);
         mor_soil_contact_push(context, &soil->walls[w], soil->settings.wall_dissipation, soil->constants.limiter_rate,
                               soil->records, soil->set.n_particles, soil->set.data[MOR_FIELD_ACCELERATION]);
     }

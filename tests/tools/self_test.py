@@ -13,6 +13,7 @@ import unittest
 import check_docstrings
 import check_headers
 import check_includes
+import check_reference
 import check_sizes
 import check_symbols
 import check_tests
@@ -131,7 +132,8 @@ class Includes(Sample):
         self.refuse("core/io/bad.c", "#include <hdf5.h>", "core/io/hdf5_file.c")
 
     def test_every_outside_library_has_a_door(self):
-        for outside in ("libconfig.h", "udunits2.h", "udunits2/udunits2.h", "embree3/rtcore.h", "cairo.h", "cairo/cairo.h",
+        for outside in ("libconfig.h", "udunits2.h", "udunits2/udunits2.h", "embree3/rtcore.h", "cairo.h",
+                        "cairo/cairo.h",
                         "cvode/cvode.h", "nvector/nvector_serial.h", "sundials/sundials_types.h", "jansson.h", "gdal.h",
                         "gdal/gdal.h", "assimp/scene.h", "dlfcn.h", "omp.h", "png.h", "cmocka.h"):
             with self.subTest(outside):
@@ -289,7 +291,8 @@ class Docstrings(Sample):
                 ("/** @param n [in]  a count */\nvoid mor_f(int n, int m);\n", "parameter m is not described"),
                 ("/** @param n [in]  a count */\nmor_status mor_f(int n);\n", "no 'Returns:'"),
                 ("/** Returns how much. */\ndouble mor_f(void);\n", "what it returns has no unit"),
-                ("/** Returns how much. */\nstatic inline double mor_f(void)\n{\n    return 1.0;\n}\n", "returns has no"),
+                ("/** Returns how much. */\nstatic inline double mor_f(void)\n{\n    return 1.0;\n}\n",
+                 "returns has no"),
                 ("/** A record. */\ntypedef struct mor_a {\n    double x; /* place */\n} mor_a;\n", "x has no unit"),
                 ("/** A record. */\ntypedef struct mor_a {\n    int *x; /* places */\n} mor_a;\n", "x has no shape"),
                 ("/** A table. */\ntypedef struct mor_a {\n    void (*f)(const double *point);\n} mor_a;\n",
@@ -310,7 +313,8 @@ class Text(Sample):
         self.refuse("core/base/bad.c", "int a;\n", "no licence tag")
 
     def test_layout_is_checked(self):
-        for line, fragment in (("int a; //" + "x" * 112, "121 characters"), ("\tint a;", "a tab"), ("int a; ", "spaces at")):
+        for line, fragment in (("int a; //" + "x" * 112, "121 characters"), ("\tint a;", "a tab"),
+                               ("int a; ", "spaces at")):
             with self.subTest(fragment):
                 self.refuse("core/base/bad.c", TAG + line + "\n", ":3", fragment)
 
@@ -338,6 +342,49 @@ class Text(Sample):
 
     def test_dead_link_is_refused(self):
         self.refuse("docs/bad.md", "[there](../core/base/none.c#top)\n", "leads nowhere", "core/base/none.c")
+
+
+class Reference(Sample):
+    """A program of a few lines stands for moraine: it prints what it is asked to list."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("moraine", "#!/bin/sh\nprintf '%s of a set\\nlast line\\n' \"$2\"\n")
+        self.program = os.path.join(self.root, "moraine")
+        os.chmod(self.program, 0o755)
+        check_reference.write(self.root, self.program)
+
+    def check(self):
+        return check_reference.check(self.root, self.program)
+
+    def change(self, page, old, new):
+        path = f"{check_reference.FOLDER}/{page}"
+        text = source.read_text(self.root, path)
+        self.assertIn(old, text)
+        self.write(path, text.replace(old, new))
+
+    def test_pages_just_written_pass(self):
+        self.expect(self.check())
+
+    def test_missing_page_is_refused(self):
+        os.remove(os.path.join(self.root, check_reference.FOLDER, "probes.md"))
+        self.expect(self.check(), "docs/reference/probes.md:1", "missing")
+
+    def test_changed_word_is_refused(self):
+        self.change("case_file.md", "keys of", "lock of")
+        self.expect(self.check(), "docs/reference/case_file.md:1", "'lock of a set'", "'keys of a set'")
+
+    def test_lost_line_is_refused(self):
+        self.change("fields.md", "last line\n", "")
+        self.expect(self.check(), "docs/reference/fields.md", "the program prints 'last line'")
+
+    def test_line_too_many_is_refused(self):
+        self.change("case_file.md", "last line\n", "last line\nmore\n")
+        self.expect(self.check(), "docs/reference/case_file.md:3", "the page says 'more'")
+
+    def test_changed_title_is_refused(self):
+        self.change("materials.md", "# Material models", "# Models")
+        self.expect(self.check(), "docs/reference/materials.md:1")
 
 
 class Tests(Sample):

@@ -1,0 +1,207 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_TESTS_COMMON_ASSEMBLY_H
+#define MOR_TESTS_COMMON_ASSEMBLY_H
+
+#include "core/base/math.h"
+#include "core/sph/kernel.h"
+#include "core/sph/pair.h"
+#include "tests/common/cloud.h"
+
+/** @file
+ *  A few dozen soil particles in random states, everything the pair loops read of them, and everything they write. */
+
+enum { ASSEMBLY_MAX = 128, ASSEMBLY_SIDE_MAX = 16, ASSEMBLY_RECORDS = ASSEMBLY_MAX * MOR_RECORD_SIZE };
+
+#define ASSEMBLY_SPACING 0.01
+#define ASSEMBLY_SOUND 50.0
+#define ASSEMBLY_ETA 40.0
+#define ASSEMBLY_DENSITY 2000.0
+#define ASSEMBLY_WEIGHT (ASSEMBLY_DENSITY * 9.81)
+#define ASSEMBLY_LATERAL 0.45
+#define ASSEMBLY_CANARY 1.2345e67
+
+typedef struct assembly {
+    mor_context context;
+    int n; /* particles */
+    mor_pair_constants constants;
+    mor_tree tree;
+    mor_relation relation;
+    double records[ASSEMBLY_RECORDS];      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    double artificial[6 * ASSEMBLY_MAX];   /* shape [n padded to 8, 6], Pa */
+} assembly;
+
+/** What the loops write; behind the last particle stands ASSEMBLY_CANARY. */
+typedef struct assembly_sums {
+    double acceleration[3 * ASSEMBLY_MAX];      /* m/s2 */
+    double stress_diffusion[6 * ASSEMBLY_MAX];  /* Pa/s */
+    double velocity_gradient[9 * ASSEMBLY_MAX]; /* 1/s */
+    double density_rate[ASSEMBLY_MAX];          /* kg/m3/s */
+    double regularization[6 * ASSEMBLY_MAX];    /* m/s and 1 */
+    double kernel[MOR_KERNEL_SUMS * ASSEMBLY_MAX]; /* units of MOR_KERNEL_SUM_... */
+} assembly_sums;
+
+enum { ASSEMBLY_SUMS = sizeof(assembly_sums) / sizeof(double) };
+
+/** The routines this processor can run, shape [3]; returns how many. */
+static inline int assembly_tables(const mor_pair_table **tables)
+{
+    static const char *const names[3] = {"baseline", "avx2", "avx512"};
+    int n = 0;
+    for (int k = 0; k < 3; ++k) {
+        const mor_pair_table *table = mor_pair_select(names[k]);
+        if (table != NULL) {
+            assert_string_equal(table->instruction_set, names[k]);
+            tables[n++] = table;
+        }
+    }
+    assert_true(n > 0);
+    assert_string_equal(tables[0]->instruction_set, "baseline");
+    return n;
+}
+
+/** Constants with every option on; gravity is oblique. */
+static inline mor_pair_constants assembly_constants(int dimension)
+{
+    const double h = 1.3 * ASSEMBLY_SPACING;
+    mor_pair_constants c = {.dimension = dimension,
+                            .dissipation = MOR_DISSIPATION_BOTH,
+                            .has_artificial_stress = true,
+                            .has_pressure_term = true,
+                            .smoothing_length = h,
+                            .gradient_factor = mor_kernel_gradient_factor(h, dimension),
+                            .limiter_rate = ASSEMBLY_ETA / ASSEMBLY_SOUND,
+                            .diffusion_rate = 2.0 * 0.1 * h * ASSEMBLY_SOUND,
+                            .gravity_direction = {0.28, -0.96, 0.0},
+                            .rest_weight = ASSEMBLY_WEIGHT,
+                            .lateral_ratio = ASSEMBLY_LATERAL,
+                            .artificial_exponent = 2.55,
+                            .spacing_kernel = mor_kernel_value(ASSEMBLY_SPACING, h, dimension),
+                            .kernel_normalization = mor_kernel_normalization(h, dimension),
+                            .shift_diameter = 1.1 * ASSEMBLY_SPACING};
+    if (dimension == 3) {
+        memcpy(c.gravity_direction, ((const double[3]){0.48, -0.64, -0.6}), sizeof c.gravity_direction);
+    }
+    return c;
+}
+
+/** Gives particle i, whose position is set, a random state; id tells it from others. */
+static inline void assembly_fill(assembly *a, int i, uint64_t id)
+{
+    double *record = a->records + i * MOR_RECORD_SIZE;
+    double *artificial = a->artificial + 6 * i;
+    const int dimension = a->constants.dimension;
+    const double cell = dimension == 2 ? ASSEMBLY_SPACING * ASSEMBLY_SPACING
+                                       : ASSEMBLY_SPACING * ASSEMBLY_SPACING * ASSEMBLY_SPACING;
+    record[MOR_RECORD_VOLUME] = cell * cloud_number(id, 11, 0.9, 1.1);
+    record[MOR_RECORD_DENSITY] = ASSEMBLY_DENSITY * cloud_number(id, 12, 0.9, 1.1);
+    record[MOR_RECORD_IMPEDANCE] = record[MOR_RECORD_DENSITY] * ASSEMBLY_SOUND;
+    for (int k = 0; k < 6; ++k) {
+        const bool is_out_of_plane = dimension == 2 && (k == MOR_YZ || k == MOR_ZX);
+        record[MOR_RECORD_STRESS + k] = is_out_of_plane ? 0.0 : cloud_number(id, 20 + (uint64_t)k, -2e4, 1e4);
+        artificial[k] = is_out_of_plane ? 0.0 : cloud_number(id, 30 + (uint64_t)k, -4e3, 4e3);
+    }
+    for (int k = 0; k < dimension; ++k) {
+        record[MOR_RECORD_VELOCITY + k] = cloud_number(id, 40 + (uint64_t)k, -1.0, 1.0);
+    }
+    record[MOR_RECORD_PRESSURE] = -mor_symmetric_trace(record + MOR_RECORD_STRESS) / 3.0;
+}
+
+/** Fits tree and lists to the positions; strangers up to the skin are listed, too. The lanes behind the last particle
+ *  repeat it, as the soil solver has it. */
+static inline void assembly_list(assembly *a, double skin)
+{
+    const int padded = (int)a->tree.n_clusters * MOR_CLUSTER;
+    for (int i = a->n; i < padded; ++i) {
+        memcpy(a->records + i * MOR_RECORD_SIZE, a->records + (a->n - 1) * MOR_RECORD_SIZE,
+               MOR_RECORD_SIZE * sizeof(double));
+    }
+    const mor_relation_points points = {&a->tree, a->records, MOR_RECORD_SIZE};
+    mor_tree_fit(&a->context, &a->tree, a->records, MOR_RECORD_SIZE);
+    const double reach = MOR_KERNEL_SUPPORT * a->constants.smoothing_length + skin;
+    assert_int_equal(mor_relation_build(&a->context, &a->relation, &points, &points, reach), MOR_OK);
+}
+
+/** Makes an assembly of particles at given points, shape [n, 3], unit m, in tree order and random states. */
+static inline void assembly_open(assembly *a, int dimension, const double *points, int n)
+{
+    int32_t order[ASSEMBLY_MAX];
+    assert_true(n > 0 && n <= ASSEMBLY_MAX);
+    memset(a, 0, sizeof *a);
+    mor_context_init(&a->context);
+    a->n = n;
+    a->constants = assembly_constants(dimension);
+    mor_tree_order(points, 3, n, order);
+    for (int i = 0; i < n; ++i) {
+        memcpy(a->records + i * MOR_RECORD_SIZE, points + 3 * order[i], 3 * sizeof *points);
+        assembly_fill(a, i, (uint64_t)order[i]);
+    }
+    assert_int_equal(mor_tree_init(&a->context, &a->tree, n), MOR_OK);
+    assert_int_equal(mor_relation_init(&a->context, &a->relation, MOR_CONFIGURATION_CURRENT, a->tree.n_clusters),
+                     MOR_OK);
+    assembly_list(a, 0.2 * ASSEMBLY_SPACING);
+}
+
+/** As assembly_open, on a lattice of so many points a side, less the last few; each moved by jitter spacings. */
+static inline void assembly_open_lattice(assembly *a, int dimension, int side, int n_left_out, double jitter)
+{
+    double points[3 * ASSEMBLY_MAX] = {0.0};
+    const int n = (dimension == 2 ? side * side : side * side * side) - n_left_out;
+    for (int i = 0; i < n; ++i) {
+        const int place[3] = {i % side, i / side % side, i / (side * side)};
+        for (int k = 0; k < dimension; ++k) {
+            points[3 * i + k] =
+                ASSEMBLY_SPACING * (place[k] + jitter * cloud_number((uint64_t)i, 50 + (uint64_t)k, -1.0, 1.0));
+        }
+    }
+    assembly_open(a, dimension, points, n);
+}
+
+/** 61 particles, not a whole number of clusters, well mixed. */
+static inline void assembly_open_mixed(assembly *a, int dimension)
+{
+    assembly_open_lattice(a, dimension, dimension == 2 ? 8 : 4, 3, 0.3);
+}
+
+static inline void assembly_close(assembly *a)
+{
+    mor_relation_clear(&a->context, &a->relation);
+    mor_tree_clear(&a->context, &a->tree);
+    assert_int_equal(a->context.memory_bytes, 0);
+}
+
+/** Runs every loop of a table over the clusters, so many at a time. */
+static inline void assembly_run(const assembly *a, const mor_pair_table *table, int clusters, assembly_sums *sums)
+{
+    double *numbers = (double *)sums;
+    for (int k = 0; k < ASSEMBLY_SUMS; ++k) {
+        numbers[k] = ASSEMBLY_CANARY;
+    }
+    const bool diffuses = a->constants.diffusion_rate > 0.0;
+    const mor_pair_arrays arrays = {.n_particles = a->n,
+                                    .records = a->records,
+                                    .inner = &a->relation,
+                                    .artificial_stress = a->constants.has_artificial_stress ? a->artificial : NULL,
+                                    .acceleration = sums->acceleration,
+                                    .stress_diffusion = diffuses ? sums->stress_diffusion : NULL,
+                                    .velocity_gradient = sums->velocity_gradient,
+                                    .density_rate = sums->density_rate,
+                                    .regularization = sums->regularization};
+    const int n_clusters = (int)a->tree.n_clusters;
+    const int plane = a->constants.dimension - 2;
+    for (int first = 0; first < n_clusters; first += clusters) {
+        const int last = first + clusters < n_clusters ? first + clusters : n_clusters;
+        table->momentum[plane](&a->constants, &arrays, first, last);
+        table->gradient[plane](&a->constants, &arrays, first, last);
+        table->regularize(&a->constants, &arrays, first, last);
+        const mor_pair_kernel_job job = {.source = a->records,
+                                         .n_source = a->n,
+                                         .target = a->records,
+                                         .target_stride = MOR_RECORD_SIZE,
+                                         .relation = &a->relation,
+                                         .sums = sums->kernel + first * MOR_CLUSTER * MOR_KERNEL_SUMS};
+        table->kernel(&a->constants, &job, first, last);
+    }
+}
+
+#endif

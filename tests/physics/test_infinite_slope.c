@@ -1,0 +1,112 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/math.h"
+#include "tests/common/scene.h"
+
+/* A layer of cohesionless soil on a rough slope. In steady shear without dilation the Drucker-Prager law carries a
+ * shear stress of 3 alpha times the pressure, so the layer rests below atan(3 alpha) = 25.66 degrees, and beyond it
+ * accelerates with g (sin(theta) - 3 alpha cos(theta)); with tan(phi) instead of 3 alpha it would rest until 30.
+ *
+ * Gravity is inclined instead of the floor. There is no periodic boundary: the layer is 24 times as long as thick. Its
+ * ends slump at once, at a front that moves inwards by a few thicknesses only in the time that is looked at, and the
+ * elastic waves from both ends are equal and opposite; so the middle third moves as if the layer had no ends. It is
+ * looked at after the stress at the start, at which the base does not yield, has turned into that of shear. */
+
+static const double degree = 0.017453292519943295;
+static const double gravity = 9.81;            /* m/s2 */
+static const double slope_friction = 0.480384; /* 3 alpha for 30 degrees, plane-strain cone */
+static const double layer_length = 1.2;        /* m */
+static const double from = 0.08;               /* of the time looked at, s */
+static const double until = 0.24;
+
+static const char layer[] =
+    "dimension = 2; spacing = '5 mm'; end = '0.24 s'; gravity = (0, -9.81, 0);"
+    "domain = { min = (-0.3, -0.05, -1); max = (2.5, 0.2, 1); };"
+    "soil = ( { name = 'layer'; shape = { type = 'box'; min = (0, 0); max = (1.2, 0.05); };"
+    "  initial_stress = { type = 'k0'; };"
+    "  material = { model = 'drucker_prager'; density = 2600; youngs_modulus = '5.98 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '30 deg'; }; } );"
+    "walls = ( { name = 'base'; friction = 'rough';"
+    "  shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 1, 0); }; } );";
+
+/* Marks the particles, by id, that start in the middle third; returns their number. */
+static int mark_middle(const mor_set *set, bool *is_middle)
+{
+    int n = 0;
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double x = set->data[MOR_FIELD_POSITION][3 * i];
+        is_middle[set->id[i]] = x > layer_length / 3.0 && x < layer_length * 2.0 / 3.0;
+        n += is_middle[set->id[i]];
+    }
+    return n;
+}
+
+/* All particles have the same mass, so their mean velocity is that of the center of mass. */
+static double find_speed(const mor_set *set, const bool *is_middle, int n_middle)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        sum += is_middle[set->id[i]] ? set->data[MOR_FIELD_VELOCITY][3 * i] : 0.0;
+    }
+    return sum / n_middle;
+}
+
+/* Mean acceleration of the middle down a slope, m/s2. */
+static double find_acceleration(double angle_in_degrees)
+{
+    char down[64];
+    char across[64];
+    snprintf(down, sizeof down, "gravity[0]=%.17g", gravity * sin(angle_in_degrees * degree));
+    snprintf(across, sizeof across, "gravity[1]=%.17g", -gravity * cos(angle_in_degrees * degree));
+    const char *const inclination[] = {down, across, NULL};
+    const scene_request request = {layer, (const char *const *[]){inclination}, 1, 1};
+    scene *it = scene_new(&request);
+    const mor_set *set = &it->simulation.soil.set;
+    bool *is_middle = calloc((size_t)set->n_particles, sizeof *is_middle);
+    assert_non_null(is_middle);
+    const int n_middle = mark_middle(set, is_middle);
+    assert_true(n_middle > 0);
+    scene_advance(it, from);
+    const double speed_before = find_speed(set, is_middle, n_middle);
+    scene_advance(it, until);
+    const double speed_after = find_speed(set, is_middle, n_middle);
+    free(is_middle);
+    scene_free(it);
+    return (speed_after - speed_before) / (until - from);
+}
+
+static double find_reference(double angle_in_degrees)
+{
+    return gravity * (sin(angle_in_degrees * degree) - slope_friction * cos(angle_in_degrees * degree));
+}
+
+static void layer_rests_below_the_angle_of_shear(void **state)
+{
+    (void)state;
+    scene_expect_near("acceleration at 20 deg", find_acceleration(20.0), 0.0, 0.002 * gravity); /* ringing of the start */
+    scene_expect_near("acceleration at 24 deg", find_acceleration(24.0), 0.0, 0.005 * gravity); /* and slow creep */
+}
+
+static void layer_at_thirty_degrees_accelerates_by_the_law(void **state)
+{
+    (void)state;
+    const double reference = find_reference(30.0);
+    scene_expect_near("acceleration at 30 deg", find_acceleration(30.0), reference, 0.08 * reference); /* truncation */
+}
+
+static void layer_at_thirty_five_degrees_accelerates_by_the_law(void **state)
+{
+    (void)state;
+    const double reference = find_reference(35.0);
+    scene_expect_near("acceleration at 35 deg", find_acceleration(35.0), reference, 0.08 * reference); /* truncation */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(layer_rests_below_the_angle_of_shear),
+        cmocka_unit_test(layer_at_thirty_degrees_accelerates_by_the_law),
+        cmocka_unit_test(layer_at_thirty_five_degrees_accelerates_by_the_law),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

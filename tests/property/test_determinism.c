@@ -1,0 +1,103 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/parallel.h"
+#include "tests/common/scene_variant.h"
+
+#include <unistd.h>
+
+/* Checksums are compared bit by bit: all of them exact. The scenes are finer here than elsewhere, so that each loop has
+ * work for three threads and each reduction more than one block. */
+enum { N_STEPS = 40 };
+
+static const char *const fine_plane[] = {"spacing=4.5 mm", NULL};
+static const char *const fine_space[] = {"spacing=7 mm", NULL};
+
+static uint64_t find_checksum(const char *text, const char *const *fine, const char *const *variant,
+                              const char *const *more, int n_threads)
+{
+    const scene_request request = {text, (const char *const *[]){fine, variant, more}, 3, n_threads};
+    scene *it = scene_new(&request);
+    assert_true(it->simulation.soil.set.n_particles > MOR_BLOCK);
+    scene_step(it, N_STEPS);
+    const uint64_t checksum = mor_set_checksum(&it->simulation.soil.set);
+    scene_free(it);
+    return checksum;
+}
+
+static const char *const nothing[] = {NULL};
+
+/* A variant that changed nothing would be no test, hence the comparison with the plain scene. */
+static void check_threads(const char *text, const char *const *fine)
+{
+    const uint64_t plain = find_checksum(text, fine, nothing, nothing, 1);
+    for (int k = 0; k < SCENE_VARIANTS; ++k) {
+        const char *const *variant = scene_variants[k].settings;
+        const uint64_t one = find_checksum(text, fine, variant, nothing, 1);
+        if (k > 0 && one == plain) {
+            fail_msg("'%s' changes nothing", scene_variants[k].name);
+        }
+        for (int n_threads = 2; n_threads <= 3; ++n_threads) {
+            if (find_checksum(text, fine, variant, nothing, n_threads) != one) {
+                fail_msg("'%s': %d threads give another result than one", scene_variants[k].name, n_threads);
+            }
+        }
+    }
+}
+
+static void plane_soil_does_not_depend_on_the_number_of_threads(void **state)
+{
+    (void)state;
+    check_threads(scene_plane, fine_plane);
+}
+
+static void space_soil_does_not_depend_on_the_number_of_threads(void **state)
+{
+    (void)state;
+    check_threads(scene_space, fine_space);
+}
+
+/* Lists hold more than the kernel reaches, and are rebuilt sooner or later: neither may show. With no skin they are
+ * rebuilt in each step. */
+static void soil_does_not_depend_on_the_skin_of_its_neighbor_lists(void **state)
+{
+    static const char *const skins[][2] = {
+        {"numerics.skin_ratio=0", NULL}, {"numerics.skin_ratio=0.1", NULL}, {"numerics.skin_ratio=1.5", NULL}};
+    (void)state;
+    for (int k = 0; k < SCENE_VARIANTS; ++k) {
+        const char *const *variant = scene_variants[k].settings;
+        const uint64_t usual = find_checksum(scene_plane, fine_plane, variant, nothing, 1);
+        for (int skin = 0; skin < 3; ++skin) {
+            if (find_checksum(scene_plane, fine_plane, variant, skins[skin], 1) != usual) {
+                fail_msg("'%s' with %s gives another result", scene_variants[k].name, skins[skin][0]);
+            }
+        }
+    }
+}
+
+/* A checksum that did not look at the state would pass all of the above. */
+static void checksum_tells_one_step_from_the_next(void **state)
+{
+    (void)state;
+    const scene_request request = {scene_plane, NULL, 0, 1};
+    scene *it = scene_new(&request);
+    const uint64_t before = mor_set_checksum(&it->simulation.soil.set);
+    scene_step(it, 1);
+    assert_true(mor_set_checksum(&it->simulation.soil.set) != before);
+    scene_free(it);
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    /* Threads that wait by spinning crawl where others need the cores. OpenMP looks at this once, before main. */
+    if (getenv("OMP_WAIT_POLICY") == NULL && setenv("OMP_WAIT_POLICY", "passive", 1) == 0) {
+        execv("/proc/self/exe", argv);
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plane_soil_does_not_depend_on_the_number_of_threads),
+        cmocka_unit_test(space_soil_does_not_depend_on_the_number_of_threads),
+        cmocka_unit_test(soil_does_not_depend_on_the_skin_of_its_neighbor_lists),
+        cmocka_unit_test(checksum_tells_one_step_from_the_next),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

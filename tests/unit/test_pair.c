@@ -1,0 +1,377 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The pair loops of every instruction set against plain double loops over all particles, written from Zhang et al. (2024)
+ * eqs. 15-31 and Hu et al. (2021) eqs. 13, 16 without a thought of speed. */
+#include "tests/common/assembly.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Roundings on the way to a term, about: a sum may err by so many ulp of the sum of its terms' magnitudes. */
+#define ULPS 32.0
+
+/* Sums of terms and of what the terms are made of, before anything cancels. */
+typedef struct tally {
+    assembly_sums value, magnitude;
+} tally;
+
+/* What a term needs to know of a pair; n points from i to j. */
+typedef struct couple {
+    const double *i, *j;                /* records */
+    double r[3], distance, n[3];        /* r_i - r_j */
+    double slope[3];                    /* grad_i W */
+    double volume;                      /* of j */
+    double impedance_i, impedance_j;
+    double speed_i, speed_j;            /* along n */
+    double roughness;                   /* largest speed of either, which bounds what cancels in the closing speed */
+} couple;
+
+static double largest(const double *values, int n)
+{
+    double most = 0.0;
+    for (int k = 0; k < n; ++k) {
+        most = fmax(most, fabs(values[k]));
+    }
+    return most;
+}
+
+/* False for particles in one place or out of reach, which give nothing. */
+static bool make_couple(const assembly *a, int i, int j, couple *c)
+{
+    const double h = a->constants.smoothing_length;
+    c->i = a->records + i * MOR_RECORD_SIZE;
+    c->j = a->records + j * MOR_RECORD_SIZE;
+    for (int k = 0; k < 3; ++k) {
+        c->r[k] = c->i[k] - c->j[k];
+    }
+    c->distance = mor_vector_length(c->r);
+    if (c->distance == 0.0 || c->distance >= MOR_KERNEL_SUPPORT * h) {
+        return false;
+    }
+    const double derivative = mor_kernel_derivative(c->distance, h, a->constants.dimension);
+    for (int k = 0; k < 3; ++k) {
+        c->n[k] = -c->r[k] / c->distance;
+        c->slope[k] = derivative * c->r[k] / c->distance;
+    }
+    c->volume = c->j[MOR_RECORD_VOLUME];
+    c->impedance_i = c->i[MOR_RECORD_DENSITY] * ASSEMBLY_SOUND;
+    c->impedance_j = c->j[MOR_RECORD_DENSITY] * ASSEMBLY_SOUND;
+    c->speed_i = mor_vector_dot(c->i + MOR_RECORD_VELOCITY, c->n);
+    c->speed_j = mor_vector_dot(c->j + MOR_RECORD_VELOCITY, c->n);
+    c->roughness = fmax(largest(c->i + MOR_RECORD_VELOCITY, 3), largest(c->j + MOR_RECORD_VELOCITY, 3));
+    return true;
+}
+
+static void add(tally *t, const double *sum, double term, double magnitude)
+{
+    const ptrdiff_t place = sum - (const double *)&t->value;
+    ((double *)&t->value)[place] += term;
+    ((double *)&t->magnitude)[place] += fabs(magnitude);
+}
+
+/* Riemann pressure, eqs. 20, 23, with the sign of the setting. */
+static double star_pressure(const couple *c, mor_dissipation mode, double *magnitude)
+{
+    const double closing = c->speed_i - c->speed_j;
+    const double mean_sound =
+        (c->impedance_i + c->impedance_j) / (c->i[MOR_RECORD_DENSITY] + c->j[MOR_RECORD_DENSITY]);
+    const double counted = mode == MOR_DISSIPATION_BOTH       ? fabs(closing)
+                           : mode == MOR_DISSIPATION_APPROACH ? fmax(closing, 0.0)
+                                                              : fmax(-closing, 0.0);
+    const double limiter = fmin(ASSEMBLY_ETA * counted / mean_sound, 1.0);
+    const double sum = c->impedance_i + c->impedance_j;
+    const double product = c->impedance_i * c->impedance_j;
+    const double p_i = c->i[MOR_RECORD_PRESSURE];
+    const double p_j = c->j[MOR_RECORD_PRESSURE];
+    *magnitude = fabs(p_i) + fabs(p_j) + product / sum * c->roughness;
+    return (c->impedance_i * p_j + c->impedance_j * p_i + limiter * product * closing) / sum;
+}
+
+/* Eqs. 18, 27: the stress between two particles, and what it is made of. */
+static void pair_stress(const assembly *a, int i, int j, const couple *c, double *stress, double *magnitude)
+{
+    const mor_pair_constants *k = &a->constants;
+    double pressure_magnitude = 0.0;
+    const double pressure = star_pressure(c, k->dissipation, &pressure_magnitude);
+    const double ratio = mor_kernel_value(c->distance, k->smoothing_length, k->dimension) / k->spacing_kernel;
+    const double power = k->has_artificial_stress ? pow(ratio, k->artificial_exponent) : 0.0;
+    for (int b = 0; b < 6; ++b) {
+        const double s_i = c->i[MOR_RECORD_STRESS + b];
+        const double s_j = c->j[MOR_RECORD_STRESS + b];
+        const double p_i = b < 3 ? c->i[MOR_RECORD_PRESSURE] : 0.0;
+        const double p_j = b < 3 ? c->j[MOR_RECORD_PRESSURE] : 0.0;
+        const double repulsion = power * 0.5 * (a->artificial[6 * i + b] + a->artificial[6 * j + b]);
+        stress[b] = 0.5 * (s_i + p_i + s_j + p_j) - (b < 3 ? pressure : 0.0) + repulsion;
+        magnitude[b] = fabs(s_i) + fabs(s_j) + fabs(p_i) + fabs(p_j) + (b < 3 ? pressure_magnitude : 0.0) +
+                       power * (fabs(a->artificial[6 * i + b]) + fabs(a->artificial[6 * j + b]));
+    }
+}
+
+static void add_momentum(const assembly *a, int i, int j, const couple *c, tally *t)
+{
+    double stress[6];
+    double magnitude[6];
+    double force[3];
+    double force_magnitude[3];
+    const double slope_magnitude[3] = {fabs(c->slope[0]), fabs(c->slope[1]), fabs(c->slope[2])};
+    pair_stress(a, i, j, c, stress, magnitude);
+    mor_symmetric_apply(stress, c->slope, force);
+    mor_symmetric_apply(magnitude, slope_magnitude, force_magnitude);
+    const double factor = 2.0 * c->volume / c->i[MOR_RECORD_DENSITY];
+    for (int b = 0; b < a->constants.dimension; ++b) {
+        add(t, t->value.acceleration + 3 * i + b, factor * force[b], factor * force_magnitude[b]);
+    }
+}
+
+/* Eqs. 25, 26 for gravity in any direction. */
+static void add_diffusion(const assembly *a, int i, const couple *c, tally *t)
+{
+    const mor_pair_constants *k = &a->constants;
+    const double h = k->smoothing_length;
+    const double decline = mor_vector_dot(c->r, c->slope) / (c->distance * c->distance + 0.01 * h * h);
+    const double factor = k->diffusion_rate * c->volume * decline;
+    const double height = -mor_vector_dot(k->gravity_direction, c->r);
+    for (int b = 0; b < 6; ++b) {
+        const double s_i = c->i[MOR_RECORD_STRESS + b];
+        const double s_j = c->j[MOR_RECORD_STRESS + b];
+        const double g_a = k->gravity_direction[b % 3];
+        const double g_b = k->gravity_direction[b < 3 ? b : (b + 1) % 3];
+        const double identity = b < 3 ? 1.0 : 0.0;
+        const double rest = (ASSEMBLY_LATERAL * (identity - g_a * g_b) + g_a * g_b) * ASSEMBLY_WEIGHT * height;
+        add(t, t->value.stress_diffusion + 6 * i + b, factor * (s_i - s_j - rest),
+            factor * (fabs(s_i) + fabs(s_j) + ASSEMBLY_WEIGHT * c->distance));
+    }
+}
+
+/* Eqs. 15, 17, 19, 24. */
+static void add_gradient(const assembly *a, int i, const couple *c, tally *t)
+{
+    const double *v_i = c->i + MOR_RECORD_VELOCITY;
+    const double *v_j = c->j + MOR_RECORD_VELOCITY;
+    for (int b = 0; b < 9; ++b) {
+        const double slope = c->volume * c->slope[b % 3];
+        add(t, t->value.velocity_gradient + 9 * i + b, (v_j[b / 3] - v_i[b / 3]) * slope, 2.0 * c->roughness * slope);
+    }
+    const double sum = c->impedance_i + c->impedance_j;
+    const double p_i = a->constants.has_pressure_term ? c->i[MOR_RECORD_PRESSURE] : 0.0;
+    const double p_j = a->constants.has_pressure_term ? c->j[MOR_RECORD_PRESSURE] : 0.0;
+    const double star = (c->impedance_i * c->speed_i + c->impedance_j * c->speed_j + p_i - p_j) / sum;
+    double rate = 0.0;
+    for (int b = 0; b < 3; ++b) {
+        const double star_velocity = 0.5 * (v_i[b] + v_j[b]) + (star - 0.5 * (c->speed_i + c->speed_j)) * c->n[b];
+        rate += (v_i[b] - star_velocity) * c->slope[b];
+    }
+    const double magnitude = (4.0 * c->roughness + (fabs(p_i) + fabs(p_j)) / sum) * mor_vector_length(c->slope);
+    const double factor = 2.0 * c->i[MOR_RECORD_DENSITY] * c->volume;
+    add(t, t->value.density_rate + i, factor * rate, factor * magnitude);
+}
+
+/* Hu et al. (2021) eqs. 13 and 16, with 3, 1 and -0.1 for the parameters of the shift. */
+static void add_regularization(const assembly *a, int i, const couple *c, tally *t)
+{
+    const mor_pair_constants *k = &a->constants;
+    const double kernel = mor_kernel_value(c->distance, k->smoothing_length, k->dimension);
+    const double penetration = (k->shift_diameter - c->distance) / k->shift_diameter;
+    const double push = penetration > 0.0 ? 3.0 * penetration : fmax(penetration, -0.1);
+    for (int b = 0; b < 3; ++b) {
+        const double difference = c->j[MOR_RECORD_VELOCITY + b] - c->i[MOR_RECORD_VELOCITY + b];
+        add(t, t->value.regularization + 6 * i + b, c->volume * kernel * difference,
+            c->volume * kernel * 2.0 * c->roughness);
+        add(t, t->value.regularization + 6 * i + 3 + b, -push * c->n[b], 3.0);
+    }
+}
+
+static void add_kernel(int i, const couple *c, double kernel, tally *t)
+{
+    const double *sums = t->value.kernel + MOR_KERNEL_SUMS * i;
+    add(t, sums + MOR_KERNEL_SUM_VALUE, c->volume * kernel, c->volume * kernel);
+    for (int b = 0; b < 3; ++b) {
+        const int d = (b + 1) % 3;
+        const double slope = c->volume * c->slope[b];
+        const double diagonal = -c->r[b] * slope;
+        const double mixed = -c->r[b] * c->volume * c->slope[d];
+        add(t, sums + MOR_KERNEL_SUM_GRADIENT + b, slope, slope);
+        add(t, sums + MOR_KERNEL_SUM_MOMENT + b, diagonal, diagonal);
+        add(t, sums + MOR_KERNEL_SUM_MOMENT + 3 + b, mixed, mixed);
+    }
+}
+
+/* A particle is on its own list, at a distance that the loops take as 2^-50 h so that nothing divides by zero. */
+static void add_self(const assembly *a, int i, tally *t)
+{
+    const mor_pair_constants *k = &a->constants;
+    const double *record = a->records + i * MOR_RECORD_SIZE;
+    const double kernel = record[MOR_RECORD_VOLUME] * k->kernel_normalization;
+    add(t, t->value.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_VALUE, kernel, kernel);
+    for (int b = 0; b < 6; ++b) {
+        const double decline = k->gradient_factor * record[MOR_RECORD_VOLUME] * 0x1p-100 / 0.01;
+        const double magnitude = k->diffusion_rate * decline * fabs(record[MOR_RECORD_STRESS + b]);
+        add(t, t->value.stress_diffusion + 6 * i + b, 0.0, 2.0 * magnitude);
+    }
+}
+
+static void add_up(const assembly *a, tally *t)
+{
+    const mor_pair_constants *k = &a->constants;
+    memset(t, 0, sizeof *t);
+    for (int i = 0; i < a->n; ++i) {
+        couple c;
+        for (int j = 0; j < a->n; ++j) {
+            if (!make_couple(a, i, j, &c)) {
+                continue;
+            }
+            add_momentum(a, i, j, &c, t);
+            if (k->diffusion_rate > 0.0) {
+                add_diffusion(a, i, &c, t);
+            }
+            add_gradient(a, i, &c, t);
+            add_regularization(a, i, &c, t);
+            add_kernel(i, &c, mor_kernel_value(c.distance, k->smoothing_length, k->dimension), t);
+        }
+        add_self(a, i, t);
+    }
+}
+
+/* Compares one array of n_components numbers per particle. Behind the last particle nothing may be written. */
+static void assert_close(const assembly *a, const tally *t, const assembly_sums *sums, const double *array,
+                         int n_components, bool is_written)
+{
+    const ptrdiff_t place = array - (const double *)&t->value;
+    const double *value = (const double *)sums + place;
+    const double *magnitude = (const double *)&t->magnitude + place;
+    for (int k = 0; k < n_components * ASSEMBLY_MAX; ++k) {
+        if (k >= n_components * a->n || !is_written) {
+            assert_true(value[k] == ASSEMBLY_CANARY); /* exact: untouched */
+        } else {
+            assert_true(fabs(value[k] - array[k]) <= ULPS * DBL_EPSILON * magnitude[k]); /* see ULPS */
+        }
+    }
+}
+
+static void assert_sums(const assembly *a, const tally *t, const assembly_sums *sums)
+{
+    assert_close(a, t, sums, t->value.acceleration, 3, true);
+    assert_close(a, t, sums, t->value.stress_diffusion, 6, a->constants.diffusion_rate > 0.0);
+    assert_close(a, t, sums, t->value.velocity_gradient, 9, true);
+    assert_close(a, t, sums, t->value.density_rate, 1, true);
+    assert_close(a, t, sums, t->value.regularization, 6, true);
+    /* Kernel sums go into a scratch array that has room for whole clusters. */
+    for (int k = 0; k < MOR_KERNEL_SUMS * a->n; ++k) {
+        const double difference = sums->kernel[k] - t->value.kernel[k];
+        assert_true(fabs(difference) <= ULPS * DBL_EPSILON * t->magnitude.kernel[k]); /* see ULPS */
+    }
+}
+
+static void compare_all_tables(const assembly *a)
+{
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    tally *t = malloc(sizeof *t);
+    assembly_sums *sums = malloc(sizeof *sums);
+    assert_non_null(t);
+    assert_non_null(sums);
+    add_up(a, t);
+    for (int k = 0; k < n_tables; ++k) {
+        assembly_run(a, tables[k], 1000, sums);
+        assert_sums(a, t, sums);
+    }
+    free(sums);
+    free(t);
+}
+
+static void every_option_agrees_with_the_equations(void **state)
+{
+    (void)state;
+    for (int option = 0; option < 2 * 3 * 2 * 2 * 2; ++option) {
+        assembly a;
+        assembly_open_mixed(&a, 2 + option % 2);
+        a.constants.dissipation = (mor_dissipation)(option / 2 % 3);
+        a.constants.diffusion_rate *= option / 6 % 2;
+        a.constants.has_artificial_stress = option / 12 % 2;
+        a.constants.has_pressure_term = option / 24 % 2;
+        compare_all_tables(&a);
+        assembly_close(&a);
+    }
+}
+
+static void number_of_particles_need_not_fill_clusters(void **state)
+{
+    (void)state;
+    for (int n_left_out = 0; n_left_out <= 8; ++n_left_out) {
+        for (int dimension = 2; dimension <= 3; ++dimension) {
+            assembly a;
+            assembly_open_lattice(&a, dimension, dimension == 2 ? 4 : 3, n_left_out, 0.3);
+            compare_all_tables(&a);
+            assembly_close(&a);
+        }
+    }
+}
+
+static void one_particle_alone_feels_nothing(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        assembly a;
+        assembly_open(&a, dimension, ((const double[3]){0.3, -0.2, dimension == 3 ? 0.1 : 0.0}), 1);
+        compare_all_tables(&a);
+        assembly_close(&a);
+    }
+}
+
+static void far_from_the_origin_the_sums_are_as_good_as_the_positions(void **state)
+{
+    (void)state;
+    /* The equations see the same rounded positions, so nothing but the sums' own rounding is compared. */
+    assembly a;
+    assembly_open_mixed(&a, 3);
+    for (int i = 0; i < a.n; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            a.records[i * MOR_RECORD_SIZE + k] += k == 1 ? -1e6 : 1e6;
+        }
+    }
+    assembly_list(&a, 0.0);
+    compare_all_tables(&a);
+    assembly_close(&a);
+}
+
+static void limiter_saturates_for_fast_and_slow_pairs(void **state)
+{
+    (void)state;
+    static const double speeds[] = {1e-6, 1e-2, 30.0}; /* far below, on and far above c0 / eta = 1.25 m/s */
+    for (int option = 0; option < 3 * 3; ++option) {
+        assembly a;
+        assembly_open_mixed(&a, 3);
+        a.constants.dissipation = (mor_dissipation)(option % 3);
+        for (int i = 0; i < a.n; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                a.records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + k] *= speeds[option / 3];
+            }
+        }
+        assembly_list(&a, 0.0);
+        compare_all_tables(&a);
+        assembly_close(&a);
+    }
+}
+
+static void unknown_instruction_set_gives_no_table(void **state)
+{
+    (void)state;
+    assert_null(mor_pair_select("mmx"));
+    assert_null(mor_pair_select(""));
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    assert_ptr_equal(mor_pair_select(NULL), tables[n_tables - 1]); /* the widest there is */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_option_agrees_with_the_equations),
+        cmocka_unit_test(number_of_particles_need_not_fill_clusters),
+        cmocka_unit_test(one_particle_alone_feels_nothing),
+        cmocka_unit_test(far_from_the_origin_the_sums_are_as_good_as_the_positions),
+        cmocka_unit_test(limiter_saturates_for_fast_and_slow_pairs),
+        cmocka_unit_test(unknown_instruction_set_gives_no_table),
+    };
+    return CLOUD_RUN(tests);
+}

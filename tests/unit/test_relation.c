@@ -1,0 +1,281 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/particle/relation.h"
+#include "tests/common/cloud.h"
+
+#include <math.h>
+
+static const int sizes[] = {1, 2, 7, 8, 9, 16, 63, 200};
+enum { SIZES = sizeof sizes / sizeof *sizes };
+
+static mor_relation open_relation(mor_context *context, const cloud *source)
+{
+    mor_relation relation;
+    assert_int_equal(mor_relation_init(context, &relation, MOR_CONFIGURATION_CURRENT, source->tree.n_clusters), MOR_OK);
+    return relation;
+}
+
+static void build(mor_context *context, mor_relation *relation, const cloud *source, const cloud *target, double reach)
+{
+    assert_int_equal(mor_relation_build(context, relation, &source->view, &target->view, reach), MOR_OK);
+    assert_true(relation->reach == reach); /* exact: a copy */
+}
+
+static bool sees(const cloud *source, int64_t i, const cloud *target, int64_t j, double reach)
+{
+    const double *p = source->records + CLOUD_STRIDE * i;
+    const double *q = target->records + CLOUD_STRIDE * j;
+    const double d[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach * reach;
+}
+
+/* Each list must be exactly the ascending union of what its eight see, which brute force finds here. */
+static void assert_complete(const mor_relation *relation, const cloud *source, const cloud *target)
+{
+    int64_t n_entries = 0;
+    int64_t n_occupied = 0;
+    for (int64_t cluster = 0; cluster < relation->n_clusters; ++cluster) {
+        int64_t entry = 0;
+        for (int64_t j = 0; j < target->n_points; ++j) {
+            bool is_seen = false;
+            for (int64_t i = cluster * MOR_CLUSTER; i < (cluster + 1) * MOR_CLUSTER && i < source->n_points; ++i) {
+                is_seen = is_seen || sees(source, i, target, j, relation->reach);
+            }
+            if (is_seen) {
+                assert_true(entry < relation->counts[cluster]);
+                assert_int_equal(relation->lists[cluster][entry++], j);
+            }
+        }
+        assert_int_equal(relation->counts[cluster], entry);
+        n_entries += entry;
+        if (entry > 0) {
+            assert_int_equal(relation->occupied[n_occupied++], cluster);
+        }
+    }
+    assert_int_equal(relation->n_occupied, n_occupied);
+    assert_int_equal(relation->n_entries, n_entries);
+}
+
+static void assert_same_lists(const mor_relation *a, const mor_relation *b)
+{
+    assert_int_equal(a->n_clusters, b->n_clusters);
+    assert_int_equal(a->n_entries, b->n_entries);
+    assert_int_equal(a->n_occupied, b->n_occupied);
+    for (int64_t cluster = 0; cluster < a->n_clusters; ++cluster) {
+        assert_int_equal(a->counts[cluster], b->counts[cluster]);
+        assert_memory_equal(a->lists[cluster], b->lists[cluster], (size_t)a->counts[cluster] * sizeof **a->lists);
+    }
+}
+
+static void lists_hold_what_brute_force_finds(void **state)
+{
+    (void)state;
+    static const double reaches[] = {0.06, 0.125, 0.3, 3.0}; /* 0.125: exactly the spacing of the lattice */
+    for (int kind = 0; kind < CLOUD_KINDS; ++kind) {
+        for (int k = 0; k < SIZES; ++k) {
+            mor_context context;
+            mor_context_init(&context);
+            cloud c;
+            cloud_open_kind(&context, &c, (cloud_kind)kind, sizes[k]);
+            mor_relation relation = open_relation(&context, &c);
+            for (size_t r = 0; r < sizeof reaches / sizeof *reaches; ++r) {
+                build(&context, &relation, &c, &c, reaches[r]);
+                assert_complete(&relation, &c, &c);
+            }
+            mor_relation_clear(&context, &relation);
+            cloud_close(&c);
+            assert_int_equal(context.memory_bytes, 0);
+        }
+    }
+}
+
+static void inner_lists_are_symmetric_and_hold_the_particle_itself(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    cloud c;
+    cloud_open_kind(&context, &c, CLOUD_CLUSTERED, CLOUD_MAX);
+    mor_relation relation = open_relation(&context, &c);
+    build(&context, &relation, &c, &c, 0.2);
+    char sees_it[CLOUD_MAX][CLOUD_MAX / MOR_CLUSTER];
+    memset(sees_it, 0, sizeof sees_it);
+    for (int64_t cluster = 0; cluster < relation.n_clusters; ++cluster) {
+        for (int32_t entry = 0; entry < relation.counts[cluster]; ++entry) {
+            sees_it[relation.lists[cluster][entry]][cluster] = 1;
+        }
+    }
+    for (int64_t i = 0; i < c.n_points; ++i) {
+        assert_true(sees_it[i][i / MOR_CLUSTER]);
+        for (int64_t j = 0; j < c.n_points; ++j) {
+            if (sees(&c, i, &c, j, 0.2)) {
+                assert_true(sees_it[j][i / MOR_CLUSTER] && sees_it[i][j / MOR_CLUSTER]);
+            }
+        }
+    }
+    mor_relation_clear(&context, &relation);
+    cloud_close(&c);
+}
+
+static void lists_do_not_depend_on_the_number_of_threads(void **state)
+{
+    (void)state;
+    static const int threads[] = {2, 3};
+    for (int kind = 0; kind <= CLOUD_KINDS; ++kind) {
+        mor_context alone;
+        mor_context_init(&alone);
+        cloud c;
+        /* At last nine points, which make two clusters, fewer than there are threads. */
+        cloud_open_kind(&alone, &c, (cloud_kind)(kind % CLOUD_KINDS), kind < CLOUD_KINDS ? CLOUD_MAX : 9);
+        mor_relation expected = open_relation(&alone, &c);
+        build(&alone, &expected, &c, &c, 0.25);
+        for (size_t k = 0; k < sizeof threads / sizeof *threads; ++k) {
+            mor_context context;
+            mor_context_init(&context);
+            context.n_threads = threads[k];
+            mor_relation relation = open_relation(&context, &c);
+            build(&context, &relation, &c, &c, 0.25);
+            assert_same_lists(&expected, &relation);
+            mor_relation_clear(&context, &relation);
+            assert_int_equal(context.memory_bytes, 0);
+        }
+        mor_relation_clear(&alone, &expected);
+        cloud_close(&c);
+    }
+}
+
+static void lists_follow_points_that_move(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    cloud c;
+    cloud_open_kind(&context, &c, CLOUD_RANDOM, 300);
+    mor_relation relation = open_relation(&context, &c);
+    build(&context, &relation, &c, &c, 0.2);
+    for (int step = 1; step <= 4; ++step) {
+        for (int64_t i = 0; i < c.n_points; ++i) {
+            for (int a = 0; a < 3; ++a) {
+                /* The points drift apart, keep their place in the tree, and in the end lie anywhere. */
+                const uint64_t purpose = (uint64_t)(10 * step + a);
+                c.records[CLOUD_STRIDE * i + a] += step * cloud_number((uint64_t)i, purpose, -0.2, 0.3);
+            }
+        }
+        mor_tree_fit(&context, &c.tree, c.records, CLOUD_STRIDE);
+        build(&context, &relation, &c, &c, 0.2);
+        assert_complete(&relation, &c, &c);
+        assert_int_equal(relation.n_builds, step + 1);
+    }
+    mor_relation_clear(&context, &relation);
+    cloud_close(&c);
+}
+
+static void rebuilding_allocates_only_when_lists_have_grown(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    context.n_threads = 3;
+    cloud c;
+    cloud_open_kind(&context, &c, CLOUD_RANDOM, CLOUD_MAX);
+    mor_relation relation = open_relation(&context, &c);
+    build(&context, &relation, &c, &c, 0.3);
+    const uint64_t n_allocations = context.n_allocations;
+    build(&context, &relation, &c, &c, 0.3);
+    build(&context, &relation, &c, &c, 0.1);
+    build(&context, &relation, &c, &c, 0.3);
+    assert_int_equal(context.n_allocations, n_allocations);
+    build(&context, &relation, &c, &c, 10.0);
+    assert_true(context.n_allocations > n_allocations);
+    assert_complete(&relation, &c, &c);
+    assert_int_equal(relation.n_entries, relation.n_clusters * c.n_points); /* everybody sees everybody */
+    mor_relation_clear(&context, &relation);
+    cloud_close(&c);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+static void contact_lists_hold_what_brute_force_finds(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; ++kind) {
+        mor_context context;
+        mor_context_init(&context);
+        cloud source;
+        cloud target;
+        cloud_open_kind(&context, &source, CLOUD_RANDOM, 77);
+        cloud_open_kind(&context, &target, (cloud_kind)kind, 205);
+        mor_relation relation = open_relation(&context, &source);
+        build(&context, &relation, &source, &target, 0.15);
+        assert_complete(&relation, &source, &target);
+        mor_relation_clear(&context, &relation);
+        cloud_close(&target);
+        cloud_close(&source);
+        assert_int_equal(context.memory_bytes, 0);
+    }
+}
+
+static void nothing_is_seen_of_an_empty_set_or_beyond_reach(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    cloud source;
+    cloud empty;
+    cloud far_away;
+    cloud_open_kind(&context, &source, CLOUD_RANDOM, 50);
+    cloud_open_kind(&context, &far_away, CLOUD_FAR, 50);
+    cloud_open(&context, &empty, NULL, 0);
+    mor_relation relation = open_relation(&context, &source);
+    build(&context, &relation, &source, &source, 0.5);
+    assert_true(relation.n_entries > 0);
+    build(&context, &relation, &source, &empty, 0.5); /* what the lists held before is forgotten */
+    assert_complete(&relation, &source, &empty);
+    assert_int_equal(relation.n_entries, 0);
+    build(&context, &relation, &source, &far_away, 0.5);
+    assert_int_equal(relation.n_entries, 0);
+    build(&context, &relation, &source, &source, 0.0); /* not even itself: nearer than zero is nobody */
+    assert_int_equal(relation.n_entries, 0);
+    mor_relation_clear(&context, &relation);
+    mor_relation nobody = open_relation(&context, &empty);
+    build(&context, &nobody, &empty, &source, 0.5);
+    assert_int_equal(nobody.n_entries, 0);
+    mor_relation_clear(&context, &nobody);
+    cloud_close(&far_away);
+    cloud_close(&empty);
+    cloud_close(&source);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+static void relation_made_for_another_set_is_refused(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    cloud small;
+    cloud large;
+    cloud_open_kind(&context, &small, CLOUD_RANDOM, 8);
+    cloud_open_kind(&context, &large, CLOUD_RANDOM, 9);
+    mor_relation relation = open_relation(&context, &small);
+    assert_int_equal(mor_relation_build(&context, &relation, &large.view, &large.view, 0.5), MOR_ERROR_INTERNAL);
+    assert_non_null(strstr(context.message, "a relation of 1 clusters was built over 2"));
+    mor_relation_clear(&context, &relation);
+    mor_relation_clear(&context, &relation); /* a cleared relation is zeroed, and a zeroed one is accepted */
+    cloud_close(&large);
+    cloud_close(&small);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_hold_what_brute_force_finds),
+        cmocka_unit_test(inner_lists_are_symmetric_and_hold_the_particle_itself),
+        cmocka_unit_test(lists_do_not_depend_on_the_number_of_threads),
+        cmocka_unit_test(lists_follow_points_that_move),
+        cmocka_unit_test(rebuilding_allocates_only_when_lists_have_grown),
+        cmocka_unit_test(contact_lists_hold_what_brute_force_finds),
+        cmocka_unit_test(nothing_is_seen_of_an_empty_set_or_beyond_reach),
+        cmocka_unit_test(relation_made_for_another_set_is_refused),
+    };
+    return CLOUD_RUN(tests);
+}
