@@ -142,11 +142,16 @@ static mor_status find_command(mor_context *context, const char *name, int *foun
                     near >= 0 ? "; did you mean " : "", near >= 0 ? names[near] : "");
 }
 
+/* The command line as one could type it again: words with blanks or quotes get quotes. */
 static void join_words(mor_command *command, int argc, char **argv)
 {
     size_t used = 0;
     for (int k = 0; k < argc && used < sizeof command->line; ++k) {
-        const int n = snprintf(command->line + used, sizeof command->line - used, "%s%s", k > 0 ? " " : "", argv[k]);
+        const char *quote = argv[k][strcspn(argv[k], " \t()[]*?$;&|<>\"\\")] == '\0'  ? ""
+                            : strchr(argv[k], '\'') == NULL ? "'"
+                                                           : "\"";
+        const int n = snprintf(command->line + used, sizeof command->line - used, "%s%s%s%s", k > 0 ? " " : "", quote,
+                               argv[k], quote);
         used += n > 0 ? (size_t)n : 0;
     }
 }

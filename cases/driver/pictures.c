@@ -63,6 +63,7 @@ typedef struct gallery {
     mor_bounds frame;
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
     bool is_ground[MOR_CASE_WALLS_MAX];
+    double wall_time; /* s; moving walls stand where they are at this time */
     double *position; /* shape [n, 3], of the present snapshot, m */
     double *value;    /* shape [n], its color */
 } gallery;
@@ -143,6 +144,19 @@ static mor_status fill_walls(mor_context *context, gallery *g)
     return MOR_OK;
 }
 
+/* Moves the walls with a prescribed velocity to where they are at a time. */
+static void move_walls(gallery *g, double time)
+{
+    for (int w = 0; w < g->the_case->n_walls; ++w) {
+        double velocity[3];
+        mor_matrix_apply(g->the_case->turn, g->the_case->walls[w].velocity, velocity);
+        for (int64_t k = 0; k < 3 * g->walls[w].n_points; ++k) {
+            g->walls[w].positions[k] += (time - g->wall_time) * velocity[k % 3];
+        }
+    }
+    g->wall_time = time;
+}
+
 /* Fills in what a picture shows; the soil comes first. */
 static int list_groups(const gallery *g, int64_t n_particles, mor_picture_group *groups)
 {
@@ -188,6 +202,7 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     for (char *letter = value_name; *letter != '\0'; ++letter) {
         *letter = *letter == '_' ? ' ' : *letter;
     }
+    move_walls(g, snapshot->time);
     picture.time_text = time_text;
     picture.value_name = value_name;
     picture.groups = groups;

@@ -198,7 +198,7 @@ static mor_status wall_force(mor_context *context, const view *v, double *value)
     const mor_soil *soil = &v->simulation->soil;
     for (int w = 0; w < soil->n_walls; ++w) {
         if (strcmp(soil->walls[w].name, v->probe->wall) == 0) {
-            *value = mor_vector_dot(soil->walls[w].force, v->frame.direction);
+            *value = mor_vector_dot(soil->wall_force[w], v->frame.direction);
             return MOR_OK;
         }
     }

@@ -138,6 +138,11 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     if (options->progress != NULL) {
         fprintf(options->progress, "\r%*s\r", 110, "");
     }
+    if (outcome->is_finished && p->n_loop_steps == 0) {
+        fprintf(options->output, "the run in '%s' had already finished; its results stand in summary.json\n",
+                options->folder);
+        return MOR_OK;
+    }
     MOR_TRY(context, mor_run_files_save(context, files));
     if (!outcome->is_finished) {
         outcome->is_interrupted = options->stop != NULL && *options->stop != 0;

@@ -215,6 +215,7 @@ static int list_values(mor_simulation *s, mor_checkpoint_value *values)
         {"schedule_step_length", MOR_HDF5_DOUBLE, 1, &s->schedule.step_length},
         {"soil_largest_speed", MOR_HDF5_DOUBLE, 1, &s->soil.largest_speed},
         {"soil_largest_acceleration", MOR_HDF5_DOUBLE, 1, &s->soil.largest_acceleration},
+        {"soil_wall_force", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_force},
         {"soil_wall_impulse", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_impulse},
         {"initial_energy", MOR_HDF5_DOUBLE, 1, &s->initial_energy},
         {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},

@@ -132,6 +132,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         memset(soil->set.data[MOR_FIELD_VELOCITY], 0, (size_t)(3 * n) * sizeof(double));
         memset(soil->set.data[MOR_FIELD_DENSITY_RATE], 0, (size_t)n * sizeof(double));
         memset(soil->wall_impulse, 0, sizeof soil->wall_impulse);
+        memset(soil->wall_force, 0, sizeof soil->wall_force);
         soil->largest_speed = 0.0;
         MOR_TRY(context, mor_soil_init_state(context, soil));
         simulation->schedule.now = 0;

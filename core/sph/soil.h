@@ -10,7 +10,7 @@
 
 /** @file
  *  Fine grains: updated-Lagrangian Riemann SPH of one particle set with one material, with walls. One step is the
- *  list of stages in soil_stages.c; time belongs to the schedule.
+ *  list of stages in soil.c; time belongs to the schedule.
  *  Theory: Zhang et al. (2024) eqs. 13-35, 51, 54-56; docs/theory/soil.md. */
 
 enum { MOR_SOIL_WALLS_MAX = 32 };
@@ -70,6 +70,7 @@ typedef struct mor_soil {
     double drift;                          /* bound of any particle's motion since the lists were built, m */
     bool has_lists;                        /* lists exist and belong to the present order */
     double gravity[3];                     /* in the last step, with the ramp, m/s2 */
+    double wall_force[MOR_SOIL_WALLS_MAX][3];   /* of the soil on each wall in the last step, N (N/m in plane strain) */
     double wall_impulse[MOR_SOIL_WALLS_MAX][3]; /* of the soil on each wall since the start, N s */
 } mor_soil;
 

@@ -263,6 +263,7 @@ mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step
     }
     for (int w = 0; w < soil->n_walls; ++w) {
         for (int a = 0; a < 3; ++a) {
+            soil->wall_force[w][a] = soil->walls[w].force[a];
             soil->wall_impulse[w][a] += step->length * soil->walls[w].force[a];
         }
     }

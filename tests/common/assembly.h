@@ -73,14 +73,17 @@ static inline mor_pair_constants assembly_constants(int dimension)
                             .limiter_rate = ASSEMBLY_ETA / ASSEMBLY_SOUND,
                             .diffusion_rate = 2.0 * 0.1 * h * ASSEMBLY_SOUND,
                             .gravity_direction = {0.28, -0.96, 0.0},
-                            .rest_weight = ASSEMBLY_WEIGHT,
-                            .lateral_ratio = ASSEMBLY_LATERAL,
                             .artificial_exponent = 2.55,
                             .spacing_kernel = mor_kernel_value(ASSEMBLY_SPACING, h, dimension),
                             .kernel_normalization = mor_kernel_normalization(h, dimension),
                             .shift_diameter = 1.1 * ASSEMBLY_SPACING};
     if (dimension == 3) {
         memcpy(c.gravity_direction, ((const double[3]){0.48, -0.64, -0.6}), sizeof c.gravity_direction);
+    }
+    const double *g = c.gravity_direction;
+    for (int a = 0; a < 3; ++a) {
+        c.rest_gradient[a] = ASSEMBLY_WEIGHT * (ASSEMBLY_LATERAL + (1.0 - ASSEMBLY_LATERAL) * g[a] * g[a]);
+        c.rest_gradient[3 + a] = ASSEMBLY_WEIGHT * (1.0 - ASSEMBLY_LATERAL) * g[a] * g[(a + 1) % 3];
     }
     return c;
 }

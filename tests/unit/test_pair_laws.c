@@ -1,0 +1,501 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Laws that the pair loops of every instruction set must keep, whatever the equations. */
+#include "tests/common/assembly.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Calls check(assembly, table) for mixed assemblies in two and three dimensions and each mode of dissipation. */
+static void for_mixed(void (*check)(assembly *a, const mor_pair_table *table))
+{
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    for (int option = 0; option < 2 * 3 * n_tables; ++option) {
+        assembly *a = malloc(sizeof *a);
+        assert_non_null(a);
+        assembly_open_mixed(a, 2 + option % 2);
+        a->constants.dissipation = (mor_dissipation)(option / 2 % 3);
+        check(a, tables[option / 6]);
+        assembly_close(a);
+        free(a);
+    }
+}
+
+static double largest(const double *values, int n)
+{
+    double most = 0.0;
+    for (int k = 0; k < n; ++k) {
+        most = fmax(most, fabs(values[k]));
+    }
+    return most;
+}
+
+static const double *record_of(const assembly *a, int i)
+{
+    return a->records + i * MOR_RECORD_SIZE;
+}
+
+static void check_momentum(assembly *a, const mor_pair_table *table)
+{
+    assembly_sums sums;
+    assembly_run(a, table, 1000, &sums);
+    for (int k = 0; k < 3; ++k) {
+        double total = 0.0;
+        double magnitude = 0.0;
+        for (int i = 0; i < a->n; ++i) {
+            const double *record = record_of(a, i);
+            const double force =
+                record[MOR_RECORD_DENSITY] * record[MOR_RECORD_VOLUME] * sums.acceleration[3 * i + k];
+            total += force;
+            magnitude += fabs(force);
+        }
+        /* Pair forces are opposite up to rounding, some ulp each; what cancels in a particle's own sum is about ten
+         * times as large as the sum. */
+        assert_true(fabs(total) <= 32 * DBL_EPSILON * magnitude);
+        assert_true(magnitude > 0.0 || (k == 2 && a->constants.dimension == 2));
+    }
+}
+
+static void forces_add_up_to_nothing(void **state)
+{
+    (void)state;
+    for_mixed(check_momentum);
+}
+
+/* Two particles with states that have nothing in common. */
+static void check_exchange(const mor_pair_table *table, int dimension, uint64_t id)
+{
+    double points[6] = {0.0};
+    for (int k = 0; k < dimension; ++k) {
+        points[3 + k] = ASSEMBLY_SPACING * cloud_number(id, 70 + (uint64_t)k, 0.2, 1.2);
+    }
+    assembly a;
+    assembly_sums sums;
+    assembly_open(&a, dimension, points, 2);
+    a.constants.dissipation = (mor_dissipation)(id % 3);
+    assembly_fill(&a, 0, 2 * id);
+    assembly_fill(&a, 1, 2 * id + 1);
+    assembly_list(&a, 0.0);
+    assembly_run(&a, table, 1, &sums);
+    const double *left = record_of(&a, 0);
+    const double *right = record_of(&a, 1);
+    const double *force_left = sums.acceleration;
+    const double *force_right = sums.acceleration + 3;
+    const double mass_left = left[MOR_RECORD_DENSITY] * left[MOR_RECORD_VOLUME];
+    const double mass_right = right[MOR_RECORD_DENSITY] * right[MOR_RECORD_VOLUME];
+    const double scale = mass_left * largest(force_left, 3);
+    const double r[3] = {left[0] - right[0], left[1] - right[1], left[2] - right[2]};
+    const double distance = mor_vector_length(r);
+    const double slope = mor_kernel_derivative(distance, a.constants.smoothing_length, dimension) / distance;
+    double closing = 0.0;
+    double roughness = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double rest = mass_left * force_left[k] + mass_right * force_right[k];
+        assert_true(fabs(rest) <= 1e-12 * scale); /* some ulp, and stresses may cancel a thousandfold */
+        closing += (left[MOR_RECORD_VELOCITY + k] - right[MOR_RECORD_VELOCITY + k]) * slope * r[k];
+        roughness += fabs(slope * r[k]);
+    }
+    /* (v_i - v*) + (v* - v_j) = v_i - v_j: the parts of U* that are no mean must cancel. */
+    const double sum =
+        sums.density_rate[0] / (2.0 * left[MOR_RECORD_DENSITY] * right[MOR_RECORD_VOLUME]) +
+        sums.density_rate[1] / (2.0 * right[MOR_RECORD_DENSITY] * left[MOR_RECORD_VOLUME]);
+    assert_true(fabs(sum - closing) <= 64 * DBL_EPSILON * roughness); /* speeds are at most one; some ulp a term */
+    assembly_close(&a);
+}
+
+static void riemann_solution_is_the_same_from_both_sides(void **state)
+{
+    (void)state;
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    for (int option = 0; option < 2 * n_tables; ++option) {
+        for (uint64_t id = 0; id < 30; ++id) {
+            check_exchange(tables[option / 2], 2 + option % 2, id);
+        }
+    }
+}
+
+static void dissipation_acts_on_the_motion_of_its_mode(void **state)
+{
+    (void)state;
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    const double points[6] = {0.0, 0.0, 0.0, ASSEMBLY_SPACING, 0.0, 0.0};
+    for (int option = 0; option < n_tables * 3 * 2; ++option) {
+        const mor_dissipation mode = (mor_dissipation)(option / 2 % 3);
+        const double closing = option % 2 == 0 ? 0.5 : -0.5; /* both move by half of it */
+        assembly a;
+        assembly_sums sums;
+        assembly_open(&a, 3, points, 2);
+        a.constants.dissipation = mode;
+        a.constants.has_artificial_stress = false;
+        for (int i = 0; i < 2; ++i) {
+            double *record = a.records + i * MOR_RECORD_SIZE;
+            memset(record + MOR_RECORD_STRESS, 0, 7 * sizeof *record);
+            record[MOR_RECORD_DENSITY] = ASSEMBLY_DENSITY;
+            record[MOR_RECORD_IMPEDANCE] = ASSEMBLY_DENSITY * ASSEMBLY_SOUND;
+            record[MOR_RECORD_VELOCITY] = 0.5 * (record[0] > 0.0 ? -closing : closing);
+            record[MOR_RECORD_VELOCITY + 1] = record[MOR_RECORD_VELOCITY + 2] = 0.0;
+        }
+        assembly_list(&a, 0.0);
+        assembly_run(&a, tables[option / 6], 1, &sums);
+        const bool is_counted = mode == MOR_DISSIPATION_BOTH || (mode == MOR_DISSIPATION_APPROACH) == (closing > 0.0);
+        const double limiter = is_counted ? ASSEMBLY_ETA * 0.5 / ASSEMBLY_SOUND : 0.0;
+        const double pressure = limiter * 0.5 * ASSEMBLY_DENSITY * ASSEMBLY_SOUND * closing;
+        for (int i = 0; i < 2; ++i) {
+            const double away = record_of(&a, i)[0] > 0.0 ? 1.0 : -1.0; /* from the other particle */
+            const double slope = mor_kernel_derivative(ASSEMBLY_SPACING, a.constants.smoothing_length, 3);
+            const double expected =
+                2.0 / ASSEMBLY_DENSITY * record_of(&a, 1 - i)[MOR_RECORD_VOLUME] * pressure * -slope * away;
+            const double difference = sums.acceleration[3 * i] - expected;
+            assert_true(fabs(difference) <= 16 * DBL_EPSILON * fabs(expected)); /* a dozen products */
+            assert_true(sums.acceleration[3 * i + 1] == 0.0); /* exact: nothing points there */
+        }
+        assembly_close(&a);
+    }
+}
+
+static void assert_same(const assembly_sums *a, const assembly_sums *b, size_t kernel_numbers)
+{
+    const size_t bytes = offsetof(assembly_sums, kernel);
+    assert_memory_equal(a, b, bytes);
+    assert_memory_equal(a->kernel, b->kernel, kernel_numbers * sizeof(double));
+}
+
+static void check_ranges(assembly *a, const mor_pair_table *table)
+{
+    const size_t kernel_numbers = (size_t)(MOR_KERNEL_SUMS * a->n);
+    assembly_sums whole;
+    assembly_sums other;
+    assembly_run(a, table, 1000, &whole);
+    for (int clusters = 1; clusters <= 3; ++clusters) {
+        assembly_run(a, table, clusters, &other);
+        assert_same(&whole, &other, kernel_numbers);
+    }
+    static const double skins[] = {0.0, 0.7, 1000.0}; /* spacings; the last lists everybody */
+    for (int k = 0; k < 3; ++k) {
+        assembly_list(a, skins[k] * ASSEMBLY_SPACING);
+        assembly_run(a, table, 1000, &other);
+        assert_same(&whole, &other, kernel_numbers);
+    }
+}
+
+static void sums_depend_neither_on_ranges_nor_on_strangers_in_the_lists(void **state)
+{
+    (void)state;
+    for_mixed(check_ranges);
+}
+
+static void wide_registers_give_the_same_bits_as_wider_ones(void **state)
+{
+    (void)state;
+    const mor_pair_table *avx2 = mor_pair_select("avx2");
+    const mor_pair_table *avx512 = mor_pair_select("avx512");
+    if (avx2 == NULL || avx512 == NULL) {
+        skip();
+    }
+    for (int option = 0; option < 2 * 3 * 2 * 2 * 2; ++option) {
+        assembly a;
+        assembly_sums narrow;
+        assembly_sums wide;
+        assembly_open_mixed(&a, 2 + option % 2);
+        a.constants.dissipation = (mor_dissipation)(option / 2 % 3);
+        a.constants.diffusion_rate *= option / 6 % 2;
+        a.constants.has_artificial_stress = option / 12 % 2;
+        a.constants.has_pressure_term = option / 24 % 2;
+        assembly_run(&a, avx2, 1000, &narrow);
+        assembly_run(&a, avx512, 1000, &wide);
+        assert_same(&narrow, &wide, (size_t)(MOR_KERNEL_SUMS * a.n));
+        assembly_close(&a);
+    }
+}
+
+/* Multiplies everything by the powers of two of length, time and mass. */
+static void change_units(assembly *a, int length, int time, int mass)
+{
+    mor_pair_constants *c = &a->constants;
+    const int dimension = c->dimension;
+    const int stress = mass - length - 2 * time;
+    const int density = mass - 3 * length;
+    c->smoothing_length = ldexp(c->smoothing_length, length);
+    c->gradient_factor = ldexp(c->gradient_factor, -(dimension + 2) * length);
+    c->limiter_rate = ldexp(c->limiter_rate, time - length);
+    c->diffusion_rate = ldexp(c->diffusion_rate, 2 * length - time);
+    c->spacing_kernel = ldexp(c->spacing_kernel, -dimension * length);
+    c->kernel_normalization = ldexp(c->kernel_normalization, -dimension * length);
+    c->shift_diameter = ldexp(c->shift_diameter, length);
+    for (int k = 0; k < 6; ++k) {
+        c->rest_gradient[k] = ldexp(c->rest_gradient[k], stress - length);
+    }
+    for (int i = 0; i < a->n; ++i) {
+        double *record = a->records + i * MOR_RECORD_SIZE;
+        for (int k = 0; k < 3; ++k) {
+            record[k] = ldexp(record[k], length);
+            record[MOR_RECORD_VELOCITY + k] = ldexp(record[MOR_RECORD_VELOCITY + k], length - time);
+        }
+        for (int k = 0; k < 6; ++k) {
+            record[MOR_RECORD_STRESS + k] = ldexp(record[MOR_RECORD_STRESS + k], stress);
+            a->artificial[6 * i + k] = ldexp(a->artificial[6 * i + k], stress);
+        }
+        record[MOR_RECORD_VOLUME] = ldexp(record[MOR_RECORD_VOLUME], dimension * length);
+        record[MOR_RECORD_IMPEDANCE] = ldexp(record[MOR_RECORD_IMPEDANCE], density + length - time);
+        record[MOR_RECORD_PRESSURE] = ldexp(record[MOR_RECORD_PRESSURE], stress);
+        record[MOR_RECORD_DENSITY] = ldexp(record[MOR_RECORD_DENSITY], density);
+    }
+    assembly_list(a, ldexp(0.2 * ASSEMBLY_SPACING, length));
+}
+
+static void assert_scaled(const double *before, const double *after, int n, int exponent)
+{
+    for (int k = 0; k < n; ++k) {
+        assert_true(after[k] == ldexp(before[k], exponent)); /* exact: powers of two */
+    }
+}
+
+static void check_units(assembly *a, const mor_pair_table *table)
+{
+    enum { LENGTH = 10, TIME = -7, MASS = 3 };
+    assembly_sums before;
+    assembly_sums after;
+    assembly_run(a, table, 1000, &before);
+    change_units(a, LENGTH, TIME, MASS);
+    assembly_run(a, table, 1000, &after);
+    const int n = a->n;
+    assert_scaled(before.acceleration, after.acceleration, 3 * n, LENGTH - 2 * TIME);
+    assert_scaled(before.stress_diffusion, after.stress_diffusion, 6 * n, MASS - LENGTH - 3 * TIME);
+    assert_scaled(before.velocity_gradient, after.velocity_gradient, 9 * n, -TIME);
+    assert_scaled(before.density_rate, after.density_rate, n, MASS - 3 * LENGTH - TIME);
+    for (int i = 0; i < n; ++i) {
+        assert_scaled(before.regularization + 6 * i, after.regularization + 6 * i, 3, LENGTH - TIME);
+        assert_scaled(before.regularization + 6 * i + 3, after.regularization + 6 * i + 3, 3, 0);
+        const double *sums = before.kernel + MOR_KERNEL_SUMS * i;
+        const double *scaled = after.kernel + MOR_KERNEL_SUMS * i;
+        assert_scaled(sums + MOR_KERNEL_SUM_VALUE, scaled + MOR_KERNEL_SUM_VALUE, 1, 0);
+        assert_scaled(sums + MOR_KERNEL_SUM_GRADIENT, scaled + MOR_KERNEL_SUM_GRADIENT, 3, -LENGTH);
+        assert_scaled(sums + MOR_KERNEL_SUM_MOMENT, scaled + MOR_KERNEL_SUM_MOMENT, 6, 0);
+    }
+}
+
+static void units_changed_by_powers_of_two_change_no_bit(void **state)
+{
+    (void)state;
+    for_mixed(check_units);
+}
+
+/* Quarter turns about z and, in space, about x: all entries are 0 or 1, so that states turn without rounding. */
+static const double turns[2][9] = {{0, -1, 0, 1, 0, 0, 0, 0, 1}, {1, 0, 0, 0, 0, -1, 0, 1, 0}};
+
+static void turn_vector(const double *turn, double *v)
+{
+    double turned[3];
+    mor_matrix_apply(turn, v, turned);
+    memcpy(v, turned, sizeof turned);
+}
+
+static void turn_matrix(const double *turn, double *m)
+{
+    double half[9];
+    for (int k = 0; k < 9; ++k) {
+        half[k] = turn[k / 3 * 3] * m[k % 3] + turn[k / 3 * 3 + 1] * m[3 + k % 3] + turn[k / 3 * 3 + 2] * m[6 + k % 3];
+    }
+    for (int row = 0; row < 3; ++row) {
+        mor_matrix_apply(turn, half + 3 * row, m + 3 * row);
+    }
+}
+
+static void turn_symmetric(const double *turn, double *s)
+{
+    double m[9] = {s[MOR_XX], s[MOR_XY], s[MOR_ZX], s[MOR_XY], s[MOR_YY], s[MOR_YZ], s[MOR_ZX], s[MOR_YZ], s[MOR_ZZ]};
+    turn_matrix(turn, m);
+    memcpy(s, ((const double[6]){m[0], m[4], m[8], m[1], m[5], m[2]}), 6 * sizeof *s);
+}
+
+/* Rounding depends on the order of the axes; the largest number of a field bounds what its sums are made of within a
+ * factor of a hundred. */
+static void assert_near(const double *a, const double *b, int n, double scale)
+{
+    for (int k = 0; k < n; ++k) {
+        assert_true(fabs(a[k] - b[k]) <= 1e-12 * scale); /* a hundred times some ulp, see above */
+    }
+}
+
+static void check_turn(assembly *a, const mor_pair_table *table)
+{
+    const int n = a->n;
+    for (int t = 0; t < a->constants.dimension - 1; ++t) {
+        const double *turn = turns[t];
+        assembly_sums before;
+        assembly_sums after;
+        assembly_run(a, table, 1000, &before);
+        turn_vector(turn, a->constants.gravity_direction);
+        turn_symmetric(turn, a->constants.rest_gradient);
+        for (int i = 0; i < n; ++i) {
+            double *record = a->records + i * MOR_RECORD_SIZE;
+            turn_vector(turn, record);
+            turn_vector(turn, record + MOR_RECORD_VELOCITY);
+            turn_symmetric(turn, record + MOR_RECORD_STRESS);
+            turn_symmetric(turn, a->artificial + 6 * i);
+            turn_vector(turn, before.acceleration + 3 * i);
+            turn_symmetric(turn, before.stress_diffusion + 6 * i);
+            turn_matrix(turn, before.velocity_gradient + 9 * i);
+            turn_vector(turn, before.regularization + 6 * i);
+            turn_vector(turn, before.regularization + 6 * i + 3);
+            turn_vector(turn, before.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_GRADIENT);
+            turn_symmetric(turn, before.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_MOMENT);
+        }
+        assembly_list(a, 0.2 * ASSEMBLY_SPACING);
+        assembly_run(a, table, 1000, &after);
+        assert_near(before.acceleration, after.acceleration, 3 * n, largest(before.acceleration, 3 * n));
+        assert_near(before.stress_diffusion, after.stress_diffusion, 6 * n, largest(before.stress_diffusion, 6 * n));
+        assert_near(before.velocity_gradient, after.velocity_gradient, 9 * n,
+                    largest(before.velocity_gradient, 9 * n));
+        assert_near(before.density_rate, after.density_rate, n, largest(before.density_rate, n));
+        assert_near(before.regularization, after.regularization, 6 * n, largest(before.regularization, 6 * n));
+        assert_near(before.kernel, after.kernel, MOR_KERNEL_SUMS * n, 1.0 / ASSEMBLY_SPACING);
+    }
+}
+
+static void sums_turn_with_the_axes(void **state)
+{
+    (void)state;
+    for_mixed(check_turn);
+}
+
+static void check_common_velocity(assembly *a, const mor_pair_table *table)
+{
+    assembly_sums before;
+    assembly_sums after;
+    assembly_run(a, table, 1000, &before);
+    const double common[3] = {2.5, -1.25, a->constants.dimension == 3 ? 0.75 : 0.0};
+    for (int i = 0; i < a->n; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            a->records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + k] += common[k];
+        }
+    }
+    assembly_list(a, 0.2 * ASSEMBLY_SPACING);
+    assembly_run(a, table, 1000, &after);
+    const int n = a->n;
+    assert_near(before.acceleration, after.acceleration, 3 * n, largest(before.acceleration, 3 * n));
+    assert_near(before.velocity_gradient, after.velocity_gradient, 9 * n, largest(before.velocity_gradient, 9 * n));
+    assert_near(before.density_rate, after.density_rate, n, largest(before.density_rate, n));
+    assert_near(before.regularization, after.regularization, 6 * n, largest(before.regularization, 6 * n));
+    assert_memory_equal(before.stress_diffusion, after.stress_diffusion, sizeof before.stress_diffusion);
+}
+
+static void common_velocity_changes_nothing(void **state)
+{
+    (void)state;
+    for_mixed(check_common_velocity);
+}
+
+static void check_uniform(assembly *a, const mor_pair_table *table)
+{
+    assembly_sums sums;
+    for (int i = 0; i < a->n; ++i) {
+        double *record = a->records + i * MOR_RECORD_SIZE;
+        memcpy(record + MOR_RECORD_VELOCITY, ((const double[3]){0.3, -0.7, 0.0}), 3 * sizeof *record);
+        record[MOR_RECORD_PRESSURE] = 1e4;
+        memcpy(record + MOR_RECORD_STRESS, ((const double[6]){-1e4, -1e4, -1e4, 0, 0, 0}), 6 * sizeof *record);
+    }
+    assembly_list(a, 0.2 * ASSEMBLY_SPACING);
+    assembly_run(a, table, 1000, &sums);
+    const double slope = largest(sums.kernel, MOR_KERNEL_SUMS * a->n); /* in 1/m, larger than the other sums */
+    assert_true(largest(sums.velocity_gradient, 9 * a->n) <= 32 * DBL_EPSILON * slope); /* some ulp of each term */
+    assert_true(largest(sums.density_rate, a->n) == 0.0); /* exact: each pair's difference is zero */
+    for (int i = 0; i < a->n; ++i) {
+        assert_true(largest(sums.regularization + 6 * i, 3) == 0.0); /* exact: likewise */
+    }
+}
+
+static void uniform_motion_has_no_gradient(void **state)
+{
+    (void)state;
+    for_mixed(check_uniform);
+}
+
+static void linear_motion_on_a_lattice_has_its_own_gradient_times_the_moment(void **state)
+{
+    (void)state;
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    for (int option = 0; option < 2 * n_tables; ++option) {
+        const int dimension = 2 + option % 2;
+        const double cell = pow(ASSEMBLY_SPACING, dimension);
+        const double slopes[9] = {1.5, -0.4, 0.9, 0.3, -2.0, 0.8, -0.7, 0.2, 1.1};
+        assembly a;
+        assembly_sums sums;
+        assembly_open_lattice(&a, dimension, 5, 0, 0.0);
+        a.constants.has_pressure_term = false;
+        int center = -1;
+        double moment = 0.0;
+        for (int i = 0; i < a.n; ++i) {
+            double *record = a.records + i * MOR_RECORD_SIZE;
+            double from[3];
+            for (int k = 0; k < 3; ++k) {
+                from[k] = record[k] - (k < dimension ? 2.0 * ASSEMBLY_SPACING : 0.0);
+                record[MOR_RECORD_VELOCITY + k] = k < dimension ? mor_vector_dot(slopes + 3 * k, record) : 0.0;
+            }
+            record[MOR_RECORD_VOLUME] = cell;
+            record[MOR_RECORD_DENSITY] = ASSEMBLY_DENSITY;
+            record[MOR_RECORD_IMPEDANCE] = ASSEMBLY_DENSITY * ASSEMBLY_SOUND;
+            const double r = mor_vector_length(from);
+            center = r < 1e-6 * ASSEMBLY_SPACING ? i : center;
+            moment -= r > 1e-6 * ASSEMBLY_SPACING ? cell * from[0] * from[0] / r *
+                                                        mor_kernel_derivative(r, a.constants.smoothing_length, dimension)
+                                                  : 0.0;
+        }
+        assembly_list(&a, 0.0);
+        assembly_run(&a, tables[option / 2], 1000, &sums);
+        assert_true(center >= 0 && fabs(moment - 1.0) < 0.05);
+        double trace = 0.0;
+        for (int k = 0; k < 9; ++k) {
+            const bool is_in_space = k / 3 < dimension && k % 3 < dimension;
+            const double expected = is_in_space ? moment * slopes[k] : 0.0;
+            trace += k % 4 == 0 ? expected : 0.0;
+            assert_true(fabs(sums.velocity_gradient[9 * center + k] - expected) < 1e-13); /* velocities 0.1, 1/d = 100 */
+        }
+        const double expected = -ASSEMBLY_DENSITY * trace;
+        assert_true(fabs(sums.density_rate[center] - expected) < 1e-13 * ASSEMBLY_DENSITY); /* likewise */
+        assembly_close(&a);
+    }
+}
+
+static void particles_in_one_place_give_numbers(void **state)
+{
+    (void)state;
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    double points[3 * 20] = {0.0};
+    for (int i = 10; i < 20; ++i) {
+        points[3 * i] = 0.3 * ASSEMBLY_SPACING;
+    }
+    for (int k = 0; k < n_tables; ++k) {
+        assembly a;
+        assembly_sums sums;
+        assembly_open(&a, 3, points, 20);
+        assembly_run(&a, tables[k], 1000, &sums);
+        for (int s = 0; s < ASSEMBLY_SUMS; ++s) {
+            assert_true(isfinite(((const double *)&sums)[s]));
+        }
+        assembly_close(&a);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_add_up_to_nothing),
+        cmocka_unit_test(riemann_solution_is_the_same_from_both_sides),
+        cmocka_unit_test(dissipation_acts_on_the_motion_of_its_mode),
+        cmocka_unit_test(sums_depend_neither_on_ranges_nor_on_strangers_in_the_lists),
+        cmocka_unit_test(wide_registers_give_the_same_bits_as_wider_ones),
+        cmocka_unit_test(units_changed_by_powers_of_two_change_no_bit),
+        cmocka_unit_test(sums_turn_with_the_axes),
+        cmocka_unit_test(common_velocity_changes_nothing),
+        cmocka_unit_test(uniform_motion_has_no_gradient),
+        cmocka_unit_test(linear_motion_on_a_lattice_has_its_own_gradient_times_the_moment),
+        cmocka_unit_test(particles_in_one_place_give_numbers),
+    };
+    return CLOUD_RUN(tests);
+}
