@@ -106,10 +106,10 @@ static mor_status take_option(mor_command *command, int option, const char *valu
 static mor_status read_options(mor_command *command, int argc, char **argv, bool *is_done)
 {
     static const struct option options[] = {
-        {"output", required_argument, NULL, 'o'}, {"threads", required_argument, NULL, 't'},
-        {"set", required_argument, NULL, 's'},    {"resume", no_argument, NULL, 'r'},
+        {"output", required_argument, NULL, 'o'},  {"threads", required_argument, NULL, 't'},
+        {"set", required_argument, NULL, 's'},     {"resume", no_argument, NULL, 'r'},
         {"stop-at", required_argument, NULL, 'T'}, {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'V'},      {NULL, 0, NULL, 0}};
+        {"version", no_argument, NULL, 'V'},       {NULL, 0, NULL, 0}};
     int option = 0;
     while ((option = getopt_long(argc, argv, "o:t:s:h", options, NULL)) != -1) {
         if (option == 'h') {
@@ -147,9 +147,9 @@ static void join_words(mor_command *command, int argc, char **argv)
 {
     size_t used = 0;
     for (int k = 0; k < argc && used < sizeof command->line; ++k) {
-        const char *quote = argv[k][strcspn(argv[k], " \t()[]*?$;&|<>\"\\")] == '\0'  ? ""
-                            : strchr(argv[k], '\'') == NULL ? "'"
-                                                           : "\"";
+        const char *quote = argv[k][strcspn(argv[k], " \t()[]*?$;&|<>\"\\")] == '\0' ? ""
+                            : strchr(argv[k], '\'') == NULL                          ? "'"
+                                                                                     : "\"";
         const int n = snprintf(command->line + used, sizeof command->line - used, "%s%s%s%s", k > 0 ? " " : "", quote,
                                argv[k], quote);
         used += n > 0 ? (size_t)n : 0;

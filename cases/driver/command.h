@@ -15,9 +15,9 @@
 /** Exit codes of the program. */
 enum {
     MOR_EXIT_OK = 0,
-    MOR_EXIT_FAILED = 1,      /* the run failed */
-    MOR_EXIT_BAD_INPUT = 2,   /* the command line or the case is wrong */
-    MOR_EXIT_MISSED = 3,      /* an expectation was missed */
+    MOR_EXIT_FAILED = 1,    /* the run failed */
+    MOR_EXIT_BAD_INPUT = 2, /* the command line or the case is wrong */
+    MOR_EXIT_MISSED = 3,    /* an expectation was missed */
     MOR_EXIT_INTERRUPTED = 130
 };
 
@@ -25,17 +25,17 @@ enum { MOR_COMMAND_SETTINGS_MAX = 256, MOR_COMMAND_TEXT_BYTES = 4096 };
 
 /** A command line taken apart. Strings are borrowed from it. */
 typedef struct mor_command {
-    mor_context *context;               /* for errors and threads */
-    const char *subject;                /* case, run folder, plug-in or word; NULL when there is none */
-    const char *folder;                 /* -o; NULL when there is none */
+    mor_context *context;                           /* for errors and threads */
+    const char *subject;                            /* case, run folder, plug-in or word; NULL when there is none */
+    const char *folder;                             /* -o; NULL when there is none */
     const char *settings[MOR_COMMAND_SETTINGS_MAX]; /* shape [n_settings] of "key=value" */
     int n_settings;
     bool is_resume;
-    double stop_at;                     /* s; NaN: not asked */
-    char line[MOR_COMMAND_TEXT_BYTES];  /* the whole command line */
-    const volatile sig_atomic_t *stop;  /* non-zero when the user wants to stop */
-    FILE *output;                       /* results */
-    FILE *errors;                       /* messages */
+    double stop_at;                    /* s; NaN: not asked */
+    char line[MOR_COMMAND_TEXT_BYTES]; /* the whole command line */
+    const volatile sig_atomic_t *stop; /* non-zero when the user wants to stop */
+    FILE *output;                      /* results */
+    FILE *errors;                      /* messages */
 } mor_command;
 
 /** Takes a command line apart and does what it says.

@@ -91,10 +91,11 @@ static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *s
             fprintf(out, "       %-8s", verbs[verb]);
             for (int bit = 0; bit < 64; ++bit) {
                 if (bits[verb] >> bit & 1u) {
-                    fprintf(out, " %s", bit < set->n_fields                  ? set->fields[bit].name
-                                        : bit == MOR_RESOURCE_RECORDS        ? "(records)"
-                                        : bit == MOR_RESOURCE_LISTS          ? "(lists)"
-                                                                             : "(wall sums)");
+                    fprintf(out, " %s",
+                            bit < set->n_fields           ? set->fields[bit].name
+                            : bit == MOR_RESOURCE_RECORDS ? "(records)"
+                            : bit == MOR_RESOURCE_LISTS   ? "(lists)"
+                                                          : "(wall sums)");
                 }
             }
             fprintf(out, "\n");
@@ -117,8 +118,9 @@ static void print_warnings(FILE *out, const mor_simulation *s)
     for (int a = 0; a < c->dimension; ++a) {
         const double n = (high[a] - low[a]) / c->spacing + 1.0;
         if (n < THIN) {
-            fprintf(out, "warning: the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
-                         "smaller spacing\n",
+            fprintf(out,
+                    "warning: the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
+                    "smaller spacing\n",
                     n, "xyz"[a], THIN);
         }
     }
@@ -246,7 +248,7 @@ mor_status mor_command_run(mor_command *command, int *exit_code)
     }
     mor_registry_free(command->context, &registry);
     if (status == MOR_OK) {
-        *exit_code = outcome.is_interrupted   ? MOR_EXIT_INTERRUPTED
+        *exit_code = outcome.is_interrupted ? MOR_EXIT_INTERRUPTED
                      : outcome.n_missed > 0 ? MOR_EXIT_MISSED
                                             : MOR_EXIT_OK;
     }

@@ -161,17 +161,14 @@ static void move_walls(gallery *g, double time)
 static int list_groups(const gallery *g, int64_t n_particles, mor_picture_group *groups)
 {
     const double radius = 0.5 * g->the_case->spacing;
-    groups[0] = (mor_picture_group){.name = NULL,
-                                    .position = g->position,
-                                    .n_particles = n_particles,
-                                    .radius = radius,
-                                    .value = g->value};
+    groups[0] = (mor_picture_group){
+        .name = NULL, .position = g->position, .n_particles = n_particles, .radius = radius, .value = g->value};
     int n = 1;
     for (int w = 0; w < g->the_case->n_walls && n < MOR_PICTURE_GROUPS_MAX; ++w) {
         if (g->walls[w].n_points > 0) {
-            const mor_picture_style style = g->is_ground[w]                ? MOR_PICTURE_GROUND
+            const mor_picture_style style = g->is_ground[w]               ? MOR_PICTURE_GROUND
                                             : g->the_case->dimension == 2 ? MOR_PICTURE_SOLID
-                                                                           : MOR_PICTURE_GHOST;
+                                                                          : MOR_PICTURE_GHOST;
             groups[n++] = (mor_picture_group){.name = g->the_case->dimension == 2 ? g->the_case->walls[w].name : NULL,
                                               .position = g->walls[w].positions,
                                               .n_particles = g->walls[w].n_points,

@@ -15,12 +15,12 @@
 
 /* The clockwork of a run beside the simulation itself. */
 typedef struct pace {
-    double loop_seconds;     /* wall time spent in steps, s */
-    uint64_t n_loop_steps;   /* steps behind loop_seconds */
-    double last_save;        /* wall time of the last checkpoint, s */
-    double last_progress;    /* wall time of the last line of progress, s */
-    int64_t next_row;        /* number of the next row of the series */
-    int64_t next_snapshot;   /* number of the next snapshot */
+    double loop_seconds;   /* wall time spent in steps, s */
+    uint64_t n_loop_steps; /* steps behind loop_seconds */
+    double last_save;      /* wall time of the last checkpoint, s */
+    double last_progress;  /* wall time of the last line of progress, s */
+    int64_t next_row;      /* number of the next row of the series */
+    int64_t next_snapshot; /* number of the next snapshot */
 } pace;
 
 static int64_t snapshot_tick(const mor_simulation *s, int64_t number)

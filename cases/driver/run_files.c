@@ -242,8 +242,8 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
     mor_set *const sets[] = {&soil->set};
     const mor_checkpoint state = {sets, 1, values, list_values(files->simulation, values)};
     const char *folder = files->options->folder;
-    *is_restored = is_present(context, folder, MOR_CHECKPOINT_FILE) ||
-                   is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
+    *is_restored =
+        is_present(context, folder, MOR_CHECKPOINT_FILE) || is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
     if (!*is_restored) {
         mor_context_log(context, MOR_LOG_WARNING, "'%s' holds no checkpoint yet; the run starts from the beginning",
                         folder);

@@ -16,22 +16,22 @@ enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16 };
 
 /** Open files of a run and the numbers that go into them. Owner: the run. */
 typedef struct mor_run_files {
-    const mor_run_options *options;   /* borrowed */
-    const mor_case *the_case;         /* borrowed */
-    mor_simulation *simulation;       /* borrowed */
-    FILE *log;                        /* log.txt */
-    mor_log_sink previous_sink;       /* where warnings and errors go as well */
-    void *previous_user;              /* its argument */
+    const mor_run_options *options; /* borrowed */
+    const mor_case *the_case;       /* borrowed */
+    mor_simulation *simulation;     /* borrowed */
+    FILE *log;                      /* log.txt */
+    mor_log_sink previous_sink;     /* where warnings and errors go as well */
+    void *previous_user;            /* its argument */
     mor_snapshot_writer snapshots;
     mor_snapshot_fact facts[MOR_RUN_FACTS_MAX]; /* provenance, shape [n_facts] */
     int n_facts;
-    char seed_text[24];               /* seed as text, for the provenance */
-    char hash_text[24];               /* hash of the case file as text */
-    uint64_t case_hash;               /* of the case file */
+    char seed_text[24]; /* seed as text, for the provenance */
+    char hash_text[24]; /* hash of the case file as text */
+    uint64_t case_hash; /* of the case file */
     mor_table series;
     mor_table_column columns[MOR_RUN_COLUMNS_MAX]; /* shape [n_columns] */
     int n_columns;
-    int first_probe;                  /* column of the first probe */
+    int first_probe; /* column of the first probe */
 } mor_run_files;
 
 /** Makes the folder and opens its log.

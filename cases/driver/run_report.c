@@ -102,7 +102,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
         find_limits(e, &low, &high);
         const bool passes = measured >= low && measured <= high;
         *n_missed += !passes;
-        expectations[k] = (mor_summary_expectation){e->probe,           measured,       e->value, e->tolerance,
+        expectations[k] = (mor_summary_expectation){e->probe,         measured,       e->value, e->tolerance,
                                                     e->tolerance_low, e->is_absolute, passes,   e->source};
     }
     fill_summary(files, &summary);

@@ -23,10 +23,10 @@ typedef struct mor_simulation {
     mor_material_instance *material;
     mor_soil soil;
     mor_schedule schedule;
-    double up[3];             /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
-    double surface_height;    /* of the initial soil along up over the placed origin, m */
-    double initial_energy;    /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
-    bool has_settled;         /* the initial settling converged, or none was asked for */
+    double up[3];          /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
+    double surface_height; /* of the initial soil along up over the placed origin, m */
+    double initial_energy; /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    bool has_settled;      /* the initial settling converged, or none was asked for */
 } mor_simulation;
 
 /** Builds a simulation: checks that soil and walls do not overlap, fills the shapes with particles, sets the initial

@@ -16,9 +16,12 @@ enum { SETTLE_CHECK = 50, ENERGY_BATCH = 512 };
 static mor_measure_points points_of(const mor_simulation *simulation)
 {
     double *const *data = simulation->soil.set.data;
-    return (mor_measure_points){simulation->soil.set.n_particles, simulation->the_case->dimension,
-                                simulation->the_case->spacing,    data[MOR_FIELD_POSITION],
-                                data[MOR_FIELD_MASS],             data[MOR_FIELD_DENSITY]};
+    return (mor_measure_points){simulation->soil.set.n_particles,
+                                simulation->the_case->dimension,
+                                simulation->the_case->spacing,
+                                data[MOR_FIELD_POSITION],
+                                data[MOR_FIELD_MASS],
+                                data[MOR_FIELD_DENSITY]};
 }
 
 /* Stored energy by the material's own operation; NaN when the model cannot tell. */
@@ -95,8 +98,8 @@ static mor_status run_settling(mor_context *context, mor_simulation *simulation,
         for (int k = 0; k < SETTLE_CHECK && schedule->now < until; ++k) {
             MOR_TRY(context, mor_schedule_step(context, schedule, until));
         }
-        MOR_TRY(context, mor_measure_speed(context, &points, simulation->soil.set.data[MOR_FIELD_VELOCITY], 99.0,
-                                           &speed));
+        MOR_TRY(context,
+                mor_measure_speed(context, &points, simulation->soil.set.data[MOR_FIELD_VELOCITY], 99.0, &speed));
     }
     simulation->has_settled = speed < limit;
     mor_context_log(context, simulation->has_settled ? MOR_LOG_INFO : MOR_LOG_WARNING,

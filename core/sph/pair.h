@@ -17,13 +17,13 @@
 
 /** What a pair loop reads of a particle, in one record of 16 doubles. The first eight fill one cache line. */
 enum {
-    MOR_RECORD_POSITION = 0,   /* 3, m */
-    MOR_RECORD_VOLUME = 3,     /* m3, or m2 in plane strain */
-    MOR_RECORD_VELOCITY = 4,   /* 3, m/s */
-    MOR_RECORD_IMPEDANCE = 7,  /* density times sound speed, kg/m2/s */
-    MOR_RECORD_STRESS = 8,     /* 6, Pa */
-    MOR_RECORD_PRESSURE = 14,  /* Pa */
-    MOR_RECORD_DENSITY = 15,   /* kg/m3 */
+    MOR_RECORD_POSITION = 0,  /* 3, m */
+    MOR_RECORD_VOLUME = 3,    /* m3, or m2 in plane strain */
+    MOR_RECORD_VELOCITY = 4,  /* 3, m/s */
+    MOR_RECORD_IMPEDANCE = 7, /* density times sound speed, kg/m2/s */
+    MOR_RECORD_STRESS = 8,    /* 6, Pa */
+    MOR_RECORD_PRESSURE = 14, /* Pa */
+    MOR_RECORD_DENSITY = 15,  /* kg/m3 */
     MOR_RECORD_SIZE = 16
 };
 
@@ -36,20 +36,20 @@ typedef enum mor_dissipation {
 
 /** Numbers the pair loops share. Plain data; owner: the soil solver. */
 typedef struct mor_pair_constants {
-    int dimension;                  /* 2 or 3 */
-    mor_dissipation dissipation;    /* between soil particles */
-    bool has_artificial_stress;     /* artificial_stress is read */
-    bool has_pressure_term;         /* pressure part of U* in the density rate */
-    double smoothing_length;        /* h, m */
-    double gradient_factor;         /* mor_kernel_gradient_factor, unit 1/m^(d+2) */
-    double limiter_rate;            /* eta / c0, s/m: slope of the dissipation limiter */
-    double diffusion_rate;          /* 2 zeta h c0, m2/s; 0 without stress diffusion */
-    double gravity_direction[3];    /* unit vector, 1; zero without gravity */
-    double rest_gradient[6];        /* d stress / d height at rest, symmetric tensor, Pa/m */
-    double artificial_exponent;     /* n, 1 */
-    double spacing_kernel;          /* W(spacing), unit 1/m^d */
-    double kernel_normalization;    /* alpha_d, unit 1/m^d */
-    double shift_diameter;          /* of the sphere (disc) with a particle's volume, m */
+    int dimension;               /* 2 or 3 */
+    mor_dissipation dissipation; /* between soil particles */
+    bool has_artificial_stress;  /* artificial_stress is read */
+    bool has_pressure_term;      /* pressure part of U* in the density rate */
+    double smoothing_length;     /* h, m */
+    double gradient_factor;      /* mor_kernel_gradient_factor, unit 1/m^(d+2) */
+    double limiter_rate;         /* eta / c0, s/m: slope of the dissipation limiter */
+    double diffusion_rate;       /* 2 zeta h c0, m2/s; 0 without stress diffusion */
+    double gravity_direction[3]; /* unit vector, 1; zero without gravity */
+    double rest_gradient[6];     /* d stress / d height at rest, symmetric tensor, Pa/m */
+    double artificial_exponent;  /* n, 1 */
+    double spacing_kernel;       /* W(spacing), unit 1/m^d */
+    double kernel_normalization; /* alpha_d, unit 1/m^d */
+    double shift_diameter;       /* of the sphere (disc) with a particle's volume, m */
 } mor_pair_constants;
 
 /** Arrays of one set for the pair loops; borrowed. */
@@ -71,19 +71,19 @@ typedef void (*mor_pair_loop)(const mor_pair_constants *constants, const mor_pai
 
 /** Sums of kernel values over soil and, through a contact relation, over walls. */
 typedef struct mor_pair_kernel_job {
-    const double *source;        /* shape [n padded to 8, 16]; records of who gathers, units of MOR_RECORD_... */
-    int64_t n_source;            /* particles that gather */
-    const double *target;        /* shape [n_target, target_stride]; x, y, z, volume first; unit m, volume m3 (m2) */
-    int target_stride;           /* doubles per target record */
+    const double *source;         /* shape [n padded to 8, 16]; records of who gathers, units of MOR_RECORD_... */
+    int64_t n_source;             /* particles that gather */
+    const double *target;         /* shape [n_target, target_stride]; x, y, z, volume first; unit m, volume m3 (m2) */
+    int target_stride;            /* doubles per target record */
     const mor_relation *relation; /* one object: source -> target */
-    double *sums;                /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range; units of the enum */
-    bool by_occupied;            /* clusters are counted along relation->occupied */
+    double *sums;                 /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range; units of the enum */
+    bool by_occupied;             /* clusters are counted along relation->occupied */
 } mor_pair_kernel_job;
 
 /** What a kernel job sums over the targets j of a particle i. */
 enum {
-    MOR_KERNEL_SUM_VALUE,    /* sum V_j W, 1 */
-    MOR_KERNEL_SUM_GRADIENT, /* 3: sum V_j grad_i W, 1/m */
+    MOR_KERNEL_SUM_VALUE,      /* sum V_j W, 1 */
+    MOR_KERNEL_SUM_GRADIENT,   /* 3: sum V_j grad_i W, 1/m */
     MOR_KERNEL_SUM_MOMENT = 4, /* 6: sum V_j (r_j - r_i) (x) grad_i W, symmetric, 1 */
     MOR_KERNEL_SUMS = 10
 };
@@ -105,11 +105,11 @@ typedef void (*mor_pair_tangent_loop)(const mor_pair_constants *constants, const
 
 /** The routines of one instruction set. Static, shared. */
 typedef struct mor_pair_table {
-    const char *instruction_set; /* "avx512", "avx2", "baseline" */
-    mor_pair_loop momentum[2];   /* by dimension - 2: acceleration and stress diffusion, eqs. 25, 27 */
-    mor_pair_loop gradient[2];   /* by dimension - 2: velocity gradient and density rate, eqs. 15, 24 */
-    mor_pair_loop regularize;    /* XSPH and shifting sums, Hu et al. (2021) eqs. 13, 16 */
-    mor_pair_kernel_loop kernel; /* kernel sums */
+    const char *instruction_set;   /* "avx512", "avx2", "baseline" */
+    mor_pair_loop momentum[2];     /* by dimension - 2: acceleration and stress diffusion, eqs. 25, 27 */
+    mor_pair_loop gradient[2];     /* by dimension - 2: velocity gradient and density rate, eqs. 15, 24 */
+    mor_pair_loop regularize;      /* XSPH and shifting sums, Hu et al. (2021) eqs. 13, 16 */
+    mor_pair_kernel_loop kernel;   /* kernel sums */
     mor_pair_tangent_loop tangent; /* stress divergence along and across a wall */
 } mor_pair_table;
 

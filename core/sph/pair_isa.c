@@ -100,9 +100,8 @@ typedef struct frame {
 INLINE frame frame_of(const mor_pair_constants *constants, const double *records, int stride)
 {
     const double h = constants->smoothing_length;
-    return (frame){{load(records, stride, 0), load(records, stride, 1), load(records, stride, 2)},
-                   0.5 / h,
-                   h * h * 0x1p-100};
+    return (frame){
+        {load(records, stride, 0), load(records, stride, 1), load(records, stride, 2)}, 0.5 / h, h * h * 0x1p-100};
 }
 
 /* Separation of a pair. */
@@ -201,8 +200,8 @@ INLINE void add_artificial(momentum *m, const pair *p, const mor_pair_constants 
     }
 }
 
-INLINE void momentum_pair(momentum *m, const frame *f, const mor_pair_constants *c, const double *target,
-                          vec *k_out, pair *p_out, const int dimension, const mor_dissipation mode, const int diffuses)
+INLINE void momentum_pair(momentum *m, const frame *f, const mor_pair_constants *c, const double *target, vec *k_out,
+                          pair *p_out, const int dimension, const mor_dissipation mode, const int diffuses)
 {
     const pair p = pair_of(f, target, dimension);
     const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
@@ -285,8 +284,8 @@ INLINE void momentum_part(const mor_pair_constants *c, const mor_pair_arrays *ar
         pair p;
         momentum_pair(&m, &f, c, arrays->records + j * MOR_RECORD_SIZE, &k, &p, dimension, mode, diffuses);
         if (artificial) {
-            add_artificial(&m, &p, c, k, arrays->artificial_stress + first * 6,
-                           arrays->artificial_stress + j * 6, dimension);
+            add_artificial(&m, &p, c, k, arrays->artificial_stress + first * 6, arrays->artificial_stress + j * 6,
+                           dimension);
         }
     }
     momentum_finish(&m, c, arrays, first, dimension, diffuses);
@@ -301,7 +300,7 @@ INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *a
 #define MOR_MOMENTUM_CASE(mode, diffusion, tension)                                                                    \
     if (c->dissipation == (mode) && diffuses == (diffusion) && artificial == (tension)) {                              \
         for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
-            momentum_part(c, arrays, part * LANES, dimension, mode, diffusion, tension);                               \
+            momentum_part(c, arrays, part *LANES, dimension, mode, diffusion, tension);                                \
         }                                                                                                              \
     }
 #define MOR_MOMENTUM_MODES(diffusion, tension)                                                                         \
@@ -442,7 +441,8 @@ static void kernel_range(const mor_pair_constants *c, const mor_pair_kernel_job 
     }
 }
 
-/* Sums over soil neighbors of V_j (stress_j - stress_i) . grad_i W, the parts of grad_i W along and across a wall apart. */
+/* Sums over soil neighbors of V_j (stress_j - stress_i) . grad_i W, the parts of grad_i W along and across a wall
+ * apart. */
 INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t slot)
 {
     const double *own = job->records + first * MOR_RECORD_SIZE;
@@ -511,7 +511,8 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
         const double *target = arrays->records + (int64_t)list[entry] * MOR_RECORD_SIZE;
         const pair p = pair_of(&f, target, 3);
         const vec square = p.reach * p.reach;
-        const vec weight = square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
+        const vec weight =
+            square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
         const vec overlap = 1.0 - p.distance / c->shift_diameter;
         const vec floored = -smaller(-overlap, spread(0.1));
         const vec push = pick(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
@@ -538,6 +539,7 @@ const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void);
 const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void)
 {
     static const mor_pair_table table = {
-        MOR_TEXT(MOR_ISA), {momentum_2d, momentum_3d}, {gradient_2d, gradient_3d}, regularize_range, kernel_range, tangent_range};
+        MOR_TEXT(MOR_ISA), {momentum_2d, momentum_3d}, {gradient_2d, gradient_3d}, regularize_range, kernel_range,
+        tangent_range};
     return &table;
 }

@@ -23,7 +23,8 @@
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
      "positions and densities to the middle of the step"},
-    {"neighbors", mor_soil_find_neighbors, BIT(POSITION), LISTS, 0, "sort at an interval; lists when the skin is used up"},
+    {"neighbors", mor_soil_find_neighbors, BIT(POSITION), LISTS, 0,
+     "sort at an interval; lists when the skin is used up"},
     {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), RECORDS, 0,
      "one record per particle for the pair loops"},
     {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over the walls in reach"},
@@ -130,7 +131,10 @@ static mor_status find_sound_speed(mor_context *context, mor_soil *soil)
         state[k] = values[k];
         state_in[k] = values[k];
     }
-    mor_batch batch = {.n = 1, .density = &soil->settings.reference_density, .stress_in = stress, .state_in = state_in,
+    mor_batch batch = {.n = 1,
+                       .density = &soil->settings.reference_density,
+                       .stress_in = stress,
+                       .state_in = state_in,
                        .state_out = state};
     const mor_material_operations *operations = &soil->material->operations;
     mor_status status = operations->init_state(soil->material, &batch);
@@ -169,10 +173,11 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     soil->settings = *settings;
     soil->material = material;
     soil->table = mor_pair_select(NULL);
-    MOR_CHECK(context, n_particles >= 1, MOR_ERROR_ARGUMENT,
-              "soil '%s' has no particles; its shape must hold at least one lattice point: make the shape larger or the "
-              "spacing smaller",
-              name);
+    MOR_CHECK(
+        context, n_particles >= 1, MOR_ERROR_ARGUMENT,
+        "soil '%s' has no particles; its shape must hold at least one lattice point: make the shape larger or the "
+        "spacing smaller",
+        name);
     MOR_CHECK(context, material->material->form == MOR_MATERIAL_RATE, MOR_ERROR_ARGUMENT,
               "material '%s' is for elastic bodies; soil needs a material in rate form", material->material->name);
     uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
@@ -244,12 +249,9 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
 void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
 {
     static const mor_stepper_operations operations = {"soil", propose_step};
-    *stepper = (mor_stepper){soil->set.name,
-                             &operations,
-                             soil,
-                             soil_stages,
-                             (int)(sizeof soil_stages / sizeof *soil_stages),
-                             soil->set.n_particles};
+    *stepper = (mor_stepper){
+        soil->set.name,       &operations, soil, soil_stages, (int)(sizeof soil_stages / sizeof *soil_stages),
+        soil->set.n_particles};
     *evolving = evolving_fields;
 }
 
@@ -259,7 +261,8 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     const double padded = (double)(soil->tree.n_clusters * MOR_CLUSTER);
     double bytes = n * (sizeof *soil->set.id + sizeof *soil->order) + padded * MOR_RECORD_SIZE * sizeof(double);
     for (int field = 0; field < soil->set.n_fields; ++field) {
-        bytes += soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
+        bytes +=
+            soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
     }
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;

@@ -17,17 +17,17 @@ enum { MOR_SOIL_WALLS_MAX = 32 };
 
 /** What the user may choose. Plain data. */
 typedef struct mor_soil_settings {
-    int dimension;                     /* 2 (plane strain in x, y) or 3 */
-    double spacing;                    /* initial particle spacing, m */
-    double smoothing_ratio;            /* h / spacing, 1 */
-    bool has_lattice_normalization;    /* kernel gradient exact for linear fields on the initial lattice */
-    double courant;                    /* CFL number, 1 */
-    mor_dissipation dissipation;       /* between soil particles */
-    mor_dissipation wall_dissipation;  /* against walls */
-    double dissipation_factor;         /* eta, 1 */
-    bool has_density_pressure_term;    /* pressure part of U* in the density rate */
-    double stress_diffusion;           /* zeta, 1; 0: off */
-    double lateral_ratio;              /* K0 of the stress-diffusion operator, 1 */
+    int dimension;                    /* 2 (plane strain in x, y) or 3 */
+    double spacing;                   /* initial particle spacing, m */
+    double smoothing_ratio;           /* h / spacing, 1 */
+    bool has_lattice_normalization;   /* kernel gradient exact for linear fields on the initial lattice */
+    double courant;                   /* CFL number, 1 */
+    mor_dissipation dissipation;      /* between soil particles */
+    mor_dissipation wall_dissipation; /* against walls */
+    double dissipation_factor;        /* eta, 1 */
+    bool has_density_pressure_term;   /* pressure part of U* in the density rate */
+    double stress_diffusion;          /* zeta, 1; 0: off */
+    double lateral_ratio;             /* K0 of the stress-diffusion operator, 1 */
     bool has_artificial_stress;
     double artificial_stress_exponent; /* n, 1 */
     double artificial_stress_factor;   /* epsilon, 1 */
@@ -49,27 +49,27 @@ typedef struct mor_soil_settings {
 typedef struct mor_soil {
     mor_soil_settings settings;
     mor_set set;
-    const mor_material_instance *material; /* borrowed; outlives the soil */
+    const mor_material_instance *material;     /* borrowed; outlives the soil */
     int state_fields[MOR_MATERIAL_STATES_MAX]; /* indices of the material's state variables in the set */
     const mor_pair_table *table;
     mor_pair_constants constants;
-    double *records;                       /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
-    double *regularization;                /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
-    double *moments;                       /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
-    double *block_values;                  /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
-    int32_t *order;                        /* shape [n_particles]; scratch of the sort */
+    double *records;        /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+    double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
+    double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
+    double *block_values;   /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
+    int32_t *order;         /* shape [n_particles]; scratch of the sort */
     mor_tree tree;
     mor_relation inner;
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];
     int n_walls;
-    double sound_speed;                    /* c0, m/s */
-    double smoothing_length;               /* h, m */
-    double lattice_sum;                    /* sum V W on the perfect lattice, 1 */
-    double largest_speed;                  /* after the last kick, m/s */
-    double largest_acceleration;           /* in the last step, m/s2 */
-    double drift;                          /* bound of any particle's motion since the lists were built, m */
-    bool has_lists;                        /* lists exist and belong to the present order */
-    double gravity[3];                     /* in the last step, with the ramp, m/s2 */
+    double sound_speed;                         /* c0, m/s */
+    double smoothing_length;                    /* h, m */
+    double lattice_sum;                         /* sum V W on the perfect lattice, 1 */
+    double largest_speed;                       /* after the last kick, m/s */
+    double largest_acceleration;                /* in the last step, m/s2 */
+    double drift;                               /* bound of any particle's motion since the lists were built, m */
+    bool has_lists;                             /* lists exist and belong to the present order */
+    double gravity[3];                          /* in the last step, with the ramp, m/s2 */
     double wall_force[MOR_SOIL_WALLS_MAX][3];   /* of the soil on each wall in the last step, N (N/m in plane strain) */
     double wall_impulse[MOR_SOIL_WALLS_MAX][3]; /* of the soil on each wall since the start, N s */
 } mor_soil;

@@ -11,6 +11,9 @@
 /* POINT: doubles per wall point. GRAIN: clusters a thread takes at once. */
 enum { POINT = 4, GRAIN = 16 };
 
+/* Tractions below this part of the bulk modulus are rounding: whether such a particle slides is not theirs to say. */
+#define NOISE 1.0e-9
+
 /* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
 #define LARGEST_SHARE 0.6
 
@@ -166,8 +169,7 @@ static void add_continuation(const mor_soil_contact *contact, int64_t slot, cons
     const double flip =
         contact->friction == MOR_WALL_SMOOTH ? 2.0 * mor_vector_dot(divergence, gradient) / length2 : 0.0;
     for (int a = 0; a < 3; ++a) {
-        acceleration[a] +=
-            factor_along * (divergence[a] - flip * gradient[a]) + factor_across * divergence[3 + a];
+        acceleration[a] += factor_along * (divergence[a] - flip * gradient[a]) + factor_across * divergence[3 + a];
     }
 }
 
@@ -205,14 +207,18 @@ static double push_particle(const mor_soil_contact *contact, mor_dissipation dis
     for (int a = 0; a < 3; ++a) {
         tangential[a] = factor * (traction[a] - pressure * normal[a]) - along * normal[a];
     }
-    double stick = contact->friction == MOR_WALL_SMOOTH ? 0.0 : 1.0;
+    double hold = contact->friction == MOR_WALL_SMOOTH ? 0.0 : 1.0;
+    double stick = hold;
     if (contact->friction == MOR_WALL_COULOMB) {
         const double limit = contact->friction_coefficient * (along > 0.0 ? along : 0.0);
         const double trial = mor_vector_length(tangential);
-        stick = trial > limit ? limit / trial : 1.0;
+        const double noise =
+            -factor * NOISE * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
+        hold = trial > limit ? limit / trial : 1.0;
+        stick = trial > limit ? (limit + noise) / (trial + noise) : 1.0;
     }
     for (int a = 0; a < 3; ++a) {
-        acceleration[a] = along * normal[a] + stick * tangential[a];
+        acceleration[a] = along * normal[a] + hold * tangential[a];
     }
     return stick;
 }

@@ -26,10 +26,10 @@ typedef enum mor_wall_stress {
 
 /** What a wall is made from. Borrowed during mor_soil_contact_init only. */
 typedef struct mor_wall_request {
-    const char *name;            /* zero-terminated */
-    const double *points;        /* shape [n_points, 3], unit m */
-    int64_t n_points;            /* number of wall particles */
-    double point_volume;         /* of each, m3 (m2 in plane strain) */
+    const char *name;     /* zero-terminated */
+    const double *points; /* shape [n_points, 3], unit m */
+    int64_t n_points;     /* number of wall particles */
+    double point_volume;  /* of each, m3 (m2 in plane strain) */
     mor_wall_friction friction;
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
     double velocity[3];          /* prescribed, m/s */
@@ -56,7 +56,7 @@ typedef struct mor_soil_contact {
     int64_t capacity;            /* clusters that the arrays above have room for */
     int dimension;               /* 2 or 3 */
     mor_wall_stress stress;
-    double force[3];             /* of the soil on the wall in the last step, N (N/m in plane strain) */
+    double force[3]; /* of the soil on the wall in the last step, N (N/m in plane strain) */
 } mor_soil_contact;
 
 /** Makes a wall. Sorts its points into clusters.

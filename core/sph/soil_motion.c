@@ -115,7 +115,8 @@ mor_status mor_soil_sort(mor_context *context, mor_soil *soil)
 
 static mor_status build_lists(mor_context *context, mor_soil *soil)
 {
-    const double reach = MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.skin_ratio * soil->settings.spacing;
+    const double reach =
+        MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.skin_ratio * soil->settings.spacing;
     const mor_relation_points points = {&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3};
     mor_tree_fit(context, &soil->tree, points.records, 3);
     MOR_TRY(context, mor_relation_build(context, &soil->inner, &points, &points, reach));
@@ -149,9 +150,8 @@ static mor_status pack_range(const mor_soil *soil, int64_t first, int64_t last)
 {
     double *const *data = soil->set.data;
     double pressure[GRAIN];
-    const mor_batch batch = {.n = last - first,
-                             .density = data[MOR_FIELD_DENSITY] + first,
-                             .stress_in = data[MOR_FIELD_STRESS] + 6 * first};
+    const mor_batch batch = {
+        .n = last - first, .density = data[MOR_FIELD_DENSITY] + first, .stress_in = data[MOR_FIELD_STRESS] + 6 * first};
     const mor_status status = soil->material->operations.pressure(soil->material, &batch, pressure);
     for (int64_t i = first; i < last; ++i) {
         double *record = soil->records + i * MOR_RECORD_SIZE;

@@ -27,17 +27,17 @@ typedef struct assembly {
     mor_pair_constants constants;
     mor_tree tree;
     mor_relation relation;
-    double records[ASSEMBLY_RECORDS];      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    double artificial[6 * ASSEMBLY_MAX];   /* shape [n padded to 8, 6], Pa */
+    double records[ASSEMBLY_RECORDS];    /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    double artificial[6 * ASSEMBLY_MAX]; /* shape [n padded to 8, 6], Pa */
 } assembly;
 
 /** What the loops write; behind the last particle stands ASSEMBLY_CANARY. */
 typedef struct assembly_sums {
-    double acceleration[3 * ASSEMBLY_MAX];      /* m/s2 */
-    double stress_diffusion[6 * ASSEMBLY_MAX];  /* Pa/s */
-    double velocity_gradient[9 * ASSEMBLY_MAX]; /* 1/s */
-    double density_rate[ASSEMBLY_MAX];          /* kg/m3/s */
-    double regularization[6 * ASSEMBLY_MAX];    /* m/s and 1 */
+    double acceleration[3 * ASSEMBLY_MAX];         /* m/s2 */
+    double stress_diffusion[6 * ASSEMBLY_MAX];     /* Pa/s */
+    double velocity_gradient[9 * ASSEMBLY_MAX];    /* 1/s */
+    double density_rate[ASSEMBLY_MAX];             /* kg/m3/s */
+    double regularization[6 * ASSEMBLY_MAX];       /* m/s and 1 */
     double kernel[MOR_KERNEL_SUMS * ASSEMBLY_MAX]; /* units of MOR_KERNEL_SUM_... */
 } assembly_sums;
 
@@ -94,8 +94,8 @@ static inline void assembly_fill(assembly *a, int i, uint64_t id)
     double *record = a->records + i * MOR_RECORD_SIZE;
     double *artificial = a->artificial + 6 * i;
     const int dimension = a->constants.dimension;
-    const double cell = dimension == 2 ? ASSEMBLY_SPACING * ASSEMBLY_SPACING
-                                       : ASSEMBLY_SPACING * ASSEMBLY_SPACING * ASSEMBLY_SPACING;
+    const double cell =
+        dimension == 2 ? ASSEMBLY_SPACING * ASSEMBLY_SPACING : ASSEMBLY_SPACING * ASSEMBLY_SPACING * ASSEMBLY_SPACING;
     record[MOR_RECORD_VOLUME] = cell * cloud_number(id, 11, 0.9, 1.1);
     record[MOR_RECORD_DENSITY] = ASSEMBLY_DENSITY * cloud_number(id, 12, 0.9, 1.1);
     record[MOR_RECORD_IMPEDANCE] = record[MOR_RECORD_DENSITY] * ASSEMBLY_SOUND;

@@ -10,7 +10,7 @@
 #include <math.h>
 
 /** @file
- *  Soil over a floor of wall particles, for tests of walls. The floor's upper face is z = 0, or y = 0 in plane strain. */
+ *  Soil over a floor of wall particles, for tests of walls. The floor's upper face is z = 0; in plane strain, y = 0. */
 
 enum { FLOOR_SIDE = 7, FLOOR_LAYERS = 4, FLOOR_MAX = FLOOR_SIDE * FLOOR_SIDE * FLOOR_LAYERS };
 

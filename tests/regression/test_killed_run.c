@@ -63,7 +63,7 @@ static void run_killed_at_random_moments_ends_as_if_never_killed(void **state)
     const char *wish = getenv("MOR_KILLS");
     const int n_kills = wish != NULL ? atoi(wish) : N_KILLS;
     /* Checkpoints all the time, so that many kills fall into the writing of one. */
-#define RUN "run", case_path, "-t", "1", "--set", "spacing=3 mm", "--set", "output.checkpoint_seconds=0.02", "-o"
+#define RUN "run", case_path, "-t", "1", "--set", "spacing=4 mm", "--set", "output.checkpoint_seconds=0.02", "-o"
     const char *const whole[] = {RUN, "whole", NULL};
     const char *const killed[] = {RUN, "killed", "--resume", NULL};
     finished_run_store_case(folder, case_path);

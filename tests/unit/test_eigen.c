@@ -97,9 +97,9 @@ static void random_tensors_are_diagonalized(void **state)
 static void known_values_are_found_in_any_frame(void **state)
 {
     (void)state;
-    static const double known[][3] = {{1.0, 2.0, 3.0},       {-5.0, 0.0, 5.0},  {2.0, 2.0, 7.0},
-                                      {-3.0, -3.0, -3.0},    {0.0, 0.0, 1.0},   {1.0, 1.0 + 1e-9, 1.0 + 2e-9},
-                                      {-1.0, -1.0, -1e-8},   {0.0, 0.0, 0.0},   {-4.0, 1e-12, 1e-12}};
+    static const double known[][3] = {{1.0, 2.0, 3.0},     {-5.0, 0.0, 5.0}, {2.0, 2.0, 7.0},
+                                      {-3.0, -3.0, -3.0},  {0.0, 0.0, 1.0},  {1.0, 1.0 + 1e-9, 1.0 + 2e-9},
+                                      {-1.0, -1.0, -1e-8}, {0.0, 0.0, 0.0},  {-4.0, 1e-12, 1e-12}};
     for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
         for (int i = 0; i < 40; ++i) {
             double q[9];

@@ -62,15 +62,15 @@ static void values_at_center_and_smoothing_length_are_closed(void **state)
     (void)state;
     for (int dimension = 1; dimension <= 3; ++dimension) {
         const double alpha = mor_kernel_normalization(1.0, dimension);
-        assert_true(mor_kernel_value(0.0, 1.0, dimension) == alpha);               /* exact: (1 - 0)^4 1 */
-        assert_true(mor_kernel_value(1.0, 1.0, dimension) == alpha * 3.0 / 16.0);  /* exact: powers of two */
-        assert_true(mor_kernel_derivative(0.0, 1.0, dimension) == 0.0);            /* exact: a factor is zero */
+        assert_true(mor_kernel_value(0.0, 1.0, dimension) == alpha);              /* exact: (1 - 0)^4 1 */
+        assert_true(mor_kernel_value(1.0, 1.0, dimension) == alpha * 3.0 / 16.0); /* exact: powers of two */
+        assert_true(mor_kernel_derivative(0.0, 1.0, dimension) == 0.0);           /* exact: a factor is zero */
         const double slope = mor_kernel_derivative(1.0, 1.0, dimension);
-        assert_true(fabs(slope + alpha * 5.0 / 8.0) <= 2 * DBL_EPSILON * alpha);   /* two products */
+        assert_true(fabs(slope + alpha * 5.0 / 8.0) <= 2 * DBL_EPSILON * alpha); /* two products */
     }
-    assert_true(mor_kernel_normalization(2.0, 1) == 3.0 / 8.0);                            /* exact: one quotient */
-    assert_true(fabs(mor_kernel_normalization(1.0, 2) - 7.0 / (4.0 * MOR_PI)) < 1e-15);    /* one quotient */
-    assert_true(fabs(mor_kernel_normalization(1.0, 3) - 21.0 / (16.0 * MOR_PI)) < 1e-15);  /* one quotient */
+    assert_true(mor_kernel_normalization(2.0, 1) == 3.0 / 8.0);                           /* exact: one quotient */
+    assert_true(fabs(mor_kernel_normalization(1.0, 2) - 7.0 / (4.0 * MOR_PI)) < 1e-15);   /* one quotient */
+    assert_true(fabs(mor_kernel_normalization(1.0, 3) - 21.0 / (16.0 * MOR_PI)) < 1e-15); /* one quotient */
 }
 
 static void derivative_is_the_slope_of_the_value(void **state)
@@ -83,8 +83,8 @@ static void derivative_is_the_slope_of_the_value(void **state)
             for (int i = 1; i < 100; ++i) {
                 const double r = 0.02 * i * h;
                 const double step = 1e-5 * h;
-                const double slope =
-                    (mor_kernel_value(r + step, h, dimension) - mor_kernel_value(r - step, h, dimension)) / (2.0 * step);
+                const double rise = mor_kernel_value(r + step, h, dimension) - mor_kernel_value(r - step, h, dimension);
+                const double slope = rise / (2.0 * step);
                 const double derivative = mor_kernel_derivative(r, h, dimension);
                 assert_true(fabs(slope - derivative) < 1e-9 * scale); /* truncation 1e-10 W''', rounding 1e-11 */
                 assert_true(derivative < 0.0);                        /* inside the support neighbors push apart */

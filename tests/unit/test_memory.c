@@ -10,7 +10,9 @@ enum { SIDE_X = 14, SIDE_Y = 9, LAYERS = 4, STEPS = 20 };
 
 /** Lets the address sanitizer return NULL for a request that cannot be met, as the allocator does without it.
  *  Returns: zero-terminated options of the sanitizer's run-time library, which asks for them by this name. */
-__attribute__((weak)) const char *__asan_default_options(void)
+const char *__asan_default_options(void);
+
+const char *__asan_default_options(void)
 {
     return "allocator_may_return_null=1";
 }
@@ -111,8 +113,8 @@ static void sizes_that_cannot_be_are_refused(void **state)
                  {3, 0, "out of range"},
                  {INT64_MAX, 8, "out of range"},
                  {INT64_MAX, SIZE_MAX, "out of range"},
-                 {2, SIZE_MAX / 2 + 1, "out of range"},      /* the product is 2^64, which wraps to zero */
-                 {(int64_t)1 << 61, 8, "out of range"},      /* likewise */
+                 {2, SIZE_MAX / 2 + 1, "out of range"},       /* the product is 2^64, which wraps to zero */
+                 {(int64_t)1 << 61, 8, "out of range"},       /* likewise */
                  {(int64_t)1 << 58, 8, "not enough memory"}}; /* 2 EiB: possible, but nobody has them */
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         mor_context context;
@@ -182,12 +184,13 @@ static void add_floor(sandbox *box)
 static void open_sandbox(sandbox *box)
 {
     mor_context_init(&box->context);
-    const double parameters[MOR_DRUCKER_PRAGER_COUNT] = {1e6, 0.3, 0.5, 100.0, 0.0, MOR_DRUCKER_PRAGER_PLANE_STRAIN, 1.0};
+    const double parameters[MOR_DRUCKER_PRAGER_COUNT] = {1e6, 0.3, 0.5, 100.0, 0.0, MOR_DRUCKER_PRAGER_PLANE_STRAIN,
+                                                         1.0};
     assert_int_equal(mor_material_create(&box->context, &mor_drucker_prager, 1600.0, parameters, &box->sand), MOR_OK);
     mor_soil_settings settings;
     fill_settings(&settings);
-    assert_int_equal(
-        mor_soil_init(&box->context, &box->soil, "sand", &settings, box->sand, (int64_t)SIDE_X * SIDE_Y), MOR_OK);
+    assert_int_equal(mor_soil_init(&box->context, &box->soil, "sand", &settings, box->sand, (int64_t)SIDE_X * SIDE_Y),
+                     MOR_OK);
     double *const *data = box->soil.set.data;
     for (int i = 0; i < SIDE_X * SIDE_Y; ++i) {
         data[MOR_FIELD_POSITION][3 * i] = 0.01 * (i % SIDE_X + 0.5);

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The pair loops of every instruction set against plain double loops over all particles, written from Zhang et al. (2024)
- * eqs. 15-31 and Hu et al. (2021) eqs. 13, 16 without a thought of speed. */
+/* The pair loops of every instruction set against plain double loops over all particles, written from Zhang et al.
+ * (2024) eqs. 15-31 and Hu et al. (2021) eqs. 13, 16 without a thought of speed. */
 #include "tests/common/assembly.h"
 
 #include <float.h>
@@ -17,13 +17,13 @@ typedef struct tally {
 
 /* What a term needs to know of a pair; n points from i to j. */
 typedef struct couple {
-    const double *i, *j;                /* records */
-    double r[3], distance, n[3];        /* r_i - r_j */
-    double slope[3];                    /* grad_i W */
-    double volume;                      /* of j */
+    const double *i, *j;         /* records */
+    double r[3], distance, n[3]; /* r_i - r_j */
+    double slope[3];             /* grad_i W */
+    double volume;               /* of j */
     double impedance_i, impedance_j;
-    double speed_i, speed_j;            /* along n */
-    double roughness;                   /* largest speed of either, which bounds what cancels in the closing speed */
+    double speed_i, speed_j; /* along n */
+    double roughness;        /* largest speed of either, which bounds what cancels in the closing speed */
 } couple;
 
 static double largest(const double *values, int n)
@@ -73,8 +73,7 @@ static void add(tally *t, const double *sum, double term, double magnitude)
 static double star_pressure(const couple *c, mor_dissipation mode, double *magnitude)
 {
     const double closing = c->speed_i - c->speed_j;
-    const double mean_sound =
-        (c->impedance_i + c->impedance_j) / (c->i[MOR_RECORD_DENSITY] + c->j[MOR_RECORD_DENSITY]);
+    const double mean_sound = (c->impedance_i + c->impedance_j) / (c->i[MOR_RECORD_DENSITY] + c->j[MOR_RECORD_DENSITY]);
     const double counted = mode == MOR_DISSIPATION_BOTH       ? fabs(closing)
                            : mode == MOR_DISSIPATION_APPROACH ? fmax(closing, 0.0)
                                                               : fmax(-closing, 0.0);

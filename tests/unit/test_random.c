@@ -89,8 +89,8 @@ static void numbers_are_even_in_zero_to_one(void **state)
         for (int b = 0; b < BINS; ++b) {
             chi2 += (bins[b] - (double)DRAWS / BINS) * (bins[b] - (double)DRAWS / BINS) / ((double)DRAWS / BINS);
         }
-        assert_true(chi2 < 80.0);                                      /* 31 degrees of freedom: once in 300 000 */
-        assert_true(fabs(sum / DRAWS - 0.5) < 5.0 * 0.289 / 200.0);      /* five standard deviations, sqrt(1/12/n) */
+        assert_true(chi2 < 80.0);                                   /* 31 degrees of freedom: once in 300 000 */
+        assert_true(fabs(sum / DRAWS - 0.5) < 5.0 * 0.289 / 200.0); /* five standard deviations, sqrt(1/12/n) */
         assert_true(fabs(squares / DRAWS - 1.0 / 3.0) < 5.0 * 0.299 / 200.0); /* five, sqrt(4/45/n) */
     }
 }

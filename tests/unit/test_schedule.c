@@ -9,8 +9,8 @@ enum { STEPS_MAX = 4000 };
 
 /* A stepper that proposes what it is told and keeps a record of the steps it took. */
 typedef struct walker {
-    double proposal;     /* s */
-    double jitter;       /* relative spread of the proposals, 1 */
+    double proposal; /* s */
+    double jitter;   /* relative spread of the proposals, 1 */
     const char *limit;
     mor_status proposes; /* what propose returns */
     mor_status runs;     /* what its stage returns */
@@ -123,8 +123,8 @@ static void steps_add_up_to_output_times_without_rounding(void **state)
         double sum = 0.0;
         int counted = 0;
         for (int output = 1; output <= 7; ++output) {
-            run_until(&context, &schedule, output < 7 ? mor_schedule_ticks(&schedule, output * ends[k] / 7.0)
-                                                      : schedule.end);
+            run_until(&context, &schedule,
+                      output < 7 ? mor_schedule_ticks(&schedule, output * ends[k] / 7.0) : schedule.end);
             for (; counted < w->n_steps; ++counted) {
                 assert_true(w->steps[counted].time == sum); /* exact: all times are whole ticks below 2^53 */
                 assert_int_equal(w->steps[counted].number, counted);
@@ -134,7 +134,7 @@ static void steps_add_up_to_output_times_without_rounding(void **state)
         }
         assert_int_equal(schedule.n_steps, w->n_steps);
         assert_true(schedule.step_length == w->steps[w->n_steps - 1].length); /* exact: a copy */
-        assert_true(w->n_steps > 611 / 1.6 && w->n_steps < 2 * 611 / 0.4); /* longest and shortest proposals */
+        assert_true(w->n_steps > 611 / 1.6 && w->n_steps < 2 * 611 / 0.4);    /* longest and shortest proposals */
         free(w);
     }
 }
@@ -195,8 +195,8 @@ static void unit_of_time_changes_no_tick(void **state)
         mor_schedule other;
         start(&context, &other, scaled, ldexp(0.35, exponents[k]), ldexp(0.0031, exponents[k]));
         scaled->jitter = 0.5;
-        assert_true(other.end == schedule.end);                              /* exact: the same number of ticks */
-        assert_true(other.tick == ldexp(schedule.tick, exponents[k]));       /* exact: powers of two */
+        assert_true(other.end == schedule.end);                        /* exact: the same number of ticks */
+        assert_true(other.tick == ldexp(schedule.tick, exponents[k])); /* exact: powers of two */
         run_until(&context, &other, other.end);
         assert_int_equal(scaled->n_steps, w->n_steps);
         for (int i = 0; i < w->n_steps; ++i) {

@@ -141,9 +141,9 @@ static void coulomb_wall_holds_nothing_under_tension(void **state)
     double normal = 0.0;
     double tangential[3];
     split(3, f.acceleration, &normal, tangential);
-    assert_true(normal < 0.0); /* the mirror still pulls */
-    assert_true(mor_vector_length(tangential) <= 64 * DBL_EPSILON * -normal); /* the floor's normal has some ulp of tilt */
-    assert_true(f.wall.stick[0] == 0.0); /* exact: the cap is zero */
+    assert_true(normal < 0.0);                                                /* the mirror still pulls */
+    assert_true(mor_vector_length(tangential) <= 64 * DBL_EPSILON * -normal); /* the normal tilts by some ulp */
+    assert_true(f.wall.stick[0] == 0.0);                                      /* exact: the cap is zero */
     floor_close(&f);
 }
 
@@ -319,8 +319,8 @@ static void wall_out_of_reach_or_without_points_does_nothing(void **state)
         for (int a = 0; a < 9; ++a) {
             assert_true(f.velocity_gradient[a] == 0.0 && f.acceleration[a % 3] == 0.0); /* exact: nothing was added */
         }
-        assert_true(f.density_rate[0] == 0.0);                                          /* exact: likewise */
-        assert_true(mor_vector_length(f.wall.force) == 0.0);                            /* exact: likewise */
+        assert_true(f.density_rate[0] == 0.0);               /* exact: likewise */
+        assert_true(mor_vector_length(f.wall.force) == 0.0); /* exact: likewise */
         floor_close(&f);
     }
 }

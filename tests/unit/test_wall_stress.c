@@ -1,0 +1,251 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Walls that continue the soil's stress: a lattice of soil on a lattice of wall must feel a linear stress as if the
+ * soil went on for ever. */
+#include "tests/common/floor.h"
+
+/* Along x and up, Pa/m, and at the origin, Pa. */
+#define SLOPE 2e5
+#define LEVEL -5e3
+
+static const mor_wall_stress stresses[] = {MOR_WALL_STRESS_UNIFORM, MOR_WALL_STRESS_ALONG, MOR_WALL_STRESS_LINEAR};
+
+/* Moments of the kernel gradient over a lattice: of the part below the surface, where the floor is, or of all of it. */
+static double lattice_moment(const assembly *a, int component, bool is_wall)
+{
+    const int dimension = a->constants.dimension;
+    const int up = dimension - 1;
+    double sum = 0.0;
+    for (int place = 0; place < 7 * 7 * 7; ++place) {
+        const double r[3] = {ASSEMBLY_SPACING * (place % 7 - 3), ASSEMBLY_SPACING * (place / 7 % 7 - 3),
+                             dimension == 3 ? ASSEMBLY_SPACING * (place / 49 - 3) : 0.0};
+        const double distance = mor_vector_length(r);
+        const bool is_counted = (dimension == 3 || place < 49) && (!is_wall || r[up] < 0.0) && distance > 0.0;
+        if (is_counted) {
+            const double slope = mor_kernel_derivative(distance, a->constants.smoothing_length, dimension);
+            sum -= floor_cell(dimension) * slope * r[component] * r[component] / distance;
+        }
+    }
+    return sum;
+}
+
+/* Three layers of soil on the floor, in plane strain seven particles wide, else five, at rest under a stress that is
+ * linear along x or upward. */
+static void open_lattice(floor_case *f, int dimension, bool is_upward)
+{
+    double points[3 * ASSEMBLY_MAX] = {0.0};
+    const int side = dimension == 2 ? 7 : 5;
+    const int up = dimension - 1;
+    int n = 0;
+    for (int x = 0; x < side; ++x) {
+        for (int y = 0; y < (dimension == 3 ? side : 1); ++y) {
+            for (int layer = 0; layer < 3; ++layer, ++n) {
+                points[3 * n] = ASSEMBLY_SPACING * (x - side / 2);
+                points[3 * n + 1] = dimension == 3 ? ASSEMBLY_SPACING * (y - side / 2) : 0.0;
+                points[3 * n + up] = ASSEMBLY_SPACING * (layer + 0.5);
+            }
+        }
+    }
+    assembly_open(&f->soil, dimension, points, n);
+    f->soil.constants.has_artificial_stress = false;
+    for (int i = 0; i < n; ++i) {
+        double *record = f->soil.records + i * MOR_RECORD_SIZE;
+        memset(record + MOR_RECORD_VELOCITY, 0, 3 * sizeof *record);
+        memset(record + MOR_RECORD_STRESS, 0, 6 * sizeof *record);
+        record[MOR_RECORD_VOLUME] = floor_cell(dimension);
+        record[MOR_RECORD_DENSITY] = ASSEMBLY_DENSITY;
+        record[MOR_RECORD_IMPEDANCE] = ASSEMBLY_DENSITY * ASSEMBLY_SOUND;
+        for (int a = 0; a < 3; ++a) {
+            record[MOR_RECORD_STRESS + a] = LEVEL * (1.0 + 0.25 * a);
+        }
+        record[MOR_RECORD_STRESS + (is_upward ? up : 0)] += SLOPE * record[is_upward ? up : 0];
+        record[MOR_RECORD_PRESSURE] = -mor_symmetric_trace(record + MOR_RECORD_STRESS) / 3.0;
+    }
+    floor_open(f, MOR_WALL_ROUGH, 0.0);
+}
+
+/* The particle in the middle of the lowest layer. */
+static int find_center(const floor_case *f)
+{
+    for (int i = 0; i < f->soil.n; ++i) {
+        const double *record = f->soil.records + i * MOR_RECORD_SIZE;
+        const int up = f->soil.constants.dimension - 1;
+        const double across = up == 2 ? fabs(record[0]) + fabs(record[1]) : fabs(record[0]);
+        if (across < 0.1 * ASSEMBLY_SPACING && record[up] < ASSEMBLY_SPACING) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static void linear_stress_is_felt_in_full_at_the_wall(void **state)
+{
+    (void)state;
+    for (int option = 0; option < 2 * 2 * 2 * 3; ++option) {
+        const int dimension = 2 + option % 2;
+        const bool is_upward = option / 2 % 2;
+        const int axis = is_upward ? dimension - 1 : 0;
+        floor_case f;
+        assembly_sums sums;
+        open_lattice(&f, dimension, is_upward);
+        mor_wall_request request = floor_request(&f, option / 4 % 2 == 0 ? MOR_WALL_ROUGH : MOR_WALL_SMOOTH, 0.0);
+        request.stress = stresses[option / 8];
+        floor_add(&f, &request);
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        assembly_run(&f.soil, mor_pair_select(NULL), 1000, &sums);
+        const int center = find_center(&f);
+        assert_true(center >= 0);
+        /* The soil carries the rest of the lattice's moment, which the continued wall stretches to the whole. */
+        const double all = lattice_moment(&f.soil, axis, false);
+        const double wall = lattice_moment(&f.soil, axis, true);
+        const bool is_continued =
+            request.stress == MOR_WALL_STRESS_LINEAR || (request.stress == MOR_WALL_STRESS_ALONG && !is_upward);
+        assert_true(wall > 0.2 && wall < 0.5 && fabs(all - 1.0) < 0.05);
+        double expected[3] = {0.0, 0.0, 0.0};
+        expected[axis] = SLOPE / ASSEMBLY_DENSITY * (all - wall) / (is_continued ? 1.0 - wall : 1.0);
+        double total[3];
+        for (int a = 0; a < 3; ++a) {
+            total[a] = sums.acceleration[3 * center + a] + f.acceleration[3 * center + a];
+        }
+        /* Terms of the size 2 stress / density / spacing cancel. */
+        floor_assert_vector(total, expected, 4e4 / ASSEMBLY_DENSITY / ASSEMBLY_SPACING);
+        floor_close(&f);
+    }
+}
+
+/* Random soil near the floor. */
+static void open_layer(floor_case *f, int dimension, mor_wall_friction friction, mor_wall_stress stress)
+{
+    assembly_open_lattice(&f->soil, dimension, dimension == 2 ? 9 : 4, 3, 0.3);
+    for (int i = 0; i < f->soil.n; ++i) {
+        f->soil.records[i * MOR_RECORD_SIZE + dimension - 1] += 0.9 * ASSEMBLY_SPACING;
+        f->soil.records[i * MOR_RECORD_SIZE] -= 1.5 * ASSEMBLY_SPACING;
+    }
+    assembly_list(&f->soil, 0.0);
+    floor_open(f, friction, 0.3);
+    mor_wall_request request = floor_request(f, friction, 0.3);
+    request.stress = stress;
+    floor_add(f, &request);
+}
+
+/* The sums of V_j (stress_j - stress_i) . grad_i W by a double loop: along, then across the direction of a gradient. */
+static double divergence_of(const assembly *a, int i, const double *gradient, double *divergence)
+{
+    const double *own = a->records + i * MOR_RECORD_SIZE;
+    const double length2 = mor_vector_dot(gradient, gradient);
+    double size = 0.0;
+    memset(divergence, 0, 6 * sizeof *divergence);
+    for (int j = 0; j < a->n; ++j) {
+        const double *other = a->records + j * MOR_RECORD_SIZE;
+        const double r[3] = {own[0] - other[0], own[1] - other[1], own[2] - other[2]};
+        const double distance = mor_vector_length(r);
+        if (j == i) {
+            continue;
+        }
+        const double slope = mor_kernel_derivative(distance, a->constants.smoothing_length, a->constants.dimension);
+        const double factor = other[MOR_RECORD_VOLUME] * slope / distance;
+        double jump[6];
+        for (int c = 0; c < 6; ++c) {
+            jump[c] = other[MOR_RECORD_STRESS + c] - own[MOR_RECORD_STRESS + c];
+            size += fabs(jump[c] * factor) * distance;
+        }
+        const double across = length2 > 0.0 ? mor_vector_dot(r, gradient) / length2 : 0.0;
+        double parts[2][3];
+        for (int c = 0; c < 3; ++c) {
+            parts[1][c] = factor * across * gradient[c];
+            parts[0][c] = factor * r[c] - parts[1][c];
+        }
+        for (int part = 0; part < 2; ++part) {
+            double term[3];
+            mor_symmetric_apply(jump, parts[part], term);
+            for (int c = 0; c < 3; ++c) {
+                divergence[3 * part + c] += term[c];
+            }
+        }
+    }
+    return size;
+}
+
+static void divergence_of_every_table_is_that_of_a_double_loop(void **state)
+{
+    (void)state;
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    for (int option = 0; option < 2 * n_tables; ++option) {
+        floor_case f;
+        open_layer(&f, 2 + option % 2, MOR_WALL_ROUGH, MOR_WALL_STRESS_LINEAR);
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        mor_soil_contact_continue(&f.soil.context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
+                                  &f.soil.relation);
+        int n_touching = 0;
+        for (int64_t slot = 0; slot < MOR_CLUSTER * f.wall.relation.n_occupied; ++slot) {
+            const int i = f.wall.relation.occupied[slot / MOR_CLUSTER] * MOR_CLUSTER + (int)(slot % MOR_CLUSTER);
+            if (i >= f.soil.n) {
+                continue;
+            }
+            const double *gradient = f.wall.sums + MOR_KERNEL_SUMS * slot + MOR_KERNEL_SUM_GRADIENT;
+            double expected[6];
+            const double size = divergence_of(&f.soil, i, gradient, expected);
+            n_touching += mor_vector_length(gradient) > 0.0;
+            floor_assert_vector(f.wall.divergence + 6 * slot, expected, size);
+            floor_assert_vector(f.wall.divergence + 6 * slot + 3, expected + 3, size);
+        }
+        assert_true(n_touching > 5);
+        floor_close(&f);
+    }
+}
+
+static void wide_registers_give_the_same_divergence_as_wider_ones(void **state)
+{
+    (void)state;
+    const mor_pair_table *avx2 = mor_pair_select("avx2");
+    const mor_pair_table *avx512 = mor_pair_select("avx512");
+    if (avx2 == NULL || avx512 == NULL) {
+        skip();
+    }
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        floor_case f;
+        open_layer(&f, dimension, MOR_WALL_ROUGH, MOR_WALL_STRESS_LINEAR);
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        const size_t n_bytes = (size_t)f.wall.relation.n_occupied * MOR_CLUSTER * 6 * sizeof(double);
+        double narrow[6 * ASSEMBLY_MAX];
+        mor_soil_contact_continue(&f.soil.context, &f.wall, avx2, &f.soil.constants, f.soil.records, &f.soil.relation);
+        memcpy(narrow, f.wall.divergence, n_bytes);
+        mor_soil_contact_continue(&f.soil.context, &f.wall, avx512, &f.soil.constants, f.soil.records,
+                                  &f.soil.relation);
+        assert_memory_equal(narrow, f.wall.divergence, n_bytes);
+        floor_close(&f);
+    }
+}
+
+static void continued_wall_gives_back_what_it_takes(void **state)
+{
+    (void)state;
+    for (int option = 0; option < 2 * 3 * 3; ++option) {
+        floor_case f;
+        open_layer(&f, 2 + option % 2, (mor_wall_friction)(option / 2 % 3), stresses[option / 6]);
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        double force[3] = {0.0, 0.0, 0.0};
+        double size = 0.0;
+        for (int k = 0; k < 3 * f.soil.n; ++k) {
+            const double *record = f.soil.records + k / 3 * MOR_RECORD_SIZE;
+            const double part = record[MOR_RECORD_DENSITY] * record[MOR_RECORD_VOLUME] * f.acceleration[k];
+            force[k % 3] -= part;
+            size += fabs(part);
+        }
+        assert_true(size > 0.0);
+        floor_assert_vector(f.wall.force, force, size);
+        floor_close(&f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(linear_stress_is_felt_in_full_at_the_wall),
+        cmocka_unit_test(divergence_of_every_table_is_that_of_a_double_loop),
+        cmocka_unit_test(wide_registers_give_the_same_divergence_as_wider_ones),
+        cmocka_unit_test(continued_wall_gives_back_what_it_takes),
+    };
+    return CLOUD_RUN(tests);
+}
