@@ -54,6 +54,9 @@ static mor_status with_scene(mor_command *command, bool is_built, mor_status (*u
     mor_status status = read_scene(command, it);
     if (status == MOR_OK && is_built) {
         status = mor_simulation_init(command->context, &it->simulation, &it->the_case, it->registry);
+        if (status == MOR_OK) {
+            status = mor_pictures_check(command->context, &it->the_case, &it->simulation.soil.set);
+        }
     }
     if (status == MOR_OK) {
         status = use(command, it);

@@ -55,6 +55,22 @@ static const struct {
 
 enum { N_DERIVED = sizeof derived_colors / sizeof *derived_colors };
 
+mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, const mor_set *set)
+{
+    const char *color = the_case->output.color_field;
+    for (int k = 0; k < N_DERIVED; ++k) {
+        if (strcmp(derived_colors[k].color, color) == 0) {
+            return MOR_OK;
+        }
+    }
+    const int field = mor_set_find_field(set, color);
+    MOR_CHECK(context, field >= 0 && (set->fields[field].flags & MOR_FIELD_OUTPUT) != 0, MOR_ERROR_CONFIG,
+              "%s: found output.color = \"%s\", which is no field of the snapshots; allowed: speed, pressure, "
+              "vertical_stress and the fields that 'moraine list fields' shows as in snapshots; use one of these",
+              the_case->path, color);
+    return MOR_OK;
+}
+
 /* Everything that stays the same over the pictures of a run. */
 typedef struct gallery {
     const mor_case *the_case;

@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_PICTURES_H
 
 #include "cases/driver/case.h"
+#include "core/particle/set.h"
 
 #include <stdio.h>
 
@@ -15,6 +16,13 @@ typedef enum mor_pictures_choice {
     MOR_PICTURES_KEY, /* first, middle and last */
     MOR_PICTURES_ALL
 } mor_pictures_choice;
+
+/** Checks before a run that its pictures can be colored as the case asks.
+ *  @param context  [in,out]  one object
+ *  @param the_case [in]      one object
+ *  @param set      [in]      one object; the soil's
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG naming the color and what is allowed. */
+mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, const mor_set *set);
 
 /** Draws images/<snapshot>_<color>.png for snapshots, all with the same camera, and images/energy.png and
  *  images/<probe unit>.png charts of the series.

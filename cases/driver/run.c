@@ -168,6 +168,9 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
     if (status == MOR_OK) {
+        status = mor_pictures_check(context, files->the_case, &files->simulation->soil.set);
+    }
+    if (status == MOR_OK) {
         status = start_run(context, files, &p);
     }
     if (status == MOR_OK) {
