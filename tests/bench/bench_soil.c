@@ -37,8 +37,8 @@ enum { N_SIZES = sizeof sizes / sizeof *sizes };
 /* What was measured with one number of threads. */
 typedef struct timing {
     int n_threads;
-    double seconds[REPETITIONS_MAX];    /* of each repetition, s */
-    double stage_seconds[STAGES_MAX];   /* of all repetitions, s */
+    double seconds[REPETITIONS_MAX];  /* of each repetition, s */
+    double stage_seconds[STAGES_MAX]; /* of all repetitions, s */
 } timing;
 
 /* One step of the only stepper, as the schedule takes it, with a clock between the stages. */
@@ -87,7 +87,8 @@ static void print_speed(const scene *it, int n_repetitions, timing *t)
     const double millions = 1e-6 * (double)it->simulation.soil.set.n_particles * n_steps;
     qsort(t->seconds, (size_t)n_repetitions, sizeof *t->seconds, compare_seconds);
     printf("  %7d %13d x %d %20.3f %10.3f %10.3f\n", t->n_threads, n_repetitions, n_steps,
-           millions / t->seconds[n_repetitions / 2], millions / t->seconds[n_repetitions - 1], millions / t->seconds[0]);
+           millions / t->seconds[n_repetitions / 2], millions / t->seconds[n_repetitions - 1],
+           millions / t->seconds[0]);
 }
 
 static void print_stages(const scene *it, const timing *timings, int n_timings)

@@ -12,6 +12,10 @@
 /** @file
  *  The built program as a child process, as a user's shell starts it. */
 
+#ifndef MOR_BUILD_DIR
+#define MOR_BUILD_DIR "build/release"
+#endif
+
 #define PROGRAM_PATH MOR_BUILD_DIR "/moraine"
 
 enum { PROGRAM_ARGUMENTS_MAX = 32 };
@@ -34,7 +38,7 @@ static inline void program_redirect(const char *path, int stream)
     close(file);
 }
 
-/** In the child: Fontconfig, behind the pictures, keeps what it knows of fonts; the leak sanitizer is to ignore that. */
+/** In the child: Fontconfig, behind the pictures, keeps what it knows of fonts; leak sanitizers are to ignore that. */
 static inline void program_ignore_fonts(const char *path)
 {
     char options[MOR_PATH_BYTES + 64];

@@ -32,7 +32,7 @@ typedef struct scene {
 
 /** What a scene is made from. Borrowed. */
 typedef struct scene_request {
-    const char *text;                   /* zero-terminated; the case, with ' in place of "; or the path of a .cfg file */
+    const char *text; /* zero-terminated; the case, with ' in place of "; or the path of a .cfg file */
     const char *const *const *settings; /* shape [n_lists] of lists of "key=value", each ended by NULL, ' for " too */
     int n_lists;                        /* number of lists, 0 to SCENE_LISTS_MAX */
     int n_threads;                      /* 0: one */

@@ -78,8 +78,8 @@ static const scene_variant scene_variants[SCENE_VARIANTS] = {
     {"smooth walls", {"walls[0].friction=smooth", "walls[1].friction=smooth", NULL}},
     {"moving wall", {"walls[1].velocity=('0.4 m/s', '0.1 m/s', 0)", NULL}},
     {"moving coulomb wall",
-     {"walls[1].velocity=('0.4 m/s', '0.1 m/s', 0)", "walls[1].friction=coulomb",
-      "walls[1].friction_coefficient=0.3", NULL}},
+     {"walls[1].velocity=('0.4 m/s', '0.1 m/s', 0)", "walls[1].friction=coulomb", "walls[1].friction_coefficient=0.3",
+      NULL}},
     {"no friction", {"soil[0].material.friction_angle=0", "soil[0].material.dilation_angle=0", NULL}},
     {"no cohesion", {"soil[0].material.cohesion=0", NULL}},
 };

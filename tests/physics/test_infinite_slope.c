@@ -83,7 +83,8 @@ static double find_reference(double angle_in_degrees)
 static void layer_rests_below_the_angle_of_shear(void **state)
 {
     (void)state;
-    scene_expect_near("acceleration at 20 deg", find_acceleration(20.0), 0.0, 0.002 * gravity); /* ringing of the start */
+    scene_expect_near("acceleration at 20 deg", find_acceleration(20.0), 0.0,
+                      0.002 * gravity); /* ringing of the start */
     scene_expect_near("acceleration at 24 deg", find_acceleration(24.0), 0.0, 0.005 * gravity); /* and slow creep */
 }
 

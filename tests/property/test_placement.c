@@ -88,7 +88,6 @@ static void collapse_reaches_as_far_elsewhere(void **state)
     scene_advance(plain, plain->the_case.end);
     scene_advance(placed, placed->the_case.end);
     const double run_out = scene_probe(plain, "run_out");
-    printf("%g %g %g %g gap %g\n",run_out,scene_probe(placed, "run_out"), scene_probe(plain, "energy_left"), scene_probe(placed, "energy_left"), find_largest_gap(plain, placed));
     const double tolerance = fmin(0.01 * run_out, 0.1 * spacing); /* statistical: grains end elsewhere, the heap not */
     scene_expect_near("run-out", scene_probe(placed, "run_out"), run_out, tolerance);
     scene_expect_near("energy left", scene_probe(placed, "energy_left"), scene_probe(plain, "energy_left"), 0.003);

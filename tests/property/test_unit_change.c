@@ -71,7 +71,8 @@ static void compare_fields(scene *plain, scene *scaled, const mor_units *units, 
                 const double found = b->data[field][place_b[id] * n + k];
                 if (!has_same_bits(expected, found)) {
                     fail_msg("'%s', %s %s %s: %s[%d] of particle %lld is %.17g, not %.17g", name, by->settings[0],
-                             by->settings[1], by->settings[2], a->fields[field].name, k, (long long)id, found, expected);
+                             by->settings[1], by->settings[2], a->fields[field].name, k, (long long)id, found,
+                             expected);
                 }
             }
         }

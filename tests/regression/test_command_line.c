@@ -102,7 +102,7 @@ static void right_input_is_answered_on_standard_output(void **state)
 
 static void run_prints_its_results_and_leaves_a_whole_folder_behind(void **state)
 {
-    static const char *const files[] = {"case.resolved.cfg", "summary.json", "series.csv",    "log.txt",
+    static const char *const files[] = {"case.resolved.cfg", "summary.json",   "series.csv",   "log.txt",
                                         "snapshots.h5",      "snapshots.xdmf", "checkpoint.h5"};
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
@@ -170,10 +170,14 @@ static void missed_expectation_ends_with_code_3(void **state)
 {
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
-    const char *const missed[] = {"run", path, "-t", "1", "-o", "missed", "--set",
-                                  "expect=({probe=\"run_out\"; value=\"3 m\"; tolerance=0.1; source=\"a guess\";})", NULL};
-    const char *const met[] = {"run", path, "-t", "1", "-o", "met", "--set",
-                               "expect=({probe=\"run_out\"; value=\"0.2 m\"; tolerance=0.5; source=\"a guess\";})", NULL};
+    const char *const missed[] = {
+        "run", path,     "-t",    "1",
+        "-o",  "missed", "--set", "expect=({probe=\"run_out\"; value=\"3 m\"; tolerance=0.1; source=\"a guess\";})",
+        NULL};
+    const char *const met[] = {
+        "run", path,  "-t",    "1",
+        "-o",  "met", "--set", "expect=({probe=\"run_out\"; value=\"0.2 m\"; tolerance=0.5; source=\"a guess\";})",
+        NULL};
     finished_run_store_case(folder, path);
     program_outcome outcome = program_run(folder, missed, 3);
     program_expect_text(outcome.output, "a guess");
@@ -189,8 +193,8 @@ static void run_stopped_by_a_guard_ends_with_code_1(void **state)
 {
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
-    const char *const arguments[] = {"run", path, "-t", "1", "-o", "stray", "--set", "domain.max[0]=0.155", "--set",
-                                     "gravity[0]=9", NULL};
+    const char *const arguments[] = {"run",   path,           "-t", "1", "-o", "stray", "--set", "domain.max[0]=0.155",
+                                     "--set", "gravity[0]=9", NULL};
     finished_run_store_case(folder, path);
     program_outcome outcome = program_run(folder, arguments, 1);
     program_expect_text(outcome.errors, "of set 'soil' left the domain: position (0.155");

@@ -209,7 +209,13 @@ static void open_sandbox(sandbox *box)
     assert_int_equal(mor_schedule_add(&box->context, &box->schedule, &stepper, evolving), MOR_OK);
 }
 
-static void time_loop_allocates_nothing_between_rebuilds(void **state)
+/* Room of everything that grows when more soil touches more soil or wall. */
+static int64_t room_of(const mor_soil *soil)
+{
+    return soil->inner.capacities[0] + soil->walls[0].relation.capacities[0] + soil->walls[0].capacity;
+}
+
+static void time_loop_allocates_only_when_lists_have_grown(void **state)
 {
     (void)state;
     sandbox *box = calloc(1, sizeof *box);
@@ -222,19 +228,17 @@ static void time_loop_allocates_nothing_between_rebuilds(void **state)
         const uint64_t n_builds = box->soil.inner.n_builds;
         const uint64_t n_allocations = box->context.n_allocations;
         const uint64_t generation = box->soil.set.generation;
+        const int64_t room = room_of(&box->soil);
         assert_int_equal(mor_schedule_step(&box->context, &box->schedule, box->schedule.end), MOR_OK);
         const bool is_steady = box->soil.inner.n_builds == n_builds;
         n_steady += is_steady;
         n_sorted += box->soil.set.generation != generation;
-        if (is_steady) {
+        if (is_steady || room_of(&box->soil) == room) {
             assert_int_equal(box->context.n_allocations, n_allocations);
-        } else {
-            /* Lists that have grown are given new room: a buffer and, for the floor, another and its sums. */
-            assert_in_range(box->context.n_allocations - n_allocations, 0, 8);
         }
     }
-    assert_true(n_steady >= STEPS / 2); /* the loop did run between rebuilds */
-    assert_int_equal(n_sorted, 2);      /* steps 8 and 16 */
+    assert_true(n_steady >= STEPS / 2 && n_steady < STEPS); /* most steps go without a rebuild, but not all */
+    assert_int_equal(n_sorted, 2);                          /* steps 8 and 16 */
     mor_soil_clear(&box->context, &box->soil);
     mor_material_destroy(&box->context, &box->sand);
     assert_int_equal(box->context.memory_bytes, 0);
@@ -249,7 +253,7 @@ int main(void)
         cmocka_unit_test(counters_follow_what_is_held),
         cmocka_unit_test(nothing_is_allocated_for_no_items),
         cmocka_unit_test(sizes_that_cannot_be_are_refused),
-        cmocka_unit_test(time_loop_allocates_nothing_between_rebuilds),
+        cmocka_unit_test(time_loop_allocates_only_when_lists_have_grown),
     };
     return CLOUD_RUN(tests);
 }

@@ -194,6 +194,36 @@ static void rebuilding_allocates_only_when_lists_have_grown(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+static void list_that_outgrows_its_buffer_by_one_is_whole(void **state)
+{
+    (void)state;
+    enum { MANY = 4200 };
+    double *records = calloc(MANY + MOR_CLUSTER, 3 * sizeof *records); /* all in one place */
+    assert_non_null(records);
+    mor_context context;
+    mor_context_init(&context);
+    cloud source;
+    cloud_open(&context, &source, records, 1);
+    /* A first build with one target makes a buffer with room for some four thousand more. */
+    for (int n = 4080; n <= MANY; n += n > 4110 ? 90 : 1) {
+        mor_relation relation = open_relation(&context, &source);
+        mor_tree tree;
+        assert_int_equal(mor_tree_init(&context, &tree, n), MOR_OK);
+        mor_tree_fit(&context, &tree, records, 3);
+        const mor_relation_points target = {&tree, records, 3};
+        build(&context, &relation, &source, &source, 1.0);
+        assert_int_equal(mor_relation_build(&context, &relation, &source.view, &target, 1.0), MOR_OK);
+        assert_int_equal(relation.counts[0], n);
+        assert_true(n <= relation.capacities[0]); /* what was counted was also written */
+        assert_int_equal(relation.lists[0][n - 1], n - 1);
+        mor_tree_clear(&context, &tree);
+        mor_relation_clear(&context, &relation);
+    }
+    cloud_close(&source);
+    free(records);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void contact_lists_hold_what_brute_force_finds(void **state)
 {
     (void)state;
@@ -273,6 +303,7 @@ int main(void)
         cmocka_unit_test(lists_do_not_depend_on_the_number_of_threads),
         cmocka_unit_test(lists_follow_points_that_move),
         cmocka_unit_test(rebuilding_allocates_only_when_lists_have_grown),
+        cmocka_unit_test(list_that_outgrows_its_buffer_by_one_is_whole),
         cmocka_unit_test(contact_lists_hold_what_brute_force_finds),
         cmocka_unit_test(nothing_is_seen_of_an_empty_set_or_beyond_reach),
         cmocka_unit_test(relation_made_for_another_set_is_refused),

@@ -96,6 +96,14 @@ static void smooth_wall_gives_the_normal_part_only(void **state)
     }
 }
 
+/* Part of the tangential motion that is mirrored, for tractions in Pa. A billionth of the bulk modulus, below which a
+ * stress is rounding and decides nothing, is added to both. */
+static double sticking_part(floor_case *f, double limit, double trial)
+{
+    const double noise = 1e-9 * floor_record(f)[MOR_RECORD_DENSITY] * ASSEMBLY_SOUND * ASSEMBLY_SOUND;
+    return trial > limit ? (limit + noise) / (trial + noise) : 1.0;
+}
+
 static void coulomb_wall_caps_the_tangential_part(void **state)
 {
     (void)state;
@@ -126,7 +134,8 @@ static void coulomb_wall_caps_the_tangential_part(void **state)
         }
         floor_assert_vector(got, expected, scale);
         assert_true(mor_vector_length(got) <= 0.5 * normal * (1.0 + 16 * DBL_EPSILON)); /* the law; a dozen products */
-        assert_true(fabs(f.wall.stick[0] - share) <= 256 * DBL_EPSILON);                /* as floor_assert_vector */
+        const double stick = sticking_part(&f, 4e3, fabs(shear));
+        assert_true(fabs(f.wall.stick[0] - stick) <= 256 * DBL_EPSILON); /* as floor_assert_vector */
         floor_close(&f);
     }
 }
@@ -143,7 +152,8 @@ static void coulomb_wall_holds_nothing_under_tension(void **state)
     split(3, f.acceleration, &normal, tangential);
     assert_true(normal < 0.0);                                                /* the mirror still pulls */
     assert_true(mor_vector_length(tangential) <= 64 * DBL_EPSILON * -normal); /* the normal tilts by some ulp */
-    assert_true(f.wall.stick[0] == 0.0);                                      /* exact: the cap is zero */
+    const double stick = sticking_part(&f, 0.0, 1e3);
+    assert_true(stick < 1e-5 && fabs(f.wall.stick[0] - stick) <= 1e-12 * stick); /* normals tilt by some ulp */
     floor_close(&f);
 }
 
@@ -158,17 +168,38 @@ static void infinite_and_no_friction_are_rough_and_smooth(void **state)
             floor_open_single(&plain, dimension, is_rough ? MOR_WALL_ROUGH : MOR_WALL_SMOOTH, 0.0);
             set_stress(&coulomb, -8e3, 5e3);
             set_stress(&plain, -8e3, 5e3);
+            floor_record(&coulomb)[MOR_RECORD_VELOCITY] = floor_record(&plain)[MOR_RECORD_VELOCITY] = 1.0;
             floor_run(&coulomb, MOR_DISSIPATION_BOTH);
             floor_run(&plain, MOR_DISSIPATION_BOTH);
             assert_memory_equal(coulomb.acceleration, plain.acceleration, sizeof plain.acceleration);
-            assert_memory_equal(coulomb.velocity_gradient, plain.velocity_gradient, sizeof plain.velocity_gradient);
+            double gradient[3];
+            floor_gradient(&plain, floor_record(&plain), gradient);
+            const double held = is_rough ? 0.0 : sticking_part(&coulomb, 0.0, 5e3);
+            const double slack = 2.0 * held * (1.0 + 1e-12) * mor_vector_length(gradient); /* the part held anyway */
+            for (int k = 0; k < 9; ++k) {
+                assert_true(fabs(coulomb.velocity_gradient[k] - plain.velocity_gradient[k]) <= slack); /* see slack */
+            }
             floor_close(&plain);
             floor_close(&coulomb);
         }
     }
 }
 
-/* Adds a part of the dissipation of eqs. 20, 23 for the states of eqs. 32, 34 and a closing speed. */
+static void rounding_does_not_decide_whether_a_particle_slides(void **state)
+{
+    (void)state;
+    static const double shears[] = {0.0, 1e-11, -1e-10}; /* some ulp of a stress of kilopascals */
+    for (int k = 0; k < 3; ++k) {
+        floor_case f;
+        floor_open_single(&f, 3, MOR_WALL_COULOMB, 0.3);
+        set_stress(&f, 0.0, shears[k]);
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        assert_true(fabs(f.wall.stick[0] - 1.0) < 1e-6); /* 1e-10 Pa over a billionth of the bulk modulus, 5 mPa */
+        floor_close(&f);
+    }
+}
+
+/* The dissipation of eqs. 20, 23 for the states of eqs. 32, 34 and a closing speed. */
 static double wall_pressure(const floor_case *f, mor_dissipation mode, double closing)
 {
     const double *record = f->soil.records;
@@ -419,6 +450,7 @@ int main(void)
         cmocka_unit_test(coulomb_wall_caps_the_tangential_part),
         cmocka_unit_test(coulomb_wall_holds_nothing_under_tension),
         cmocka_unit_test(infinite_and_no_friction_are_rough_and_smooth),
+        cmocka_unit_test(rounding_does_not_decide_whether_a_particle_slides),
         cmocka_unit_test(dissipation_follows_the_one_sided_riemann_problem),
         cmocka_unit_test(drag_mirrors_the_velocity_about_that_of_the_wall),
         cmocka_unit_test(motion_with_the_wall_is_rest),
