@@ -17,9 +17,9 @@ static void request_stop(int number)
     stop_requested = 1;
 }
 
-/* Threads that wait for each other spin for a while before they sleep. On a machine that others use as well, the default
- * of some milliseconds lets them spin away the very time the slower thread needs: measured 26 times slower than with a
- * short spin. The run-time library reads its setting before main, so the program starts itself once more with it. */
+/* Threads that wait for each other spin for a while before they sleep. On a machine that others use as well, the
+ * default of some milliseconds lets them spin away the very time the slower thread needs: measured 26 times slower than
+ * with a short spin. The run-time library reads its setting before main, so the program starts itself once more. */
 static void shorten_waiting(char **argv)
 {
     if (getenv("GOMP_SPINCOUNT") == NULL && getenv("OMP_WAIT_POLICY") == NULL &&

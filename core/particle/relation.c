@@ -148,7 +148,8 @@ static int64_t list_cluster(const mor_relation_points *source, const mor_relatio
             continue;
         }
         if (end - begin == 1) {
-            count += append_cluster(&eight, target, begin, reach2, out + count, room - count);
+            const int64_t written = count < room ? count : room;
+            count += append_cluster(&eight, target, begin, reach2, room > 0 ? out + written : out, room - written);
             continue;
         }
         /* The left half is pushed last and so visited first: lists ascend. */
@@ -174,9 +175,11 @@ static void list_all(mor_context *context, mor_relation *relation, const mor_rel
         const int64_t last = first + share < relation->n_clusters ? first + share : relation->n_clusters;
         int64_t total = 0;
         for (int64_t cluster = first; cluster < last; ++cluster) {
-            const int64_t room = relation->capacities[buffer] - total;
-            int32_t *out = relation->buffers[buffer] + total;
-            const int64_t count = list_cluster(source, target, cluster, reach2, out, room > 0 ? room : 0);
+            const int64_t left = relation->capacities[buffer] - total;
+            const int64_t room = left > 0 ? left : 0;
+            /* Without room nothing is written, and there may be no buffer yet. */
+            int32_t *out = room > 0 ? relation->buffers[buffer] + total : relation->buffers[buffer];
+            const int64_t count = list_cluster(source, target, cluster, reach2, out, room);
             relation->lists[cluster] = out;
             relation->counts[cluster] = (int32_t)count;
             total += count;
@@ -218,6 +221,9 @@ static mor_status grow_buffers(mor_context *context, mor_relation *relation, con
 mor_status mor_relation_build(mor_context *context, mor_relation *relation, const mor_relation_points *source,
                               const mor_relation_points *target, double reach)
 {
+    if (relation->configuration == MOR_CONFIGURATION_REFERENCE && relation->n_builds > 0) {
+        return MOR_OK;
+    }
     enum { BUFFERS_MAX = 1024 };
     int64_t used[BUFFERS_MAX];
     MOR_CHECK(context, relation->n_buffers <= BUFFERS_MAX, MOR_ERROR_ARGUMENT, "%d threads; at most %d are allowed",

@@ -56,7 +56,7 @@ typedef struct mor_relation_points {
     int stride;            /* doubles per record */
 } mor_relation_points;
 
-/** Builds the lists.
+/** Builds the lists; a reference relation that has been built is left as it is.
  *  @param context  [in,out]  one object
  *  @param relation [in,out]  one object
  *  @param source   [in]      one object; who looks

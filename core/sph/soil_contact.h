@@ -13,7 +13,7 @@
 
 typedef enum mor_wall_friction {
     MOR_WALL_ROUGH,  /* no slip */
-    MOR_WALL_SMOOTH, /* free slip: no shear traction */
+    MOR_WALL_SMOOTH, /* free slip: no shear traction from the particle's own stress */
     MOR_WALL_COULOMB /* shear traction at most the coefficient times the compressive normal traction */
 } mor_wall_friction;
 

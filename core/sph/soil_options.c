@@ -153,7 +153,45 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mo
     return MOR_OK;
 }
 
-/* Hu et al. (2021) eqs. 13 and 16; the velocity follows a shifted particle to first order. */
+/* Largest of a pair of values over the blocks of a loop. */
+static void find_largest(const mor_soil *soil, int64_t n_blocks, double *first, double *second)
+{
+    *first = 0.0;
+    *second = 0.0;
+    for (int64_t block = 0; block < n_blocks; ++block) {
+        *first = fmax(*first, soil->block_values[2 * block]);
+        *second = fmax(*second, soil->block_values[2 * block + 1]);
+    }
+}
+
+/* Hu et al. (2021) eqs. 13 and 16; the velocity follows a shifted particle to first order. Returns through
+ * block_values the largest squared displacement and speed. */
+static void regularize_block(mor_soil *soil, int64_t block, double xsph, double shifting)
+{
+    double farthest = 0.0;
+    double fastest = 0.0;
+    for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, soil->set.n_particles); ++i) {
+        const double *sums = soil->regularization + 6 * i;
+        const double *gradient = soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i;
+        double *velocity = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+        const double speed = mor_vector_length(velocity);
+        double shift[3];
+        double move[3];
+        for (int a = 0; a < 3; ++a) {
+            shift[a] = shifting * speed * sums[3 + a];
+            move[a] = xsph * sums[a] + shift[a];
+            soil->set.data[MOR_FIELD_POSITION][3 * i + a] += move[a];
+        }
+        for (int a = 0; a < 3; ++a) {
+            velocity[a] += mor_vector_dot(gradient + 3 * a, shift);
+        }
+        farthest = fmax(farthest, mor_vector_dot(move, move));
+        fastest = fmax(fastest, mor_vector_dot(velocity, velocity));
+    }
+    soil->block_values[2 * block] = farthest;
+    soil->block_values[2 * block + 1] = fastest;
+}
+
 mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
@@ -166,23 +204,16 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step
         const int64_t last = (chunk + 1) * CLUSTERS;
         soil->table->regularize(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
     }
+    const int64_t n_blocks = mor_block_count(soil->set.n_particles);
     const double xsph = step->length * soil->settings.xsph;
     const double shifting = soil->settings.has_shifting ? step->length : 0.0;
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        const double *sums = soil->regularization + 6 * i;
-        const double *gradient = soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i;
-        double *velocity = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
-        const double speed = mor_vector_length(velocity);
-        double shift[3];
-        for (int a = 0; a < 3; ++a) {
-            shift[a] = shifting * speed * sums[3 + a];
-            soil->set.data[MOR_FIELD_POSITION][3 * i + a] += xsph * sums[a] + shift[a];
-        }
-        for (int a = 0; a < 3; ++a) {
-            velocity[a] += mor_vector_dot(gradient + 3 * a, shift);
-        }
+    MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
+        regularize_block(soil, block, xsph, shifting);
     }
-    /* XSPH moves a particle by less than the speed; the shift sum of one-sided neighbors stays below eight. */
-    soil->drift += (xsph + 8.0 * shifting) * soil->largest_speed;
+    double farthest = 0.0;
+    double fastest = 0.0;
+    find_largest(soil, n_blocks, &farthest, &fastest);
+    soil->drift += sqrt(farthest);
+    soil->largest_speed = sqrt(fastest);
     return MOR_OK;
 }

@@ -8,14 +8,18 @@
 /* A run has between 2^51 and 2^52 ticks, so that all times are exact in double precision. */
 enum { TICK_BITS = 52 };
 
+/* Runs whose ticks are ordinary numbers, in s. */
+#define SHORTEST_RUN 1.0e-200
+#define LONGEST_RUN 1.0e200
+
 /* A step shorter than this part of the run is a collapse, not a step. */
 #define SHORTEST_STEP_TICKS ((int64_t)1 << 22)
 
 mor_status mor_schedule_init(mor_context *context, mor_schedule *schedule, double end)
 {
     memset(schedule, 0, sizeof *schedule);
-    MOR_CHECK(context, end > 0.0 && isfinite(end), MOR_ERROR_ARGUMENT,
-              "the simulated time is %g s; it must be positive and finite", end);
+    MOR_CHECK(context, end >= SHORTEST_RUN && end <= LONGEST_RUN, MOR_ERROR_ARGUMENT,
+              "the simulated time is %g s; it must be between %g and %g s", end, SHORTEST_RUN, LONGEST_RUN);
     int exponent = 0;
     frexp(end, &exponent);
     schedule->tick = ldexp(1.0, exponent - TICK_BITS);
@@ -53,17 +57,19 @@ static mor_status propose_step(mor_context *context, mor_schedule *schedule, int
         double length = INFINITY;
         const char *limit = "";
         MOR_TRY(context, stepper->operations->propose(context, stepper->owner, &length, &limit));
-        if (length < shortest) {
+        /* Written so that a length that is not a number is taken, and reported below. */
+        if (!(length >= shortest)) {
             shortest = length;
             schedule->limit = limit;
         }
     }
-    *ticks = (int64_t)floor(shortest / schedule->tick);
-    MOR_CHECK(context, *ticks >= SHORTEST_STEP_TICKS, MOR_ERROR_NUMERIC,
+    const double n_ticks = floor(shortest / schedule->tick);
+    MOR_CHECK(context, n_ticks >= (double)SHORTEST_STEP_TICKS, MOR_ERROR_NUMERIC,
               "the time step collapsed to %.3g s at t = %.9g s (step %llu), limited by %s; the run needs steps of at "
               "least %.3g s. Look at the last snapshot for runaway particles; a smaller 'courant' may help",
               shortest, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->limit,
               (double)SHORTEST_STEP_TICKS * schedule->tick);
+    *ticks = (int64_t)n_ticks;
     return MOR_OK;
 }
 

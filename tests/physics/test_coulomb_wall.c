@@ -41,6 +41,7 @@ static motion slide(const char *const *soil, const char *const *floor)
     const scene_request request = {block, (const char *const *[]){soil, floor}, 2, 1};
     scene *it = scene_new(&request);
     const double mass = scene_probe(it, "mass");
+    assert_true(mass > 0.0);
     scene_advance(it, from);
     const double speed_before = scene_probe(it, "momentum") / mass;
     const double place_before = scene_probe(it, "center_of_mass");

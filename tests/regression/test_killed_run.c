@@ -7,8 +7,8 @@
 
 #include <time.h>
 
-/* The program is killed at random moments and its checkpoints are damaged. What a run leaves behind must be enough to end
- * where an undisturbed run ends, bit by bit, or be refused by name. MOR_KILLS sets the number of kills. */
+/* The program is killed at random moments and its checkpoints are damaged. What a run leaves behind must be enough to
+ * end where an undisturbed run ends, bit by bit, or be refused by name. MOR_KILLS sets the number of kills. */
 enum { N_KILLS = 5, N_FLIPS = 6 };
 
 static double read_clock(void)

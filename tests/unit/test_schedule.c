@@ -211,7 +211,7 @@ static void unit_of_time_changes_no_tick(void **state)
 static void collapse_is_reported_and_leaves_the_clock(void **state)
 {
     (void)state;
-    static const double proposals[] = {0.0, -1.0, 1e-30, 1e-13, -1e3};
+    static const double proposals[] = {0.0, -1.0, 1e-30, 1e-13, -1e3, NAN, -INFINITY, -1e300};
     for (size_t k = 0; k < sizeof proposals / sizeof *proposals; ++k) {
         mor_context context;
         mor_schedule schedule;

@@ -8,6 +8,10 @@
 #define SLOPE 2e5
 #define LEVEL -5e3
 
+/* Stresses that vary: the normal one along the floor with the place along it, the vertical one with height, and the
+ * shear stress with the place along the floor. */
+typedef enum field { FIELD_ALONG, FIELD_UPWARD, FIELD_SHEAR, FIELDS } field;
+
 static const mor_wall_stress stresses[] = {MOR_WALL_STRESS_UNIFORM, MOR_WALL_STRESS_ALONG, MOR_WALL_STRESS_LINEAR};
 
 /* Moments of the kernel gradient over a lattice: of the part below the surface, where the floor is, or of all of it. */
@@ -29,9 +33,8 @@ static double lattice_moment(const assembly *a, int component, bool is_wall)
     return sum;
 }
 
-/* Three layers of soil on the floor, in plane strain seven particles wide, else five, at rest under a stress that is
- * linear along x or upward. */
-static void open_lattice(floor_case *f, int dimension, bool is_upward)
+/* Three layers of soil on the floor, in plane strain seven particles wide, else five, at rest under a linear stress. */
+static void open_lattice(floor_case *f, int dimension, field kind)
 {
     double points[3 * ASSEMBLY_MAX] = {0.0};
     const int side = dimension == 2 ? 7 : 5;
@@ -58,7 +61,9 @@ static void open_lattice(floor_case *f, int dimension, bool is_upward)
         for (int a = 0; a < 3; ++a) {
             record[MOR_RECORD_STRESS + a] = LEVEL * (1.0 + 0.25 * a);
         }
-        record[MOR_RECORD_STRESS + (is_upward ? up : 0)] += SLOPE * record[is_upward ? up : 0];
+        const int shear = dimension == 2 ? MOR_XY : MOR_ZX;
+        const int component = kind == FIELD_ALONG ? 0 : kind == FIELD_UPWARD ? up : shear;
+        record[MOR_RECORD_STRESS + component] += SLOPE * record[kind == FIELD_UPWARD ? up : 0];
         record[MOR_RECORD_PRESSURE] = -mor_symmetric_trace(record + MOR_RECORD_STRESS) / 3.0;
     }
     floor_open(f, MOR_WALL_ROUGH, 0.0);
@@ -78,31 +83,41 @@ static int find_center(const floor_case *f)
     return -1;
 }
 
+/* The acceleration that the middle of the lowest layer should get. The soil carries what the wall leaves of the whole
+ * lattice's moment, and the continued wall makes it up; a smooth wall's image has the opposite shear. */
+static double expected_acceleration(const assembly *a, field kind, mor_wall_friction friction, mor_wall_stress stress)
+{
+    const int gradient_axis = kind == FIELD_UPWARD ? a->constants.dimension - 1 : 0;
+    const double all = lattice_moment(a, gradient_axis, false);
+    const double wall = lattice_moment(a, gradient_axis, true);
+    assert_true(wall > 0.2 && wall < 0.5 && fabs(all - 1.0) < 0.05);
+    const bool is_continued =
+        stress == MOR_WALL_STRESS_LINEAR || (stress == MOR_WALL_STRESS_ALONG && kind != FIELD_UPWARD);
+    const double sign = kind == FIELD_SHEAR && friction == MOR_WALL_SMOOTH ? -1.0 : 1.0;
+    const double factor = is_continued ? 1.0 + sign * wall / (1.0 - wall) : 1.0;
+    return SLOPE / ASSEMBLY_DENSITY * (all - wall) * factor;
+}
+
 static void linear_stress_is_felt_in_full_at_the_wall(void **state)
 {
     (void)state;
-    for (int option = 0; option < 2 * 2 * 2 * 3; ++option) {
+    for (int option = 0; option < 2 * FIELDS * 2 * 3; ++option) {
         const int dimension = 2 + option % 2;
-        const bool is_upward = option / 2 % 2;
-        const int axis = is_upward ? dimension - 1 : 0;
+        const field kind = (field)(option / 2 % FIELDS);
+        const mor_wall_friction friction = option / 6 % 2 == 0 ? MOR_WALL_ROUGH : MOR_WALL_SMOOTH;
         floor_case f;
         assembly_sums sums;
-        open_lattice(&f, dimension, is_upward);
-        mor_wall_request request = floor_request(&f, option / 4 % 2 == 0 ? MOR_WALL_ROUGH : MOR_WALL_SMOOTH, 0.0);
-        request.stress = stresses[option / 8];
+        open_lattice(&f, dimension, kind);
+        mor_wall_request request = floor_request(&f, friction, 0.0);
+        request.stress = stresses[option / 12];
         floor_add(&f, &request);
         floor_run(&f, MOR_DISSIPATION_BOTH);
         assembly_run(&f.soil, mor_pair_select(NULL), 1000, &sums);
         const int center = find_center(&f);
         assert_true(center >= 0);
-        /* The soil carries the rest of the lattice's moment, which the continued wall stretches to the whole. */
-        const double all = lattice_moment(&f.soil, axis, false);
-        const double wall = lattice_moment(&f.soil, axis, true);
-        const bool is_continued =
-            request.stress == MOR_WALL_STRESS_LINEAR || (request.stress == MOR_WALL_STRESS_ALONG && !is_upward);
-        assert_true(wall > 0.2 && wall < 0.5 && fabs(all - 1.0) < 0.05);
         double expected[3] = {0.0, 0.0, 0.0};
-        expected[axis] = SLOPE / ASSEMBLY_DENSITY * (all - wall) / (is_continued ? 1.0 - wall : 1.0);
+        expected[kind == FIELD_ALONG ? 0 : dimension - 1] =
+            expected_acceleration(&f.soil, kind, friction, request.stress);
         double total[3];
         for (int a = 0; a < 3; ++a) {
             total[a] = sums.acceleration[3 * center + a] + f.acceleration[3 * center + a];
