@@ -9,8 +9,8 @@
 enum { TICK_BITS = 52 };
 
 /* Runs whose ticks are ordinary numbers, in s. */
-#define SHORTEST_RUN 1.0e-200
-#define LONGEST_RUN 1.0e200
+#define SHORTEST_RUN 1.0e-290
+#define LONGEST_RUN 1.0e300
 
 /* A step shorter than this part of the run is a collapse, not a step. */
 #define SHORTEST_STEP_TICKS ((int64_t)1 << 22)
