@@ -12,6 +12,7 @@
 #include "materials/builtin.h"
 
 #include <string.h>
+#include <unistd.h>
 
 static mor_status list_materials(mor_context *context, const mor_registry *registry, FILE *out)
 {
@@ -154,7 +155,15 @@ mor_status mor_command_check_material(mor_command *command, int *exit_code)
     mor_status status = make_registry(command->context, &registry);
     if (status == MOR_OK) {
         const mor_material *material = mor_registry_find(registry, command->subject);
-        status = material != NULL ? try_material(command, material, &n_failed) : try_plugin(command, &n_failed);
+        const char *near = mor_registry_nearest(registry, command->subject);
+        if (material == NULL && access(command->subject, F_OK) != 0) {
+            status = MOR_FAIL(command->context, MOR_ERROR_CONFIG,
+                              "found '%s', which is neither a material nor a file%s%s; allowed are the names that "
+                              "'moraine list materials' prints and paths of plug-ins",
+                              command->subject, near != NULL ? "; did you mean " : "", near != NULL ? near : "");
+        } else {
+            status = material != NULL ? try_material(command, material, &n_failed) : try_plugin(command, &n_failed);
+        }
     }
     mor_registry_free(command->context, &registry);
     if (status == MOR_OK && n_failed > 0) {

@@ -302,7 +302,10 @@ mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simula
     *value = NAN;
     for (size_t k = 0; k < sizeof measures / sizeof *measures; ++k) {
         if (strcmp(measures[k].type, it->type) == 0) {
-            return measures[k].run(context, &v, value);
+            const mor_status status = measures[k].run(context, &v, value);
+            return status == MOR_OK ? status
+                                    : MOR_FAIL(context, status, "%s:%d: probe '%s': %s", it->place.file, it->place.line,
+                                               it->name, context->message);
         }
     }
     return MOR_FAIL(context, MOR_ERROR_INTERNAL, "probe type '%s' has no measurement", it->type);
