@@ -210,21 +210,28 @@ mor_status mor_command_render(mor_command *command, int *exit_code)
     return with_scene(command, false, draw_pictures);
 }
 
-/* Default folder: runs/ and the name of the case's folder (or file, when that is not case.cfg). */
-static void name_folder(const char *case_path, char *folder, size_t room)
+/* Default folder: runs/ and the name of the case's folder (or of its file, when that is not case.cfg), without the last
+ * extension. Taken from the resolved path, so that "./case.cfg" and "../case.cfg" have a name as well. */
+static mor_status name_folder(mor_context *context, const char *case_path, char *folder, size_t room)
 {
-    const char *slash = strrchr(case_path, '/');
-    const char *file = slash != NULL ? slash + 1 : case_path;
-    const char *begin = file;
-    size_t length = strcspn(file, ".");
-    if (strcmp(file, "case.cfg") == 0 && slash != NULL) {
-        begin = slash;
-        while (begin > case_path && begin[-1] != '/') {
-            --begin;
-        }
-        length = (size_t)(slash - begin);
+    char *resolved = realpath(case_path, NULL);
+    if (resolved == NULL) { /* reading the case will say why */
+        snprintf(folder, room, "runs/case");
+        return MOR_OK;
     }
-    snprintf(folder, room, "runs/%.*s", (int)length, begin);
+    char *file = strrchr(resolved, '/') + 1;
+    const char *name = file;
+    if (strcmp(file, "case.cfg") == 0 && file > resolved + 1) {
+        file[-1] = '\0';
+        name = strrchr(resolved, '/') + 1;
+    } else if (strrchr(file, '.') > file) {
+        *strrchr(file, '.') = '\0';
+    }
+    const int n = snprintf(folder, room, "runs/%s", name[0] != '\0' ? name : "case");
+    free(resolved);
+    MOR_CHECK(context, n > 0 && (size_t)n < room, MOR_ERROR_CONFIG,
+              "the name of the run's folder is too long; give one with -o");
+    return MOR_OK;
 }
 
 mor_status mor_command_run(mor_command *command, int *exit_code)
@@ -232,7 +239,7 @@ mor_status mor_command_run(mor_command *command, int *exit_code)
     char folder[MOR_PATH_BYTES];
     mor_registry *registry = NULL;
     mor_run_outcome outcome;
-    name_folder(command->subject, folder, sizeof folder);
+    MOR_TRY(command->context, name_folder(command->context, command->subject, folder, sizeof folder));
     const mor_run_options options = {.case_path = command->subject,
                                      .folder = command->folder != NULL ? command->folder : folder,
                                      .settings = command->settings,

@@ -37,8 +37,6 @@ static int64_t row_tick(const mor_simulation *s, int64_t number)
 
 static void find_next_outputs(const mor_simulation *s, pace *p)
 {
-    p->next_row = 0;
-    p->next_snapshot = 1;
     while (row_tick(s, p->next_row) <= s->schedule.now) {
         ++p->next_row;
     }
@@ -115,7 +113,11 @@ static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, mor_run_files_restore(context, files, &is_restored));
     }
     if (!is_restored) {
-        MOR_TRY(context, mor_simulation_settle(context, files->simulation));
+        MOR_TRY(context, mor_simulation_settle(context, files->simulation, files->options->stop));
+        if (files->options->stop != NULL && *files->options->stop != 0) {
+            fprintf(files->options->output, "stopped while the initial stress settled; the next run starts over\n");
+            return MOR_OK;
+        }
     }
     MOR_TRY(context, mor_run_files_start(context, files, is_restored));
     if (!is_restored) {
@@ -138,11 +140,6 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     if (options->progress != NULL) {
         fprintf(options->progress, "\r%*s\r", 110, "");
     }
-    if (outcome->is_finished && p->n_loop_steps == 0) {
-        fprintf(options->output, "the run in '%s' had already finished; its results stand in summary.json\n",
-                options->folder);
-        return MOR_OK;
-    }
     MOR_TRY(context, mor_run_files_save(context, files));
     if (!outcome->is_finished) {
         outcome->is_interrupted = options->stop != NULL && *options->stop != 0;
@@ -164,7 +161,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
 static mor_status run_simulation(mor_context *context, mor_run_files *files, const mor_registry *registry,
                                  mor_run_outcome *outcome)
 {
-    pace p = {.last_progress = mor_clock_now()};
+    pace p = {.last_progress = mor_clock_now(), .next_snapshot = 1};
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
     if (status == MOR_OK) {
@@ -173,10 +170,11 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     if (status == MOR_OK) {
         status = start_run(context, files, &p);
     }
-    if (status == MOR_OK) {
+    if (status == MOR_OK && files->series.stream != NULL) {
         status = run_steps(context, files, &p);
     }
-    if (status == MOR_OK) {
+    outcome->is_interrupted = files->options->stop != NULL && *files->options->stop != 0;
+    if (status == MOR_OK && files->series.stream != NULL) {
         status = finish_run(context, files, &p, outcome);
     } else if (files->options->progress != NULL) {
         fprintf(files->options->progress, "\n");

@@ -6,10 +6,12 @@
 #include "cases/driver/probe.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
+#include "core/io/summary.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,19 +56,27 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     char path[MOR_PATH_BYTES];
     memset(files, 0, sizeof *files);
     files->options = options;
-    MOR_CHECK(context, options->is_resume || !is_present(context, options->folder, MOR_CHECKPOINT_FILE),
-              MOR_ERROR_CONFIG,
+    files->previous_sink = context->log_sink;
+    files->previous_user = context->log_user;
+    const bool holds_run = is_present(context, options->folder, MOR_CHECKPOINT_FILE) ||
+                           is_present(context, options->folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
+                           is_present(context, options->folder, MOR_SUMMARY_FILE);
+    MOR_CHECK(context, !options->is_resume || access(options->folder, F_OK) == 0, MOR_ERROR_CONFIG,
+              "there is no folder '%s' to resume; correct -o, or leave --resume out to start a new run",
+              options->folder);
+    MOR_CHECK(context, options->is_resume || !holds_run, MOR_ERROR_CONFIG,
               "the folder '%s' already holds a run; add --resume to go on with it, or choose another folder with -o",
               options->folder);
     MOR_TRY(context, make_folders(context, options->folder));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, "images"));
     MOR_TRY(context, mor_durable_file_make_folder(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
-    files->log = fopen(path, options->is_resume ? "a" : "w");
+    files->log = fopen(path, "a");
     MOR_CHECK(context, files->log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions",
               path);
-    files->previous_sink = context->log_sink;
-    files->previous_user = context->log_user;
+    MOR_CHECK(context, flock(fileno(files->log), LOCK_EX | LOCK_NB) == 0, MOR_ERROR_CONFIG,
+              "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
+              options->folder);
     context->log_sink = log_line;
     context->log_user = files;
     mor_context_log(context, MOR_LOG_INFO, "moraine %s, commit %s: %s", options->version, options->commit,

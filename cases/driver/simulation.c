@@ -322,7 +322,6 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
 {
     memset(simulation, 0, sizeof *simulation);
     simulation->the_case = the_case;
-    simulation->has_settled = true;
     double gravity[3];
     mor_matrix_apply(the_case->turn, the_case->gravity, gravity);
     const double strength = mor_vector_length(gravity);

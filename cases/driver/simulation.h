@@ -9,6 +9,8 @@
 #include "core/time/schedule.h"
 #include "relaxation/lattice.h"
 
+#include <signal.h>
+
 /** @file
  *  The composition root: a case becomes particles, walls, a material and a schedule. It runs nothing and writes no
  *  file. Everything here is in the placed frame (after the case's turn and move). */
@@ -26,7 +28,6 @@ typedef struct mor_simulation {
     double up[3];          /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
     double surface_height; /* of the initial soil along up over the placed origin, m */
     double initial_energy; /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
-    bool has_settled;      /* the initial settling converged, or none was asked for */
 } mor_simulation;
 
 /** Builds a simulation: checks that soil and walls do not overlap, fills the shapes with particles, sets the initial
@@ -49,8 +50,11 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation);
  *  when nothing settles; not after a resume.
  *  @param context    [in,out]  one object; logs "converged" or "timed out" with the speed reached
  *  @param simulation [in,out]  one object
- *  Returns: MOR_OK, also when timed out (has_settled is then false); what a step returns. */
-mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation);
+ *  @param stop       [in]      one flag; settling ends early when it becomes non-zero; NULL: never
+ *  Returns: MOR_OK, also when stopped; MOR_NOT_CONVERGED when the soil does not come to rest in the time given, with the
+ *  speed reached; what a step returns. */
+mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation,
+                                 const volatile sig_atomic_t *stop);
 
 /** Maps a point, or a direction, of the case into the placed frame.
  *  @param the_case [in]   one object

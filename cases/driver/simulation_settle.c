@@ -80,7 +80,8 @@ static bool find_settling(const mor_case *the_case, double *longest, double *rat
     return is_asked;
 }
 
-static mor_status run_settling(mor_context *context, mor_simulation *simulation, double longest, double ratio)
+static mor_status run_settling(mor_context *context, mor_simulation *simulation, double longest, double ratio,
+                               const volatile sig_atomic_t *stop)
 {
     mor_schedule *schedule = &simulation->schedule;
     const mor_measure_points points = points_of(simulation);
@@ -94,23 +95,28 @@ static mor_status run_settling(mor_context *context, mor_simulation *simulation,
     int64_t until = mor_schedule_ticks(schedule, longest);
     until = until > 0 ? until : 1;
     /* At least one check's worth of steps: at the start everything is at rest because nothing has moved yet. */
-    while (schedule->now < until && !(speed < limit)) {
+    while (schedule->now < until && !(speed < limit) && (stop == NULL || *stop == 0)) {
         for (int k = 0; k < SETTLE_CHECK && schedule->now < until; ++k) {
             MOR_TRY(context, mor_schedule_step(context, schedule, until));
         }
         MOR_TRY(context,
                 mor_measure_speed(context, &points, simulation->soil.set.data[MOR_FIELD_VELOCITY], 99.0, &speed));
     }
-    simulation->has_settled = speed < limit;
-    mor_context_log(context, simulation->has_settled ? MOR_LOG_INFO : MOR_LOG_WARNING,
-                    "initial stress %s after %.4g s and %llu steps: 99%% of the particles are slower than %.3g m/s, "
+    const bool is_stopped = stop != NULL && *stop != 0;
+    MOR_CHECK(context, speed < limit || is_stopped, MOR_NOT_CONVERGED,
+              "initial stress timed out: after %.4g s and %llu steps 99 %% of the particles are slower than %.3g m/s, the "
+              "limit is %.3g m/s. Give a longer 'settle_time' or a larger 'settle_speed_ratio', or the soil does not stand",
+              mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, speed, limit);
+    mor_context_log(context, MOR_LOG_INFO,
+                    "initial stress %s after %.4g s and %llu steps: 99 %% of the particles are slower than %.3g m/s, "
                     "the limit is %.3g m/s",
-                    simulation->has_settled ? "converged" : "timed out", mor_schedule_time(schedule),
+                    is_stopped ? "stopped" : "converged", mor_schedule_time(schedule),
                     (unsigned long long)schedule->n_steps, speed, limit);
     return MOR_OK;
 }
 
-mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation)
+mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation,
+                                 const volatile sig_atomic_t *stop)
 {
     double longest = 0.0;
     double ratio = 0.0;
@@ -125,7 +131,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
             memcpy(velocities[w], soil->walls[w].velocity, sizeof velocities[w]);
             memset(soil->walls[w].velocity, 0, sizeof velocities[w]);
         }
-        MOR_TRY(context, run_settling(context, simulation, longest, ratio));
+        MOR_TRY(context, run_settling(context, simulation, longest, ratio, stop));
         for (int w = 0; w < soil->n_walls; ++w) {
             memcpy(soil->walls[w].velocity, velocities[w], sizeof velocities[w]);
         }
@@ -140,6 +146,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         MOR_TRY(context, mor_soil_init_state(context, soil));
         simulation->schedule.now = 0;
         simulation->schedule.n_steps = 0;
+        simulation->schedule.step_length = 0.0;
     }
     simulation->initial_energy = mor_simulation_energy(simulation, NULL);
     return MOR_OK;

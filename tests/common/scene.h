@@ -109,7 +109,7 @@ static inline scene *scene_new(const scene_request *request)
     scene_require(it, mor_materials_register_builtin(&it->context, it->registry));
     scene_read(it, request);
     scene_require(it, mor_simulation_init(&it->context, &it->simulation, &it->the_case, it->registry));
-    scene_require(it, mor_simulation_settle(&it->context, &it->simulation));
+    scene_require(it, mor_simulation_settle(&it->context, &it->simulation, NULL));
     scene_require(it, MOR_NEW(&it->context, &it->place, it->simulation.soil.set.n_particles, "places of particles"));
     return it;
 }
