@@ -128,7 +128,7 @@ static const mor_case_key numerics_keys[] = {
       "rate of density"},
      MOR_CASE_STORE_BOOL,
      NUMERICS(density_pressure_term)},
-    {{"stress_diffusion", SCALAR, "1", DEFAULT(0.1), NOT_NEGATIVE, NULL, "factor of the stress diffusion; 0: off"},
+    {{"stress_diffusion", SCALAR, "1", DEFAULT(0.1), 0.0, 0.5, 0, 0, NULL, "factor of the stress diffusion; 0: off"},
      MOR_CASE_STORE_REALS,
      NUMERICS(stress_diffusion)},
     {{"artificial_stress", SWITCH, "1", DEFAULT(0.0), ANY, NULL,

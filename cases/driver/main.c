@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+enum { PATH_BYTES = 4096 };
+
 static volatile sig_atomic_t stop_requested;
 
 /* The first signal asks for a checkpoint and an orderly end, the second ends the program at once. */
@@ -24,7 +26,12 @@ static void shorten_waiting(char **argv)
 {
     if (getenv("GOMP_SPINCOUNT") == NULL && getenv("OMP_WAIT_POLICY") == NULL &&
         setenv("GOMP_SPINCOUNT", "1000", 1) == 0) {
-        execv("/proc/self/exe", argv); /* comes back only when it cannot; the program then runs as it is */
+        char path[PATH_BYTES];
+        const ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
+        if (n > 0) {
+            path[n] = '\0';
+            execv(path, argv); /* comes back only when it cannot; the program then runs as it is */
+        }
     }
 }
 

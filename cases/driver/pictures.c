@@ -64,9 +64,11 @@ mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, co
         }
     }
     const int field = mor_set_find_field(set, color);
-    MOR_CHECK(context, field >= 0 && (set->fields[field].flags & MOR_FIELD_OUTPUT) != 0, MOR_ERROR_CONFIG,
-              "%s: found output.color = \"%s\", which is no field of the snapshots; allowed: speed, pressure, "
-              "vertical_stress and the fields that 'moraine list fields' shows as in snapshots; use one of these",
+    const bool is_output = field >= 0 && (set->fields[field].flags & MOR_FIELD_OUTPUT) != 0;
+    MOR_CHECK(context, is_output && set->fields[field].n_components <= 3, MOR_ERROR_CONFIG,
+              "%s: found output.color = \"%s\", which is no number or vector of the snapshots; allowed: speed, "
+              "pressure, vertical_stress and the fields of 1 or 3 components that 'moraine list fields' shows as in "
+              "snapshots; use one of these",
               the_case->path, color);
     return MOR_OK;
 }
@@ -152,7 +154,10 @@ static mor_status fill_walls(mor_context *context, gallery *g)
     for (int w = 0; w < c->n_walls; ++w) {
         double normal[3];
         MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
-        trim_wall(g, &g->walls[w]);
+        /* A moving wall is kept whole: it may come into view later. */
+        if (mor_vector_length(c->walls[w].velocity) == 0.0) {
+            trim_wall(g, &g->walls[w]);
+        }
         mor_matrix_apply(c->turn, c->walls[w].outline.second, normal);
         g->is_ground[w] = c->dimension == 3 && c->walls[w].outline.kind == MOR_CASE_SHAPE_HALF_SPACE &&
                           mor_vector_dot(normal, g->up) > GROUND_COSINE * mor_vector_length(normal);
@@ -287,23 +292,12 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
     return mor_charts_render(context, g->folder, output);
 }
 
-static void find_up(gallery *g)
-{
-    const double fallback[3] = {0.0, g->the_case->dimension == 2 ? 1.0 : 0.0, g->the_case->dimension == 2 ? 0.0 : 1.0};
-    double gravity[3];
-    mor_matrix_apply(g->the_case->turn, g->the_case->gravity, gravity);
-    const double strength = mor_vector_length(gravity);
-    for (int a = 0; a < 3; ++a) {
-        g->up[a] = strength > 0.0 ? -gravity[a] / strength : fallback[a];
-    }
-}
-
 mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, const char *folder,
                                mor_pictures_choice choice, FILE *output)
 {
     gallery g = {.the_case = the_case, .folder = folder};
     mor_snapshot_list list;
-    find_up(&g);
+    mor_simulation_find_up(the_case, g.up);
     MOR_TRY(context, mor_snapshot_list_init(context, &list, folder));
     const mor_status status = render_list(context, &g, &list, choice, output);
     for (int w = 0; w < the_case->n_walls; ++w) {

@@ -8,10 +8,10 @@
 #include "core/base/memory.h"
 #include "core/io/summary.h"
 
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -61,9 +61,6 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     const bool holds_run = is_present(context, options->folder, MOR_CHECKPOINT_FILE) ||
                            is_present(context, options->folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
                            is_present(context, options->folder, MOR_SUMMARY_FILE);
-    MOR_CHECK(context, !options->is_resume || access(options->folder, F_OK) == 0, MOR_ERROR_CONFIG,
-              "there is no folder '%s' to resume; correct -o, or leave --resume out to start a new run",
-              options->folder);
     MOR_CHECK(context, options->is_resume || !holds_run, MOR_ERROR_CONFIG,
               "the folder '%s' already holds a run; add --resume to go on with it, or choose another folder with -o",
               options->folder);
@@ -74,7 +71,8 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     files->log = fopen(path, "a");
     MOR_CHECK(context, files->log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions",
               path);
-    MOR_CHECK(context, flock(fileno(files->log), LOCK_EX | LOCK_NB) == 0, MOR_ERROR_CONFIG,
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    MOR_CHECK(context, fcntl(fileno(files->log), F_SETLK, &lock) == 0, MOR_ERROR_CONFIG,
               "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
               options->folder);
     context->log_sink = log_line;

@@ -18,6 +18,17 @@ void mor_simulation_place_point(const mor_case *the_case, const double *point, d
     }
 }
 
+void mor_simulation_find_up(const mor_case *the_case, double *up)
+{
+    const double fallback[3] = {0.0, the_case->dimension == 2 ? 1.0 : 0.0, the_case->dimension == 2 ? 0.0 : 1.0};
+    const double strength = mor_vector_length(the_case->gravity);
+    double direction[3];
+    for (int a = 0; a < 3; ++a) {
+        direction[a] = strength > 0.0 ? -the_case->gravity[a] / strength : fallback[a];
+    }
+    mor_matrix_apply(the_case->turn, direction, up);
+}
+
 /* The lattice that soil and walls share. */
 static void set_request(const mor_case *the_case, const mor_shape *shape, mor_lattice_request *request)
 {
@@ -92,12 +103,58 @@ static mor_status check_overlap(mor_context *context, const mor_case *the_case, 
     return MOR_OK;
 }
 
+/* A bounded region is filled whole; what lies outside the domain is an error, not cut off. */
+static bool release_domain(const mor_shape *shape, int dimension, mor_lattice_request *request)
+{
+    mor_bounds bounds;
+    shape->operations->bounds(shape, &bounds);
+    for (int a = 0; a < dimension; ++a) {
+        if (!isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a])) {
+            return false;
+        }
+    }
+    for (int a = 0; a < dimension; ++a) {
+        request->domain.minimum[a] = -INFINITY;
+        request->domain.maximum[a] = INFINITY;
+    }
+    return true;
+}
+
+static mor_status check_inside(mor_context *context, const mor_case *the_case, const mor_case_soil *it,
+                               const mor_lattice_points *points)
+{
+    int64_t n_outside = 0;
+    double first[3] = {0.0, 0.0, 0.0};
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        double moved[3];
+        double point[3];
+        bool is_outside = false;
+        for (int a = 0; a < 3; ++a) {
+            moved[a] = points->positions[3 * i + a] - the_case->move[a];
+        }
+        mor_matrix_apply_transposed(the_case->turn, moved, point);
+        for (int a = 0; a < the_case->dimension; ++a) {
+            is_outside = is_outside || point[a] < the_case->domain_minimum[a] || point[a] > the_case->domain_maximum[a];
+        }
+        if (is_outside && n_outside++ == 0) {
+            memcpy(first, point, sizeof first);
+        }
+    }
+    MOR_CHECK(context, n_outside == 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' reaching out of the domain: %lld of its %lld particles lie outside, the first at "
+              "(%g, %g, %g) m; allowed are none; enlarge 'domain' or make the region smaller",
+              it->place.file, it->place.line, it->name, (long long)n_outside, (long long)points->n_points, first[0],
+              first[1], first[2]);
+    return MOR_OK;
+}
+
 static mor_status fill_soil(mor_context *context, const mor_case *the_case, int soil, mor_lattice_points *points)
 {
     const mor_case_soil *it = &the_case->soils[soil];
     mor_lattice_request request;
     set_request(the_case, it->shape, &request);
     request.jitter_ratio = the_case->jitter_ratio;
+    const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
     MOR_TRY(context, mor_lattice_fill(context, &request, points));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
@@ -108,6 +165,9 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
               "%s:%d: found soil '%s' with a settled initial stress and a velocity of (%g, %g, %g) m/s; allowed is one "
               "of them, because settling brings the soil to rest; remove 'velocity' or choose type = \"k0\"",
               it->place.file, it->place.line, it->name, it->velocity[0], it->velocity[1], it->velocity[2]);
+    if (is_whole) {
+        MOR_TRY(context, check_inside(context, the_case, it, points));
+    }
     return check_overlap(context, the_case, soil, points);
 }
 
@@ -142,7 +202,7 @@ static double find_parameter(const mor_material *material, const double *paramet
 }
 
 /* Jaky's ratio for frictional models, hydrostatic for others. */
-static double find_lateral_ratio(const mor_material *material, const mor_case_soil *soil)
+double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil)
 {
     return soil->lateral_ratio >= 0.0 ? soil->lateral_ratio
                                       : 1.0 - sin(find_parameter(material, soil->parameters, "friction_angle", 0.0));
@@ -163,7 +223,7 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
         .dissipation_factor = n->dissipation_factor,
         .has_density_pressure_term = n->density_pressure_term,
         .stress_diffusion = n->stress_diffusion,
-        .lateral_ratio = find_lateral_ratio(material, &c->soils[0]),
+        .lateral_ratio = mor_simulation_lateral_ratio(material, &c->soils[0]),
         .has_artificial_stress = n->artificial_stress,
         .artificial_stress_exponent = n->artificial_stress_exponent,
         .artificial_stress_factor = n->artificial_stress_factor,
@@ -197,42 +257,13 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
     }
 }
 
-/* Geostatic stress of a region: vertical from the weight above, lateral by the ratio. */
-static void set_stress(mor_simulation *simulation, const mor_case_soil *it, double lateral, int64_t first, int64_t n)
-{
-    mor_soil *soil = &simulation->soil;
-    const double *up = simulation->up;
-    const double *position = soil->set.data[MOR_FIELD_POSITION];
-    const double weight = it->density * mor_vector_length(soil->settings.gravity);
-    double top = -INFINITY;
-    for (int64_t i = first; i < first + n; ++i) {
-        top = fmax(top, mor_vector_dot(position + 3 * i, up));
-    }
-    top += 0.5 * simulation->the_case->spacing;
-    if (!isnan(it->surface_level)) {
-        double origin[3];
-        mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
-        top = it->surface_level + mor_vector_dot(origin, up);
-    }
-    simulation->surface_height = fmax(simulation->surface_height, top);
-    for (int64_t i = first; i < first + n && it->initial_stress != MOR_CASE_STRESS_NONE; ++i) {
-        const double vertical = -weight * fmax(top - mor_vector_dot(position + 3 * i, up), 0.0);
-        double *stress = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
-        for (int a = 0; a < 3; ++a) {
-            stress[a] = vertical * (lateral + (1.0 - lateral) * up[a] * up[a]);
-            stress[3 + a] = vertical * (1.0 - lateral) * up[a] * up[(a + 1) % 3];
-        }
-    }
-}
-
 /* Copies the regions' points into the set and gives them mass, density, velocity and stress. */
-static void set_particles(mor_simulation *simulation, const mor_lattice_points *regions)
+static mor_status set_particles(mor_context *context, mor_simulation *simulation, const mor_lattice_points *regions)
 {
     const mor_case *c = simulation->the_case;
     double *const *data = simulation->soil.set.data;
     const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
     int64_t first = 0;
-    simulation->surface_height = -INFINITY;
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
         const int64_t n = regions[k].n_points;
@@ -244,10 +275,10 @@ static void set_particles(mor_simulation *simulation, const mor_lattice_points *
             data[MOR_FIELD_DENSITY][i] = it->density;
             data[MOR_FIELD_MASS][i] = it->density * volume;
         }
-        set_stress(simulation, it, find_lateral_ratio(simulation->material->material, it), first, n);
         simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
         first += n;
     }
+    return mor_simulation_set_stress(context, simulation, regions);
 }
 
 static mor_status add_walls(mor_context *context, mor_simulation *simulation)
@@ -297,7 +328,7 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation, c
         status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
     }
     if (status == MOR_OK) {
-        set_particles(simulation, regions);
+        status = set_particles(context, simulation, regions);
     }
     for (int k = 0; k < c->n_soils; ++k) {
         mor_lattice_clear(context, &regions[k]);
@@ -322,17 +353,7 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
 {
     memset(simulation, 0, sizeof *simulation);
     simulation->the_case = the_case;
-    double gravity[3];
-    mor_matrix_apply(the_case->turn, the_case->gravity, gravity);
-    const double strength = mor_vector_length(gravity);
-    const double fallback[3] = {0.0, the_case->dimension == 2 ? 1.0 : 0.0, the_case->dimension == 2 ? 0.0 : 1.0};
-    if (strength > 0.0) {
-        for (int a = 0; a < 3; ++a) {
-            simulation->up[a] = -gravity[a] / strength;
-        }
-    } else {
-        mor_matrix_apply(the_case->turn, fallback, simulation->up);
-    }
+    mor_simulation_find_up(the_case, simulation->up);
     mor_status status = build_soil(context, simulation, registry);
     if (status == MOR_OK) {
         status = build_schedule(context, simulation);

@@ -51,16 +51,35 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation);
  *  @param context    [in,out]  one object; logs "converged" or "timed out" with the speed reached
  *  @param simulation [in,out]  one object
  *  @param stop       [in]      one flag; settling ends early when it becomes non-zero; NULL: never
- *  Returns: MOR_OK, also when stopped; MOR_NOT_CONVERGED when the soil does not come to rest in the time given, with the
+ *  Returns: MOR_OK, also when stopped; MOR_NOT_CONVERGED when the soil does not come to rest in the time given,
+ *  with the
  *  speed reached; what a step returns. */
-mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation,
-                                 const volatile sig_atomic_t *stop);
+mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation, const volatile sig_atomic_t *stop);
 
 /** Maps a point, or a direction, of the case into the placed frame.
  *  @param the_case [in]   one object
  *  @param point    [in]   shape [3], unit m
  *  @param placed   [out]  shape [3], unit m; may not alias point */
 void mor_simulation_place_point(const mor_case *the_case, const double *point, double *placed);
+
+/** Finds the direction against gravity in the placed frame; without gravity y (2D) or z (3D) of the case, turned.
+ *  @param the_case [in]   one object
+ *  @param up       [out]  shape [3]; unit vector, 1 */
+void mor_simulation_find_up(const mor_case *the_case, double *up);
+
+/** Lateral over vertical stress at rest of a region, 1: the one given, else 1 - sin(friction angle), else 1.
+ *  @param material [in]  one object; the model
+ *  @param soil     [in]  one object */
+double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil);
+
+/** Sets the surface height and the initial stress of all regions: vertical stress from the weight of the soil straight
+ *  above, of whatever region, lateral stress by the region's ratio.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in,out]  one object; particles in the order of the regions
+ *  @param regions    [in]      shape [regions of the case]; their points
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
+                                     const mor_lattice_points *regions);
 
 /** Fills one wall of a case with particles, in the placed frame.
  *  @param context  [in,out]  one object

@@ -103,10 +103,11 @@ static mor_status run_settling(mor_context *context, mor_simulation *simulation,
                 mor_measure_speed(context, &points, simulation->soil.set.data[MOR_FIELD_VELOCITY], 99.0, &speed));
     }
     const bool is_stopped = stop != NULL && *stop != 0;
-    MOR_CHECK(context, speed < limit || is_stopped, MOR_NOT_CONVERGED,
-              "initial stress timed out: after %.4g s and %llu steps 99 %% of the particles are slower than %.3g m/s, the "
-              "limit is %.3g m/s. Give a longer 'settle_time' or a larger 'settle_speed_ratio', or the soil does not stand",
-              mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, speed, limit);
+    MOR_CHECK(
+        context, speed < limit || is_stopped, MOR_NOT_CONVERGED,
+        "initial stress timed out: after %.4g s and %llu steps 99 %% of the particles are slower than %.3g m/s, the "
+        "limit is %.3g m/s. Give a longer 'settle_time' or a larger 'settle_speed_ratio', or the soil does not stand",
+        mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, speed, limit);
     mor_context_log(context, MOR_LOG_INFO,
                     "initial stress %s after %.4g s and %llu steps: 99 %% of the particles are slower than %.3g m/s, "
                     "the limit is %.3g m/s",
@@ -115,8 +116,7 @@ static mor_status run_settling(mor_context *context, mor_simulation *simulation,
     return MOR_OK;
 }
 
-mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation,
-                                 const volatile sig_atomic_t *stop)
+mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation, const volatile sig_atomic_t *stop)
 {
     double longest = 0.0;
     double ratio = 0.0;

@@ -28,8 +28,8 @@ static const mor_stage soil_stages[] = {
     {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), RECORDS, 0,
      "one record per particle for the pair loops"},
     {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over the walls in reach"},
-    {"density", mor_soil_reinitialize_density, RECORDS | LISTS | WALL_SUMS | BIT(MASS), 0, BIT(DENSITY) | RECORDS,
-     "density by summation at an interval"},
+    {"density", mor_soil_reinitialize_density, RECORDS | LISTS | WALL_SUMS | BIT(MASS), 0,
+     BIT(DENSITY) | BIT(DENSITY_RATE) | RECORDS, "density by summation at an interval"},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on"},
     {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS),
@@ -40,8 +40,8 @@ static const mor_stage soil_stages[] = {
      "velocity gradient and density rate by the neighbors"},
     {"wall drag", mor_soil_drag_walls, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "the walls' part of both"},
-    {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
-     "exact for linear fields, when switched on"},
+    {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS | WALL_SUMS, 0,
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on"},
     {"regularization", mor_soil_regularize, RECORDS | LISTS | BIT(VELOCITY_GRADIENT), 0, BIT(POSITION) | BIT(VELOCITY),
      "XSPH and shifting, when switched on"},
     {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
@@ -228,13 +228,47 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
     return MOR_OK;
 }
 
+/* The material's own limit, asked for only when the model has one. */
+static mor_status limit_by_material(mor_context *context, const mor_soil *soil, double *step_length, const char **limit)
+{
+    enum { BATCH = 128 };
+    if (soil->material->material->operations.max_step == NULL) {
+        return MOR_OK;
+    }
+    for (int64_t first = 0; first < soil->set.n_particles; first += BATCH) {
+        const int64_t left = soil->set.n_particles - first;
+        const double *state[MOR_MATERIAL_STATES_MAX];
+        double steps[BATCH];
+        for (int k = 0; k < soil->material->n_state; ++k) {
+            const int field = soil->state_fields[k];
+            state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
+        }
+        const mor_batch batch = {.n = left < BATCH ? left : BATCH,
+                                 .density = soil->set.data[MOR_FIELD_DENSITY] + first,
+                                 .stress_in = soil->set.data[MOR_FIELD_STRESS] + 6 * first,
+                                 .state_in = state};
+        MOR_CHECK(context, soil->material->operations.max_step(soil->material, &batch, steps) == MOR_OK,
+                  MOR_ERROR_NUMERIC, "material '%s' could not tell its longest step", soil->material->material->name);
+        for (int64_t i = 0; i < batch.n; ++i) {
+            if (!(steps[i] >= *step_length)) {
+                *step_length = steps[i];
+                *limit = "the material";
+            }
+        }
+    }
+    return MOR_OK;
+}
+
 /* Z (51) and the limit by acceleration; the speed of waves counts from moving particles. */
 static mor_status propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
 {
     const mor_soil *soil = owner;
-    (void)context;
     const double h = soil->smoothing_length;
-    *step_length = soil->settings.courant * h / (soil->sound_speed + soil->largest_speed);
+    double fastest = soil->largest_speed;
+    for (int w = 0; w < soil->n_walls; ++w) {
+        fastest = fmax(fastest, mor_vector_length(soil->walls[w].velocity));
+    }
+    *step_length = soil->settings.courant * h / (soil->sound_speed + fastest);
     *limit = "the speed of sound in the soil";
     if (soil->largest_acceleration > 0.0) {
         const double by_acceleration = 0.25 * sqrt(h / soil->largest_acceleration);
@@ -243,7 +277,11 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
             *limit = "the acceleration of the soil";
         }
     }
-    return MOR_OK;
+    if (soil->settings.damping * *step_length > 0.5) {
+        *step_length = 0.5 / soil->settings.damping;
+        *limit = "the damping";
+    }
+    return limit_by_material(context, soil, step_length, limit);
 }
 
 void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)

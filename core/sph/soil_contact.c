@@ -182,7 +182,8 @@ static double limited_speed(double closing, mor_dissipation dissipation)
     return dissipation == MOR_DISSIPATION_APPROACH && closing < 0.0 ? 0.0 : fabs(closing);
 }
 
-/* Acceleration of one particle by the wall; returns the part of the tangential motion that is mirrored. */
+/* Acceleration of one particle by the wall, in which is what a continued stress adds; returns the part of the
+ * tangential motion that is mirrored. At a Coulomb wall the cap holds for all of the tangential part. */
 static double push_particle(const mor_soil_contact *contact, mor_dissipation dissipation, double limiter_rate,
                             const double *record, const double *gradient, double *acceleration)
 {
@@ -202,13 +203,17 @@ static double push_particle(const mor_soil_contact *contact, mor_dissipation dis
     double traction[3];
     mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
     const double factor = -2.0 * length / record[MOR_RECORD_DENSITY];
-    const double along = factor * (mor_vector_dot(traction, normal) - pressure);
+    const double own = factor * (mor_vector_dot(traction, normal) - pressure);
+    const double continued = mor_vector_dot(acceleration, normal);
+    const double along = own + continued;
+    const double own_part = contact->friction == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];
     for (int a = 0; a < 3; ++a) {
-        tangential[a] = factor * (traction[a] - pressure * normal[a]) - along * normal[a];
+        tangential[a] = own_part * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]) + acceleration[a] -
+                        continued * normal[a];
     }
-    double hold = contact->friction == MOR_WALL_SMOOTH ? 0.0 : 1.0;
-    double stick = hold;
+    double hold = 1.0;
+    double stick = own_part;
     if (contact->friction == MOR_WALL_COULOMB) {
         const double limit = contact->friction_coefficient * (along > 0.0 ? along : 0.0);
         const double trial = mor_vector_length(tangential);
@@ -251,11 +256,11 @@ void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_
             const double *gradient = contact->sums + slot * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
             double *push = contact->push + 3 * slot;
             push[0] = push[1] = push[2] = 0.0;
-            contact->stick[slot] = push_particle(contact, dissipation, limiter_rate,
-                                                 records + (first + lane) * MOR_RECORD_SIZE, gradient, push);
             if (contact->stress != MOR_WALL_STRESS_UNIFORM) {
                 add_continuation(contact, slot, records + (first + lane) * MOR_RECORD_SIZE, push);
             }
+            contact->stick[slot] = push_particle(contact, dissipation, limiter_rate,
+                                                 records + (first + lane) * MOR_RECORD_SIZE, gradient, push);
             for (int a = 0; a < 3; ++a) {
                 acceleration[(first + lane) * 3 + a] += push[a];
             }

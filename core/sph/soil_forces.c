@@ -75,8 +75,8 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_st
 {
     mor_soil *soil = owner;
     const mor_soil_settings *s = &soil->settings;
-    const double ramp = s->gravity_ramp > 0.0 && step->time < s->gravity_ramp ? step->time / s->gravity_ramp : 1.0;
-    const double weight = ramp * s->reference_density * mor_vector_length(s->gravity);
+    const double part = mor_soil_gravity_part(soil, step);
+    const double weight = part * s->reference_density * mor_vector_length(s->gravity);
     const double *g = soil->constants.gravity_direction;
     /* Stress per height at rest, eq. 26 for any direction of gravity. */
     const double lateral = s->lateral_ratio;

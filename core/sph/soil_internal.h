@@ -25,6 +25,9 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step
 mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step);
 
+/** Part of gravity that acts in a step, 1: that of the ramp at the middle of the step. */
+double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
+
 /** Arrays of the soil as the pair loops want them; borrowed until the next resize or permute. */
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil);
 

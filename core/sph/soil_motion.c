@@ -64,10 +64,11 @@ mor_status mor_soil_drift_first(mor_context *context, void *owner, const mor_ste
     return MOR_OK;
 }
 
-/* Reports the first particle outside the domain or with a position that is not a number. */
+/* Reports the first particle outside the domain, with a position that is not a number, or without density. */
 static mor_status check_domain(mor_context *context, const mor_soil *soil, const mor_step *step)
 {
     const double *position = soil->set.data[MOR_FIELD_POSITION];
+    const double *density = soil->set.data[MOR_FIELD_DENSITY];
     const mor_soil_settings *s = &soil->settings;
     const int64_t n = soil->set.n_particles;
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
@@ -77,7 +78,7 @@ static mor_status check_domain(mor_context *context, const mor_soil *soil, const
             const int is_inside = x[0] >= s->domain_minimum[0] && x[0] <= s->domain_maximum[0] &&
                                   x[1] >= s->domain_minimum[1] && x[1] <= s->domain_maximum[1] &&
                                   x[2] >= s->domain_minimum[2] && x[2] <= s->domain_maximum[2];
-            stray = is_inside ? stray : (double)i;
+            stray = is_inside && density[i] > 0.0 ? stray : (double)i;
         }
         soil->block_values[block] = stray;
     }
@@ -85,6 +86,12 @@ static mor_status check_domain(mor_context *context, const mor_soil *soil, const
         if (soil->block_values[block] >= 0.0) {
             const int64_t i = (int64_t)soil->block_values[block];
             const double *x = position + 3 * i;
+            MOR_CHECK(
+                context, density[i] > 0.0, MOR_ERROR_NUMERIC,
+                "particle %lld of set '%s' has density %.4g kg/m3 at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu; it "
+                "must be positive. A smaller 'courant' or 'density_reinitialization' more often may help",
+                (long long)soil->set.id[i], soil->set.name, density[i], x[0], x[1], x[2], step->time + step->length,
+                (unsigned long long)step->number);
             return MOR_FAIL(context, MOR_ERROR_NUMERIC,
                             "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m at t = %.6g s, "
                             "step %llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain' or "
@@ -171,10 +178,15 @@ mor_status mor_soil_pack(mor_context *context, void *owner, const mor_step *step
 {
     mor_soil *soil = owner;
     const int64_t n = soil->set.n_particles;
-    (void)step;
     MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 4) {
         const int64_t last = (chunk + 1) * GRAIN;
-        pack_range(soil, chunk * GRAIN, last < n ? last : n);
+        soil->block_values[chunk] = pack_range(soil, chunk * GRAIN, last < n ? last : n);
+    }
+    for (int64_t chunk = 0; chunk < (n + GRAIN - 1) / GRAIN; ++chunk) {
+        MOR_CHECK(context, soil->block_values[chunk] == (double)MOR_OK, MOR_ERROR_NUMERIC,
+                  "material '%s' gives no pressure for one of the particles %lld to %lld of set '%s' at t = %.6g s",
+                  soil->material->material->name, (long long)(chunk * GRAIN), (long long)((chunk + 1) * GRAIN - 1),
+                  soil->set.name, step->time);
     }
     /* The lanes behind the last particle repeat it; their sums are thrown away. */
     for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
@@ -184,12 +196,16 @@ mor_status mor_soil_pack(mor_context *context, void *owner, const mor_step *step
     return MOR_OK;
 }
 
-/* Gravity at the middle of a step, with the ramp. */
-static void set_gravity(mor_soil *soil, const mor_step *step)
+double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step)
 {
     const double ramp = soil->settings.gravity_ramp;
     const double middle = step->time + 0.5 * step->length;
-    const double part = ramp > 0.0 && middle < ramp ? middle / ramp : 1.0;
+    return ramp > 0.0 && middle < ramp ? middle / ramp : 1.0;
+}
+
+static void set_gravity(mor_soil *soil, const mor_step *step)
+{
+    const double part = mor_soil_gravity_part(soil, step);
     for (int a = 0; a < 3; ++a) {
         soil->gravity[a] = part * soil->settings.gravity[a];
     }

@@ -19,11 +19,11 @@ typedef struct variant {
 static const variant plain = {"plain", {NULL}, 0};
 
 static const variant variants[] = {
-    {"settled", {"soil[0].initial_stress.type=settled", "soil[0].initial_stress.settle_time=50 ms"}, 2},
+    {"settled", {"soil[0].initial_stress.type=settled", "soil[0].initial_stress.settle_speed_ratio=1"}, 2},
     {"moving_wall", {"walls[1].velocity=(\"0.5 m/s\", 0, 0)"}, 1},
     {"settled_moving",
      {"walls[1].velocity=(\"0.5 m/s\", 0, 0)", "walls[1].friction=coulomb", "walls[1].friction_coefficient=0.3",
-      "soil[0].initial_stress.type=settled", "soil[0].initial_stress.settle_time=50 ms"},
+      "soil[0].initial_stress.type=settled", "soil[0].initial_stress.settle_speed_ratio=1"},
      5},
     {"regularized",
      {"numerics.xsph=0.2", "numerics.shifting=true", "numerics.gradient_correction=true",

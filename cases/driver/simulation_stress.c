@@ -1,0 +1,117 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The stress soil starts with. */
+#include "cases/driver/simulation.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+
+/* The surface of the soil over a grid of vertical columns one spacing wide. */
+typedef struct surface {
+    double across[2][3]; /* unit vectors across up */
+    double low[2];       /* smallest coordinate along them, m */
+    int64_t n[2];        /* columns along them */
+    double spacing;      /* m */
+    double *top;         /* shape [n[0], n[1]]; height of the highest particle over the origin of space, m */
+} surface;
+
+static void set_axes(const double *up, surface *s)
+{
+    /* Any axis that is not along up will do; the grid only has to be the same for all particles. */
+    const int least =
+        fabs(up[0]) <= fabs(up[1]) ? (fabs(up[0]) <= fabs(up[2]) ? 0 : 2) : (fabs(up[1]) <= fabs(up[2]) ? 1 : 2);
+    double *e = s->across[0];
+    for (int a = 0; a < 3; ++a) {
+        e[a] = (a == least ? 1.0 : 0.0) - up[least] * up[a];
+    }
+    const double length = mor_vector_length(e);
+    for (int a = 0; a < 3; ++a) {
+        e[a] /= length;
+    }
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3;
+        const int c = (a + 2) % 3;
+        s->across[1][a] = up[b] * e[c] - up[c] * e[b];
+    }
+}
+
+static int64_t column_of(const surface *s, const double *position)
+{
+    int64_t place[2];
+    for (int k = 0; k < 2; ++k) {
+        /* The middle of a column lies on the lattice, so rounding decides nothing there. */
+        place[k] = (int64_t)floor((mor_vector_dot(position, s->across[k]) - s->low[k]) / s->spacing + 0.5);
+    }
+    return place[0] * s->n[1] + place[1];
+}
+
+static mor_status find_surface(mor_context *context, const mor_simulation *simulation, surface *s)
+{
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    const int64_t n = simulation->soil.set.n_particles;
+    double high[2] = {-INFINITY, -INFINITY};
+    s->spacing = simulation->the_case->spacing;
+    s->low[0] = s->low[1] = INFINITY;
+    set_axes(simulation->up, s);
+    for (int64_t i = 0; i < n; ++i) {
+        for (int k = 0; k < 2; ++k) {
+            const double along = mor_vector_dot(position + 3 * i, s->across[k]);
+            s->low[k] = fmin(s->low[k], along);
+            high[k] = fmax(high[k], along);
+        }
+    }
+    for (int k = 0; k < 2; ++k) {
+        s->n[k] = (int64_t)floor((high[k] - s->low[k]) / s->spacing + 0.5) + 1;
+    }
+    MOR_TRY(context, MOR_NEW(context, &s->top, s->n[0] * s->n[1], "surface of the soil"));
+    for (int64_t k = 0; k < s->n[0] * s->n[1]; ++k) {
+        s->top[k] = -INFINITY;
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        double *top = &s->top[column_of(s, position + 3 * i)];
+        *top = fmax(*top, mor_vector_dot(position + 3 * i, simulation->up));
+    }
+    return MOR_OK;
+}
+
+/* Geostatic stress of one region. */
+static void set_region(mor_simulation *simulation, const surface *s, const mor_case_soil *it, int64_t first, int64_t n)
+{
+    mor_soil *soil = &simulation->soil;
+    const double *up = simulation->up;
+    const double *position = soil->set.data[MOR_FIELD_POSITION];
+    const double weight = it->density * mor_vector_length(soil->settings.gravity);
+    const double lateral = mor_simulation_lateral_ratio(simulation->material->material, it);
+    double origin[3];
+    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    const double level = it->surface_level + mor_vector_dot(origin, up); /* NaN when not given */
+    for (int64_t i = first; i < first + n; ++i) {
+        const double *x = position + 3 * i;
+        const double top = isnan(level) ? s->top[column_of(s, x)] + 0.5 * s->spacing : level;
+        simulation->surface_height = fmax(simulation->surface_height, top);
+        if (it->initial_stress == MOR_CASE_STRESS_NONE) {
+            continue;
+        }
+        const double vertical = -weight * fmax(top - mor_vector_dot(x, up), 0.0);
+        double *stress = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
+        for (int a = 0; a < 3; ++a) {
+            stress[a] = vertical * (lateral + (1.0 - lateral) * up[a] * up[a]);
+            stress[3 + a] = vertical * (1.0 - lateral) * up[a] * up[(a + 1) % 3];
+        }
+    }
+}
+
+mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
+                                     const mor_lattice_points *regions)
+{
+    surface s = {.top = NULL};
+    MOR_TRY(context, find_surface(context, simulation, &s));
+    int64_t first = 0;
+    simulation->surface_height = -INFINITY;
+    for (int k = 0; k < simulation->the_case->n_soils; ++k) {
+        set_region(simulation, &s, &simulation->the_case->soils[k], first, regions[k].n_points);
+        first += regions[k].n_points;
+    }
+    MOR_FREE(context, &s.top);
+    return MOR_OK;
+}
