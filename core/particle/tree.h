@@ -46,7 +46,7 @@ void mor_tree_clear(mor_context *context, mor_tree *tree);
 void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order);
 
 /** Fits the boxes to the points, which must lie in tree order.
- *  @param context [in]      one object; its number of threads is used
+ *  @param context [in]      one object
  *  @param tree    [in,out]  one object
  *  @param points  [in]      shape [n_points, stride]; unit m
  *  @param stride  [in]      doubles per record, >= 3 */
