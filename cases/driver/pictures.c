@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/io/snapshot.h"
+#include "core/sph/measure.h"
 
 #include "cases/driver/charts.h"
 
@@ -82,6 +83,7 @@ typedef struct gallery {
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
     bool is_ground[MOR_CASE_WALLS_MAX];
     double wall_time; /* s; moving walls stand where they are at this time */
+    double range[2];  /* of the colors, over all pictures */
     double *position; /* shape [n, 3], of the present snapshot, m */
     double *value;    /* shape [n], its color */
 } gallery;
@@ -221,6 +223,8 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
         *letter = *letter == '_' ? ' ' : *letter;
     }
     move_walls(g, snapshot->time);
+    picture.has_range = g->range[1] > g->range[0];
+    memcpy(picture.range, g->range, sizeof picture.range);
     picture.time_text = time_text;
     picture.value_name = value_name;
     picture.groups = groups;
@@ -245,24 +249,39 @@ static void free_snapshot_arrays(mor_context *context, gallery *g)
     MOR_FREE(context, &g->value);
 }
 
-/* Opens one snapshot and hands it to the picture, or with no output only widens the frame to hold its soil. */
+/* Widens the frame to hold the soil of a snapshot, and the range of colors to hold nearly all of its values, so that all
+ * pictures of a run can be compared. */
+static mor_status widen_gallery(mor_context *context, gallery *g, const mor_snapshot *snapshot)
+{
+    const mor_snapshot_set *set = mor_snapshot_find_set(snapshot, "soil");
+    const char *unit = NULL;
+    int n_components = 0;
+    double low = 0.0;
+    double high = 0.0;
+    if (set == NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, read_field(context, snapshot, set, "position", &g->position, &n_components));
+    for (int64_t k = 0; k < 3 * set->n_particles; ++k) {
+        const int a = (int)(k % 3);
+        g->frame.minimum[a] = fmin(g->frame.minimum[a], g->position[k] - 0.5 * g->the_case->spacing);
+        g->frame.maximum[a] = fmax(g->frame.maximum[a], g->position[k] + 0.5 * g->the_case->spacing);
+    }
+    MOR_TRY(context, read_colors(context, g, snapshot, set, &unit));
+    MOR_TRY(context, mor_measure_percentile(context, g->value, NULL, set->n_particles, 1.0, &low));
+    MOR_TRY(context, mor_measure_percentile(context, g->value, NULL, set->n_particles, 99.0, &high));
+    g->range[0] = fmin(g->range[0], low);
+    g->range[1] = fmax(g->range[1], high);
+    return MOR_OK;
+}
+
+/* Opens one snapshot and hands it to the picture, or with no output only widens the gallery. */
 static mor_status visit_snapshot(mor_context *context, gallery *g, int64_t step, FILE *output)
 {
     mor_snapshot snapshot;
     MOR_TRY(context, mor_snapshot_open(context, &snapshot, g->folder, step));
-    mor_status status = MOR_OK;
-    if (output != NULL) {
-        status = draw_snapshot(context, g, &snapshot, output);
-    } else {
-        const mor_snapshot_set *set = mor_snapshot_find_set(&snapshot, "soil");
-        int n_components = 0;
-        status = set != NULL ? read_field(context, &snapshot, set, "position", &g->position, &n_components) : MOR_OK;
-        for (int64_t k = 0; status == MOR_OK && set != NULL && k < 3 * set->n_particles; ++k) {
-            const int a = (int)(k % 3);
-            g->frame.minimum[a] = fmin(g->frame.minimum[a], g->position[k] - 0.5 * g->the_case->spacing);
-            g->frame.maximum[a] = fmax(g->frame.maximum[a], g->position[k] + 0.5 * g->the_case->spacing);
-        }
-    }
+    const mor_status status =
+        output != NULL ? draw_snapshot(context, g, &snapshot, output) : widen_gallery(context, g, &snapshot);
     free_snapshot_arrays(context, g);
     mor_snapshot_close(context, &snapshot);
     return status;
@@ -278,6 +297,8 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
 {
     MOR_CHECK(context, list->n > 0, MOR_ERROR_IO, "'%s' holds no snapshot to draw; run the case first", g->folder);
     mor_picture_bounds_init(&g->frame);
+    g->range[0] = INFINITY;
+    g->range[1] = -INFINITY;
     for (int64_t k = 0; k < list->n; ++k) {
         if (is_chosen(choice, k, list->n)) {
             MOR_TRY(context, visit_snapshot(context, g, list->items[k].step, NULL));

@@ -44,6 +44,16 @@ static void set_request(const mor_case *the_case, const mor_shape *shape, mor_la
     memcpy(request->move, the_case->move, sizeof request->move);
 }
 
+/* A shape that cannot be filled is an error of the case, told with its place. */
+static mor_status fill_shape(mor_context *context, const mor_case_place *place, const char *name,
+                             const mor_lattice_request *request, mor_lattice_points *points)
+{
+    const mor_status status = mor_lattice_fill(context, request, points);
+    return status != MOR_ERROR_ARGUMENT ? status
+                                        : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", place->file,
+                                                   place->line, name, context->message);
+}
+
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall,
                                     mor_lattice_points *points)
 {
@@ -63,7 +73,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
         request.domain.minimum[a] -= depth;
         request.domain.maximum[a] += depth;
     }
-    MOR_TRY(context, mor_lattice_fill(context, &request, points));
+    MOR_TRY(context, fill_shape(context, &it->place, it->name, &request, points));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
               "inside the domain and outside earlier walls; make the wall thicker or move it",
@@ -155,7 +165,7 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     set_request(the_case, it->shape, &request);
     request.jitter_ratio = the_case->jitter_ratio;
     const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
-    MOR_TRY(context, mor_lattice_fill(context, &request, points));
+    MOR_TRY(context, fill_shape(context, &it->place, it->name, &request, points));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
               "lattice point inside the domain; make the region larger, the spacing smaller, or move the domain",

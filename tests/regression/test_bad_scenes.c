@@ -1,0 +1,134 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Cases that read well but cannot be built: each is refused with file, line, what was found and what to do. */
+#include "cases/driver/case_read.h"
+#include "cases/driver/pictures.h"
+#include "cases/driver/simulation.h"
+#include "materials/builtin.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* Lines 1 to 9; soil stands in line 7, its wall in line 8. */
+static const char base[] =
+    "title = \"scene\";\n"
+    "dimension = 2;\n"
+    "spacing = \"0.1 m\";\n"
+    "end = \"1 s\";\n"
+    "gravity = (\"0 m/s2\", \"-10 m/s2\");\n"
+    "domain = { min = (\"-1 m\", \"-1 m\"); max = (\"3 m\", \"3 m\"); };\n"
+    "soil = ( { name = \"sand\"; shape = { type = \"box\"; min = (\"0 m\", \"0 m\"); max = (\"1 m\", \"1 m\"); }; "
+    "material = { model = \"drucker_prager\"; density = \"2000 kg/m3\"; youngs_modulus = \"1 MPa\"; "
+    "poissons_ratio = 0.3; friction_angle = \"30 deg\"; }; velocity = (0.0, 0.0); initial_stress = { type = \"none\"; "
+    "}; }, "
+    "{ name = \"cap\"; shape = { type = \"box\"; min = (\"0 m\", \"1 m\"); max = (\"1 m\", \"1.5 m\"); }; "
+    "material = { model = \"drucker_prager\"; density = \"2000 kg/m3\"; youngs_modulus = \"1 MPa\"; "
+    "poissons_ratio = 0.3; friction_angle = \"30 deg\"; }; } );\n"
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (\"0 m\", \"0 m\"); normal = (0, 1); }; "
+    "friction = \"rough\"; } );\n"
+    "output = { color = \"speed\"; };\n";
+
+static const struct {
+    const char *setting, *found, *remedy; /* setting NULL: the base itself, which is good */
+    bool has_line;
+} scenes[] = {
+    {NULL, NULL, NULL, false},
+    {"walls[0].shape.point=(\"0 m\", \"0.25 m\")", "overlapping wall 'floor': 20 of its 100 particles", "move one",
+     true},
+    {"soil[1].shape.min=(\"0 m\", \"0.75 m\")", "overlapping soil 'sand'", "move one", true},
+    {"soil[0].shape.min=(\"-1.5 m\", \"0 m\")", "reaching out of the domain: 50 of its 250", "enlarge 'domain'", true},
+    {"soil[1].shape.max=(\"0.02 m\", \"1.02 m\")", "soil 'cap' without a single particle", "spacing smaller", true},
+    {"walls[0].shape.point=(\"0 m\", \"-9 m\")", "wall 'floor' without a single particle", "thicker or move it", true},
+    {"soil[1].material.density=1900 kg/m3", "differs from that of soil 'sand'", "the same 'material'", true},
+    {"soil[0].material.dilation_angle=40 deg", "dilation", "friction", true},
+    {"output.color=sped", "output.color = \"sped\"", "use one of these", false},
+    {"output.color=stress", "no number or vector", "use one of these", false},
+    {"spacing=1e-9 m", "lattice nodes", "larger spacing", true},
+};
+
+enum { N_SCENES = sizeof scenes / sizeof *scenes };
+
+/* Reads and builds a scene; message receives what was said. */
+static mor_status build_scene(const char *setting, char *message, size_t room)
+{
+    static mor_case the_case; /* large, and empty again after each use */
+    static mor_simulation simulation;
+    mor_context context;
+    mor_registry *registry = NULL;
+    mor_context_init(&context);
+    assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
+    assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK);
+    const mor_case_text text = {"scene.cfg", base, (int64_t)strlen(base), &setting, setting != NULL, registry, NULL};
+    mor_status status = mor_case_read_text(&context, &text, &the_case);
+    if (status == MOR_OK) {
+        status = mor_simulation_init(&context, &simulation, &the_case, registry);
+    }
+    if (status == MOR_OK) {
+        status = mor_pictures_check(&context, &the_case, &simulation.soil.set);
+    }
+    snprintf(message, room, "%s", status == MOR_OK ? "" : context.message);
+    mor_simulation_clear(&context, &simulation);
+    mor_case_clear(&context, &the_case);
+    mor_registry_free(&context, &registry);
+    assert_int_equal(context.memory_bytes, 0); /* exact: a refusal leaves nothing behind */
+    return status;
+}
+
+static void scene_that_cannot_be_built_is_refused_with_place_and_remedy(void **state)
+{
+    (void)state;
+    for (int k = 0; k < N_SCENES; ++k) {
+        char message[MOR_CONTEXT_MESSAGE_BYTES];
+        const mor_status status = build_scene(scenes[k].setting, message, sizeof message);
+        if (scenes[k].setting == NULL) {
+            assert_int_equal(status, MOR_OK);
+            continue;
+        }
+        const bool is_told = strstr(message, scenes[k].found) != NULL && strstr(message, scenes[k].remedy) != NULL &&
+                             (!scenes[k].has_line || strstr(message, "scene.cfg:") != NULL);
+        if (status == MOR_OK || !is_told) {
+            fail_msg("--set %s: status %d, message: %s", scenes[k].setting, (int)status, message);
+        }
+    }
+}
+
+/* Stacked regions share one surface: the lower one carries the weight of the upper one. */
+static void geostatic_stress_counts_all_soil_straight_above(void **state)
+{
+    (void)state;
+    static mor_case the_case;
+    static mor_simulation simulation;
+    mor_context context;
+    mor_registry *registry = NULL;
+    const char *settings[] = {"soil[0].initial_stress.type=k0"};
+    mor_context_init(&context);
+    assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
+    assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK);
+    const mor_case_text text = {"scene.cfg", base, (int64_t)strlen(base), settings, 1, registry, NULL};
+    assert_int_equal(mor_case_read_text(&context, &text, &the_case), MOR_OK);
+    assert_int_equal(mor_simulation_init(&context, &simulation, &the_case, registry), MOR_OK);
+    const mor_set *set = &simulation.soil.set;
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double height = set->data[MOR_FIELD_POSITION][3 * i + 1];
+        const double vertical = set->data[MOR_FIELD_STRESS][6 * i + 1];
+        const double expected = height < 1.0 ? -2000.0 * 10.0 * (1.5 - height) : 0.0;
+        assert_true(fabs(vertical - expected) <= 1e-9 * 30000.0); /* rounding of heights, against 30 kPa at the base */
+    }
+    mor_simulation_clear(&context, &simulation);
+    mor_case_clear(&context, &the_case);
+    mor_registry_free(&context, &registry);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scene_that_cannot_be_built_is_refused_with_place_and_remedy),
+        cmocka_unit_test(geostatic_stress_counts_all_soil_straight_above),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
