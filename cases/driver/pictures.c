@@ -249,7 +249,8 @@ static void free_snapshot_arrays(mor_context *context, gallery *g)
     MOR_FREE(context, &g->value);
 }
 
-/* Widens the frame to hold the soil of a snapshot, and the range of colors to hold nearly all of its values, so that all
+/* Widens the frame to hold the soil of a snapshot, and the range of colors to hold nearly all of its values, so
+ * that all
  * pictures of a run can be compared. */
 static mor_status widen_gallery(mor_context *context, gallery *g, const mor_snapshot *snapshot)
 {

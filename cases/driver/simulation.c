@@ -44,10 +44,24 @@ static void set_request(const mor_case *the_case, const mor_shape *shape, mor_la
     memcpy(request->move, the_case->move, sizeof request->move);
 }
 
+/* More lattice nodes than this along an axis are a slip of the pen, and counting them would take minutes. */
+#define NODES_ALONG 1.0e5
+
 /* A shape that cannot be filled is an error of the case, told with its place. */
 static mor_status fill_shape(mor_context *context, const mor_case_place *place, const char *name,
                              const mor_lattice_request *request, mor_lattice_points *points)
 {
+    mor_bounds bounds;
+    request->shape->operations->bounds(request->shape, &bounds);
+    for (int a = 0; a < request->dimension; ++a) {
+        const double extent =
+            fmin(bounds.maximum[a], request->domain.maximum[a]) - fmax(bounds.minimum[a], request->domain.minimum[a]);
+        MOR_CHECK(
+            context, !(extent > NODES_ALONG * request->spacing), MOR_ERROR_CONFIG,
+            "%s:%d: found '%s' %g m long along %c at a spacing of %g m; allowed are %g particles along an axis; use "
+            "a larger spacing",
+            place->file, place->line, name, extent, "xyz"[a], request -> spacing, NODES_ALONG);
+    }
     const mor_status status = mor_lattice_fill(context, request, points);
     return status != MOR_ERROR_ARGUMENT ? status
                                         : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", place->file,

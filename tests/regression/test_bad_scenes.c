@@ -48,7 +48,8 @@ static const struct {
     {"soil[0].material.dilation_angle=40 deg", "dilation", "friction", true},
     {"output.color=sped", "output.color = \"sped\"", "use one of these", false},
     {"output.color=stress", "no number or vector", "use one of these", false},
-    {"spacing=1e-9 m", "lattice nodes", "larger spacing", true},
+    {"spacing=1e-9 m", "particles along an axis", "larger spacing", true},
+    {"spacing=1.1e-5 m", "lattice nodes", "larger spacing", true},
 };
 
 enum { N_SCENES = sizeof scenes / sizeof *scenes };
