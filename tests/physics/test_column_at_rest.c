@@ -65,12 +65,18 @@ static void column_at_rest_does_not_settle(void **state)
     scene_expect_near("lowest top", c->lowest, height, 3e-4);
 }
 
-static void column_at_rest_stands_on_its_floor(void **state)
+/* Balance of momentum over all walls. How much of it the floor alone carries is not a law of the method: see the limits
+ * in docs/validation/column-at-rest.md. */
+static void walls_together_carry_the_weight_of_a_column_at_rest(void **state)
 {
-    column *c = *state;
+    const column *c = *state;
+    const mor_soil *soil = &c->it->simulation.soil;
     const double weight = 2100.0 * 0.4 * height * gravity; /* N/m */
-    scene_expect_near("force on the floor", scene_probe(c->it, "floor_force"), weight,
-                      0.025 * weight); /* half a spacing of 20 mm at each corner belongs to both walls */
+    double sum = 0.0;
+    for (int w = 0; w < soil->n_walls; ++w) {
+        sum -= soil->wall_force[w][1];
+    }
+    scene_expect_near("force on all walls", sum, weight, 0.003 * weight); /* sway of under a millimeter per second */
 }
 
 /* Any ratio between that of yielding soil and one is an equilibrium; none beyond is. */
@@ -89,7 +95,7 @@ int main(void)
         cmocka_unit_test(column_at_rest_keeps_its_vertical_stress),
         cmocka_unit_test(column_at_rest_comes_to_rest),
         cmocka_unit_test(column_at_rest_does_not_settle),
-        cmocka_unit_test(column_at_rest_stands_on_its_floor),
+        cmocka_unit_test(walls_together_carry_the_weight_of_a_column_at_rest),
         cmocka_unit_test(column_at_rest_keeps_an_admissible_lateral_stress),
     };
     return cmocka_run_group_tests(tests, run_column, free_column);
