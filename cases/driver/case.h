@@ -22,7 +22,9 @@ enum {
     MOR_CASE_TEXT_BYTES = 256,
     MOR_CASE_PARAMETERS_MAX = 32,
     MOR_CASE_SOILS_MAX = 8,
-    MOR_CASE_WALLS_MAX = 16,
+    MOR_CASE_WALLS_MAX = 64,
+    MOR_CASE_BODIES_MAX = 256,
+    MOR_CASE_PAIRS_MAX = 64,
     MOR_CASE_PROBES_MAX = 64,
     MOR_CASE_EXPECTATIONS_MAX = 32
 };
@@ -37,6 +39,7 @@ typedef struct mor_case_place {
 typedef enum mor_case_shape_kind {
     MOR_CASE_SHAPE_BOX,
     MOR_CASE_SHAPE_CYLINDER,
+    MOR_CASE_SHAPE_CONE,
     MOR_CASE_SHAPE_SPHERE,
     MOR_CASE_SHAPE_HALF_SPACE,
     MOR_CASE_SHAPE_POLYGON,
@@ -101,14 +104,75 @@ typedef struct mor_case_wall {
     uint64_t written;
 } mor_case_wall;
 
+/** Velocity of a body at the start, beside velocity and angular velocity. */
+typedef enum mor_case_motion {
+    MOR_CASE_MOTION_UNIFORM,    /* velocity + angular_velocity x arm, nothing more */
+    MOR_CASE_MOTION_CANTILEVER, /* first bending mode of a cantilever */
+    MOR_CASE_MOTION_TWIST       /* turn about an axis that grows along it, sin(pi x / (2 length)) */
+} mor_case_motion;
+
+/** One rock. */
+typedef struct mor_case_body {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    mor_shape *shape;                           /* in the body's own frame; owned by the case */
+    mor_case_shape outline;                     /* what shape was built from; owned by the case */
+    double position[3];                         /* of the origin of the body's frame, m */
+    double axis[3];                             /* of the turn of the body's frame, any length but zero, 1 */
+    double angle;                               /* of that turn, rad */
+    double velocity[3];                         /* of the center of mass, m/s */
+    double angular_velocity[3];                 /* about the center of mass, rad/s */
+    char model[MOR_CASE_NAME_BYTES];            /* "rigid", or a model in total form */
+    double density;                             /* kg/m3 */
+    double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI; not of "rigid" */
+    double contact_modulus;                     /* Pa; NaN (rigid bodies only): what mor_case_contact_modulus chooses */
+    mor_case_friction soil_friction;
+    double soil_friction_coefficient; /* Coulomb only, 1 */
+    bool is_prescribed;               /* rigid: moves with its velocities whatever pushes it */
+    bool is_locked[6];                /* rigid: no motion along x, y, z; no turn about x, y, z */
+    bool has_spring;                  /* rigid: spring and damper to a fixed point */
+    double spring_point[3];           /* of the body's own frame, m */
+    double spring_anchor[3];          /* fixed, frame of the case, m */
+    double spring_length;             /* at rest, m; NaN: the distance at the start */
+    double spring_stiffness;          /* N/m (N/m2) */
+    double spring_damping;            /* N s/m (N s/m2) */
+    mor_shape *clamp;                 /* elastic: particles inside do not move; frame of the case; NULL: none; owned */
+    mor_case_shape clamp_outline;     /* what clamp was built from; owned by the case */
+    mor_case_motion motion;
+    double motion_axis[3];      /* along the bar, 1 */
+    double motion_direction[3]; /* of bending, 1 */
+    double motion_origin[3];    /* clamped end, frame of the case, m */
+    double motion_length;       /* of the bar, m */
+    double motion_speed;        /* cantilever: of the free end, m/s; twist: rate of turn of the free end, rad/s */
+    uint64_t written, written_material, written_parameters, written_spring, written_motion;
+} mor_case_body;
+
+/** Contact of two bodies, or of a body and a wall, by name. */
+typedef struct mor_case_contact_pair {
+    char first[MOR_CASE_NAME_BYTES], second[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    double friction_coefficient; /* 1 */
+    double restitution;          /* 1 */
+    uint64_t written;
+} mor_case_contact_pair;
+
+/** Contact among bodies and walls. */
+typedef struct mor_case_contact {
+    double friction_coefficient; /* of pairs not listed, 1 */
+    double restitution;          /* likewise, 1 */
+    mor_case_contact_pair pairs[MOR_CASE_PAIRS_MAX];
+    int n_pairs;
+    uint64_t written;
+} mor_case_contact;
+
 /** Settings of the method, design.md "Fine grains". */
 typedef struct mor_case_numerics {
     double smoothing_ratio;            /* h / spacing, 1.3 */
-    bool lattice_normalization;       /* kernel gradient exact for linear fields on the initial lattice */
+    bool lattice_normalization;        /* kernel gradient exact for linear fields on the initial lattice */
     double courant;                    /* CFL number, 0.4 */
     int dissipation;                   /* 0 separation, 1 approach, 2 both */
     int wall_dissipation;              /* likewise for walls */
-    int wall_stress;                  /* 0 uniform, 1 along, 2 linear */
+    int wall_stress;                   /* 0 uniform, 1 along, 2 linear */
     double dissipation_factor;         /* eta; default 20 * dimension */
     bool density_pressure_term;        /* pressure part of U* in the density rate */
     double stress_diffusion;           /* zeta; 0: off */
@@ -123,6 +187,15 @@ typedef struct mor_case_numerics {
     int sort_interval;                 /* steps between sorts */
     double damping;                    /* velocity damping rate, 1/s; 0: off */
     double gravity_ramp;               /* time over which gravity grows linearly from 0, s */
+    bool single_rate;                  /* soil and bodies at one common step instead of sub-steps */
+    double body_smoothing_ratio;       /* h / spacing of elastic bodies, 1.15 */
+    double body_courant;               /* CFL number of elastic bodies, 0.4 */
+    double body_damping;               /* Kelvin-Voigt damping of elastic bodies over that of the source, 1 */
+    double hourglass;                  /* strength of the hourglass control, 1; 0: off */
+    int body_stress;                   /* stress soil sees in bodies, as wall_stress */
+    bool angular_momentum;             /* soil forces that keep angular momentum to rounding */
+    double barrier_stiffness;          /* of the barrier between soil and bodies, N/m (N/m2); 0: off */
+    double barrier_radius;             /* reach of the barrier, m; default the spacing */
 } mor_case_numerics;
 
 /** One probe: a named result. */
@@ -132,6 +205,7 @@ typedef struct mor_case_probe {
     char type[MOR_CASE_NAME_BYTES];    /* "run_out", "height", "repose_angle", "kinetic_energy", ... */
     char measure[MOR_CASE_NAME_BYTES]; /* of a run-out: "mass_percentile" or "thickness" */
     char wall[MOR_CASE_NAME_BYTES];    /* of a wall force */
+    char body[MOR_CASE_NAME_BYTES];    /* of a probe of one body */
     bool is_radial;                    /* run-out measured as a radius about origin, else along direction */
     double origin[3];                  /* m */
     double direction[3];               /* unit vector; run-out and force component */
@@ -189,6 +263,9 @@ typedef struct mor_case {
     int n_soils;
     mor_case_wall walls[MOR_CASE_WALLS_MAX];
     int n_walls;
+    mor_case_body bodies[MOR_CASE_BODIES_MAX];
+    int n_bodies;
+    mor_case_contact contact;
     mor_case_numerics numerics;
     mor_case_probe probes[MOR_CASE_PROBES_MAX];
     int n_probes;

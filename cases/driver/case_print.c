@@ -70,15 +70,16 @@ static void describe_range(const mor_schema *schema, char *text, size_t text_byt
     }
 }
 
-static void print_row(FILE *stream, const mor_schema *schema, const char *computed)
+static void print_row(FILE *stream, const mor_schema *schema, const char *unit_plane, const char *computed)
 {
     char fallback[CELL_BYTES];
     char range[CELL_BYTES];
     describe_default(schema, computed, fallback, sizeof fallback);
     describe_range(schema, range, sizeof range);
     const bool has_unit = schema->kind != MOR_SCHEMA_TEXT && strcmp(schema->unit, "1") != 0;
-    fprintf(stream, "| `%s` | %s | %s | %s | %s | %s |\n", schema->key, name_kind(schema), has_unit ? schema->unit : "",
-            fallback, range, schema->text);
+    fprintf(stream, "| `%s` | %s | %s%s%s%s | %s | %s | %s |\n", schema->key, name_kind(schema),
+            has_unit ? schema->unit : "", unit_plane == NULL ? "" : " (", unit_plane == NULL ? "" : unit_plane,
+            unit_plane == NULL ? "" : ")", fallback, range, schema->text);
 }
 
 static void print_heading(FILE *stream, int level, const char *title, const char *name)
@@ -97,7 +98,7 @@ static void print_group(FILE *stream, int level, const mor_case_group *group, co
         fprintf(stream, "| `type` | word |  | **required** | %s | type of the shape |\n", extra);
     }
     for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
-        print_row(stream, &key->schema, key->computed);
+        print_row(stream, &key->schema, key->unit_plane, key->computed);
     }
     for (const mor_case_part *part = group->parts; part != NULL && part->name != NULL; ++part) {
         fprintf(stream, "| `%s` | %s |  | %s |  | %s |\n", part->name, part->form,
@@ -116,8 +117,12 @@ static void print_probe_types(FILE *stream)
                 is_same ? "" : type->unit_plane, is_same ? "" : ")");
         for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
             if ((type->allowed >> k & 1U) != 0) {
+                const bool is_required = (mor_case_probe_required(type, 2) >> k & 1U) != 0;
+                const bool is_required_in_space = (mor_case_probe_required(type, 3) >> k & 1U) != 0;
                 fprintf(stream, "`%s`%s ", mor_case_probe_key_names[k],
-                        (type->required >> k & 1U) != 0 ? " (required)" : "");
+                        is_required            ? " (required)"
+                        : is_required_in_space ? " (required in 3D)"
+                                               : "");
             }
         }
         const bool has_percentile = (type->allowed & MOR_CASE_PROBE_PERCENTILE) != 0;
@@ -136,19 +141,19 @@ static void print_models(const mor_registry *registry, FILE *stream)
         const mor_material *model = mor_registry_get(registry, k);
         print_heading(stream, 3, model->text, model->name);
         for (const mor_schema *entry = model->parameters; entry->key != NULL; ++entry) {
-            print_row(stream, entry, NULL);
+            print_row(stream, entry, NULL, NULL);
         }
     }
 }
 
 mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, FILE *stream)
 {
-    fprintf(
-        stream,
-        "# Case files\n\nA case file is in the language of libconfig: `name = value;`, groups in `{ }`, lists in "
-        "`( )`, texts in\ndouble quotes, comments after `#`. A bare number is in the SI unit of the table; a value "
-        "with another unit\nis a text: `\"5.98 MPa\"`, `\"30 deg\"`. In plane strain a vector may have two numbers. "
-        "A name that is not\nlisted here is refused.\n");
+    fprintf(stream,
+            "# Case files\n\nA case file is in the language of libconfig: `name = value;`, groups in `{ }`, lists in "
+            "`( )`, texts in\ndouble quotes, comments after `#`. A bare number is in the SI unit of the table; a value "
+            "with another unit\nis a text: `\"5.98 MPa\"`, `\"30 deg\"`. In plane strain a vector may have two "
+            "numbers, and "
+            "units in parentheses\nhold. A name that is not listed here is refused.\n");
     print_group(stream, 2, &mor_case_root_group, NULL);
     for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
         print_group(stream, 2, group, NULL);
@@ -157,6 +162,12 @@ mor_status mor_case_schema_print(mor_context *context, const mor_registry *regis
     print_group(stream, 3, &mor_case_material_group, NULL);
     print_group(stream, 3, &mor_case_stress_group, NULL);
     print_group(stream, 2, &mor_case_wall_group, NULL);
+    print_group(stream, 2, &mor_case_body_group, NULL);
+    print_group(stream, 3, &mor_case_body_material_group, NULL);
+    print_group(stream, 3, &mor_case_spring_group, NULL);
+    print_group(stream, 3, &mor_case_start_group, NULL);
+    print_group(stream, 2, &mor_case_contact_group, NULL);
+    print_group(stream, 3, &mor_case_pair_group, NULL);
     fprintf(stream, "\n## Shapes\n");
     for (int k = 0; k < MOR_CASE_SHAPE_COUNT; ++k) {
         print_group(stream, 3, &mor_case_shape_groups[k], mor_case_shape_groups[k].name);

@@ -145,6 +145,9 @@ static void complete_settings(mor_case *the_case)
     if (!mor_case_reader_has(numerics, the_case->written_numerics, "dissipation_factor")) {
         the_case->numerics.dissipation_factor = 20.0 * the_case->dimension;
     }
+    if (!mor_case_reader_has(numerics, the_case->written_numerics, "barrier_radius")) {
+        the_case->numerics.barrier_radius = the_case->spacing;
+    }
     if (!mor_case_reader_has(output, the_case->written_output, "series_interval")) {
         the_case->output.series_interval = the_case->end / 200.0;
     }
@@ -184,6 +187,13 @@ void mor_case_clear(mor_context *context, mor_case *the_case)
     for (int k = 0; k < the_case->n_walls; ++k) {
         mor_shape_free(context, &the_case->walls[k].shape);
         mor_case_shape_clear(context, &the_case->walls[k].outline);
+    }
+    for (int k = 0; k < the_case->n_bodies; ++k) {
+        mor_case_body *body = &the_case->bodies[k];
+        mor_shape_free(context, &body->shape);
+        mor_shape_free(context, &body->clamp);
+        mor_case_shape_clear(context, &body->outline);
+        mor_case_shape_clear(context, &body->clamp_outline);
     }
     memset(the_case, 0, sizeof *the_case);
 }

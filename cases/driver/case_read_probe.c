@@ -44,6 +44,7 @@ static void list_keys(unsigned bits, char *text, size_t text_bytes)
 static mor_status check_special_keys(const mor_case_reader *reader, const mor_case_node *node,
                                      const mor_case_probe_type *type)
 {
+    const unsigned required = mor_case_probe_required(type, reader->dimension);
     for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
         const char *key = mor_case_probe_key_names[k];
         const mor_case_node *child = mor_case_node_find(node, key);
@@ -55,7 +56,7 @@ static mor_status check_special_keys(const mor_case_reader *reader, const mor_ca
                                       "allowed: %s; remove it",
                                       key, type->name, allowed);
         }
-        if (child == NULL && (type->required >> k & 1U) != 0) {
+        if (child == NULL && (required >> k & 1U) != 0) {
             return MOR_CASE_NODE_FAIL(reader->context, node,
                                       "found no '%s' in a probe of type '%s'; allowed: one; add it", key, type->name);
         }
@@ -107,7 +108,11 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
         probe->thickness = 0.5 * spacing;
     }
     if (!has_direction) {
-        memcpy(probe->direction, (double[]){1.0, 0.0, 0.0}, sizeof probe->direction);
+        const bool is_turn_of_plane = reader->dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_TURN) != 0;
+        memset(probe->direction, 0, sizeof probe->direction);
+        probe->direction[is_turn_of_plane ? 2 : 0] = 1.0;
+    } else if ((type->traits & MOR_CASE_PROBE_OF_TURN) != 0) {
+        MOR_TRY(reader->context, mor_case_reader_out_of_plane(reader, node, "direction", probe->direction));
     }
     normalize(probe->direction);
     if (!mor_case_reader_has(group, probe->written, "radial")) {
@@ -125,21 +130,51 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
                : refuse_idle(reader, node, "thickness", "measure = \"thickness\"");
 }
 
-static mor_status check_probe_wall(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
-                                   const char *wall)
+/* Child: the key that holds the name; NULL when it was not written. */
+static mor_status check_name(const mor_case_reader *reader, const mor_case_node *child, const char *what,
+                             const char *name, const char *const *words, int n_words)
 {
-    const mor_case_node *child = mor_case_node_find(node, "wall");
-    if (child == NULL) {
-        return MOR_OK;
-    }
-    const char *words[MOR_CASE_WALLS_MAX];
-    for (int k = 0; k < the_case->n_walls; ++k) {
-        words[k] = the_case->walls[k].name;
-        if (strcmp(words[k], wall) == 0) {
+    for (int k = 0; k < n_words; ++k) {
+        if (strcmp(words[k], name) == 0) {
             return MOR_OK;
         }
     }
-    return mor_case_reader_refuse(reader, child, "name of a wall", words, the_case->n_walls);
+    return child == NULL ? MOR_OK : mor_case_reader_refuse(reader, child, what, words, n_words);
+}
+
+static mor_status check_probe_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                    const mor_case_probe *probe)
+{
+    const char *walls[MOR_CASE_WALLS_MAX];
+    const char *bodies[MOR_CASE_BODIES_MAX];
+    for (int k = 0; k < the_case->n_walls; ++k) {
+        walls[k] = the_case->walls[k].name;
+    }
+    for (int k = 0; k < the_case->n_bodies; ++k) {
+        bodies[k] = the_case->bodies[k].name;
+    }
+    MOR_TRY(reader->context, check_name(reader, mor_case_node_find(node, "wall"), "name of a wall", probe->wall, walls,
+                                        the_case->n_walls));
+    return check_name(reader, mor_case_node_find(node, "body"), "name of a body", probe->body, bodies,
+                      the_case->n_bodies);
+}
+
+/* A probe of what the case does not have would measure nothing for the whole of the run. */
+static mor_status check_scene(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                              const mor_case_probe_type *type)
+{
+    const bool lacks_soil = (type->traits & MOR_CASE_PROBE_OF_SOIL) != 0 && the_case->n_soils == 0;
+    const bool lacks_bodies = (type->traits & MOR_CASE_PROBE_OF_BODIES) != 0 && the_case->n_bodies == 0;
+    if (!lacks_soil && !lacks_bodies) {
+        return MOR_OK;
+    }
+    const mor_case_node *name = mor_case_node_find(node, "name");
+    const char *missing = lacks_soil ? "soil" : "bodies";
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found the probe '%s' of type '%s' in a case without %s; allowed: with %s; remove the "
+                              "probe or add %s",
+                              name != NULL && name->kind == MOR_CASE_NODE_TEXT ? name->text : type->name, type->name,
+                              missing, missing, missing);
 }
 
 static mor_status read_probe(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
@@ -149,10 +184,11 @@ static mor_status read_probe(const mor_case_reader *reader, const mor_case_node 
     mor_case_reader_place(node, &probe->place);
     MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_probe_group, NULL, NULL));
     MOR_TRY(reader->context, read_type(reader, node, &type));
+    MOR_TRY(reader->context, check_scene(reader, node, the_case, type));
     MOR_TRY(reader->context, check_special_keys(reader, node, type));
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_probe_group, probe));
     MOR_TRY(reader->context, complete_probe(reader, node, the_case->spacing, type, probe));
-    MOR_TRY(reader->context, check_probe_wall(reader, node, the_case, probe->wall));
+    MOR_TRY(reader->context, check_probe_names(reader, node, the_case, probe));
     for (const mor_case_probe *other = the_case->probes; other < probe; ++other) {
         if (strcmp(other->name, probe->name) == 0) {
             return MOR_CASE_NODE_FAIL(reader->context, node,

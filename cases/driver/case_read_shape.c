@@ -170,6 +170,8 @@ static mor_status construct(mor_context *context, const mor_case_shape *outline,
     case MOR_CASE_SHAPE_CYLINDER:
         return mor_shape_new_cylinder(context, outline->first, outline->second, outline->radius, outline->height,
                                       shape);
+    case MOR_CASE_SHAPE_CONE:
+        return mor_shape_new_cone(context, outline->first, outline->second, outline->radius, outline->height, shape);
     case MOR_CASE_SHAPE_SPHERE:
         return mor_shape_new_sphere(context, outline->first, outline->radius, shape);
     case MOR_CASE_SHAPE_HALF_SPACE:

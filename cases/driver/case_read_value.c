@@ -255,9 +255,10 @@ static mor_status read_key(const mor_case_reader *reader, const mor_case_node *n
         return read_text(reader, node, key, member);
     }
     double values[COMPONENTS_MAX];
-    MOR_TRY(reader->context, mor_case_reader_numbers(reader, node, &key->schema, key->keeps_scale, values));
+    const mor_schema schema = mor_case_key_schema(key, reader->dimension);
+    MOR_TRY(reader->context, mor_case_reader_numbers(reader, node, &schema, key->keeps_scale, values));
     if (key->is_direction && values[0] == 0.0 && values[1] == 0.0 && values[2] == 0.0) {
-        return fail_value(reader, node, &key->schema, "a direction of length zero", "give it a length");
+        return fail_value(reader, node, &schema, "a direction of length zero", "give it a length");
     }
     store_numbers(key, values, member);
     if (key->storage == MOR_CASE_STORE_SEED) {
@@ -270,11 +271,15 @@ static mor_status read_key(const mor_case_reader *reader, const mor_case_node *n
 static mor_status store_default(const mor_case_reader *reader, const mor_case_key *key, void *member)
 {
     double values[COMPONENTS_MAX];
-    for (int k = 0; k < key->schema.n_components; ++k) {
-        values[k] = key->schema.default_value;
+    const mor_schema schema = mor_case_key_schema(key, reader->dimension);
+    if (key->shares_member) {
+        return MOR_OK;
+    }
+    for (int k = 0; k < schema.n_components; ++k) {
+        values[k] = schema.default_value;
     }
     if (!key->keeps_scale) {
-        MOR_TRY(reader->context, mor_case_reader_scale(reader, key->schema.unit, values, key->schema.n_components, 1));
+        MOR_TRY(reader->context, mor_case_reader_scale(reader, schema.unit, values, schema.n_components, 1));
     }
     if (key->storage == MOR_CASE_STORE_BOOL || key->storage == MOR_CASE_STORE_REALS || !isnan(values[0])) {
         store_numbers(key, values, member);
@@ -296,8 +301,9 @@ mor_status mor_case_reader_group(const mor_case_reader *reader, const mor_case_n
         } else if (key->schema.is_required) {
             char path[PATH_BYTES];
             char allowed[ALLOWED_BYTES];
+            const mor_schema schema = mor_case_key_schema(key, reader->dimension);
             mor_case_node_path(node, path, sizeof path);
-            describe_allowed(reader, &key->schema, allowed, sizeof allowed);
+            describe_allowed(reader, &schema, allowed, sizeof allowed);
             return MOR_CASE_NODE_FAIL(reader->context, node, "found no '%s' in %s; allowed: %s (%s); add it",
                                       key->schema.key, path, allowed, key->schema.text);
         } else {

@@ -111,7 +111,69 @@ bool mor_case_reader_has(const mor_case_group *group, uint64_t written, const ch
 mor_status mor_case_reader_shape(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
                                  mor_shape **shape);
 
-/** Reads the lists soil and walls.
+/** Where the group material of a soil or a body goes. */
+typedef struct mor_case_material_slot {
+    const mor_case_group *group; /* one object; its keys are model and density */
+    void *record;                /* one object of the struct that the group's offsets refer to */
+    mor_material_form form;      /* of the models allowed */
+    const char *bare_word;       /* zero-terminated; a model that has no parameters and no code; NULL: none */
+    const double *density;       /* one number, member of the record, unit kg/m3 */
+    double *parameters; /* shape [MOR_CASE_PARAMETERS_MAX], member of the record; units of the model's schema */
+    uint64_t *written;  /* one number, member of the record: which parameters were given */
+    const char *what;   /* zero-terminated; for messages: "material model of a soil" */
+} mor_case_material_slot;
+
+/** Reads the group material and asks the model whether it agrees.
+ *  @param reader [in]  one object
+ *  @param owner  [in]  one object; the soil or body
+ *  @param slot   [in]  one object
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_PLUGIN for a model of too many parameters; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
+                                    const mor_case_material_slot *slot);
+
+/** Refuses a vector that leaves the plane in plane strain.
+ *  @param reader [in]  one object
+ *  @param group  [in]  one object; the vector's group
+ *  @param name   [in]  zero-terminated; the vector's key
+ *  @param vector [in]  shape [3]; any unit
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_in_plane(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                    const double *vector);
+
+/** Refuses an axis or a rate of turn that is not normal to the plane in plane strain.
+ *  @param reader [in]  one object
+ *  @param group  [in]  one object; the vector's group
+ *  @param name   [in]  zero-terminated; the vector's key
+ *  @param vector [in]  shape [3]; any unit
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_out_of_plane(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                        const double *vector);
+
+/** Refuses a name that is taken.
+ *  @param reader [in]  one object
+ *  @param group  [in]  one object; has the name again
+ *  @param name   [in]  zero-terminated
+ *  @param first  [in]  one object; where the name was taken
+ *  Returns: MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_twin(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                const mor_case_place *first);
+
+/** Refuses Coulomb friction without friction_coefficient, and that key with any other friction.
+ *  @param reader   [in]  one object
+ *  @param node     [in]  one object; a wall or a body
+ *  @param friction [in]  what it was read to be
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_case_node *node,
+                                    mor_case_friction friction);
+
+/** Reads the list bodies and the group contact.
+ *  @param reader   [in]      one object
+ *  @param root     [in]      one object
+ *  @param the_case [in,out]  one object; walls are known
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_bodies(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
+/** Reads the lists soil, walls and bodies, and the group contact.
  *  @param reader   [in]      one object
  *  @param root     [in]      one object
  *  @param the_case [in,out]  one object
@@ -121,7 +183,7 @@ mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_n
 /** Reads the lists probes and expect.
  *  @param reader   [in]      one object
  *  @param root     [in]      one object
- *  @param the_case [in,out]  one object; walls are known
+ *  @param the_case [in,out]  one object; walls and bodies are known
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 

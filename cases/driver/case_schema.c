@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case_schema.h"
 
+#include "core/particle/field.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -49,8 +51,10 @@ static const mor_case_part root_parts[] = {
     {"lattice", false, "group", "lattice that regions are filled from"},
     {"placement", false, "group", "turn and move of the whole scene, gravity included"},
     {"scale", false, "group", "change of units of the whole case, to check that results do not depend on them"},
-    {"soil", true, "list of groups", "soil regions"},
+    {"soil", false, "list of groups", "soil regions; a case has soil, or bodies, or both"},
     {"walls", false, "list of groups", "solid walls"},
+    {"bodies", false, "list of groups", "rocks, elastic or rigid"},
+    {"contact", false, "group", "contact of bodies with bodies and walls"},
     {"numerics", false, "group", "settings of the method"},
     {"probes", false, "list of groups", "results to measure"},
     {"expect", false, "list of groups", "reference values that results are compared with"},
@@ -107,7 +111,8 @@ static const mor_case_key numerics_keys[] = {
      NUMERICS(courant)},
     {{"lattice_normalization", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
       "whether the kernel gradient is scaled to be exact for linear fields on the initial lattice"},
-     MOR_CASE_STORE_BOOL, NUMERICS(lattice_normalization)},
+     MOR_CASE_STORE_BOOL,
+     NUMERICS(lattice_normalization)},
     {{"dissipation", CHOICE, "1", DEFAULT(0.0), ANY, "separation|approach|both",
       "relative motion between soil particles that the Riemann solver damps"},
      MOR_CASE_STORE_CHOICE,
@@ -118,7 +123,8 @@ static const mor_case_key numerics_keys[] = {
      NUMERICS(wall_dissipation)},
     {{"wall_stress", CHOICE, "1", DEFAULT(1.0), ANY, "uniform|along|linear",
       "stress a particle sees in a wall: its own, or its own varying as in the soil along the wall, or everywhere"},
-     MOR_CASE_STORE_CHOICE, NUMERICS(wall_stress)},
+     MOR_CASE_STORE_CHOICE,
+     NUMERICS(wall_stress)},
     {{"dissipation_factor", SCALAR, "1", DEFAULT(NAN), NOT_NEGATIVE, NULL, "slope of the dissipation limiter"},
      MOR_CASE_STORE_REALS,
      NUMERICS(dissipation_factor),
@@ -169,6 +175,42 @@ static const mor_case_key numerics_keys[] = {
       "time over which gravity grows from zero; 0: none"},
      MOR_CASE_STORE_REALS,
      NUMERICS(gravity_ramp)},
+    {{"single_rate", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
+      "whether soil and bodies take the same steps, in place of several of the bodies in one of the soil"},
+     MOR_CASE_STORE_BOOL,
+     NUMERICS(single_rate)},
+    {{"body_smoothing_ratio", SCALAR, "1", DEFAULT(1.15), 1.0, 3.0, 0, 0, NULL,
+      "smoothing length / spacing of elastic bodies"},
+     MOR_CASE_STORE_REALS,
+     NUMERICS(body_smoothing_ratio)},
+    {{"body_courant", SCALAR, "1", DEFAULT(0.4), 0.0, 1.0, 1, 0, NULL, "Courant number of elastic bodies"},
+     MOR_CASE_STORE_REALS,
+     NUMERICS(body_courant)},
+    {{"body_damping", SCALAR, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL,
+      "viscous damping of elastic bodies / that of Zhang et al. (2024); 0: off"},
+     MOR_CASE_STORE_REALS,
+     NUMERICS(body_damping)},
+    {{"hourglass", SCALAR, "1", DEFAULT(0.1), NOT_NEGATIVE, NULL,
+      "strength of the hourglass control of elastic bodies; 0: off"},
+     MOR_CASE_STORE_REALS,
+     NUMERICS(hourglass)},
+    {{"body_stress", CHOICE, "1", DEFAULT(2.0), ANY, "uniform|along|linear",
+      "stress a soil particle sees in a body, as wall_stress"},
+     MOR_CASE_STORE_CHOICE,
+     NUMERICS(body_stress)},
+    {{"angular_momentum", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
+      "whether forces within the soil keep its angular momentum to rounding"},
+     MOR_CASE_STORE_BOOL,
+     NUMERICS(angular_momentum)},
+    {{"barrier_stiffness", SCALAR, "N/m", DEFAULT(0.0), NOT_NEGATIVE, NULL,
+      "stiffness of the barrier that keeps soil particles out of bodies, Jiang et al. (2022) eq. 23; 0: off"},
+     MOR_CASE_STORE_REALS,
+     NUMERICS(barrier_stiffness),
+     .unit_plane = "N/m2"},
+    {{"barrier_radius", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "distance at which the barrier begins to push"},
+     MOR_CASE_STORE_REALS,
+     NUMERICS(barrier_radius),
+     .computed = "spacing"},
     END};
 
 #define OUTPUT(member) AT(mor_case, output.member)
@@ -256,7 +298,10 @@ static const mor_case_key stress_keys[] = {
     END};
 
 static const mor_case_key wall_keys[] = {
-    {{"name", WORDS, "1", REQUIRED, ANY, NULL, "name of the wall"}, MOR_CASE_STORE_NAME, AT(mor_case_wall, name)},
+    {{"name", WORDS, "1", REQUIRED, ANY, NULL, "name of the wall, not that of a body"},
+     MOR_CASE_STORE_NAME,
+     .offset = offsetof(mor_case_wall, name),
+     .size = MOR_FIELD_NAME_BYTES},
     {{"friction", CHOICE, "1", DEFAULT(0.0), ANY, "rough|smooth|coulomb",
       "rough: no slip; smooth: free slip; coulomb: "
       "slip at friction_coefficient"},
@@ -295,6 +340,14 @@ static const mor_case_key cylinder_keys[] = {
     {{"radius", SCALAR, "m", REQUIRED, POSITIVE, NULL, "radius"}, SHAPE(radius)},
     {{"height", SCALAR, "m", REQUIRED, POSITIVE, NULL, "distance between the ends"}, SHAPE(height)},
     END};
+static const mor_case_key cone_keys[] = {
+    {{"base", VECTOR, "m", REQUIRED, ANY, NULL, "center of the base"}, SHAPE(first)},
+    {{"axis", VECTOR, "1", REQUIRED, ANY, NULL, "direction from the base to the apex"},
+     SHAPE(second),
+     .is_direction = true},
+    {{"radius", SCALAR, "m", REQUIRED, POSITIVE, NULL, "radius of the base"}, SHAPE(radius)},
+    {{"height", SCALAR, "m", REQUIRED, POSITIVE, NULL, "distance from the base to the apex"}, SHAPE(height)},
+    END};
 static const mor_case_key sphere_keys[] = {{{"center", VECTOR, "m", REQUIRED, ANY, NULL, "center"}, SHAPE(first)},
                                            {{"radius", SCALAR, "m", REQUIRED, POSITIVE, NULL, "radius"}, SHAPE(radius)},
                                            END};
@@ -328,6 +381,7 @@ static const mor_case_part moved_parts[] = {{"shape", true, "shape", "what is mo
 const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
     [MOR_CASE_SHAPE_BOX] = {"box", "Box with faces normal to the axes", box_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_CYLINDER] = {"cylinder", "Solid cylinder", cylinder_keys, NULL, WRITTEN},
+    [MOR_CASE_SHAPE_CONE] = {"cone", "Solid cone", cone_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_SPHERE] = {"sphere", "Ball; a disc in plane strain", sphere_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_HALF_SPACE] = {"half_space", "Everything behind a plane", half_space_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_POLYGON] = {"polygon", "Polygon in x and y", no_keys, polygon_parts, WRITTEN},
@@ -338,6 +392,15 @@ const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
 };
 
 /* ---- Look-up ----------------------------------------------------------------------------------------------------- */
+
+mor_schema mor_case_key_schema(const mor_case_key *key, int dimension)
+{
+    mor_schema schema = key->schema;
+    if (dimension == 2 && key->unit_plane != NULL) {
+        schema.unit = key->unit_plane;
+    }
+    return schema;
+}
 
 int mor_case_key_find(const mor_case_key *keys, const char *name)
 {

@@ -30,11 +30,13 @@ typedef enum mor_case_storage {
 typedef struct mor_case_key {
     mor_schema schema; /* of a choice, default_value is the index of the word */
     mor_case_storage storage;
-    size_t offset;        /* of the member in the record, bytes */
-    size_t size;          /* of the member, bytes */
-    const char *computed; /* words for a default that depends on other values; NULL: default_value */
-    bool is_direction;    /* a vector whose length means nothing, and which may not be zero */
-    bool keeps_scale;     /* not simulated time, so that the scale of the case does not touch it */
+    size_t offset;          /* of the member in the record, bytes */
+    size_t size;            /* of the member, bytes */
+    const char *computed;   /* words for a default that depends on other values; NULL: default_value */
+    bool is_direction;      /* a vector whose length means nothing, and which may not be zero */
+    bool keeps_scale;       /* not simulated time, so that the scale of the case does not touch it */
+    bool shares_member;     /* another key fills the same member: left alone when this one is not written */
+    const char *unit_plane; /* in plane strain, per meter of thickness; NULL: the same as in space */
 } mor_case_key;
 
 /** A key that holds a group or a list of its own. A table ends with name NULL. */
@@ -60,6 +62,21 @@ extern const mor_case_group mor_case_root_group;
 /** Groups directly below the top whose record is mor_case; ends with name NULL. */
 extern const mor_case_group mor_case_settings_groups[];
 
+/** Members of the list bodies, and the groups of a body; record mor_case_body. */
+extern const mor_case_group mor_case_body_group, mor_case_body_material_group, mor_case_spring_group,
+    mor_case_start_group;
+
+/** The group contact and the members of its list pairs; records mor_case_contact and mor_case_contact_pair. */
+extern const mor_case_group mor_case_contact_group, mor_case_pair_group;
+
+enum { MOR_CASE_LOCKS = 6 };
+
+/** Words of the member locked of a body, in the order of mor_case_body.is_locked. */
+extern const char *const mor_case_lock_words[MOR_CASE_LOCKS];
+
+/** Name of the model of bodies that do not deform. */
+extern const char mor_case_rigid_word[];
+
 /** Members of the lists soil, walls, probes and expect, and the groups of a soil; records mor_case_soil, mor_case_wall,
  *  mor_case_probe, mor_case_expectation. */
 extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
@@ -76,7 +93,15 @@ enum {
     MOR_CASE_PROBE_THICKNESS = 8,
     MOR_CASE_PROBE_ORIGIN = 16,
     MOR_CASE_PROBE_DIRECTION = 32,
-    MOR_CASE_PROBE_RADIAL = 64
+    MOR_CASE_PROBE_RADIAL = 64,
+    MOR_CASE_PROBE_BODY = 128
+};
+
+/** What sets a type of probe apart, beside its keys. */
+enum {
+    MOR_CASE_PROBE_OF_SOIL = 1,   /* makes sense in a case with soil only */
+    MOR_CASE_PROBE_OF_BODIES = 2, /* makes sense in a case with bodies only */
+    MOR_CASE_PROBE_OF_TURN = 4    /* direction is an axis, in plane strain always z */
 };
 
 /** What a type of probe measures. */
@@ -85,7 +110,8 @@ typedef struct mor_case_probe_type {
     const char *unit;       /* SI unit of the value in three dimensions */
     const char *unit_plane; /* in plane strain, where extensive values are per meter of thickness */
     unsigned allowed;       /* MOR_CASE_PROBE_ bits of the keys it takes */
-    unsigned required;      /* and of those it cannot do without */
+    unsigned required;      /* and of those it cannot do without; see mor_case_probe_required */
+    unsigned traits;        /* MOR_CASE_PROBE_OF_ bits */
     double percentile;      /* default of that key, percent */
     const char *text;       /* one line for people */
 } mor_case_probe_type;
@@ -100,10 +126,44 @@ extern const char *const mor_case_probe_key_names[];
  *  @param name [in]  zero-terminated */
 const mor_case_probe_type *mor_case_probe_type_find(const char *name);
 
+/** Returns the MOR_CASE_PROBE_ bits of the keys a type cannot do without: in plane strain the axis of a turn is known.
+ *  @param type      [in]  one object
+ *  @param dimension [in]  2 or 3 */
+unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension);
+
 /** Returns the SI unit of a probe's value.
  *  @param type      [in]  one object
  *  @param dimension [in]  2 or 3 */
 const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension);
+
+/** Whether a body is rigid.
+ *  @param body [in]  one object */
+bool mor_case_body_is_rigid(const mor_case_body *body);
+
+/** Tells what a key or a group of a body needs to have an effect.
+ *  @param body [in]  one object; model and motion are known
+ *  @param name [in]  zero-terminated; of a key or a part of mor_case_body_group
+ *  Returns: NULL when it has an effect on this body, else words that say with what it would. */
+const char *mor_case_body_condition(const mor_case_body *body, const char *name);
+
+/** Tells what a key of the start of a body needs to have an effect.
+ *  @param motion [in]  kind of start
+ *  @param name   [in]  zero-terminated; a key of mor_case_start_group
+ *  Returns: NULL when it has an effect, else words that say with what it would. */
+const char *mor_case_start_condition(mor_case_motion motion, const char *name);
+
+/** Contact modulus of a body: the one given, else density * (30 v)^2, with v the largest of the speeds at the start of
+ *  bodies, walls and soil and of a fall through the domain (where there is none: what crosses the domain before the
+ *  end). A block of height H that hits at v with all of its face then goes sqrt(H * spacing) / 30 deep.
+ *  @param the_case [in]  one object, whole
+ *  @param body     [in]  one object; of the case
+ *  Returns: unit Pa; > 0. */
+double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body);
+
+/** Schema of a key with the unit it has in this dimension.
+ *  @param key       [in]  one object
+ *  @param dimension [in]  2 or 3 */
+mor_schema mor_case_key_schema(const mor_case_key *key, int dimension);
 
 /** Returns the place of a key in a table, or -1.
  *  @param keys [in]  table ended by schema.key NULL

@@ -25,6 +25,9 @@ static const mor_case_key probe_keys[] = {
     {{"wall", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the wall that is pushed"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case_probe, wall)},
+    {{"body", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the body that is watched"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_probe, body)},
     {{"measure", MOR_SCHEMA_CHOICE, 1, "1", 0, 0.0, ANY, "mass_percentile|thickness",
       "where the deposit ends: at a share of the mass, or where it is thinner than a threshold"},
      MOR_CASE_STORE_WORD,
@@ -40,10 +43,10 @@ static const mor_case_key probe_keys[] = {
     {{"origin", MOR_SCHEMA_VECTOR, 3, "m", 0, 0.0, ANY, NULL, "point that distances and heights count from"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_probe, origin)},
-    {{"direction", MOR_SCHEMA_VECTOR, 3, "1", 0, NAN, ANY, NULL, "direction that is measured along"},
+    {{"direction", MOR_SCHEMA_VECTOR, 3, "1", 0, NAN, ANY, NULL, "direction that is measured along, or about"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_probe, direction),
-     .computed = "(1, 0, 0)",
+     .computed = "(1, 0, 0); (0, 0, 1) of a turn in plane strain",
      .is_direction = true},
     {{"radial", MOR_SCHEMA_BOOLEAN, 1, "1", 0, NAN, ANY, NULL,
       "distance from the vertical through origin instead of along direction"},
@@ -92,31 +95,87 @@ const mor_case_group mor_case_expectation_group = {"expect", "Reference values (
 #define ALONG (ORIGIN | DIRECTION | MOR_CASE_PROBE_RADIAL)
 #define FRONT (ALONG | MOR_CASE_PROBE_MEASURE | PERCENTILE | THICKNESS)
 
-const mor_case_probe_type mor_case_probe_types[] = {
-    {"run_out", "m", "m", FRONT, 0, 99.5, "distance the deposit reaches"},
-    {"front_speed", "m/s", "m/s", FRONT, 0, 99.5, "speed of the end of the deposit"},
-    {"height", "m", "m", PERCENTILE | ORIGIN, 0, 100.0, "height of the deposit, against gravity"},
-    {"repose_angle", "rad", "rad", ALONG, 0, 100.0, "slope of the free surface"},
-    {"stray_share", "1", "1", ALONG | THICKNESS, 0, 100.0, "share of the mass outside the deposit"},
-    {"kinetic_energy", "J", "J/m", 0, 0, 100.0, "kinetic energy"},
-    {"potential_energy", "J", "J/m", ORIGIN, 0, 100.0, "potential energy, zero at origin"},
-    {"elastic_energy", "J", "J/m", 0, 0, 100.0, "stored elastic energy"},
-    {"total_energy", "J", "J/m", ORIGIN, 0, 100.0, "kinetic, potential and elastic energy"},
-    {"energy_left", "1", "1", ORIGIN, 0, 100.0, "total energy / total energy at the start"},
-    {"dissipated_energy", "J", "J/m", ORIGIN, 0, 100.0, "total energy at the start less total energy"},
-    {"mass", "kg", "kg/m", 0, 0, 100.0, "mass of the soil"},
-    {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 100.0, "momentum along direction"},
-    {"center_of_mass", "m", "m", ORIGIN | DIRECTION, DIRECTION, 100.0, "center of mass from origin along direction"},
-    {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, 100.0, "force on a wall along direction"},
-    {"largest_speed", "m/s", "m/s", PERCENTILE, 0, 100.0, "largest speed of a particle"},
-    {"density_drift", "1", "1", PERCENTILE, 0, 99.0, "relative departure of the density from the initial one"},
-    {"stress_error", "1", "1", 0, 0, 100.0, "error of the vertical stress of a column at rest / the stress"},
-    {"stress_ratio", "1", "1", 0, 0, 100.0, "mean lateral stress / vertical stress"},
-    {"stress_noise", "Pa", "Pa", 0, 0, 100.0, "standard deviation of the vertical stress about its line"},
-    {NULL, NULL, NULL, 0, 0, 0.0, NULL}};
+#define BODY MOR_CASE_PROBE_BODY
+#define OF_SOIL MOR_CASE_PROBE_OF_SOIL
+#define OF_BODIES MOR_CASE_PROBE_OF_BODIES
+#define OF_BOTH (OF_SOIL | OF_BODIES)
+#define OF_TURN MOR_CASE_PROBE_OF_TURN
 
-const char *const mor_case_probe_key_names[] = {"wall",   "measure",   "percentile", "thickness",
-                                                "origin", "direction", "radial",     NULL};
+/* Name, unit, unit in plane strain, keys allowed, keys required, traits, percentile, text. */
+const mor_case_probe_type mor_case_probe_types[] = {
+    /* Soil and bodies together. */
+    {"kinetic_energy", "J", "J/m", 0, 0, 0, 100.0, "kinetic energy of soil and bodies"},
+    {"potential_energy", "J", "J/m", ORIGIN, 0, 0, 100.0, "potential energy of soil and bodies, zero at origin"},
+    {"elastic_energy", "J", "J/m", 0, 0, 0, 100.0,
+     "elastic energy stored in soil, bodies, their contacts and their springs"},
+    {"total_energy", "J", "J/m", ORIGIN, 0, 0, 100.0, "kinetic, potential and elastic energy of soil and bodies"},
+    {"energy_left", "1", "1", ORIGIN, 0, 0, 100.0, "total energy / total energy at the start, of soil and bodies"},
+    {"dissipated_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+     "total energy at the start less total energy, of soil and bodies"},
+    {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0, "momentum of soil and bodies along direction"},
+    {"angular_momentum", "kg m2/s", "kg m/s", ORIGIN | DIRECTION, DIRECTION, OF_TURN, 100.0,
+     "angular momentum of soil and bodies about the axis through origin along direction"},
+    {"rate_ratio", "1", "1", 0, 0, OF_BOTH, 100.0, "steps of the bodies in the last step of the soil"},
+    /* Soil. */
+    {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "distance the deposit reaches"},
+    {"front_speed", "m/s", "m/s", FRONT, 0, OF_SOIL, 99.5, "speed of the end of the deposit"},
+    {"height", "m", "m", PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0, "height of the deposit, against gravity"},
+    {"repose_angle", "rad", "rad", ALONG, 0, OF_SOIL, 100.0, "slope of the free surface"},
+    {"stray_share", "1", "1", ALONG | THICKNESS, 0, OF_SOIL, 100.0, "share of the mass outside the deposit"},
+    {"soil_kinetic_energy", "J", "J/m", 0, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
+    {"mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0, "mass of the soil"},
+    {"center_of_mass", "m", "m", ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+     "center of mass of the soil from origin along direction"},
+    {"largest_speed", "m/s", "m/s", PERCENTILE, 0, OF_SOIL, 100.0, "largest speed of a soil particle"},
+    {"density_drift", "1", "1", PERCENTILE, 0, OF_SOIL, 99.0, "relative departure of the density from the initial one"},
+    {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0, "error of the vertical stress of a column at rest / the stress"},
+    {"stress_ratio", "1", "1", 0, 0, OF_SOIL, 100.0, "mean lateral stress / vertical stress"},
+    {"stress_noise", "Pa", "Pa", 0, 0, OF_SOIL, 100.0, "standard deviation of the vertical stress about its line"},
+    /* Walls. */
+    {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
+     "force of the soil on a wall along direction"},
+    {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
+     "impulse of the soil on a wall since the start along direction"},
+    {"wall_contact_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_BODIES, 100.0,
+     "force of the bodies on a wall along direction"},
+    /* One body. */
+    {"body_position", "m", "m", BODY | ORIGIN | DIRECTION, BODY | DIRECTION, OF_BODIES, 100.0,
+     "center of mass of a body from origin along direction"},
+    {"body_velocity", "m/s", "m/s", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES, 100.0,
+     "velocity of the center of mass of a body along direction"},
+    {"body_rotation_angle", "rad", "rad", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES | OF_TURN, 100.0,
+     "angle that a body has turned about direction since the start, full turns counted"},
+    {"body_angular_velocity", "rad/s", "rad/s", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES | OF_TURN, 100.0,
+     "angular velocity of a body about direction"},
+    {"body_force_soil", "N", "N/m", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH, 100.0,
+     "force of the soil on a body along direction"},
+    {"body_moment_soil", "N m", "N", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH | OF_TURN, 100.0,
+     "moment of the soil on a body about direction, about its center of mass"},
+    {"body_force_contact", "N", "N/m", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES, 100.0,
+     "force of other bodies and walls on a body along direction"},
+    {"body_impulse_soil_given", "N s", "N s/m", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH, 100.0,
+     "impulse that the soil gave to a body since the start, along direction"},
+    {"body_impulse_soil_received", "N s", "N s/m", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH, 100.0,
+     "impulse that a body received from the soil since the start, along direction"},
+    {"penetration_depth", "m", "m", BODY | ORIGIN, BODY, OF_BODIES, 100.0,
+     "depth of the lowest point of the surface of a body below origin, along gravity"},
+    {"penetration_depth_largest", "m", "m", BODY | ORIGIN, BODY, OF_BODIES, 100.0,
+     "largest penetration_depth since the start"},
+    {"body_kinetic_energy", "J", "J/m", BODY, BODY, OF_BODIES, 100.0, "kinetic energy of a body"},
+    {"body_elastic_energy", "J", "J/m", BODY, BODY, OF_BODIES, 100.0, "strain energy of a body; zero of a rigid one"},
+    /* All bodies, and their contacts. */
+    {"bodies_kinetic_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "kinetic energy of all bodies"},
+    {"bodies_elastic_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "strain energy of all bodies"},
+    {"contact_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "energy stored in contacts of bodies"},
+    {"contact_friction_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0,
+     "energy lost to sliding in contacts of bodies since the start"},
+    {"contact_damping_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0,
+     "energy lost to restitution in contacts of bodies since the start"},
+    {"contact_depth", "m", "m", 0, 0, OF_BODIES, 100.0, "deepest contact of a body with a body or a wall"},
+    {NULL, NULL, NULL, 0, 0, 0, 0.0, NULL}};
+
+const char *const mor_case_probe_key_names[] = {"wall",      "measure", "percentile", "thickness", "origin",
+                                                "direction", "radial",  "body",       NULL};
 
 const mor_case_probe_type *mor_case_probe_type_find(const char *name)
 {
@@ -126,6 +185,12 @@ const mor_case_probe_type *mor_case_probe_type_find(const char *name)
         }
     }
     return NULL;
+}
+
+unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension)
+{
+    const bool is_turn_of_plane = dimension == 2 && (type->traits & OF_TURN) != 0;
+    return is_turn_of_plane ? type->required & ~(unsigned)DIRECTION : type->required;
 }
 
 const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension)

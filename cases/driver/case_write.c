@@ -91,9 +91,10 @@ static mor_status print_member(const writer *w, const mor_case_key *key, const v
                                size_t out_bytes)
 {
     char word[MOR_CASE_NAME_BYTES];
+    const mor_schema schema = mor_case_key_schema(key, w->reader.dimension);
     switch (key->storage) {
     case MOR_CASE_STORE_REALS:
-        return print_numbers(w, &key->schema, key->keeps_scale, member, key->schema.n_components, out, out_bytes);
+        return print_numbers(w, &schema, key->keeps_scale, member, schema.n_components, out, out_bytes);
     case MOR_CASE_STORE_INT:
         print_whole(*(const int *)member, out, out_bytes);
         return MOR_OK;
@@ -101,10 +102,15 @@ static mor_status print_member(const writer *w, const mor_case_key *key, const v
         print_whole((int64_t) * (const uint64_t *)member, out, out_bytes);
         return MOR_OK;
     case MOR_CASE_STORE_BOOL:
-        snprintf(out, out_bytes, "%s", *(const bool *)member ? "true" : "false");
+        if (schema.kind == MOR_SCHEMA_BOOLEAN) {
+            snprintf(out, out_bytes, "%s", *(const bool *)member ? "true" : "false");
+            return MOR_OK;
+        }
+        mor_params_word(schema.choices, *(const bool *)member ? 1 : 0, word, sizeof word);
+        print_text(word, out, out_bytes);
         return MOR_OK;
     case MOR_CASE_STORE_CHOICE:
-        mor_params_word(key->schema.choices, *(const int *)member, word, sizeof word);
+        mor_params_word(schema.choices, *(const int *)member, word, sizeof word);
         print_text(word, out, out_bytes);
         return MOR_OK;
     case MOR_CASE_STORE_TEXT:
@@ -206,6 +212,7 @@ static mor_status write_parts(writer *w, const mor_case_shape *outline)
         return write_shape(w, "shape", &outline->children[0], "};");
     case MOR_CASE_SHAPE_BOX:
     case MOR_CASE_SHAPE_CYLINDER:
+    case MOR_CASE_SHAPE_CONE:
     case MOR_CASE_SHAPE_SPHERE:
     case MOR_CASE_SHAPE_HALF_SPACE:
     case MOR_CASE_SHAPE_COUNT:
@@ -249,9 +256,8 @@ static presence judge_stress(const mor_case_key *key, const void *record)
     return is_left_open ? MENTION : WRITE;
 }
 
-static mor_status write_parameters(const writer *w, const mor_case_soil *soil, const mor_material *model)
+static mor_status write_parameters(const writer *w, const mor_material *model, const double *values, uint64_t written)
 {
-    const double *values = soil->parameters;
     for (int k = 0; model->parameters[k].key != NULL; ++k) {
         const mor_schema *schema = &model->parameters[k];
         char word[MOR_CASE_NAME_BYTES];
@@ -267,23 +273,29 @@ static mor_status write_parameters(const writer *w, const mor_case_soil *soil, c
             MOR_TRY(w->reader.context,
                     print_numbers(w, schema, false, values, schema->n_components, value, sizeof value));
         }
-        put_line(w, schema->key, value, (soil->written_parameters >> k & 1) == 0);
+        put_line(w, schema->key, value, (written >> k & 1) == 0);
         values += schema->n_components;
     }
     return MOR_OK;
 }
 
+static mor_status find_model(const writer *w, const char *name, const mor_material **model)
+{
+    *model = mor_registry_find(w->reader.registry, name);
+    MOR_CHECK(w->reader.context, *model != NULL, MOR_ERROR_ARGUMENT,
+              "the case uses the model '%s', which this registry does not have; give the one it was read with", name);
+    return MOR_OK;
+}
+
 static mor_status write_soil(writer *w, const mor_case_soil *soil)
 {
-    const mor_material *model = mor_registry_find(w->reader.registry, soil->model);
-    MOR_CHECK(w->reader.context, model != NULL, MOR_ERROR_ARGUMENT,
-              "the case uses the model '%s', which this registry does not have; give the one it was read with",
-              soil->model);
+    const mor_material *model = NULL;
+    MOR_TRY(w->reader.context, find_model(w, soil->model, &model));
     MOR_TRY(w->reader.context, write_keys(w, &mor_case_soil_group, soil, write_always));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &soil->outline, "};"));
     open_group(w, "material", "{");
     MOR_TRY(w->reader.context, write_keys(w, &mor_case_material_group, soil, write_always));
-    MOR_TRY(w->reader.context, write_parameters(w, soil, model));
+    MOR_TRY(w->reader.context, write_parameters(w, model, soil->parameters, soil->written_parameters));
     close_group(w, "};");
     open_group(w, "initial_stress", "{");
     MOR_TRY(w->reader.context, write_keys(w, &mor_case_stress_group, soil, judge_stress));
@@ -303,6 +315,84 @@ static mor_status write_wall(writer *w, const mor_case_wall *wall)
 {
     MOR_TRY(w->reader.context, write_keys(w, &mor_case_wall_group, wall, judge_wall));
     return write_shape(w, "shape", &wall->outline, "};");
+}
+
+/* ---- Bodies and contact ------------------------------------------------------------------------------------------ */
+
+static presence judge_body(const mor_case_key *key, const void *record)
+{
+    const mor_case_body *body = record;
+    const char *name = key->schema.key;
+    if (strcmp(name, "contact_modulus") == 0 && isnan(body->contact_modulus)) {
+        return MENTION;
+    }
+    const bool is_idle =
+        mor_case_body_condition(body, name) != NULL ||
+        (strcmp(name, "friction_coefficient") == 0 && body->soil_friction != MOR_CASE_FRICTION_COULOMB);
+    return is_idle ? OMIT : WRITE;
+}
+
+static presence judge_spring(const mor_case_key *key, const void *record)
+{
+    const mor_case_body *body = record;
+    return strcmp(key->schema.key, "length") == 0 && isnan(body->spring_length) ? MENTION : WRITE;
+}
+
+static presence judge_start(const mor_case_key *key, const void *record)
+{
+    const mor_case_body *body = record;
+    return mor_case_start_condition(body->motion, key->schema.key) == NULL ? WRITE : OMIT;
+}
+
+static mor_status write_body_material(writer *w, const mor_case_body *body)
+{
+    open_group(w, "material", "{");
+    MOR_TRY(w->reader.context, write_keys(w, &mor_case_body_material_group, body, write_always));
+    if (!mor_case_body_is_rigid(body)) {
+        const mor_material *model = NULL;
+        MOR_TRY(w->reader.context, find_model(w, body->model, &model));
+        MOR_TRY(w->reader.context, write_parameters(w, model, body->parameters, body->written_parameters));
+    }
+    close_group(w, "};");
+    return MOR_OK;
+}
+
+static void write_locks(const writer *w, const mor_case_body *body)
+{
+    char value[VALUE_BYTES] = "(";
+    size_t used = 1;
+    for (int k = 0; k < MOR_CASE_LOCKS; ++k) {
+        if (body->is_locked[k]) {
+            used += (size_t)snprintf(value + used, sizeof value - used, "%s\"%s\"", used > 1 ? ", " : "",
+                                     mor_case_lock_words[k]);
+        }
+    }
+    if (used > 1) {
+        snprintf(value + used, sizeof value - used, ")");
+        put_line(w, "locked", value, false);
+    }
+}
+
+static mor_status write_body(writer *w, const mor_case_body *body)
+{
+    MOR_TRY(w->reader.context, write_keys(w, &mor_case_body_group, body, judge_body));
+    MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
+    MOR_TRY(w->reader.context, write_body_material(w, body));
+    write_locks(w, body);
+    if (body->has_spring) {
+        open_group(w, "spring", "{");
+        MOR_TRY(w->reader.context, write_keys(w, &mor_case_spring_group, body, judge_spring));
+        close_group(w, "};");
+    }
+    if (body->clamp != NULL) {
+        MOR_TRY(w->reader.context, write_shape(w, "clamp", &body->clamp_outline, "};"));
+    }
+    if (mor_case_body_condition(body, "start") == NULL) {
+        open_group(w, "start", "{");
+        MOR_TRY(w->reader.context, write_keys(w, &mor_case_start_group, body, judge_start));
+        close_group(w, "};");
+    }
+    return MOR_OK;
 }
 
 /* ---- Probes and expectations ------------------------------------------------------------------------------------- */
@@ -355,7 +445,7 @@ static mor_status write_expectation(const writer *w, const mor_case *the_case, c
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
 /* The lists, so that one function writes all of them. */
-typedef enum list_kind { SOIL, WALLS, PROBES, EXPECT, LIST_COUNT } list_kind;
+typedef enum list_kind { SOIL, WALLS, BODIES, PAIRS, PROBES, EXPECT, LIST_COUNT } list_kind;
 
 static mor_status write_entry(writer *w, const mor_case *the_case, list_kind kind, int k)
 {
@@ -364,6 +454,10 @@ static mor_status write_entry(writer *w, const mor_case *the_case, list_kind kin
         return write_soil(w, &the_case->soils[k]);
     case WALLS:
         return write_wall(w, &the_case->walls[k]);
+    case BODIES:
+        return write_body(w, &the_case->bodies[k]);
+    case PAIRS:
+        return write_keys(w, &mor_case_pair_group, &the_case->contact.pairs[k], write_always);
     case PROBES:
         return write_keys(w, &mor_case_probe_group, &the_case->probes[k], judge_probe);
     case EXPECT:
@@ -376,8 +470,9 @@ static mor_status write_entry(writer *w, const mor_case *the_case, list_kind kin
 
 static mor_status write_list(writer *w, const mor_case *the_case, list_kind kind)
 {
-    static const char *const names[LIST_COUNT] = {"soil", "walls", "probes", "expect"};
-    const int counts[LIST_COUNT] = {the_case->n_soils, the_case->n_walls, the_case->n_probes, the_case->n_expectations};
+    static const char *const names[LIST_COUNT] = {"soil", "walls", "bodies", "pairs", "probes", "expect"};
+    const int counts[LIST_COUNT] = {the_case->n_soils,         the_case->n_walls,  the_case->n_bodies,
+                                    the_case->contact.n_pairs, the_case->n_probes, the_case->n_expectations};
     if (counts[kind] == 0) {
         return MOR_OK;
     }
@@ -388,6 +483,19 @@ static mor_status write_list(writer *w, const mor_case *the_case, list_kind kind
         close_group(w, k + 1 < counts[kind] ? "}," : "}");
     }
     close_group(w, ");");
+    return MOR_OK;
+}
+
+/* Without bodies a contact would be refused when read again. */
+static mor_status write_contact(writer *w, const mor_case *the_case)
+{
+    if (the_case->n_bodies == 0) {
+        return MOR_OK;
+    }
+    open_group(w, mor_case_contact_group.name, "{");
+    MOR_TRY(w->reader.context, write_keys(w, &mor_case_contact_group, &the_case->contact, write_always));
+    MOR_TRY(w->reader.context, write_list(w, the_case, PAIRS));
+    close_group(w, "};");
     return MOR_OK;
 }
 
@@ -402,7 +510,7 @@ static mor_status write_case(writer *w, const mor_case *the_case)
         close_group(w, "};");
     }
     for (list_kind kind = SOIL; kind < LIST_COUNT; ++kind) {
-        MOR_TRY(w->reader.context, write_list(w, the_case, kind));
+        MOR_TRY(w->reader.context, kind == PAIRS ? write_contact(w, the_case) : write_list(w, the_case, kind));
     }
     return MOR_OK;
 }

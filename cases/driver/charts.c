@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/charts.h"
 
+#include "cases/driver/render/colormap.h"
 #include "cases/driver/render/picture.h"
 #include "core/base/memory.h"
 #include "core/io/table.h"
@@ -10,7 +11,7 @@
 #include <string.h>
 
 /* Columns of the series before the first probe: time, step, step length, rate ratio. */
-enum { FIRST_PROBE = 4, COLUMNS_MAX = 256, NAME_BYTES = 96 };
+enum { FIRST_PROBE = 4, COLUMNS_MAX = 256, NAME_BYTES = 96, CURVES_MAX = MOR_COLORMAP_CATEGORIES };
 
 /* One column's heading, taken apart: "name [unit]". */
 typedef struct heading {
@@ -51,34 +52,44 @@ static int64_t copy_column(const mor_table_data *data, int column, double *x, do
     return n;
 }
 
-/* One chart of all columns with the unit of a first one. */
-static mor_status draw_unit(mor_context *context, const mor_table_data *data, const heading *headings, int first,
-                            const char *folder, double *room, FILE *output)
+/* The series and what has been drawn of it. */
+typedef struct sheet {
+    const mor_table_data *data;
+    const char *folder;
+    heading headings[COLUMNS_MAX];
+    bool is_drawn[COLUMNS_MAX];
+    double *room; /* shape [CURVES_MAX, 2, n_rows] */
+} sheet;
+
+/* One chart of the columns not yet drawn that have the unit of a first one, as many as colors tell apart. */
+static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *output)
 {
-    mor_chart_series series[MOR_CHART_SERIES_MAX];
+    const mor_table_data *data = s->data;
+    mor_chart_series series[CURVES_MAX];
     char path[MOR_PATH_BYTES];
     int n = 0;
-    for (int column = first; column < data->n_columns && n < MOR_CHART_SERIES_MAX; ++column) {
-        if (strcmp(headings[column].unit, headings[first].unit) == 0) {
-            double *x = room + 2 * (int64_t)n * data->n_rows;
+    for (int column = first; column < data->n_columns && n < CURVES_MAX; ++column) {
+        if (!s->is_drawn[column] && strcmp(s->headings[column].unit, s->headings[first].unit) == 0) {
+            double *x = s->room + 2 * (int64_t)n * data->n_rows;
             double *y = x + data->n_rows;
             const int64_t n_points = copy_column(data, column, x, y);
+            s->is_drawn[column] = true;
             if (n_points > 0) {
-                series[n++] = (mor_chart_series){headings[column].name, x, y, n_points, MOR_CHART_LINE};
+                series[n++] = (mor_chart_series){s->headings[column].name, x, y, n_points, MOR_CHART_LINE};
             }
         }
     }
     if (n == 0) {
         return MOR_OK;
     }
-    const mor_chart chart = {.title = n == 1 ? headings[first].name : NULL,
+    const mor_chart chart = {.title = n == 1 ? series[0].name : NULL,
                              .x_name = "time",
                              .x_unit = "s",
-                             .y_name = n == 1 ? headings[first].name : NULL,
-                             .y_unit = headings[first].unit,
+                             .y_name = n == 1 ? series[0].name : NULL,
+                             .y_unit = s->headings[first].unit,
                              .series = series,
                              .n_series = n};
-    const int n_bytes = snprintf(path, sizeof path, "%s/images/chart_%s.png", folder, headings[first].name);
+    const int n_bytes = snprintf(path, sizeof path, "%s/images/chart_%s.png", s->folder, series[0].name);
     MOR_CHECK(context, n_bytes > 0 && n_bytes < (int)sizeof path, MOR_ERROR_IO, "the path of a chart is too long");
     MOR_TRY(context, mor_picture_chart(context, &chart, path));
     fprintf(output, "chart: %s\n", path);
@@ -87,22 +98,17 @@ static mor_status draw_unit(mor_context *context, const mor_table_data *data, co
 
 static mor_status draw_all(mor_context *context, const mor_table_data *data, const char *folder, FILE *output)
 {
-    heading headings[COLUMNS_MAX];
-    double *room = NULL;
-    const int n_columns = split_header(data->header, headings);
+    sheet s = {.data = data, .folder = folder};
+    const int n_columns = split_header(data->header, s.headings);
     MOR_CHECK(context, n_columns == data->n_columns, MOR_ERROR_IO, "the series in '%s' has too many columns", folder);
-    MOR_TRY(context, MOR_NEW(context, &room, 2 * MOR_CHART_SERIES_MAX * data->n_rows, "charts"));
+    MOR_TRY(context, MOR_NEW(context, &s.room, 2 * CURVES_MAX * data->n_rows, "charts"));
     mor_status status = MOR_OK;
     for (int column = FIRST_PROBE; column < n_columns && status == MOR_OK; ++column) {
-        bool is_new = true;
-        for (int before = FIRST_PROBE; before < column; ++before) {
-            is_new = is_new && strcmp(headings[before].unit, headings[column].unit) != 0;
-        }
-        if (is_new) {
-            status = draw_unit(context, data, headings, column, folder, room, output);
+        if (!s.is_drawn[column]) {
+            status = draw_unit(context, &s, column, output);
         }
     }
-    MOR_FREE(context, &room);
+    MOR_FREE(context, &s.room);
     return status;
 }
 

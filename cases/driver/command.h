@@ -3,7 +3,7 @@
 #ifndef MOR_CASES_DRIVER_COMMAND_H
 #define MOR_CASES_DRIVER_COMMAND_H
 
-#include "core/base/context.h"
+#include "cases/driver/simulation.h"
 
 #include <signal.h>
 #include <stdbool.h>
@@ -54,5 +54,12 @@ mor_status mor_command_explain(mor_command *command, int *exit_code);
 mor_status mor_command_render(mor_command *command, int *exit_code);
 mor_status mor_command_list(mor_command *command, int *exit_code);
 mor_status mor_command_check_material(mor_command *command, int *exit_code);
+
+/** Prints sizes, clocks, expected time, warnings and stages of a simulation; takes a few steps, so the simulation is
+ *  worthless afterwards.
+ *  @param command    [in,out]  one object
+ *  @param simulation [in,out]  one object
+ *  Returns: MOR_OK; what a step returns. */
+mor_status mor_command_print_explanation(mor_command *command, mor_simulation *simulation);
 
 #endif

@@ -55,7 +55,9 @@ static mor_status with_scene(mor_command *command, bool is_built, mor_status (*u
     if (status == MOR_OK && is_built) {
         status = mor_simulation_init(command->context, &it->simulation, &it->the_case, it->registry);
         if (status == MOR_OK) {
-            status = mor_pictures_check(command->context, &it->the_case, &it->simulation.soil.set);
+            mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+            const int n_sets = mor_simulation_sets(&it->simulation, false, sets);
+            status = mor_pictures_check(command->context, &it->the_case, sets, n_sets);
         }
     }
     if (status == MOR_OK) {
@@ -67,8 +69,13 @@ static mor_status with_scene(mor_command *command, bool is_built, mor_status (*u
 
 static mor_status print_check(mor_command *command, scene *it)
 {
-    fprintf(command->output, "%s: ok. %lld soil particles, %d walls, %d probes, %d expectations\n", it->the_case.path,
-            (long long)it->simulation.soil.set.n_particles, it->the_case.n_walls, it->the_case.n_probes,
+    fprintf(command->output, "%s: ok. %lld soil particles, ", it->the_case.path,
+            (long long)it->simulation.soil.set.n_particles);
+    if (it->the_case.n_bodies > 0) {
+        fprintf(command->output, "%d bodies of %lld particles, ", it->the_case.n_bodies,
+                (long long)(mor_simulation_particles(&it->simulation) - it->simulation.soil.set.n_particles));
+    }
+    fprintf(command->output, "%d walls, %d probes, %d expectations\n", it->the_case.n_walls, it->the_case.n_probes,
             it->the_case.n_expectations);
     return MOR_OK;
 }
@@ -79,110 +86,9 @@ mor_status mor_command_check(mor_command *command, int *exit_code)
     return with_scene(command, true, print_check);
 }
 
-static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *set)
-{
-    fprintf(out, "\nStages of a step of '%s'\n", stepper->name);
-    for (int k = 0; k < stepper->n_stages; ++k) {
-        const mor_stage *stage = &stepper->stages[k];
-        fprintf(out, "  %2d %-20s %s\n", k + 1, stage->name, stage->text);
-        const uint64_t bits[3] = {stage->reads, stage->writes, stage->accumulates};
-        static const char *const verbs[3] = {"reads", "writes", "updates"};
-        for (int verb = 0; verb < 3; ++verb) {
-            if (bits[verb] == 0) {
-                continue;
-            }
-            fprintf(out, "       %-8s", verbs[verb]);
-            for (int bit = 0; bit < 64; ++bit) {
-                if (bits[verb] >> bit & 1u) {
-                    fprintf(out, " %s",
-                            bit < set->n_fields           ? set->fields[bit].name
-                            : bit == MOR_RESOURCE_RECORDS ? "(records)"
-                            : bit == MOR_RESOURCE_LISTS   ? "(lists)"
-                                                          : "(wall sums)");
-                }
-            }
-            fprintf(out, "\n");
-        }
-    }
-}
-
-/* Thinnest extent of the soil in spacings; warnings about what the method cannot resolve. */
-static void print_warnings(FILE *out, const mor_simulation *s)
-{
-    enum { THIN = 8 };
-    const mor_case *c = s->the_case;
-    const double *position = s->soil.set.data[MOR_FIELD_POSITION];
-    double low[3] = {INFINITY, INFINITY, INFINITY};
-    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (int64_t k = 0; k < 3 * s->soil.set.n_particles; ++k) {
-        low[k % 3] = fmin(low[k % 3], position[k]);
-        high[k % 3] = fmax(high[k % 3], position[k]);
-    }
-    for (int a = 0; a < c->dimension; ++a) {
-        const double n = (high[a] - low[a]) / c->spacing + 1.0;
-        if (n < THIN) {
-            fprintf(out,
-                    "warning: the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
-                    "smaller spacing\n",
-                    n, "xyz"[a], THIN);
-        }
-    }
-    if (c->n_walls == 0) {
-        fprintf(out, "warning: there is no wall; the soil falls freely\n");
-    }
-    if (c->n_probes == 0) {
-        fprintf(out, "warning: there is no probe; the run will report no result\n");
-    }
-}
-
-/* Times a few steps on a state that is thrown away. */
-static mor_status time_steps(mor_context *context, mor_simulation *s, double *seconds_per_step)
-{
-    enum { WARM_UP = 2, TIMED = 4 };
-    for (int k = 0; k < WARM_UP; ++k) {
-        MOR_TRY(context, mor_schedule_step(context, &s->schedule, s->schedule.end));
-    }
-    const double before = mor_clock_now();
-    for (int k = 0; k < TIMED; ++k) {
-        MOR_TRY(context, mor_schedule_step(context, &s->schedule, s->schedule.end));
-    }
-    *seconds_per_step = (mor_clock_now() - before) / TIMED;
-    return MOR_OK;
-}
-
 static mor_status print_explanation(mor_command *command, scene *it)
 {
-    mor_simulation *s = &it->simulation;
-    const mor_case *c = &it->the_case;
-    FILE *out = command->output;
-    double step = 0.0;
-    double seconds = 0.0;
-    const char *limit = "";
-    const mor_stepper *stepper = &s->schedule.steppers[0];
-    MOR_TRY(command->context, stepper->operations->propose(command->context, stepper->owner, &step, &limit));
-    int64_t n_walls = 0;
-    for (int w = 0; w < s->soil.n_walls; ++w) {
-        n_walls += s->soil.walls[w].n_points;
-    }
-    fprintf(out, "%s\n", c->title);
-    fprintf(out, "  dimension            %d\n", c->dimension);
-    fprintf(out, "  spacing              %g m, smoothing length %g m\n", c->spacing, s->soil.smoothing_length);
-    fprintf(out, "  soil particles       %lld\n", (long long)s->soil.set.n_particles);
-    fprintf(out, "  wall particles       %lld\n", (long long)n_walls);
-    fprintf(out, "  sound speed          %.4g m/s\n", s->soil.sound_speed);
-    fprintf(out, "  time step            about %.4g s, limited by %s\n", step, limit);
-    fprintf(out, "  steps                about %.0f for %g s\n", ceil(c->end / step), c->end);
-    fprintf(out, "  sub-steps per step   1 (soil alone)\n");
-    MOR_TRY(command->context, time_steps(command->context, s, &seconds));
-    fprintf(out, "  memory               %.1f MiB, %.0f bytes per soil particle\n",
-            (double)command->context->memory_peak_bytes / 1048576.0, mor_soil_bytes_per_particle(&s->soil));
-    fprintf(out, "  speed now            %.2f M particle-steps/s with %d threads (%s)\n",
-            1e-6 * (double)s->soil.set.n_particles / seconds, command->context->n_threads,
-            s->soil.table->instruction_set);
-    fprintf(out, "  expected time        %.1f min\n", ceil(c->end / step) * seconds / 60.0);
-    print_warnings(out, s);
-    print_stages(out, stepper, &s->soil.set);
-    return MOR_OK;
+    return mor_command_print_explanation(command, &it->simulation);
 }
 
 mor_status mor_command_explain(mor_command *command, int *exit_code)

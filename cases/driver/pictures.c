@@ -2,6 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/pictures.h"
 
+#include "cases/driver/charts.h"
+#include "cases/driver/picture_color.h"
+#include "cases/driver/render/camera.h"
 #include "cases/driver/render/picture.h"
 #include "cases/driver/simulation.h"
 #include "core/base/math.h"
@@ -9,133 +12,186 @@
 #include "core/io/snapshot.h"
 #include "core/sph/measure.h"
 
-#include "cases/driver/charts.h"
-
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 /* A wall counts as the ground when its normal is this close to up. */
 #define GROUND_COSINE 0.99
-/* Walls are shown this far around the soil, in spacings. */
-#define WALL_MARGIN 3.0
+/* Walls are shown this far around the particles, in spacings; in space one layer shows where they are. */
+#define WALL_MARGIN_PLANE 3.0
+#define WALL_MARGIN_SPACE 1.0
+/* Name of the soil's set; all others are bodies. */
+#define SOIL_SET "soil"
 
-/* How a color is made from a snapshot's field. */
-typedef double (*color_value)(const double *field, const double *up);
+/* Sets of a snapshot that are drawn, at most. */
+enum { LAYERS_MAX = 24, TONES = 4 };
 
-static double length_of(const double *field, const double *up)
+/* Screen values: groups of bodies in tones of stone, walls in a cool light gray that no stone has. */
+static const double stone_tones[TONES][3] = {
+    {0.63, 0.56, 0.48}, {0.45, 0.42, 0.40}, {0.70, 0.64, 0.52}, {0.52, 0.47, 0.50}};
+static const double wall_gray[3] = {0.80, 0.82, 0.84};
+
+/* What is colored: soil, or everything where there is none. */
+static bool is_colored(const char *name, bool has_soil)
 {
-    (void)up;
-    return mor_vector_length(field);
+    return !has_soil || strcmp(name, SOIL_SET) == 0;
 }
 
-static double pressure_of(const double *field, const double *up)
+mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, mor_set *const *sets, int n_sets)
 {
-    (void)up;
-    return -mor_symmetric_trace(field) / 3.0;
-}
-
-static double vertical_of(const double *field, const double *up)
-{
-    double traction[3];
-    mor_symmetric_apply(field, up, traction);
-    return mor_vector_dot(traction, up);
-}
-
-static double plain(const double *field, const double *up)
-{
-    (void)up;
-    return field[0];
-}
-
-static const struct {
-    const char *color, *field, *unit;
-    color_value value;
-} derived_colors[] = {{"speed", "velocity", "m/s", length_of},
-                      {"pressure", "stress", "Pa", pressure_of},
-                      {"vertical_stress", "stress", "Pa", vertical_of}};
-
-enum { N_DERIVED = sizeof derived_colors / sizeof *derived_colors };
-
-mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, const mor_set *set)
-{
-    const char *color = the_case->output.color_field;
-    for (int k = 0; k < N_DERIVED; ++k) {
-        if (strcmp(derived_colors[k].color, color) == 0) {
-            return MOR_OK;
-        }
+    const mor_picture_color color = mor_picture_color_find(the_case->output.color_field);
+    char names[MOR_PICTURE_COLOR_NAMES_BYTES];
+    bool has_soil = false;
+    bool is_found = false;
+    for (int k = 0; k < n_sets; ++k) {
+        has_soil = has_soil || (strcmp(sets[k]->name, SOIL_SET) == 0 && sets[k]->n_particles > 0);
     }
-    const int field = mor_set_find_field(set, color);
-    const bool is_output = field >= 0 && (set->fields[field].flags & MOR_FIELD_OUTPUT) != 0;
-    MOR_CHECK(context, is_output && set->fields[field].n_components <= 3, MOR_ERROR_CONFIG,
-              "%s: found output.color = \"%s\", which is no number or vector of the snapshots; allowed: speed, "
-              "pressure, vertical_stress and the fields of 1 or 3 components that 'moraine list fields' shows as in "
-              "snapshots; use one of these",
-              the_case->path, color);
+    for (int k = 0; k < n_sets; ++k) {
+        const int field = mor_set_find_field(sets[k], color.field);
+        is_found = is_found || (field >= 0 && sets[k]->data[field] != NULL && is_colored(sets[k]->name, has_soil) &&
+                                (sets[k]->fields[field].flags & MOR_FIELD_OUTPUT) != 0 &&
+                                mor_picture_color_fits(&color, sets[k]->fields[field].n_components));
+    }
+    mor_picture_color_names(names);
+    MOR_CHECK(context, is_found, MOR_ERROR_CONFIG,
+              "%s: found output.color = \"%s\", which is no number or vector of the snapshots of %s; allowed: %s (of "
+              "stress only where there is stress) and the fields of 1 or 3 components that 'moraine list fields' shows "
+              "as in snapshots; use one of these",
+              the_case->path, color.name, has_soil ? "the soil" : "the bodies", names);
     return MOR_OK;
 }
 
-/* Everything that stays the same over the pictures of a run. */
+/* One set of the present snapshot. */
+typedef struct layer {
+    const mor_snapshot_set *set; /* borrowed */
+    bool is_soil;
+    char label[MOR_CASE_NAME_BYTES]; /* for the legend */
+    double *position;                /* shape [n, 3], m */
+    double *value;                   /* shape [n], its color; NULL: not colored */
+    double *part;                    /* shape [n], number of the body; NULL: not known */
+} layer;
+
+/* Everything that stays the same over the pictures of a run, and the layers of the present one. */
 typedef struct gallery {
     const mor_case *the_case;
     const char *folder;
+    mor_picture_color color;
     double up[3];
     mor_bounds frame;
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
     bool is_ground[MOR_CASE_WALLS_MAX];
-    double wall_time; /* s; moving walls stand where they are at this time */
-    double range[2];  /* of the colors, over all pictures */
-    double *position; /* shape [n, 3], of the present snapshot, m */
-    double *value;    /* shape [n], its color */
+    bool is_veil[MOR_CASE_WALLS_MAX]; /* between viewer and scene */
+    double wall_time;                 /* s; moving walls stand where they are at this time */
+    double range[2];                  /* of the colors, over all pictures */
+    layer layers[LAYERS_MAX];
+    int n_layers;
+    bool has_soil;
+    const char *unit; /* of the colors; borrowed from the present snapshot */
 } gallery;
 
+/* ---- Layers from a snapshot -------------------------------------------------------------------------------------- */
+
 static mor_status read_field(mor_context *context, const mor_snapshot *snapshot, const mor_snapshot_set *set,
-                             const char *name, double **values, int *n_components)
+                             const char *name, double **values)
 {
     const mor_snapshot_field *field = mor_snapshot_find_field(set, name);
-    MOR_CHECK(context, field != NULL, MOR_ERROR_CONFIG,
-              "the snapshots have no field '%s' to color by; allowed are speed, pressure, vertical_stress and the "
-              "output fields that 'moraine list fields' prints; change 'color' in the group 'output'",
-              name);
-    *n_components = field->n_components;
+    MOR_CHECK(context, field != NULL, MOR_ERROR_IO, "set '%s' of snapshot %lld has no field '%s'", set->name,
+              (long long)snapshot->step, name);
     MOR_TRY(context, MOR_NEW(context, values, set->n_particles * field->n_components, "a field for a picture"));
     return mor_snapshot_read_field(context, snapshot, set, field, *values);
 }
 
-static mor_status read_colors(mor_context *context, gallery *g, const mor_snapshot *snapshot,
-                              const mor_snapshot_set *set, const char **unit)
+static mor_status read_colors(mor_context *context, gallery *g, const mor_snapshot *snapshot, layer *l)
 {
-    const char *name = g->the_case->output.color_field;
-    color_value value = plain;
-    const char *field_name = name;
-    *unit = NULL;
-    for (int k = 0; k < N_DERIVED; ++k) {
-        if (strcmp(derived_colors[k].color, name) == 0) {
-            field_name = derived_colors[k].field;
-            value = derived_colors[k].value;
-            *unit = derived_colors[k].unit;
-        }
+    const mor_snapshot_field *field = mor_snapshot_find_field(l->set, g->color.field);
+    double *values = NULL;
+    if (field == NULL || !mor_picture_color_fits(&g->color, field->n_components)) {
+        return MOR_OK;
     }
-    double *field = NULL;
-    int n_components = 0;
-    mor_status status = read_field(context, snapshot, set, field_name, &field, &n_components);
+    mor_status status = read_field(context, snapshot, l->set, g->color.field, &values);
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &g->value, set->n_particles, "colors of a picture");
+        status = MOR_NEW(context, &l->value, l->set->n_particles, "colors of a picture");
     }
     if (status == MOR_OK) {
-        value = value == plain && n_components == 3 ? length_of : value;
-        *unit = *unit != NULL ? *unit : mor_snapshot_find_field(set, field_name)->unit;
-        for (int64_t i = 0; i < set->n_particles; ++i) {
-            g->value[i] = value(field + n_components * i, g->up);
+        for (int64_t i = 0; i < l->set->n_particles; ++i) {
+            const double *at = values + field->n_components * i;
+            l->value[i] = mor_picture_color_value(&g->color, at, field->n_components, g->up);
         }
+        g->unit = g->color.unit != NULL ? g->color.unit : field->unit;
     }
-    MOR_FREE(context, &field);
+    MOR_FREE(context, &values);
     return status;
 }
 
-/* Keeps the wall particles around the soil. */
+/* "soil"; "rock" where all are alike, else with the name of their model. */
+static void label_layer(layer *l, int n_bodies)
+{
+    const char *separator = n_bodies > 1 ? ", " : "";
+    snprintf(l->label, sizeof l->label, "%s%s%s", l->is_soil ? "soil" : "rock", l->is_soil ? "" : separator,
+             l->is_soil || n_bodies == 1 ? "" : l->set->name);
+    for (char *letter = l->label; *letter != '\0'; ++letter) {
+        *letter = *letter == '_' ? ' ' : *letter;
+    }
+}
+
+static mor_status read_layer(mor_context *context, gallery *g, const mor_snapshot *snapshot, layer *l)
+{
+    const mor_snapshot_field *body = mor_snapshot_find_field(l->set, "body");
+    MOR_TRY(context, read_field(context, snapshot, l->set, "position", &l->position));
+    if (is_colored(l->set->name, g->has_soil)) {
+        MOR_TRY(context, read_colors(context, g, snapshot, l));
+    }
+    if (!l->is_soil && body != NULL && body->n_components == 1) {
+        MOR_TRY(context, read_field(context, snapshot, l->set, "body", &l->part));
+    }
+    return MOR_OK;
+}
+
+static mor_status read_layers(mor_context *context, gallery *g, const mor_snapshot *snapshot)
+{
+    g->n_layers = 0;
+    g->has_soil = false;
+    g->unit = NULL;
+    MOR_CHECK(context, snapshot->n_sets <= LAYERS_MAX, MOR_ERROR_UNSUPPORTED,
+              "snapshot %lld of '%s' holds %d sets; pictures show up to %d", (long long)snapshot->step, g->folder,
+              snapshot->n_sets, LAYERS_MAX);
+    for (int k = 0; k < snapshot->n_sets; ++k) {
+        const bool is_soil = strcmp(snapshot->sets[k].name, SOIL_SET) == 0;
+        if (snapshot->sets[k].n_particles > 0) {
+            g->layers[g->n_layers++] = (layer){.set = &snapshot->sets[k], .is_soil = is_soil};
+            g->has_soil = g->has_soil || is_soil;
+        }
+    }
+    MOR_CHECK(context, g->n_layers > 0, MOR_ERROR_IO, "snapshot %lld of '%s' holds no particle",
+              (long long)snapshot->step, g->folder);
+    for (int k = 0; k < g->n_layers; ++k) {
+        label_layer(&g->layers[k], g->n_layers - g->has_soil);
+        MOR_TRY(context, read_layer(context, g, snapshot, &g->layers[k]));
+    }
+    MOR_CHECK(context, g->unit != NULL, MOR_ERROR_CONFIG,
+              "the snapshots of %s have no field '%s' of 1 or 3 components to color by; allowed are the output fields "
+              "that 'moraine list fields' prints; change 'color' in the group 'output'",
+              g->has_soil ? "the soil" : "the bodies", g->color.field);
+    return MOR_OK;
+}
+
+static void free_layers(mor_context *context, gallery *g)
+{
+    for (int k = 0; k < g->n_layers; ++k) {
+        MOR_FREE(context, &g->layers[k].position);
+        MOR_FREE(context, &g->layers[k].value);
+        MOR_FREE(context, &g->layers[k].part);
+    }
+    g->n_layers = 0;
+}
+
+/* ---- Walls ------------------------------------------------------------------------------------------------------- */
+
+/* Keeps the wall particles around the others. */
 static void trim_wall(const gallery *g, mor_lattice_points *wall)
 {
-    const double margin = WALL_MARGIN * g->the_case->spacing;
+    const double n_spacings = g->the_case->dimension == 2 ? WALL_MARGIN_PLANE : WALL_MARGIN_SPACE;
+    const double margin = n_spacings * g->the_case->spacing;
     int64_t n = 0;
     for (int64_t i = 0; i < wall->n_points; ++i) {
         const double *x = wall->positions + 3 * i;
@@ -150,19 +206,29 @@ static void trim_wall(const gallery *g, mor_lattice_points *wall)
     wall->n_points = n;
 }
 
+/* What a wall is to the viewer: the ground, a veil to be left out, or neither. */
+static void sort_wall(gallery *g, int w)
+{
+    const mor_case *c = g->the_case;
+    const bool is_half = c->dimension == 3 && c->walls[w].outline.kind == MOR_CASE_SHAPE_HALF_SPACE;
+    mor_camera camera;
+    double normal[3];
+    mor_camera_orient(&camera, c->output.view, g->up);
+    mor_matrix_apply(c->turn, c->walls[w].outline.second, normal);
+    g->is_ground[w] = is_half && mor_vector_dot(normal, g->up) > GROUND_COSINE * mor_vector_length(normal);
+    g->is_veil[w] = is_half && mor_vector_dot(normal, camera.toward) < 0.0;
+}
+
 static mor_status fill_walls(mor_context *context, gallery *g)
 {
     const mor_case *c = g->the_case;
     for (int w = 0; w < c->n_walls; ++w) {
-        double normal[3];
         MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
         /* A moving wall is kept whole: it may come into view later. */
         if (mor_vector_length(c->walls[w].velocity) == 0.0) {
             trim_wall(g, &g->walls[w]);
         }
-        mor_matrix_apply(c->turn, c->walls[w].outline.second, normal);
-        g->is_ground[w] = c->dimension == 3 && c->walls[w].outline.kind == MOR_CASE_SHAPE_HALF_SPACE &&
-                          mor_vector_dot(normal, g->up) > GROUND_COSINE * mor_vector_length(normal);
+        sort_wall(g, w);
     }
     return MOR_OK;
 }
@@ -180,24 +246,52 @@ static void move_walls(gallery *g, double time)
     g->wall_time = time;
 }
 
-/* Fills in what a picture shows; the soil comes first. */
-static int list_groups(const gallery *g, int64_t n_particles, mor_picture_group *groups)
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
+
+static mor_picture_group show_layer(const gallery *g, const layer *l, int tone)
 {
-    const double radius = 0.5 * g->the_case->spacing;
-    groups[0] = (mor_picture_group){
-        .name = NULL, .position = g->position, .n_particles = n_particles, .radius = radius, .value = g->value};
-    int n = 1;
+    const bool is_alone = g->has_soil && g->n_layers == 1;
+    mor_picture_group group = {.name = is_alone ? NULL : l->label,
+                               .position = l->position,
+                               .n_particles = l->set->n_particles,
+                               .radius = 0.5 * g->the_case->spacing,
+                               .value = l->value,
+                               .part = l->part,
+                               .is_piece = !l->is_soil,
+                               .is_whole = !l->is_soil && g->has_soil};
+    memcpy(group.color, stone_tones[tone % TONES], sizeof group.color);
+    return group;
+}
+
+static mor_picture_group show_wall(const gallery *g, int w, bool is_first)
+{
+    const bool is_plane = g->the_case->dimension == 2;
+    mor_picture_group group = {.name = is_plane && is_first ? "walls" : NULL,
+                               .position = g->walls[w].positions,
+                               .n_particles = g->walls[w].n_points,
+                               .radius = 0.5 * g->the_case->spacing,
+                               .style = g->is_ground[w] ? MOR_PICTURE_GROUND
+                                        : is_plane      ? MOR_PICTURE_SOLID
+                                                        : MOR_PICTURE_GHOST,
+                               .is_whole = true};
+    memcpy(group.color, wall_gray, sizeof group.color);
+    return group;
+}
+
+/* Fills in what a picture shows; what comes first is first in the legend. */
+static int list_groups(const gallery *g, mor_picture_group *groups)
+{
+    int n = 0;
+    int tone = 0;
+    bool is_first = true;
+    for (int k = 0; k < g->n_layers; ++k) {
+        groups[n++] = show_layer(g, &g->layers[k], tone);
+        tone += !g->layers[k].is_soil;
+    }
     for (int w = 0; w < g->the_case->n_walls && n < MOR_PICTURE_GROUPS_MAX; ++w) {
-        if (g->walls[w].n_points > 0) {
-            const mor_picture_style style = g->is_ground[w]               ? MOR_PICTURE_GROUND
-                                            : g->the_case->dimension == 2 ? MOR_PICTURE_SOLID
-                                                                          : MOR_PICTURE_GHOST;
-            groups[n++] = (mor_picture_group){.name = g->the_case->dimension == 2 ? g->the_case->walls[w].name : NULL,
-                                              .position = g->walls[w].positions,
-                                              .n_particles = g->walls[w].n_points,
-                                              .radius = radius,
-                                              .style = style,
-                                              .is_whole = true};
+        if (g->walls[w].n_points > 0 && !g->is_veil[w]) {
+            groups[n++] = show_wall(g, w, is_first);
+            is_first = false;
         }
     }
     return n;
@@ -210,25 +304,23 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     char time_text[64];
     char value_name[MOR_CASE_NAME_BYTES];
     mor_picture_group groups[MOR_PICTURE_GROUPS_MAX];
-    const mor_snapshot_set *set = mor_snapshot_find_set(snapshot, "soil");
-    int n_components = 0;
-    MOR_CHECK(context, set != NULL, MOR_ERROR_IO, "snapshot %lld of '%s' holds no set 'soil'",
-              (long long)snapshot->step, g->folder);
-    MOR_TRY(context, read_field(context, snapshot, set, "position", &g->position, &n_components));
+    const double largest = fmax(fabs(g->range[0]), fabs(g->range[1]));
+    MOR_TRY(context, read_layers(context, g, snapshot));
     mor_picture picture = {.dimension = c->dimension, .title = c->title, .has_frame = true, .frame = g->frame};
-    MOR_TRY(context, read_colors(context, g, snapshot, set, &picture.value_unit));
     snprintf(time_text, sizeof time_text, "t = %.4g s", snapshot->time);
     snprintf(value_name, sizeof value_name, "%s", c->output.color_field);
     for (char *letter = value_name; *letter != '\0'; ++letter) {
         *letter = *letter == '_' ? ' ' : *letter;
     }
     move_walls(g, snapshot->time);
-    picture.has_range = g->range[1] > g->range[0];
+    /* A range of rounding errors, as of a body that flies undisturbed, is none. */
+    picture.has_range = g->range[1] - g->range[0] > 1e-6 * largest;
     memcpy(picture.range, g->range, sizeof picture.range);
     picture.time_text = time_text;
     picture.value_name = value_name;
+    picture.value_unit = g->unit;
     picture.groups = groups;
-    picture.n_groups = list_groups(g, set->n_particles, groups);
+    picture.n_groups = list_groups(g, groups);
     picture.cut = c->output.has_cut ? MOR_PICTURE_CUT_QUADRANT : MOR_PICTURE_CUT_NONE;
     for (int a = 0; a < 3; ++a) {
         picture.gravity[a] = -g->up[a];
@@ -243,36 +335,28 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     return MOR_OK;
 }
 
-static void free_snapshot_arrays(mor_context *context, gallery *g)
-{
-    MOR_FREE(context, &g->position);
-    MOR_FREE(context, &g->value);
-}
-
-/* Widens the frame to hold the soil of a snapshot, and the range of colors to hold nearly all of its values, so
- * that all
- * pictures of a run can be compared. */
+/* Widens the frame to hold the particles of a snapshot, and the range of colors to hold nearly all of its values, so
+ * that all pictures of a run can be compared. */
 static mor_status widen_gallery(mor_context *context, gallery *g, const mor_snapshot *snapshot)
 {
-    const mor_snapshot_set *set = mor_snapshot_find_set(snapshot, "soil");
-    const char *unit = NULL;
-    int n_components = 0;
-    double low = 0.0;
-    double high = 0.0;
-    if (set == NULL) {
-        return MOR_OK;
+    MOR_TRY(context, read_layers(context, g, snapshot));
+    for (int l = 0; l < g->n_layers; ++l) {
+        const layer *shown = &g->layers[l];
+        const int64_t n = shown->set->n_particles;
+        for (int64_t k = 0; k < 3 * n; ++k) {
+            const int a = (int)(k % 3);
+            g->frame.minimum[a] = fmin(g->frame.minimum[a], shown->position[k] - 0.5 * g->the_case->spacing);
+            g->frame.maximum[a] = fmax(g->frame.maximum[a], shown->position[k] + 0.5 * g->the_case->spacing);
+        }
+        if (shown->value != NULL) {
+            double low = 0.0;
+            double high = 0.0;
+            MOR_TRY(context, mor_measure_percentile(context, shown->value, NULL, n, 1.0, &low));
+            MOR_TRY(context, mor_measure_percentile(context, shown->value, NULL, n, 99.0, &high));
+            g->range[0] = fmin(g->range[0], low);
+            g->range[1] = fmax(g->range[1], high);
+        }
     }
-    MOR_TRY(context, read_field(context, snapshot, set, "position", &g->position, &n_components));
-    for (int64_t k = 0; k < 3 * set->n_particles; ++k) {
-        const int a = (int)(k % 3);
-        g->frame.minimum[a] = fmin(g->frame.minimum[a], g->position[k] - 0.5 * g->the_case->spacing);
-        g->frame.maximum[a] = fmax(g->frame.maximum[a], g->position[k] + 0.5 * g->the_case->spacing);
-    }
-    MOR_TRY(context, read_colors(context, g, snapshot, set, &unit));
-    MOR_TRY(context, mor_measure_percentile(context, g->value, NULL, set->n_particles, 1.0, &low));
-    MOR_TRY(context, mor_measure_percentile(context, g->value, NULL, set->n_particles, 99.0, &high));
-    g->range[0] = fmin(g->range[0], low);
-    g->range[1] = fmax(g->range[1], high);
     return MOR_OK;
 }
 
@@ -283,7 +367,7 @@ static mor_status visit_snapshot(mor_context *context, gallery *g, int64_t step,
     MOR_TRY(context, mor_snapshot_open(context, &snapshot, g->folder, step));
     const mor_status status =
         output != NULL ? draw_snapshot(context, g, &snapshot, output) : widen_gallery(context, g, &snapshot);
-    free_snapshot_arrays(context, g);
+    free_layers(context, g);
     mor_snapshot_close(context, &snapshot);
     return status;
 }
@@ -317,7 +401,7 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
 mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, const char *folder,
                                mor_pictures_choice choice, FILE *output)
 {
-    gallery g = {.the_case = the_case, .folder = folder};
+    gallery g = {.the_case = the_case, .folder = folder, .color = mor_picture_color_find(the_case->output.color_field)};
     mor_snapshot_list list;
     mor_simulation_find_up(the_case, g.up);
     MOR_TRY(context, mor_snapshot_list_init(context, &list, folder));

@@ -9,7 +9,8 @@
 #include <stdio.h>
 
 /** @file
- *  Pictures of a run's folder: the snapshots as particles with walls, the series as charts. */
+ *  Pictures of a run's folder: the snapshots as particles with walls, the series as charts. The set named "soil" is
+ *  colored by the case's field; all other sets are bodies, in tones of stone, or colored where there is no soil. */
 
 /** Which snapshots become pictures. */
 typedef enum mor_pictures_choice {
@@ -17,12 +18,14 @@ typedef enum mor_pictures_choice {
     MOR_PICTURES_ALL
 } mor_pictures_choice;
 
-/** Checks before a run that its pictures can be colored as the case asks.
+/** Checks before a run that its pictures can be colored as the case asks: by a field of the soil, or of some group of
+ *  bodies where there is no soil.
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object
- *  @param set      [in]      one object; the soil's
+ *  @param sets     [in]      shape [n_sets]; what goes into the snapshots: "soil" and the groups of bodies
+ *  @param n_sets   [in]      number of sets
  *  Returns: MOR_OK; MOR_ERROR_CONFIG naming the color and what is allowed. */
-mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, const mor_set *set);
+mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, mor_set *const *sets, int n_sets);
 
 /** Draws images/<snapshot>_<color>.png for snapshots, all with the same camera, and images/energy.png and
  *  images/<probe unit>.png charts of the series.

@@ -1,23 +1,14 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/probe.h"
+#include "cases/driver/probe_measure.h"
 
 #include "cases/driver/case_schema.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/sph/measure.h"
 
 #include <string.h>
 
-/* Everything a measurement may need, in the placed frame. */
-typedef struct view {
-    const mor_simulation *simulation;
-    const mor_case_probe *probe;
-    mor_measure_points points;
-    mor_measure_frame frame;
-} view;
-
-typedef mor_status (*measure)(mor_context *context, const view *v, double *value);
+typedef mor_probe_view view;
 
 static const double *field(const view *v, mor_field_id id)
 {
@@ -111,17 +102,37 @@ static mor_status repose_angle(mor_context *context, const view *v, double *valu
     return status;
 }
 
-static mor_status kinetic_energy(mor_context *context, const view *v, double *value)
+static mor_status soil_kinetic_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
     *value = mor_measure_kinetic_energy(&v->points, field(v, MOR_FIELD_VELOCITY));
     return MOR_OK;
 }
 
+/* Energies of the bodies, J: kinetic, potential about the probe's origin, elastic. */
+static void find_bodies_energy(const view *v, double *kinetic, double *potential, double *elastic)
+{
+    mor_simulation_bodies_energy(&v->simulation->bodies, v->frame.origin, kinetic, potential, elastic);
+}
+
+static mor_status kinetic_energy(mor_context *context, const view *v, double *value)
+{
+    double potential = 0.0;
+    double elastic = 0.0;
+    double of_soil = 0.0;
+    find_bodies_energy(v, value, &potential, &elastic);
+    MOR_TRY(context, soil_kinetic_energy(context, v, &of_soil));
+    *value += of_soil;
+    return MOR_OK;
+}
+
 static mor_status potential_energy(mor_context *context, const view *v, double *value)
 {
+    double kinetic = 0.0;
+    double elastic = 0.0;
     (void)context;
-    *value = mor_measure_potential_energy(&v->points, v->simulation->soil.settings.gravity, v->frame.origin);
+    find_bodies_energy(v, &kinetic, value, &elastic);
+    *value += mor_measure_potential_energy(&v->points, v->simulation->frame.gravity, v->frame.origin);
     return MOR_OK;
 }
 
@@ -141,7 +152,14 @@ static double find_offset(const view *v)
     for (int a = 0; a < 3; ++a) {
         offset[a] = v->frame.origin[a] - origin[a];
     }
-    return mor_measure_mass(&v->points) * mor_vector_dot(v->simulation->soil.settings.gravity, offset);
+    double mass = mor_measure_mass(&v->points);
+    for (int g = 0; g < v->simulation->bodies.n_groups; ++g) {
+        const mor_body_group *group = v->simulation->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            mass += group->bodies[b].mass;
+        }
+    }
+    return mass * mor_vector_dot(v->simulation->frame.gravity, offset);
 }
 
 static mor_status total_energy(mor_context *context, const view *v, double *value)
@@ -175,9 +193,12 @@ static mor_status mass(mor_context *context, const view *v, double *value)
 static mor_status momentum(mor_context *context, const view *v, double *value)
 {
     double vector[3];
+    double of_bodies[3];
+    double angular[3];
     (void)context;
     mor_measure_momentum(&v->points, field(v, MOR_FIELD_VELOCITY), vector);
-    *value = mor_vector_dot(vector, v->frame.direction);
+    mor_simulation_bodies_momentum(&v->simulation->bodies, v->frame.origin, of_bodies, angular);
+    *value = mor_vector_dot(vector, v->frame.direction) + mor_vector_dot(of_bodies, v->frame.direction);
     return MOR_OK;
 }
 
@@ -193,18 +214,28 @@ static mor_status center_of_mass(mor_context *context, const view *v, double *va
     return MOR_OK;
 }
 
-static mor_status wall_force(mor_context *context, const view *v, double *value)
+/* Component of a vector that the soil keeps for each wall. */
+static mor_status of_wall(mor_context *context, const view *v, const double vectors[][3], double *value)
 {
     const mor_soil *soil = &v->simulation->soil;
     for (int w = 0; w < soil->n_walls; ++w) {
         if (strcmp(soil->walls[w].name, v->probe->wall) == 0) {
-            *value = mor_vector_dot(soil->wall_force[w], v->frame.direction);
+            *value = mor_vector_dot(vectors[w], v->frame.direction);
             return MOR_OK;
         }
     }
     return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "%s:%d: found wall '%s' in probe '%s'; allowed are the names of the case's walls; correct the name",
-                    v->probe->place.file, v->probe->place.line, v->probe->wall, v->probe->name);
+                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+}
+
+static mor_status wall_force(mor_context *context, const view *v, double *value)
+{
+    return of_wall(context, v, v->simulation->soil.wall_force, value);
+}
+
+static mor_status wall_impulse(mor_context *context, const view *v, double *value)
+{
+    return of_wall(context, v, v->simulation->soil.wall_impulse, value);
 }
 
 static mor_status largest_speed(mor_context *context, const view *v, double *value)
@@ -262,53 +293,87 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
     return MOR_OK;
 }
 
-static const struct {
-    const char *type;
-    measure run;
-} measures[] = {{"run_out", run_out},
-                {"front_speed", front_speed},
-                {"height", height},
-                {"repose_angle", repose_angle},
-                {"stray_share", stray_share},
-                {"kinetic_energy", kinetic_energy},
-                {"potential_energy", potential_energy},
-                {"elastic_energy", elastic_energy},
-                {"total_energy", total_energy},
-                {"energy_left", energy_left},
-                {"dissipated_energy", dissipated_energy},
-                {"mass", mass},
-                {"momentum", momentum},
-                {"center_of_mass", center_of_mass},
-                {"wall_force", wall_force},
-                {"largest_speed", largest_speed},
-                {"density_drift", density_drift},
-                {"stress_error", stress_error},
-                {"stress_ratio", stress_ratio},
-                {"stress_noise", stress_noise}};
+static const mor_probe_measure measures[] = {{"run_out", run_out},
+                                             {"front_speed", front_speed},
+                                             {"height", height},
+                                             {"repose_angle", repose_angle},
+                                             {"stray_share", stray_share},
+                                             {"kinetic_energy", kinetic_energy},
+                                             {"potential_energy", potential_energy},
+                                             {"elastic_energy", elastic_energy},
+                                             {"total_energy", total_energy},
+                                             {"energy_left", energy_left},
+                                             {"dissipated_energy", dissipated_energy},
+                                             {"mass", mass},
+                                             {"momentum", momentum},
+                                             {"center_of_mass", center_of_mass},
+                                             {"wall_force", wall_force},
+                                             {"wall_impulse", wall_impulse},
+                                             {"largest_speed", largest_speed},
+                                             {"density_drift", density_drift},
+                                             {"stress_error", stress_error},
+                                             {"stress_ratio", stress_ratio},
+                                             {"stress_noise", stress_noise},
+                                             {"soil_kinetic_energy", soil_kinetic_energy},
+                                             {NULL, NULL}};
 
-mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simulation, int probe, double *value)
+static const mor_probe_measure *find_measure(const char *type)
+{
+    static const mor_probe_measure *const tables[] = {measures, mor_probe_body_measures};
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
+        for (const mor_probe_measure *it = tables[t]; it->type != NULL; ++it) {
+            if (strcmp(it->type, type) == 0) {
+                return it;
+            }
+        }
+    }
+    return NULL;
+}
+
+static void set_view(const mor_simulation *simulation, int probe, view *v)
 {
     const mor_case *c = simulation->the_case;
     const mor_case_probe *it = &c->probes[probe];
     double *const *data = simulation->soil.set.data;
-    view v = {.simulation = simulation,
-              .probe = it,
-              .points = {simulation->soil.set.n_particles, c->dimension, c->spacing, data[MOR_FIELD_POSITION],
-                         data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY]},
-              .frame = {.is_radial = it->is_radial}};
-    mor_simulation_place_point(c, it->origin, v.frame.origin);
-    mor_matrix_apply(c->turn, it->direction, v.frame.direction);
-    memcpy(v.frame.up, simulation->up, sizeof v.frame.up);
+    *v = (view){.simulation = simulation,
+                .probe = it,
+                .number = probe,
+                .points = {simulation->soil.set.n_particles, c->dimension, c->spacing, data[MOR_FIELD_POSITION],
+                           data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY]},
+                .frame = {.is_radial = it->is_radial}};
+    mor_simulation_place_point(c, it->origin, v->frame.origin);
+    mor_matrix_apply(c->turn, it->direction, v->frame.direction);
+    memcpy(v->frame.up, simulation->up, sizeof v->frame.up);
+}
+
+mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simulation, int probe, double *value)
+{
+    const mor_case_probe *it = &simulation->the_case->probes[probe];
+    const mor_probe_measure *found = find_measure(it->type);
+    view v;
     *value = NAN;
-    for (size_t k = 0; k < sizeof measures / sizeof *measures; ++k) {
-        if (strcmp(measures[k].type, it->type) == 0) {
-            const mor_status status = measures[k].run(context, &v, value);
-            return status == MOR_OK ? status
-                                    : MOR_FAIL(context, status, "%s:%d: probe '%s': %s", it->place.file, it->place.line,
-                                               it->name, context->message);
+    if (found == NULL) {
+        return MOR_FAIL(context, MOR_ERROR_INTERNAL, "probe type '%s' has no measurement", it->type);
+    }
+    set_view(simulation, probe, &v);
+    const mor_status status = found->run(context, &v, value);
+    return status == MOR_OK ? status
+                            : MOR_FAIL(context, status, "%s:%d: probe '%s': %s", it->place.file, it->place.line,
+                                       it->name, context->message);
+}
+
+mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation)
+{
+    for (int k = 0; k < simulation->the_case->n_probes; ++k) {
+        if (strcmp(simulation->the_case->probes[k].type, MOR_PROBE_LARGEST_DEPTH) == 0) {
+            view v;
+            double depth = 0.0;
+            set_view(simulation, k, &v);
+            MOR_TRY(context, mor_probe_depth(context, &v, &depth));
+            simulation->extremes[k] = fmax(simulation->extremes[k], depth);
         }
     }
-    return MOR_FAIL(context, MOR_ERROR_INTERNAL, "probe type '%s' has no measurement", it->type);
+    return MOR_OK;
 }
 
 const char *mor_probe_unit(const mor_case *the_case, int probe)

@@ -17,6 +17,12 @@
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for a wall that does not exist; what the measurement returns. */
 mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simulation, int probe, double *value);
 
+/** Keeps track of probes that are the largest value so far. To be called after each step.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in,out]  one object
+ *  Returns: MOR_OK; what a measurement returns. */
+mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation);
+
 /** Returns the SI unit of a probe of the case, a static string.
  *  @param the_case [in]  one object
  *  @param probe    [in]  index of the probe */

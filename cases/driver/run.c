@@ -5,6 +5,7 @@
 #include "cases/driver/case_read.h"
 #include "cases/driver/clock.h"
 #include "cases/driver/pictures.h"
+#include "cases/driver/probe.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -46,6 +47,12 @@ static void find_next_outputs(const mor_simulation *s, pace *p)
     }
 }
 
+/* Particles of the unit of account: those that take the common step. */
+static int64_t count_leading(const mor_simulation *s)
+{
+    return s->has_soil ? s->soil.set.n_particles : mor_simulation_particles(s);
+}
+
 static void show_progress(const mor_run_options *options, const mor_simulation *s, pace *p)
 {
     const double now = mor_clock_now();
@@ -58,10 +65,12 @@ static void show_progress(const mor_run_options *options, const mor_simulation *
     const double seconds_per_step = p->loop_seconds / (double)p->n_loop_steps;
     const double steps_left = (double)(schedule->end - schedule->now) * schedule->tick / schedule->step_length;
     const double left = steps_left * seconds_per_step;
-    fprintf(options->progress,
-            "\r%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  %.2f M particle-steps/s  %d min %02d s left   ",
-            100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
-            1e-6 * (double)s->soil.set.n_particles / seconds_per_step, (int)(left / 60.0), (int)fmod(left, 60.0));
+    fprintf(
+        options->progress,
+        "\r%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  sub-steps %d  %.2f M particle-steps/s  %d min %02d s left   ",
+        100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
+        mor_schedule_rate_ratio(schedule), 1e-6 * (double)count_leading(s) / seconds_per_step, (int)(left / 60.0),
+        (int)fmod(left, 60.0));
     fflush(options->progress);
 }
 
@@ -99,6 +108,7 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
         p->loop_seconds += mor_clock_now() - before;
         p->n_loop_steps += 1;
+        MOR_TRY(context, mor_probe_follow(context, s));
         MOR_TRY(context, write_outputs(context, files, p));
         show_progress(files->options, s, p);
     }
@@ -135,10 +145,10 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     const mor_simulation *s = files->simulation;
     const mor_run_options *options = files->options;
     const double speed =
-        p->loop_seconds > 0.0 ? (double)s->soil.set.n_particles * (double)p->n_loop_steps / p->loop_seconds : NAN;
+        p->loop_seconds > 0.0 ? (double)count_leading(s) * (double)p->n_loop_steps / p->loop_seconds : NAN;
     outcome->is_finished = s->schedule.now >= s->schedule.end;
     if (options->progress != NULL) {
-        fprintf(options->progress, "\r%*s\r", 110, "");
+        fprintf(options->progress, "\r%*s\r", 126, "");
     }
     MOR_TRY(context, mor_run_files_save(context, files));
     if (!outcome->is_finished) {
@@ -148,9 +158,15 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
                 mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
         return MOR_OK;
     }
-    fprintf(options->output, "%s\n%lld particles, %llu steps, %.3g M particle-steps/s, %.0f bytes per particle\n",
-            s->the_case->title, (long long)s->soil.set.n_particles, (unsigned long long)s->schedule.n_steps,
-            1e-6 * speed, mor_soil_bytes_per_particle(&s->soil));
+    fprintf(options->output, "%s\n%lld particles, %llu steps, %.3g M particle-steps/s", s->the_case->title,
+            (long long)mor_simulation_particles(s), (unsigned long long)s->schedule.n_steps, 1e-6 * speed);
+    if (s->bodies.n_groups > 0) {
+        fprintf(options->output, ", %d sub-steps of bodies per step", mor_schedule_rate_ratio(&s->schedule));
+    }
+    if (s->has_soil) {
+        fprintf(options->output, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+    }
+    fprintf(options->output, "\n");
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, &outcome->n_missed));
     if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
@@ -165,7 +181,9 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
     if (status == MOR_OK) {
-        status = mor_pictures_check(context, files->the_case, &files->simulation->soil.set);
+        mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+        const int n_sets = mor_simulation_sets(files->simulation, false, sets);
+        status = mor_pictures_check(context, files->the_case, sets, n_sets);
     }
     if (status == MOR_OK) {
         status = start_run(context, files, &p);

@@ -151,7 +151,7 @@ static void set_facts(mor_run_files *files)
     add_fact(files, "seed", files->seed_text);
     add_fact(files, "case", files->the_case->path);
     add_fact(files, "case_xxh64", files->hash_text);
-    add_fact(files, "instruction_set", files->simulation->soil.table->instruction_set);
+    add_fact(files, "instruction_set", mor_pair_select(NULL)->instruction_set);
 }
 
 mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool is_resume)
@@ -198,7 +198,7 @@ mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
     row[0] = mor_schedule_time(schedule);
     row[1] = (double)schedule->n_steps;
     row[2] = schedule->step_length;
-    row[3] = 1.0; /* sub-steps of the finest stepper per step: soil alone takes one */
+    row[3] = (double)mor_schedule_rate_ratio(schedule);
     for (int k = 0; k < files->the_case->n_probes; ++k) {
         MOR_TRY(context, mor_probe_evaluate(context, files->simulation, k, &row[files->first_probe + k]));
     }
@@ -207,19 +207,53 @@ mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
 
 mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files)
 {
-    mor_set *const sets[] = {&files->simulation->soil.set};
+    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+    const int n_sets = mor_simulation_sets(files->simulation, false, sets);
     const mor_schedule *schedule = &files->simulation->schedule;
-    return mor_snapshot_writer_add(context, &files->snapshots, sets, 1, (int64_t)schedule->n_steps,
+    return mor_snapshot_writer_add(context, &files->snapshots, sets, n_sets, (int64_t)schedule->n_steps,
                                    mor_schedule_time(schedule));
 }
 
-/* What a run must remember beside the particles. Everything else follows from the case. */
-static int list_values(mor_simulation *s, mor_checkpoint_value *values)
+/* Everything a checkpoint holds, as a view of the simulation. */
+enum { VALUES_MAX = 24 + 6 * MOR_BODY_GROUPS_MAX, VALUE_NAME_BYTES = 64 };
+typedef struct saved_state {
+    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+    mor_checkpoint_value values[VALUES_MAX];
+    char names[VALUES_MAX][VALUE_NAME_BYTES]; /* of the values that belong to a group */
+    int n_values;
+    mor_checkpoint checkpoint;
+} saved_state;
+
+static void add_value(saved_state *state, const char *owner, const char *name, int64_t n, double *data)
+{
+    char *full = state->names[state->n_values];
+    snprintf(full, VALUE_NAME_BYTES, "%.30s_%s", owner, name);
+    state->values[state->n_values++] = (mor_checkpoint_value){full, MOR_HDF5_DOUBLE, n, data};
+}
+
+static void add_group_values(mor_simulation_bodies *bodies, int g, saved_state *state)
+{
+    mor_body_group *group = bodies->groups[g];
+    const char *name = group->set.name;
+    if (g < bodies->n_elastics) {
+        mor_elastic *elastic = &bodies->elastics[g];
+        add_value(state, name, "largest_speed", 1, &elastic->largest_speed);
+        add_value(state, name, "largest_acceleration", 1, &elastic->largest_acceleration);
+        add_value(state, name, "damped_energy", 1, &elastic->damped_energy);
+    } else {
+        add_value(state, name, "states", group->n_bodies * (int64_t)(sizeof(mor_rigid_state) / sizeof(double)),
+                  bodies->rigid.states->center);
+    }
+}
+
+/* What a run must remember. Everything else follows from the case. */
+static void list_state(mor_simulation *s, saved_state *state)
 {
     const mor_checkpoint_value list[] = {
         {"schedule_now", MOR_HDF5_INT64, 1, &s->schedule.now},
         {"schedule_end", MOR_HDF5_INT64, 1, &s->schedule.end},
         {"schedule_steps", MOR_HDF5_UINT64, 1, &s->schedule.n_steps},
+        {"schedule_particle_steps", MOR_HDF5_UINT64, 1, &s->schedule.n_particle_steps},
         {"schedule_step_length", MOR_HDF5_DOUBLE, 1, &s->schedule.step_length},
         {"soil_largest_speed", MOR_HDF5_DOUBLE, 1, &s->soil.largest_speed},
         {"soil_largest_acceleration", MOR_HDF5_DOUBLE, 1, &s->soil.largest_acceleration},
@@ -227,28 +261,35 @@ static int list_values(mor_simulation *s, mor_checkpoint_value *values)
         {"soil_wall_impulse", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_impulse},
         {"initial_energy", MOR_HDF5_DOUBLE, 1, &s->initial_energy},
         {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},
+        {"probe_extremes", MOR_HDF5_DOUBLE, MOR_CASE_PROBES_MAX, s->extremes},
+        {"bodies", MOR_HDF5_DOUBLE, s->bodies.n_packed, s->bodies.packed},
+        {"contact_impacts", MOR_HDF5_DOUBLE, s->bodies.contact.n_impacts, s->bodies.contact.impacts},
+        {"contact_spring_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.spring_energy},
+        {"contact_friction_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.friction_energy},
+        {"contact_damping_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.damping_energy},
     };
-    memcpy(values, list, sizeof list);
-    return (int)(sizeof list / sizeof *list);
+    memset(state, 0, sizeof *state);
+    memcpy(state->values, list, sizeof list);
+    state->n_values = (int)(sizeof list / sizeof *list);
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        add_group_values(&s->bodies, g, state);
+    }
+    const int n_sets = mor_simulation_sets(s, true, state->sets);
+    state->checkpoint = (mor_checkpoint){state->sets, n_sets, state->values, state->n_values};
 }
-
-enum { VALUES_MAX = 16 };
 
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
 {
-    mor_checkpoint_value values[VALUES_MAX];
-    mor_set *const sets[] = {&files->simulation->soil.set};
-    const mor_checkpoint state = {sets, 1, values, list_values(files->simulation, values)};
+    saved_state state;
+    list_state(files->simulation, &state);
+    MOR_TRY(context, mor_simulation_bodies_pack(context, &files->simulation->bodies, true));
     MOR_TRY(context, mor_table_sync(context, &files->series));
-    return mor_checkpoint_write(context, files->options->folder, &state);
+    return mor_checkpoint_write(context, files->options->folder, &state.checkpoint);
 }
 
 mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored)
 {
-    mor_checkpoint_value values[VALUES_MAX];
-    mor_soil *soil = &files->simulation->soil;
-    mor_set *const sets[] = {&soil->set};
-    const mor_checkpoint state = {sets, 1, values, list_values(files->simulation, values)};
+    saved_state state;
     const char *folder = files->options->folder;
     *is_restored =
         is_present(context, folder, MOR_CHECKPOINT_FILE) || is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
@@ -258,10 +299,13 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
         return MOR_OK;
     }
     const int64_t end = files->simulation->schedule.end;
-    MOR_TRY(context, mor_checkpoint_read_latest(context, folder, &state));
+    list_state(files->simulation, &state);
+    MOR_TRY(context, mor_checkpoint_read_latest(context, folder, &state.checkpoint));
     MOR_CHECK(context, files->simulation->schedule.end == end, MOR_ERROR_CONFIG,
               "the checkpoint in '%s' belongs to a run of another length; resume it with the same 'end'", folder);
-    soil->has_lists = false;
+    files->simulation->soil.has_lists = false;
+    files->simulation->bodies.contact.time = mor_schedule_time(&files->simulation->schedule);
+    MOR_TRY(context, mor_simulation_bodies_pack(context, &files->simulation->bodies, false));
     mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu",
                     mor_schedule_time(&files->simulation->schedule),
                     (unsigned long long)files->simulation->schedule.n_steps);

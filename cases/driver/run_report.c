@@ -4,6 +4,7 @@
 #include "cases/driver/run_files.h"
 
 #include "cases/driver/probe.h"
+#include "core/base/hash.h"
 #include "core/io/summary.h"
 
 #include <math.h>
@@ -64,9 +65,15 @@ static void print_expectations(FILE *out, const mor_case *the_case, const mor_su
 
 static void fill_summary(mor_run_files *files, mor_summary *summary)
 {
-    const mor_simulation *simulation = files->simulation;
-    summary->state_hash = mor_set_checksum(&simulation->soil.set);
-    summary->bytes_per_fine_particle = mor_soil_bytes_per_particle(&simulation->soil);
+    mor_simulation *simulation = files->simulation;
+    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+    uint64_t hashes[MOR_BODY_GROUPS_MAX + 2];
+    const int n_sets = mor_simulation_sets(simulation, true, sets);
+    for (int k = 0; k < n_sets; ++k) {
+        hashes[k] = mor_set_checksum(sets[k]);
+    }
+    summary->state_hash = n_sets == 1 ? hashes[0] : mor_hash_bytes(hashes, (size_t)n_sets * sizeof *hashes);
+    summary->bytes_per_fine_particle = simulation->has_soil ? mor_soil_bytes_per_particle(&simulation->soil) : NAN;
     summary->version = files->options->version;
     summary->commit = files->options->commit;
     summary->seed = files->the_case->seed;

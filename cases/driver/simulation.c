@@ -172,6 +172,27 @@ static mor_status check_inside(mor_context *context, const mor_case *the_case, c
     return MOR_OK;
 }
 
+/* Soil fills what rocks leave free. */
+static void leave_out_bodies(mor_context *context, const mor_case *the_case, const char *name,
+                             mor_lattice_points *points)
+{
+    int64_t n_kept = points->n_points;
+    for (int b = 0; b < the_case->n_bodies; ++b) {
+        const int64_t n = n_kept;
+        n_kept = 0;
+        for (int64_t i = 0; i < n; ++i) {
+            if (!mor_simulation_body_holds(the_case, &the_case->bodies[b], points->positions + 3 * i)) {
+                memmove(points->positions + 3 * n_kept++, points->positions + 3 * i, 3 * sizeof(double));
+            }
+        }
+    }
+    if (n_kept < points->n_points) {
+        mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles left out where bodies are", name,
+                        (long long)(points->n_points - n_kept), (long long)points->n_points);
+        points->n_points = n_kept;
+    }
+}
+
 static mor_status fill_soil(mor_context *context, const mor_case *the_case, int soil, mor_lattice_points *points)
 {
     const mor_case_soil *it = &the_case->soils[soil];
@@ -180,6 +201,7 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     request.jitter_ratio = the_case->jitter_ratio;
     const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
     MOR_TRY(context, fill_shape(context, &it->place, it->name, &request, points));
+    leave_out_bodies(context, the_case, it->name, points);
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
               "lattice point inside the domain; make the region larger, the spacing smaller, or move the domain",
@@ -259,14 +281,23 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
         .sort_interval = n->sort_interval,
         .damping = n->damping,
         .gravity_ramp = n->gravity_ramp,
+        .has_angular_momentum = n->angular_momentum,
         .reference_density = c->soils[0].density,
     };
-    mor_matrix_apply(c->turn, c->gravity, s->gravity);
+    const mor_simulation_frame *frame = &simulation->frame;
+    memcpy(s->gravity, frame->gravity, sizeof s->gravity);
+    memcpy(s->domain_minimum, frame->domain_minimum, sizeof s->domain_minimum);
+    memcpy(s->domain_maximum, frame->domain_maximum, sizeof s->domain_maximum);
+}
+
+/* Gravity and the box around the turned domain. */
+static void find_frame(const mor_case *c, mor_simulation_frame *frame)
+{
+    mor_matrix_apply(c->turn, c->gravity, frame->gravity);
     for (int a = 0; a < 3; ++a) {
-        s->domain_minimum[a] = INFINITY;
-        s->domain_maximum[a] = -INFINITY;
+        frame->domain_minimum[a] = INFINITY;
+        frame->domain_maximum[a] = -INFINITY;
     }
-    /* The box around the turned domain. */
     for (int corner = 0; corner < 8; ++corner) {
         double point[3];
         double placed[3];
@@ -275,8 +306,8 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
         }
         mor_simulation_place_point(c, point, placed);
         for (int a = 0; a < 3; ++a) {
-            s->domain_minimum[a] = fmin(s->domain_minimum[a], placed[a]);
-            s->domain_maximum[a] = fmax(s->domain_maximum[a], placed[a]);
+            frame->domain_minimum[a] = fmin(frame->domain_minimum[a], placed[a]);
+            frame->domain_maximum[a] = fmax(frame->domain_maximum[a], placed[a]);
         }
     }
 }
@@ -368,8 +399,13 @@ static mor_status build_schedule(mor_context *context, mor_simulation *simulatio
     mor_stepper stepper;
     uint64_t evolving = 0;
     MOR_TRY(context, mor_schedule_init(context, &simulation->schedule, simulation->the_case->end));
-    mor_soil_stepper(&simulation->soil, &stepper, &evolving);
-    return mor_schedule_add(context, &simulation->schedule, &stepper, evolving);
+    simulation->schedule.is_single_rate = simulation->the_case->numerics.single_rate;
+    if (simulation->has_soil) {
+        mor_soil_stepper(&simulation->soil, &stepper, &evolving);
+        MOR_TRY(context, mor_schedule_add(context, &simulation->schedule, &stepper, evolving));
+    }
+    return mor_simulation_bodies_join(context, &simulation->bodies, simulation->the_case,
+                                      simulation->has_soil ? &simulation->soil : NULL, &simulation->schedule);
 }
 
 mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation, const mor_case *the_case,
@@ -377,8 +413,17 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
 {
     memset(simulation, 0, sizeof *simulation);
     simulation->the_case = the_case;
+    simulation->has_soil = the_case->n_soils > 0;
+    for (int k = 0; k < MOR_CASE_PROBES_MAX; ++k) {
+        simulation->extremes[k] = -INFINITY;
+    }
     mor_simulation_find_up(the_case, simulation->up);
-    mor_status status = build_soil(context, simulation, registry);
+    find_frame(the_case, &simulation->frame);
+    mor_status status = simulation->has_soil ? build_soil(context, simulation, registry) : MOR_OK;
+    if (status == MOR_OK) {
+        status = mor_simulation_bodies_init(context, &simulation->bodies, the_case, registry, &simulation->frame,
+                                            simulation->has_soil ? 1 : 0);
+    }
     if (status == MOR_OK) {
         status = build_schedule(context, simulation);
     }
@@ -390,7 +435,32 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
 
 void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
 {
+    mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
     mor_material_destroy(context, &simulation->material);
     memset(simulation, 0, sizeof *simulation);
+}
+
+int64_t mor_simulation_particles(const mor_simulation *simulation)
+{
+    int64_t n = simulation->soil.set.n_particles;
+    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
+        n += simulation->bodies.groups[g]->set.n_particles;
+    }
+    return n;
+}
+
+int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **sets)
+{
+    int n = 0;
+    if (simulation->has_soil) {
+        sets[n++] = &simulation->soil.set;
+    }
+    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
+        sets[n++] = &simulation->bodies.groups[g]->set;
+    }
+    if (has_history && simulation->bodies.has_contact) {
+        sets[n++] = &simulation->bodies.contact.history;
+    }
+    return n;
 }

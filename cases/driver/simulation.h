@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_SIMULATION_H
 
 #include "cases/driver/case.h"
+#include "cases/driver/simulation_bodies.h"
 #include "core/material/registry.h"
 #include "core/sph/soil.h"
 #include "core/time/schedule.h"
@@ -22,12 +23,16 @@ enum {
 /** A case made ready to run. Owner: the caller, who ends it with mor_simulation_clear. */
 typedef struct mor_simulation {
     const mor_case *the_case; /* borrowed; outlives the simulation */
-    mor_material_instance *material;
-    mor_soil soil;
+    bool has_soil;
+    mor_material_instance *material; /* of the soil; NULL without */
+    mor_soil soil;                   /* zeroed without soil */
+    mor_simulation_bodies bodies;
+    mor_simulation_frame frame;
     mor_schedule schedule;
-    double up[3];          /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
-    double surface_height; /* of the initial soil along up over the placed origin, m */
-    double initial_energy; /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    double up[3];                         /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
+    double surface_height;                /* of the initial soil along up over the placed origin, m */
+    double initial_energy;                /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    double extremes[MOR_CASE_PROBES_MAX]; /* largest value so far of probes that ask for it, unit of the probe */
 } mor_simulation;
 
 /** Builds a simulation: checks that soil and walls do not overlap, fills the shapes with particles, sets the initial
@@ -90,7 +95,19 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall,
                                     mor_lattice_points *points);
 
-/** Kinetic, potential and elastic energy now, unit J (J/m in 2D); potential energy counts from the placed origin.
+/** Number of particles, soil and rocks.
+ *  @param simulation [in]  one object */
+int64_t mor_simulation_particles(const mor_simulation *simulation);
+
+/** All particle sets: the soil, the groups of bodies, what their contact remembers.
+ *  @param simulation [in]   one object
+ *  @param sets       [out]  shape [MOR_BODY_GROUPS_MAX + 2]; borrowed
+ *  @param has_history [in]  whether the contact's memory is wanted, which has no places
+ *  Returns: their number. */
+int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **sets);
+
+/** Kinetic, potential and elastic energy of soil and rocks now, unit J (J/m in 2D); potential energy counts from the
+ *  placed origin.
  *  @param simulation [in]   one object
  *  @param elastic    [out]  one number, unit J; NULL: not asked
  *  Returns: the total, unit J. */

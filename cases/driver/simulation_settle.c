@@ -54,15 +54,22 @@ static double sum_elastic(const mor_simulation *simulation)
 
 double mor_simulation_energy(const mor_simulation *simulation, double *elastic)
 {
-    const mor_measure_points points = points_of(simulation);
-    const double stored = sum_elastic(simulation);
+    double datum[3];
+    double kinetic = 0.0;
+    double potential = 0.0;
+    double stored = 0.0;
+    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, datum);
+    mor_simulation_bodies_energy(&simulation->bodies, datum, &kinetic, &potential, &stored);
+    if (simulation->has_soil) {
+        const mor_measure_points points = points_of(simulation);
+        kinetic += mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]);
+        potential += mor_measure_potential_energy(&points, simulation->soil.settings.gravity, datum);
+        stored += sum_elastic(simulation);
+    }
     if (elastic != NULL) {
         *elastic = stored;
     }
-    double datum[3];
-    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, datum);
-    return mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]) +
-           mor_measure_potential_energy(&points, simulation->soil.settings.gravity, datum) + stored;
+    return kinetic + potential + stored;
 }
 
 /* The strictest settling that a region asks for; false when none does. */
@@ -127,14 +134,25 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         soil->settings.damping = SETTLE_DAMPING * soil->sound_speed / soil->smoothing_length;
         soil->settings.gravity_ramp = 0.0;
         double velocities[MOR_SOIL_WALLS_MAX][3];
+        mor_contact *contact = &simulation->bodies.contact;
         for (int w = 0; w < soil->n_walls; ++w) {
             memcpy(velocities[w], soil->walls[w].velocity, sizeof velocities[w]);
             memset(soil->walls[w].velocity, 0, sizeof velocities[w]);
         }
+        for (int w = 0; w < contact->n_walls; ++w) {
+            memset(contact->walls[w].velocity, 0, sizeof contact->walls[w].velocity);
+        }
+        MOR_TRY(context, mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case,
+                                                      soil->settings.damping));
         MOR_TRY(context, run_settling(context, simulation, longest, ratio, stop));
+        MOR_TRY(context, mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case, 0.0));
         for (int w = 0; w < soil->n_walls; ++w) {
             memcpy(soil->walls[w].velocity, velocities[w], sizeof velocities[w]);
         }
+        for (int w = 0; w < contact->n_walls; ++w) {
+            memcpy(contact->walls[w].velocity, velocities[w], sizeof velocities[w]);
+        }
+        contact->time = 0.0;
         soil->settings.damping = damping;
         soil->settings.gravity_ramp = ramp;
         const int64_t n = soil->set.n_particles;
@@ -147,6 +165,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         simulation->schedule.now = 0;
         simulation->schedule.n_steps = 0;
         simulation->schedule.step_length = 0.0;
+        simulation->schedule.n_particle_steps = 0;
     }
     simulation->initial_energy = mor_simulation_energy(simulation, NULL);
     return MOR_OK;

@@ -22,6 +22,15 @@ typedef struct cylinder_shape {
     double height;
 } cylinder_shape;
 
+typedef struct cone_shape {
+    mor_shape base;
+    double foot[3]; /* center of the base */
+    double axis[3]; /* unit vector to the apex */
+    double radius;
+    double height;
+    double slant; /* from the rim to the apex */
+} cone_shape;
+
 typedef struct sphere_shape {
     mor_shape base;
     double center[3];
@@ -89,11 +98,50 @@ static void cylinder_bounds(const mor_shape *shape, mor_bounds *bounds)
     }
 }
 
+/* In the plane of the axis and the point the cone is a triangle: the base, and the side from the rim to the apex. */
+static double cone_distance(const mor_shape *shape, const double *point)
+{
+    const cone_shape *cone = (const cone_shape *)shape;
+    double offset[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = point[a] - cone->foot[a];
+    }
+    const double along = mor_vector_dot(offset, cone->axis);
+    for (int a = 0; a < 3; ++a) {
+        offset[a] -= along * cone->axis[a];
+    }
+    const double excess = mor_vector_length(offset) - cone->radius;
+    const double side = (excess * cone->height + along * cone->radius) / cone->slant;
+    const double up_side =
+        (along * cone->height - excess * cone->radius) / cone->slant; /* place on the side, from rim */
+    if (along <= 0.0) {
+        return excess <= 0.0 ? -along : sqrt(excess * excess + along * along);
+    }
+    if (side <= 0.0) {
+        return fmax(side, -along);
+    }
+    if (up_side > cone->slant) {
+        return sqrt(side * side + (up_side - cone->slant) * (up_side - cone->slant));
+    }
+    return up_side < 0.0 ? sqrt(excess * excess + along * along) : side;
+}
+
+static void cone_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    const cone_shape *cone = (const cone_shape *)shape;
+    for (int a = 0; a < 3; ++a) {
+        const double axis = cone->axis[a];
+        const double reach = cone->radius * sqrt(fmax(0.0, 1.0 - axis * axis));
+        const double apex = cone->foot[a] + cone->height * axis;
+        bounds->minimum[a] = fmin(apex, cone->foot[a] - reach);
+        bounds->maximum[a] = fmax(apex, cone->foot[a] + reach);
+    }
+}
+
 static double sphere_distance(const mor_shape *shape, const double *point)
 {
     const sphere_shape *sphere = (const sphere_shape *)shape;
-    const double offset[3] = {point[0] - sphere->center[0], point[1] - sphere->center[1],
-                              point[2] - sphere->center[2]};
+    const double offset[3] = {point[0] - sphere->center[0], point[1] - sphere->center[1], point[2] - sphere->center[2]};
     return mor_vector_length(offset) - sphere->radius;
 }
 
@@ -125,6 +173,7 @@ static void half_space_bounds(const mor_shape *shape, mor_bounds *bounds)
 
 static const mor_shape_operations box_operations = {"box", box_distance, box_bounds, free_plain};
 static const mor_shape_operations cylinder_operations = {"cylinder", cylinder_distance, cylinder_bounds, free_plain};
+static const mor_shape_operations cone_operations = {"cone", cone_distance, cone_bounds, free_plain};
 static const mor_shape_operations sphere_operations = {"sphere", sphere_distance, sphere_bounds, free_plain};
 static const mor_shape_operations half_space_operations = {"half_space", half_space_distance, half_space_bounds,
                                                            free_plain};
@@ -175,6 +224,27 @@ mor_status mor_shape_new_cylinder(mor_context *context, const double *base, cons
     return MOR_OK;
 }
 
+mor_status mor_shape_new_cone(mor_context *context, const double *base, const double *axis, double radius,
+                              double height, mor_shape **shape)
+{
+    *shape = NULL;
+    double unit[3];
+    MOR_TRY(context, mor_shape_check_vector(context, base, "the base of the cone"));
+    MOR_TRY(context, mor_shape_check_direction(context, axis, "the axis of the cone", unit));
+    MOR_TRY(context, mor_shape_check_length(context, radius, "the radius of the cone"));
+    MOR_TRY(context, mor_shape_check_length(context, height, "the height of the cone"));
+    cone_shape *cone = NULL;
+    MOR_TRY(context, MOR_NEW(context, &cone, 1, "cone"));
+    cone->base.operations = &cone_operations;
+    memcpy(cone->foot, base, sizeof cone->foot);
+    memcpy(cone->axis, unit, sizeof cone->axis);
+    cone->radius = radius;
+    cone->height = height;
+    cone->slant = sqrt(radius * radius + height * height);
+    *shape = &cone->base;
+    return MOR_OK;
+}
+
 mor_status mor_shape_new_sphere(mor_context *context, const double *center, double radius, mor_shape **shape)
 {
     *shape = NULL;
@@ -189,8 +259,7 @@ mor_status mor_shape_new_sphere(mor_context *context, const double *center, doub
     return MOR_OK;
 }
 
-mor_status mor_shape_new_half_space(mor_context *context, const double *point, const double *normal,
-                                    mor_shape **shape)
+mor_status mor_shape_new_half_space(mor_context *context, const double *point, const double *normal, mor_shape **shape)
 {
     *shape = NULL;
     double unit[3];

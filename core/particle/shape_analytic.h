@@ -7,7 +7,7 @@
 
 /** @file
  *  The analytic shapes behind core/particle/shape.h, and the calls every shape answers. Distances of box, cylinder,
- *  sphere, half-space and polygon are exact everywhere. Meshes are not made here; they implement the same table.
+ *  cone, sphere, half-space and polygon are exact everywhere. Meshes are not made here; they implement the same table.
  *
  *  Ownership: a constructor that takes children owns them after MOR_OK and has set the caller's pointers NULL; after
  *  a failure the children and the pointers are untouched and still the caller's. The output pointer is NULL after a
@@ -35,6 +35,18 @@ mor_status mor_shape_new_box(mor_context *context, const double *minimum, const 
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_cylinder(mor_context *context, const double *base, const double *axis, double radius,
                                   double height, mor_shape **shape);
+
+/** Makes a solid cone with a flat base: from the base to the apex at base + height * axis / |axis|.
+ *  @param context [in,out]  one object
+ *  @param base    [in]      shape [3]; unit m; center of the base
+ *  @param axis    [in]      shape [3]; unit 1; from the base to the apex; any length but zero
+ *  @param radius  [in]      unit m; of the base; > 0
+ *  @param height  [in]      unit m; > 0
+ *  @param shape   [out]     one pointer; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
+ *  Cost: O(1), allocates. */
+mor_status mor_shape_new_cone(mor_context *context, const double *base, const double *axis, double radius,
+                              double height, mor_shape **shape);
 
 /** Makes a ball.
  *  @param context [in,out]  one object

@@ -63,21 +63,30 @@ typedef struct mor_pair_arrays {
     double *velocity_gradient;       /* shape [n, 9], 1/s */
     double *density_rate;            /* shape [n], kg/m3/s */
     double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
+    const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
 } mor_pair_arrays;
 
 /** A sum over the clusters [first, last); writes its own particles only. */
 typedef void (*mor_pair_loop)(const mor_pair_constants *constants, const mor_pair_arrays *arrays, int64_t first,
                               int64_t last);
 
-/** Sums of kernel values over soil and, through a contact relation, over walls. */
+/** Eight particles that gather and what they see of one patch of a boundary: a run of their list. */
+typedef struct mor_pair_slot {
+    const int32_t *list; /* shape [count]; targets, ascending */
+    int32_t count;       /* entries */
+    int32_t cluster;     /* of the particles that gather */
+    int32_t patch;       /* of the boundary */
+} mor_pair_slot;
+
+/** Sums of kernel values over soil and, slot by slot, over boundaries. */
 typedef struct mor_pair_kernel_job {
     const double *source;         /* shape [n padded to 8, 16]; records of who gathers, units of MOR_RECORD_... */
     int64_t n_source;             /* particles that gather */
     const double *target;         /* shape [n_target, target_stride]; x, y, z, volume first; unit m, volume m3 (m2) */
     int target_stride;            /* doubles per target record */
-    const mor_relation *relation; /* one object: source -> target */
+    const mor_relation *relation; /* one object: source -> target; its clusters are the range when slots is NULL */
     double *sums;                 /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range; units of the enum */
-    bool by_occupied;             /* clusters are counted along relation->occupied */
+    const mor_pair_slot *slots;   /* shape [n_slots]; the range when not NULL */
 } mor_pair_kernel_job;
 
 /** What a kernel job sums over the targets j of a particle i. */
@@ -93,15 +102,47 @@ typedef void (*mor_pair_kernel_loop)(const mor_pair_constants *constants, const 
 
 /** The stress divergence by soil neighbors, along and across a wall apart, for the particles that see it. */
 typedef struct mor_pair_tangent_job {
-    const double *records;     /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    const mor_relation *inner; /* one object, current */
-    const int32_t *occupied;   /* shape [n_occupied]; clusters that see the wall */
-    const double *sums;        /* shape [n_occupied * 8, MOR_KERNEL_SUMS]; over the wall; units of the enum */
-    double *out;               /* shape [n_occupied * 8, 2, 3], Pa/m; along, then across the wall */
+    const double *records;      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const mor_relation *inner;  /* one object, current */
+    const mor_pair_slot *slots; /* shape [n_slots]; who sees what of the boundary */
+    const double *sums;         /* shape [n_slots * 8, MOR_KERNEL_SUMS]; over the slots; units of the enum */
+    double *out;                /* shape [n_slots * 8, 2, 3], Pa/m; along, then across the boundary */
 } mor_pair_tangent_job;
 
 typedef void (*mor_pair_tangent_loop)(const mor_pair_constants *constants, const mor_pair_tangent_job *job,
                                       int64_t first, int64_t last);
+
+/** Mean velocity of the points of a boundary that each particle sees, by kernel values; zero where it sees none. */
+typedef struct mor_pair_mean_job {
+    const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
+    const mor_pair_slot *slots; /* shape [n_slots] */
+    double *out;                /* shape [n_slots * 8, 3], m/s */
+} mor_pair_mean_job;
+
+typedef void (*mor_pair_mean_loop)(const mor_pair_constants *constants, const mor_pair_mean_job *job, int64_t first,
+                                   int64_t last);
+
+/** What each particle of a slot gives to the points it sees. */
+enum {
+    MOR_SHARE_FORCE = 0,     /* 3, to be handed out, N (N/m) */
+    MOR_SHARE_DIRECTION = 3, /* 3, sum V grad_i W over its squared length, m; zero: shares go by kernel values */
+    MOR_SHARE_VALUE = 6,     /* 1 / sum V W when shares go by kernel values, else 0; 1 */
+    MOR_SHARES = 7
+};
+
+/** Hands out the force of each particle to the points it sees, by shares that add up to one. */
+typedef struct mor_pair_share_job {
+    const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
+    const mor_pair_slot *slots; /* shape [n_slots] */
+    const int32_t *chosen;      /* shape [>= last]; slots to be served, in this order */
+    const double *given;        /* shape [n_slots * 8, MOR_SHARES]; units of the enum */
+    double *force;              /* shape [n_target, 3], N (N/m); added to */
+} mor_pair_share_job;
+
+typedef void (*mor_pair_share_loop)(const mor_pair_constants *constants, const mor_pair_share_job *job, int64_t first,
+                                    int64_t last);
 
 /** The routines of one instruction set. Static, shared. */
 typedef struct mor_pair_table {
@@ -111,6 +152,9 @@ typedef struct mor_pair_table {
     mor_pair_loop regularize;      /* XSPH and shifting sums, Hu et al. (2021) eqs. 13, 16 */
     mor_pair_kernel_loop kernel;   /* kernel sums */
     mor_pair_tangent_loop tangent; /* stress divergence along and across a wall */
+    mor_pair_mean_loop mean;       /* velocity of a boundary as particles see it */
+    mor_pair_share_loop share;     /* forces on the points of a boundary */
+    mor_pair_loop spin;            /* adds the acceleration by spin_stress */
 } mor_pair_table;
 
 /** Returns the routines for the best instruction set this processor has, or those asked for.

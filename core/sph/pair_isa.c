@@ -1,139 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Compiled once per instruction set; MOR_ISA is its name. */
-#include "core/base/math.h"
-#include "core/sph/pair.h"
-
-#include <math.h>
-#include <string.h>
-
-#ifndef MOR_ISA
-#define MOR_ISA baseline
-#endif
-#define MOR_JOIN_(a, b) a##b
-#define MOR_JOIN(a, b) MOR_JOIN_(a, b)
-#define MOR_TEXT_(a) #a
-#define MOR_TEXT(a) MOR_TEXT_(a)
-
-/* Numbers in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others, so
- * that a particle's sums do not depend on the width. */
-#if defined(__AVX512F__)
-#define LANES 8
-#elif defined(__AVX__)
-#define LANES 4
-#else
-#define LANES 2
-#endif
-enum { PARTS = MOR_CLUSTER / LANES };
-
-/* One number for each of LANES particles. */
-typedef double vec __attribute__((vector_size(LANES * sizeof(double))));
-typedef int64_t mask __attribute__((vector_size(LANES * sizeof(int64_t))));
-
-#define INLINE static inline __attribute__((always_inline))
-
-INLINE vec spread(double a)
-{
-    return a - (vec){0.0};
-}
-
-INLINE vec pick(mask where, vec a, vec b)
-{
-    return (vec)(((mask)a & where) | ((mask)b & ~where));
-}
-
-INLINE vec positive_part(vec a)
-{
-    return (vec)((mask)a & (a > 0.0));
-}
-
-INLINE vec smaller(vec a, vec b)
-{
-    return pick(a < b, a, b);
-}
-
-INLINE vec magnitude(vec a)
-{
-    return (vec)((mask)a & INT64_MAX);
-}
-
-INLINE vec square_root(vec a)
-{
-    vec root;
-    for (int lane = 0; lane < LANES; ++lane) {
-        root[lane] = sqrt(a[lane]);
-    }
-    return root;
-}
-
-/* One component of consecutive records. */
-INLINE vec load(const double *records, int stride, int component)
-{
-    vec a;
-    for (int lane = 0; lane < LANES; ++lane) {
-        a[lane] = records[lane * stride + component];
-    }
-    return a;
-}
-
-INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
-{
-    for (int lane = 0; lane < n_lanes; ++lane) {
-        out[lane * stride + component] = a[lane];
-    }
-}
-
-/* Lanes from a first particle on that hold particles of the set. */
-INLINE int lanes_of(int64_t first, int64_t n_particles)
-{
-    const int64_t left = n_particles - first;
-    return left < LANES ? (left > 0 ? (int)left : 0) : LANES;
-}
-
-/* Where a cluster is and the constants of the kernel. */
-typedef struct frame {
-    vec x[3];
-    double half_inverse_h; /* 1 / (2 h) */
-    double tiny;           /* added to squared distances so that nothing divides by zero; vanishes beside h^2 */
-} frame;
-
-INLINE frame frame_of(const mor_pair_constants *constants, const double *records, int stride)
-{
-    const double h = constants->smoothing_length;
-    return (frame){
-        {load(records, stride, 0), load(records, stride, 1), load(records, stride, 2)}, 0.5 / h, h * h * 0x1p-100};
-}
-
-/* Separation of a pair. */
-typedef struct pair {
-    vec r[3];      /* r_i - r_j, m */
-    vec distance2; /* |r|^2 + tiny */
-    vec distance;
-    vec reach; /* 1 - q/2 inside the support, 0 outside */
-} pair;
-
-INLINE pair pair_of(const frame *f, const double *target, const int dimension)
-{
-    pair p;
-    p.r[0] = f->x[0] - target[0];
-    p.r[1] = f->x[1] - target[1];
-    p.distance2 = p.r[0] * p.r[0] + p.r[1] * p.r[1];
-    p.r[2] = spread(0.0);
-    if (dimension == 3) {
-        p.r[2] = f->x[2] - target[2];
-        p.distance2 += p.r[2] * p.r[2];
-    }
-    p.distance2 += f->tiny;
-    p.distance = square_root(p.distance2);
-    p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
-    return p;
-}
-
-INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
-{
-    const vec sum = a * p->r[0] + b * p->r[1];
-    return dimension == 3 ? sum + c * p->r[2] : sum;
-}
+#include "core/sph/pair_lanes.h"
 
 /* Closing speeds on which the limiter acts, eq. 23. */
 INLINE vec limited_speed(vec closing, const mor_dissipation mode)
@@ -405,95 +273,43 @@ static void gradient_3d(const mor_pair_constants *c, const mor_pair_arrays *arra
     gradient_range(c, arrays, first, last, 3);
 }
 
-INLINE void kernel_part(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first, double *out)
+/* Acceleration by the skew stresses A_i + A_j, each the cross product with an axial vector. */
+INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
 {
-    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
-    vec sums[MOR_KERNEL_SUMS];
-    memset(sums, 0, sizeof sums);
-    const int32_t *list = job->relation->lists[first / MOR_CLUSTER];
-    const int32_t count = job->relation->counts[first / MOR_CLUSTER];
-    for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = job->target + (int64_t)list[entry] * job->target_stride;
-        const pair p = pair_of(&f, target, 3);
-        const vec cube = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
-        sums[MOR_KERNEL_SUM_VALUE] += cube * p.reach * (5.0 - 4.0 * p.reach);
-        const vec kr[3] = {cube * p.r[0], cube * p.r[1], cube * p.r[2]};
-        for (int a = 0; a < 3; ++a) {
-            sums[MOR_KERNEL_SUM_GRADIENT + a] -= kr[a];
-            sums[MOR_KERNEL_SUM_MOMENT + a] += kr[a] * p.r[a];
-            sums[MOR_KERNEL_SUM_MOMENT + 3 + a] += kr[a] * p.r[(a + 1) % 3];
-        }
-    }
-    store(out, MOR_KERNEL_SUMS, 0, LANES, sums[0] * c->kernel_normalization);
-    for (int a = 1; a < MOR_KERNEL_SUMS; ++a) {
-        store(out, MOR_KERNEL_SUMS, a, LANES, sums[a] * c->gradient_factor);
-    }
-}
-
-static void kernel_range(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first, int64_t last)
-{
-    for (int64_t place = first; place < last; ++place) {
-        const int64_t cluster = job->by_occupied ? job->relation->occupied[place] : place;
-        for (int64_t part = 0; part < PARTS; ++part) {
-            double *out = job->sums + ((place - first) * MOR_CLUSTER + part * LANES) * MOR_KERNEL_SUMS;
-            kernel_part(c, job, cluster * MOR_CLUSTER + part * LANES, out);
-        }
-    }
-}
-
-/* Sums over soil neighbors of V_j (stress_j - stress_i) . grad_i W, the parts of grad_i W along and across a wall
- * apart. */
-INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t slot)
-{
-    const double *own = job->records + first * MOR_RECORD_SIZE;
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    const double *gradients = job->sums + slot * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
-    vec n[3];
-    for (int a = 0; a < 3; ++a) {
-        n[a] = load(gradients, MOR_KERNEL_SUMS, a);
-    }
-    const vec length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    /* No normal where the wall is out of reach: everything is then tangential, and the caller's factor is zero. */
-    const vec inverse = pick(length2 > 0.0, 1.0 / length2, spread(0.0));
-    vec s[6];
-    for (int a = 0; a < 6; ++a) {
-        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
-    }
-    vec sum[6];
+    vec s[3];
+    vec sum[3];
     memset(sum, 0, sizeof sum);
-    const int32_t *list = job->inner->lists[first / MOR_CLUSTER];
-    const int32_t count = job->inner->counts[first / MOR_CLUSTER];
+    for (int a = 0; a < 3; ++a) {
+        s[a] = load(arrays->spin_stress + first * 3, 3, a);
+    }
+    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
+    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
     for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = job->records + (int64_t)list[entry] * MOR_RECORD_SIZE;
+        const double *target = arrays->records + (int64_t)list[entry] * MOR_RECORD_SIZE;
+        const double *other = arrays->spin_stress + (int64_t)list[entry] * 3;
         const pair p = pair_of(&f, target, 3);
         const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
-        const vec across = k * (p.r[0] * n[0] + p.r[1] * n[1] + p.r[2] * n[2]) * inverse;
-        vec d[6];
-        for (int a = 0; a < 6; ++a) {
-            d[a] = target[MOR_RECORD_STRESS + a] - s[a];
-        }
-        for (int part = 0; part < 2; ++part) {
-            vec t[3];
-            for (int a = 0; a < 3; ++a) {
-                t[a] = part == 0 ? k * p.r[a] - across * n[a] : across * n[a];
-            }
-            sum[3 * part] += d[MOR_XX] * t[0] + d[MOR_XY] * t[1] + d[MOR_ZX] * t[2];
-            sum[3 * part + 1] += d[MOR_XY] * t[0] + d[MOR_YY] * t[1] + d[MOR_YZ] * t[2];
-            sum[3 * part + 2] += d[MOR_ZX] * t[0] + d[MOR_YZ] * t[1] + d[MOR_ZZ] * t[2];
+        for (int a = 0; a < 3; ++a) {
+            const int b = (a + 1) % 3;
+            const int d = (a + 2) % 3;
+            sum[a] += k * ((s[b] + other[b]) * p.r[d] - (s[d] + other[d]) * p.r[b]);
         }
     }
-    for (int a = 0; a < 6; ++a) {
-        store(job->out + slot * 6, 6, a, LANES, -c->gradient_factor * sum[a]);
+    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    double *out = arrays->acceleration + first * 3;
+    for (int lane = 0; lane < lanes_of(first, arrays->n_particles); ++lane) {
+        for (int a = 0; a < 3; ++a) {
+            out[3 * lane + a] += factor[lane] * sum[a][lane];
+        }
     }
 }
 
-static void tangent_range(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t last)
+static void spin_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
 {
-    for (int64_t place = first; place < last; ++place) {
-        for (int64_t part = 0; part < PARTS; ++part) {
-            const int64_t particle = (int64_t)job->occupied[place] * MOR_CLUSTER + part * LANES;
-            tangent_part(c, job, particle, place * MOR_CLUSTER + part * LANES);
-        }
+    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+        spin_part(c, arrays, part * LANES);
     }
 }
 
@@ -538,8 +354,14 @@ const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void);
 
 const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void)
 {
-    static const mor_pair_table table = {
-        MOR_TEXT(MOR_ISA), {momentum_2d, momentum_3d}, {gradient_2d, gradient_3d}, regularize_range, kernel_range,
-        tangent_range};
+    static const mor_pair_table table = {MOR_TEXT(MOR_ISA),
+                                         {momentum_2d, momentum_3d},
+                                         {gradient_2d, gradient_3d},
+                                         regularize_range,
+                                         MOR_JOIN(mor_pair_kernel_, MOR_ISA),
+                                         MOR_JOIN(mor_pair_tangent_, MOR_ISA),
+                                         MOR_JOIN(mor_pair_mean_, MOR_ISA),
+                                         MOR_JOIN(mor_pair_share_, MOR_ISA),
+                                         spin_range};
     return &table;
 }

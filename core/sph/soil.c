@@ -27,19 +27,22 @@ static const mor_stage soil_stages[] = {
      "sort at an interval; lists when the skin is used up"},
     {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), RECORDS, 0,
      "one record per particle for the pair loops"},
-    {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over the walls in reach"},
+    {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over walls and rocks in reach"},
     {"density", mor_soil_reinitialize_density, RECORDS | LISTS | WALL_SUMS | BIT(MASS), 0,
      BIT(DENSITY) | BIT(DENSITY_RATE) | RECORDS, "density by summation at an interval"},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on"},
     {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION), 0, "acceleration and stress diffusion by the neighbors"},
-    {"wall push", mor_soil_push_walls, RECORDS | LISTS | WALL_SUMS, 0, BIT(ACCELERATION), "acceleration by the walls"},
+    {"angular momentum", mor_soil_keep_angular_momentum, RECORDS | LISTS, 0, BIT(ACCELERATION),
+     "takes out what turns the soil by itself, when switched on"},
+    {"wall push", mor_soil_push_walls, RECORDS | LISTS | WALL_SUMS, 0, BIT(ACCELERATION),
+     "acceleration by walls and rocks, and the forces on them"},
     {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step"},
     {"velocity gradient", mor_soil_sum_gradient, RECORDS | LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
      "velocity gradient and density rate by the neighbors"},
     {"wall drag", mor_soil_drag_walls, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
-     "the walls' part of both"},
+     "the part of walls and rocks in both"},
     {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS | WALL_SUMS, 0,
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on"},
     {"regularization", mor_soil_regularize, RECORDS | LISTS | BIT(VELOCITY_GRADIENT), 0, BIT(POSITION) | BIT(VELOCITY),
@@ -159,8 +162,11 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->xsph > 0.0 || s->has_shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
-    if (s->has_gradient_correction) {
+    if (s->has_gradient_correction || s->has_angular_momentum) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
+    }
+    if (s->has_angular_momentum) {
+        MOR_TRY(context, MOR_NEW(context, &soil->spin_stress, padded * 3, "skew stresses"));
     }
     MOR_TRY(context, MOR_NEW(context, &soil->block_values, n_particles / 128 + 2, "reduction blocks"));
     return MOR_OK;
@@ -204,13 +210,14 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
 
 void mor_soil_clear(mor_context *context, mor_soil *soil)
 {
-    for (int w = 0; w < soil->n_walls; ++w) {
-        mor_soil_contact_clear(context, &soil->walls[w]);
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact_clear(context, mor_soil_contact_at(soil, k));
     }
     mor_relation_clear(context, &soil->inner);
     mor_tree_clear(context, &soil->tree);
     MOR_FREE(context, &soil->block_values);
     MOR_FREE(context, &soil->moments);
+    MOR_FREE(context, &soil->spin_stress);
     MOR_FREE(context, &soil->regularization);
     MOR_FREE(context, &soil->order);
     MOR_FREE(context, &soil->records);
@@ -226,6 +233,33 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
     MOR_TRY(context, mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, soil->tree.n_clusters));
     soil->n_walls += 1;
     return MOR_OK;
+}
+
+mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_boundary *boundary, mor_wall_stress stress)
+{
+    MOR_CHECK(context, soil->n_boundaries < MOR_SOIL_BOUNDARIES_MAX, MOR_ERROR_ARGUMENT,
+              "boundary '%s' is one too many; at most %d are allowed: join some as patches of one", boundary->name,
+              MOR_SOIL_BOUNDARIES_MAX);
+    MOR_TRY(context, mor_soil_contact_borrow(context, &soil->boundaries[soil->n_boundaries], boundary, stress,
+                                             soil->settings.dimension, soil->tree.n_clusters));
+    soil->n_boundaries += 1;
+    soil->has_lists = false;
+    return MOR_OK;
+}
+
+mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_boundary *boundary,
+                                const mor_soil_barrier *barrier)
+{
+    for (int k = 0; k < soil->n_boundaries; ++k) {
+        if (soil->boundaries[k].boundary == boundary) {
+            soil->has_lists = false;
+            return mor_soil_contact_set_barrier(context, &soil->boundaries[k], barrier,
+                                                MOR_KERNEL_SUPPORT * soil->smoothing_length);
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
+                    "a barrier was set for boundary '%s', which the soil '%s' does not see", boundary->name,
+                    soil->set.name);
 }
 
 /* The material's own limit, asked for only when the model has one. */
@@ -262,11 +296,13 @@ static mor_status limit_by_material(mor_context *context, const mor_soil *soil, 
 /* Z (51) and the limit by acceleration; the speed of waves counts from moving particles. */
 static mor_status propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
 {
-    const mor_soil *soil = owner;
+    mor_soil *soil = owner;
     const double h = soil->smoothing_length;
     double fastest = soil->largest_speed;
-    for (int w = 0; w < soil->n_walls; ++w) {
-        fastest = fmax(fastest, mor_vector_length(soil->walls[w].velocity));
+    double by_barrier = INFINITY;
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        fastest = fmax(fastest, mor_soil_contact_speed(mor_soil_contact_at(soil, k)));
+        by_barrier = fmin(by_barrier, mor_soil_contact_at(soil, k)->longest_step);
     }
     *step_length = soil->settings.courant * h / (soil->sound_speed + fastest);
     *limit = "the speed of sound in the soil";
@@ -277,6 +313,10 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
             *limit = "the acceleration of the soil";
         }
     }
+    if (by_barrier < *step_length) {
+        *step_length = by_barrier;
+        *limit = "the barrier between soil and rocks";
+    }
     if (soil->settings.damping * *step_length > 0.5) {
         *step_length = 0.5 / soil->settings.damping;
         *limit = "the damping";
@@ -286,10 +326,20 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
 
 void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
 {
-    static const mor_stepper_operations operations = {"soil", propose_step};
-    *stepper = (mor_stepper){
-        soil->set.name,       &operations, soil, soil_stages, (int)(sizeof soil_stages / sizeof *soil_stages),
-        soil->set.n_particles};
+    static const mor_stepper_operations operations = {"soil", propose_step, NULL, NULL};
+    const int n_stages = (int)(sizeof soil_stages / sizeof *soil_stages);
+    *stepper = (mor_stepper){.name = soil->set.name,
+                             .operations = &operations,
+                             .owner = soil,
+                             .stages = soil_stages,
+                             .n_stages = n_stages,
+                             .n_before = n_stages,
+                             .n_particles = soil->set.n_particles,
+                             .is_leader = true};
+    /* Forces on walls and rocks are known once the walls have pushed. */
+    for (int k = 0; k < n_stages; ++k) {
+        stepper->n_before = soil_stages[k].run == mor_soil_push_walls ? k + 1 : stepper->n_before;
+    }
     *evolving = evolving_fields;
 }
 
@@ -304,6 +354,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     }
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += soil->spin_stress != NULL ? padded * 3.0 * sizeof(double) : 0.0;
     bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);
     bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 2 * sizeof(int32_t));
     for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {

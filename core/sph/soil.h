@@ -9,11 +9,11 @@
 #include "core/time/stepper.h"
 
 /** @file
- *  Fine grains: updated-Lagrangian Riemann SPH of one particle set with one material, with walls. One step is the
- *  list of stages in soil.c; time belongs to the schedule.
+ *  Fine grains: updated-Lagrangian Riemann SPH of one particle set with one material, with walls and rocks. One step is
+ *  the list of stages in soil.c; time belongs to the schedule.
  *  Theory: Zhang et al. (2024) eqs. 13-35, 51, 54-56; docs/theory/soil.md. */
 
-enum { MOR_SOIL_WALLS_MAX = 32 };
+enum { MOR_SOIL_WALLS_MAX = 64, MOR_SOIL_BOUNDARIES_MAX = 16 };
 
 /** What the user may choose. Plain data. */
 typedef struct mor_soil_settings {
@@ -34,6 +34,7 @@ typedef struct mor_soil_settings {
     bool has_gradient_correction;      /* velocity gradient and density rate exact for linear fields */
     double xsph;                       /* xi, 1; 0: off */
     bool has_shifting;                 /* penetration-based shifting */
+    bool has_angular_momentum;         /* forces between soil particles keep angular momentum to rounding */
     int density_interval;              /* steps between re-initializations of density; 0: never */
     double skin_ratio;                 /* neighbor-list skin / spacing, 1 */
     int sort_interval;                 /* steps between sorts, >= 1 */
@@ -56,12 +57,15 @@ typedef struct mor_soil {
     double *records;        /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
     double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
+    double *spin_stress;    /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
     double *block_values;   /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
     int32_t *order;         /* shape [n_particles]; scratch of the sort */
     mor_tree tree;
     mor_relation inner;
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];
     int n_walls;
+    mor_soil_contact boundaries[MOR_SOIL_BOUNDARIES_MAX]; /* moved by others */
+    int n_boundaries;
     double sound_speed;                         /* c0, m/s */
     double smoothing_length;                    /* h, m */
     double lattice_sum;                         /* sum V W on the perfect lattice, 1 */
@@ -97,6 +101,24 @@ void mor_soil_clear(mor_context *context, mor_soil *soil);
  *  @param request [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
+
+/** Lets the soil see a boundary that someone else moves, see core/sph/boundary.h for what is read and written when.
+ *  @param context  [in,out]  one object
+ *  @param soil     [in,out]  one object
+ *  @param boundary [in,out]  one object; borrowed, outlives the soil's steps; its points are in place
+ *  @param stress   [in]      stress that a soil particle sees in it
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many, or for patches that overlap or leave gaps;
+ *  MOR_ERROR_MEMORY. */
+mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_boundary *boundary, mor_wall_stress stress);
+
+/** Sets the barrier between the soil and a boundary, which is off at first.
+ *  @param context  [in,out]  one object
+ *  @param soil     [in,out]  one object; before its first step
+ *  @param boundary [in]      one object; added before
+ *  @param barrier  [in]      one object; copied
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a stiffness or radius out of range, or a boundary that was not added. */
+mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_boundary *boundary,
+                                const mor_soil_barrier *barrier);
 
 /** Initializes the material's state for the present density and stress (a resume restores it instead).
  *  @param context [in,out]  one object

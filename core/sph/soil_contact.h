@@ -3,19 +3,15 @@
 #ifndef MOR_CORE_SPH_SOIL_CONTACT_H
 #define MOR_CORE_SPH_SOIL_CONTACT_H
 
-#include "core/particle/field.h"
+#include "core/sph/boundary.h"
 #include "core/sph/pair.h"
 
 /** @file
- *  Soil against walls: a wall is a set of points with volume that moves as one. A soil particle sees it with mirrored
- *  velocity and its own stress, and a one-sided Riemann problem along the wall's normal gives the dissipation.
- *  Theory: Zhang et al. (2024) eqs. 32-34, numerics in docs/theory/walls.md. */
-
-typedef enum mor_wall_friction {
-    MOR_WALL_ROUGH,  /* no slip */
-    MOR_WALL_SMOOTH, /* free slip: no shear traction from the particle's own stress */
-    MOR_WALL_COULOMB /* shear traction at most the coefficient times the compressive normal traction */
-} mor_wall_friction;
+ *  Soil against walls and rocks: points with volume, in patches that move. A soil particle sees each patch with
+ *  mirrored velocity and its own stress, and a one-sided Riemann problem along the patch's normal gives the
+ *  dissipation. Each pair of a cluster of soil particles and a patch is a slot with kernel sums of its own; a wall is a
+ *  single patch.
+ *  Theory: Zhang et al. (2024) eqs. 32-34, 48-50, 60; numerics in docs/theory/walls.md and docs/theory/coupling.md. */
 
 /** The stress a soil particle sees in a wall. */
 typedef enum mor_wall_stress {
@@ -37,26 +33,46 @@ typedef struct mor_wall_request {
     mor_wall_stress stress;
 } mor_wall_request;
 
-/** One wall and its relation to the soil. Owner: the soil solver. */
+/** Repulsion between soil particles and points that come closer than a radius, beside the mirrored stress. It grows
+ *  without bound, so that nothing passes through. Jiang et al. (2022) eqs. 21-25 with the distance for xi. */
+typedef struct mor_soil_barrier {
+    bool is_on;
+    double stiffness; /* kappa, N/m (N/m2 in plane strain), > 0 */
+    double radius;    /* r_p, m, > 0, at most the support of the kernel */
+} mor_soil_barrier;
+
+/** One boundary and its relation to the soil. Owner: the soil solver. */
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_points;
-    double *points; /* shape [n_points padded to 8, 4]; x, y, z, volume in cluster order; unit m, volume m3 (m2) */
-    double *base;   /* shape [n_points, 4]; points before any displacement, units as points; NULL: fixed wall */
+    mor_boundary *boundary; /* one object; a wall's own, otherwise borrowed */
+    bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
+    double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
+    double *built;          /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
+    double *block_values;   /* shape [n_points / 1024 + 1]; partial results of reductions, any unit */
     mor_tree tree;
-    mor_relation relation; /* soil -> wall */
-    mor_wall_friction friction;
-    double friction_coefficient; /* 1 */
-    double velocity[3];          /* m/s */
-    double *sums;                /* shape [capacity * 8, MOR_KERNEL_SUMS]; of occupied clusters; units of the enum */
-    double *stick;               /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *push;                /* shape [capacity * 8, 3]; acceleration of the soil by the wall, m/s2 */
-    double *divergence;          /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the wall, Pa/m;
-                                  * NULL with uniform stress */
-    int64_t capacity;            /* clusters that the arrays above have room for */
-    int dimension;               /* 2 or 3 */
+    mor_relation relation;   /* soil -> boundary */
+    mor_pair_slot *slots;    /* shape [capacity]; by rising cluster, then patch */
+    int32_t *first_slot;     /* shape [n_soil_clusters + 1]; of each occupied cluster, and one past the last */
+    int32_t *patch_slots;    /* shape [capacity]; slots by patch, rising */
+    int32_t *first_of_patch; /* shape [n_patches + 1]; where each patch begins in patch_slots */
+    int64_t n_slots;         /* slots in use */
+    double velocity[3];      /* of a wall, m/s */
+    double *mean_velocity;   /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: wall */
+    double *sums;            /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
+    double *stick;           /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
+    double *push;            /* shape [capacity * 8, 3]; acceleration of the soil by the patch, m/s2 */
+    double *divergence;      /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
+                               * NULL with uniform stress */
+    double *given;           /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
+    double *repulsion;       /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
+    double *barrier_steps;   /* shape [capacity]; longest step by the barrier in each slot, s; NULL without */
+    int64_t capacity;        /* slots that the arrays above have room for */
+    int dimension;           /* 2 or 3 */
     mor_wall_stress stress;
-    double force[3]; /* of the soil on the wall in the last step, N (N/m in plane strain) */
+    mor_soil_barrier barrier;
+    double longest_step; /* that the barrier allowed in the last step, s; infinite without */
+    double force[3];     /* of the soil on all patches in the last step, N (N/m in plane strain) */
 } mor_soil_contact;
 
 /** Makes a wall. Sorts its points into clusters.
@@ -68,7 +84,19 @@ typedef struct mor_soil_contact {
 mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request,
                                  int64_t n_soil_clusters);
 
-/** Frees what the wall owns; accepts a zeroed one.
+/** Makes the relation of the soil to a boundary that someone else moves.
+ *  @param context         [in,out]  one object
+ *  @param contact         [out]     one object
+ *  @param boundary        [in,out]  one object; borrowed
+ *  @param stress          [in]      stress that a particle sees in it
+ *  @param dimension       [in]      2 or 3
+ *  @param n_soil_clusters [in]      clusters of the soil set
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for patches that overlap, leave gaps or have a negative friction coefficient;
+ *  MOR_ERROR_MEMORY. Cost: allocates. */
+mor_status mor_soil_contact_borrow(mor_context *context, mor_soil_contact *contact, mor_boundary *boundary,
+                                   mor_wall_stress stress, int dimension, int64_t n_soil_clusters);
+
+/** Frees what the contact owns; accepts a zeroed one.
  *  @param context [in,out]  one object
  *  @param contact [in,out]  one object */
 void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact);
@@ -78,16 +106,26 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact);
  *  @param displacement [in]      shape [3], since the start, unit m */
 void mor_soil_contact_place(mor_soil_contact *contact, const double *displacement);
 
-/** Rebuilds the list of wall points that soil clusters see and makes room for their sums.
+/** Rebuilds the lists of points that soil clusters see, cuts them into slots and makes room for their sums.
  *  @param context [in,out]  one object
  *  @param contact [in,out]  one object
  *  @param soil    [in]      one object; the soil's records and fitted tree
  *  @param reach   [in]      kernel support plus skin, unit m
- *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more touching clusters than ever before. */
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more slots than ever before. */
 mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
                                   double reach);
 
-/** Sums kernel values over the wall for the occupied clusters.
+/** Returns how far any point of the boundary has moved since the lists were built, unit m; not a number when a
+ *  position is none.
+ *  @param context [in]      one object
+ *  @param contact [in,out]  one object */
+double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact);
+
+/** Returns the largest speed of a point, unit m/s.
+ *  @param contact [in]  one object */
+double mor_soil_contact_speed(const mor_soil_contact *contact);
+
+/** Sums kernel values over the boundary, slot by slot, and finds its velocity as the particles see it.
  *  @param context   [in,out]  one object
  *  @param contact   [in,out]  one object
  *  @param table     [in]      one object; pair routines
@@ -96,6 +134,15 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
  *  @param n_particles [in]    number of soil particles */
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                           const mor_pair_constants *constants, const double *records, int64_t n_particles);
+
+/** Finds the velocity of the boundary anew, as the particles see it; to be called when its owner has changed it.
+ *  @param context   [in,out]  one object
+ *  @param contact   [in,out]  one object; lists must be current
+ *  @param table     [in]      one object; pair routines
+ *  @param constants [in]      one object
+ *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                             const mor_pair_constants *constants, const double *records);
 
 /** Sums the divergence of the soil's stress along and across the wall, unless the wall's stress is uniform.
  *  A wall that holds a particle's own stress everywhere hides how stress varies, and the particle gets only the part of
@@ -110,7 +157,7 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
 void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                                const mor_pair_constants *constants, const double *records, const mor_relation *inner);
 
-/** Adds the wall's part of the acceleration and sets stick and force.
+/** Adds the boundary's part of the acceleration and sets stick, and force and moment of the patches.
  *  @param context      [in,out]  one object
  *  @param contact      [in,out]  one object; sums must be current
  *  @param dissipation  [in]      on which sign of the closing speed the limiter acts
@@ -120,6 +167,17 @@ void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, 
  *  @param acceleration [in,out]  shape [n_particles, 3], unit m/s2; added to */
 void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
                            double limiter_rate, const double *records, int64_t n_particles, double *acceleration);
+
+/** Hands out the force of the push to the points of a borrowed boundary, so that force and moment of each patch are
+ *  those of the push to rounding. Does nothing for a wall.
+ *  @param context     [in,out]  one object
+ *  @param contact     [in,out]  one object; the push must be current
+ *  @param table       [in]      one object; pair routines
+ *  @param constants   [in]      one object
+ *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
+ *  @param n_particles [in]      number of soil particles */
+void mor_soil_contact_share(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                            const mor_pair_constants *constants, const double *records, int64_t n_particles);
 
 /** Adds the wall's part of the velocity gradient and of the density rate.
  *  @param context           [in,out]  one object
@@ -131,5 +189,32 @@ void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_
  *  @param density_rate      [in,out]  shape [n_particles], unit kg/m3/s; added to */
 void mor_soil_contact_drag(mor_context *context, mor_soil_contact *contact, const double *records, int64_t n_particles,
                            double *velocity_gradient, double *density_rate);
+
+/** Switches the barrier of a contact on or off.
+ *  @param context [in,out]  one object
+ *  @param contact [in,out]  one object; before the first step
+ *  @param barrier [in]      one object; copied
+ *  @param support [in]      support of the kernel, unit m
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a stiffness or radius out of range. */
+mor_status mor_soil_contact_set_barrier(mor_context *context, mor_soil_contact *contact,
+                                        const mor_soil_barrier *barrier, double support);
+
+/** Returns the barrier's force between a particle and a point, Jiang et al. (2022) eq. 23, unit N (N/m); zero beyond
+ *  the radius, infinite at distance zero.
+ *  @param barrier  [in]  one object
+ *  @param distance [in]  unit m, >= 0 */
+double mor_soil_barrier_force(const mor_soil_barrier *barrier, double distance);
+
+/** Returns how fast that force grows as the distance shrinks, Jiang et al. (2022) eq. 25, unit N/m (N/m2).
+ *  @param barrier  [in]  one object
+ *  @param distance [in]  unit m, >= 0 */
+double mor_soil_barrier_slope(const mor_soil_barrier *barrier, double distance);
+
+/** Returns the stiffness with which a particle of a mass at a fifth of the radius needs no shorter step than sound,
+ *  Jiang et al. (2022) eqs. 26, 27, unit N/m (N/m2).
+ *  @param mass     [in]  of a particle, unit kg (kg/m), > 0
+ *  @param spacing  [in]  unit m, > 0
+ *  @param speed    [in]  of sound in the soil, unit m/s, > 0 */
+double mor_soil_barrier_stiffness(double mass, double spacing, double speed);
 
 #endif

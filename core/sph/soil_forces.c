@@ -26,8 +26,8 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step 
 {
     mor_soil *soil = owner;
     (void)step;
-    for (int w = 0; w < soil->n_walls; ++w) {
-        mor_soil_contact_sum(context, &soil->walls[w], soil->table, &soil->constants, soil->records,
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact_sum(context, mor_soil_contact_at(soil, k), soil->table, &soil->constants, soil->records,
                              soil->set.n_particles);
     }
     return MOR_OK;
@@ -92,10 +92,12 @@ mor_status mor_soil_push_walls(mor_context *context, void *owner, const mor_step
 {
     mor_soil *soil = owner;
     (void)step;
-    for (int w = 0; w < soil->n_walls; ++w) {
-        mor_soil_contact_continue(context, &soil->walls[w], soil->table, &soil->constants, soil->records, &soil->inner);
-        mor_soil_contact_push(context, &soil->walls[w], soil->settings.wall_dissipation, soil->constants.limiter_rate,
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        mor_soil_contact_continue(context, contact, soil->table, &soil->constants, soil->records, &soil->inner);
+        mor_soil_contact_push(context, contact, soil->settings.wall_dissipation, soil->constants.limiter_rate,
                               soil->records, soil->set.n_particles, soil->set.data[MOR_FIELD_ACCELERATION]);
+        mor_soil_contact_share(context, contact, soil->table, &soil->constants, soil->records, soil->set.n_particles);
     }
     return MOR_OK;
 }
@@ -112,8 +114,11 @@ mor_status mor_soil_drag_walls(mor_context *context, void *owner, const mor_step
 {
     mor_soil *soil = owner;
     (void)step;
-    for (int w = 0; w < soil->n_walls; ++w) {
-        mor_soil_contact_drag(context, &soil->walls[w], soil->records, soil->set.n_particles,
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        /* Rocks have moved since the push; their velocity is now the mean over this step, eq. 60. */
+        mor_soil_contact_follow(context, contact, soil->table, &soil->constants, soil->records);
+        mor_soil_contact_drag(context, contact, soil->records, soil->set.n_particles,
                               soil->set.data[MOR_FIELD_VELOCITY_GRADIENT], soil->set.data[MOR_FIELD_DENSITY_RATE]);
     }
     return MOR_OK;

@@ -16,6 +16,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, const mor_step *step
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_push_walls(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_step *step);
@@ -27,6 +28,18 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_
 
 /** Part of gravity that acts in a step, 1: that of the ramp at the middle of the step. */
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
+
+/** Number of walls and boundaries together, 1. */
+static inline int mor_soil_contact_count(const mor_soil *soil)
+{
+    return soil->n_walls + soil->n_boundaries;
+}
+
+/** The walls in their order, then the boundaries; one object, owned by the soil. */
+static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
+{
+    return index < soil->n_walls ? &soil->walls[index] : &soil->boundaries[index - soil->n_walls];
+}
 
 /** Arrays of the soil as the pair loops want them; borrowed until the next resize or permute. */
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil);

@@ -23,7 +23,8 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil)
                              data[MOR_FIELD_STRESS_DIFFUSION],
                              data[MOR_FIELD_VELOCITY_GRADIENT],
                              data[MOR_FIELD_DENSITY_RATE],
-                             soil->regularization};
+                             soil->regularization,
+                             soil->spin_stress};
 }
 
 /* Positions and densities over half a step, eqs. 54 and 56. */
@@ -127,8 +128,8 @@ static mor_status build_lists(mor_context *context, mor_soil *soil)
     const mor_relation_points points = {&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3};
     mor_tree_fit(context, &soil->tree, points.records, 3);
     MOR_TRY(context, mor_relation_build(context, &soil->inner, &points, &points, reach));
-    for (int w = 0; w < soil->n_walls; ++w) {
-        MOR_TRY(context, mor_soil_contact_build(context, &soil->walls[w], &points, reach));
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        MOR_TRY(context, mor_soil_contact_build(context, mor_soil_contact_at(soil, k), &points, reach));
     }
     soil->drift = 0.0;
     soil->has_lists = true;
@@ -141,16 +142,14 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, const mor_
     if (step->number > 0 && step->number % (uint64_t)soil->settings.sort_interval == 0) {
         MOR_TRY(context, mor_soil_sort(context, soil));
     }
-    double wall_speed = 0.0;
-    for (int w = 0; w < soil->n_walls; ++w) {
-        wall_speed = fmax(wall_speed, mor_vector_length(soil->walls[w].velocity));
-    }
-    soil->drift += step->length * wall_speed;
     /* Two particles that each move by the drift change their distance by twice as much. */
-    if (!soil->has_lists || 2.0 * soil->drift > soil->settings.skin_ratio * soil->settings.spacing) {
-        return build_lists(context, soil);
+    double other = soil->drift;
+    for (int k = 0; k < mor_soil_contact_count(soil) && soil->has_lists; ++k) {
+        const double moved = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
+        other = other >= moved ? other : moved;
     }
-    return MOR_OK;
+    const bool is_fit = soil->drift + other <= soil->settings.skin_ratio * soil->settings.spacing;
+    return soil->has_lists && is_fit ? MOR_OK : build_lists(context, soil);
 }
 
 static mor_status pack_range(const mor_soil *soil, int64_t first, int64_t last)
@@ -256,6 +255,15 @@ static mor_status report_runaway(mor_context *context, const mor_soil *soil, con
                     soil->set.name, step->time, (unsigned long long)step->number);
 }
 
+static void give_impulse(mor_boundary *boundary, double length)
+{
+    for (int p = 0; p < boundary->n_patches; ++p) {
+        for (int a = 0; a < 3; ++a) {
+            boundary->patches[p].impulse[a] += length * boundary->patches[p].force[a];
+        }
+    }
+}
+
 mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
@@ -282,6 +290,9 @@ mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step
             soil->wall_force[w][a] = soil->walls[w].force[a];
             soil->wall_impulse[w][a] += step->length * soil->walls[w].force[a];
         }
+    }
+    for (int k = 0; k < soil->n_boundaries; ++k) {
+        give_impulse(soil->boundaries[k].boundary, step->length);
     }
     return MOR_OK;
 }

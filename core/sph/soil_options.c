@@ -3,6 +3,7 @@
 /* Stages a case may switch on: density by summation, kernel-gradient correction, XSPH and shifting. */
 #include "core/sph/soil_internal.h"
 
+#include "core/base/eigen.h"
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 
@@ -26,7 +27,7 @@ static void sum_kernels(mor_context *context, mor_soil *soil, kernel_use use)
         const int64_t first = chunk * CLUSTERS;
         const int64_t last = first + CLUSTERS < n ? first + CLUSTERS : n;
         const mor_pair_kernel_job job = {soil->records, n_particles, soil->records, MOR_RECORD_SIZE,
-                                         &soil->inner,  sums,        false};
+                                         &soil->inner,  sums,        NULL};
         soil->table->kernel(&soil->constants, &job, first, last);
         for (int64_t i = first * MOR_CLUSTER; i < last * MOR_CLUSTER && i < n_particles; ++i) {
             use(soil, i, sums + (i - first * MOR_CLUSTER) * MOR_KERNEL_SUMS);
@@ -34,20 +35,22 @@ static void sum_kernels(mor_context *context, mor_soil *soil, kernel_use use)
     }
 }
 
-/* Adds a run of a wall's sums to a field: out[i * n + a] += scale(i) * sums[first_sum + a]. */
+/* Adds a run of the sums over walls and rocks to a field: out[i * n + a] += scale(i) * sums[first_sum + a]. */
 static void add_wall_sums(mor_context *context, mor_soil *soil, int first_sum, int n_sums, const double *scale,
                           double *out)
 {
     const int64_t n_particles = soil->set.n_particles;
-    for (int w = 0; w < soil->n_walls; ++w) {
-        const mor_soil_contact *wall = &soil->walls[w];
-        MOR_PARALLEL_FOR (context, place, wall->relation.n_occupied, CLUSTERS) {
-            const int64_t first = (int64_t)wall->relation.occupied[place] * MOR_CLUSTER;
-            for (int64_t lane = 0; lane < MOR_CLUSTER && first + lane < n_particles; ++lane) {
-                const double *sums = wall->sums + (place * MOR_CLUSTER + lane) * MOR_KERNEL_SUMS + first_sum;
-                const double factor = scale != NULL ? scale[first + lane] : 1.0;
-                for (int a = 0; a < n_sums; ++a) {
-                    out[(first + lane) * n_sums + a] += factor * sums[a];
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, CLUSTERS) {
+            for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+                const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+                for (int64_t lane = 0; lane < MOR_CLUSTER && first + lane < n_particles; ++lane) {
+                    const double *sums = contact->sums + (slot * MOR_CLUSTER + lane) * MOR_KERNEL_SUMS + first_sum;
+                    const double factor = scale != NULL ? scale[first + lane] : 1.0;
+                    for (int a = 0; a < n_sums; ++a) {
+                        out[(first + lane) * n_sums + a] += factor * sums[a];
+                    }
                 }
             }
         }
@@ -149,6 +152,55 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mo
     add_wall_sums(context, soil, MOR_KERNEL_SUM_MOMENT, 6, NULL, soil->moments);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         correct_particle(soil, i);
+    }
+    return MOR_OK;
+}
+
+/* The pair forces sigma_i . grad W of particle i exert the moment of the skew part of M sigma_i about it, M being the
+ * kernel's moment over the soil. A skew stress A beside sigma_i takes that away: M A + A M = M sigma - sigma M, which
+ * for the axial vector a of A reads (tr M - M) a = axial vector of the right side. In the frame of M its components
+ * are sigma_ab (m_a - m_b) / (m_a + m_b): never larger than the stress, and none where the kernel is full. */
+static void find_spin_stress(mor_soil *soil, int64_t i)
+{
+    const double *m = soil->moments + 6 * i;
+    const double *s = soil->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS;
+    double *spin = soil->spin_stress + 3 * i;
+    double values[3];
+    double axes[9];
+    mor_symmetric_eigen(m, values, axes);
+    spin[0] = spin[1] = spin[2] = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        const int a = (c + 1) % 3;
+        const int b = (c + 2) % 3;
+        const double u[3] = {axes[a], axes[3 + a], axes[6 + a]};
+        const double v[3] = {axes[b], axes[3 + b], axes[6 + b]};
+        const double sum = values[a] + values[b];
+        double turned[3];
+        mor_symmetric_apply(s, v, turned);
+        /* Without neighbors in this plane there is no moment either. */
+        const double part = sum > 0.0 ? mor_vector_dot(u, turned) * (values[b] - values[a]) / sum : 0.0;
+        for (int k = 0; k < 3; ++k) {
+            spin[k] += part * (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
+        }
+    }
+}
+
+mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    if (!soil->settings.has_angular_momentum) {
+        return MOR_OK;
+    }
+    sum_kernels(context, soil, keep_moments);
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        find_spin_stress(soil, i);
+    }
+    const mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
+    const int64_t n = soil->tree.n_clusters;
+    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
+        const int64_t last = (chunk + 1) * CLUSTERS;
+        soil->table->spin(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
     }
     return MOR_OK;
 }

@@ -28,11 +28,13 @@ mor_status mor_schedule_init(mor_context *context, mor_schedule *schedule, doubl
     return MOR_OK;
 }
 
-mor_status mor_schedule_add(mor_context *context, mor_schedule *schedule, const mor_stepper *stepper,
-                            uint64_t evolving)
+mor_status mor_schedule_add(mor_context *context, mor_schedule *schedule, const mor_stepper *stepper, uint64_t evolving)
 {
     MOR_CHECK(context, schedule->n_steppers < MOR_SCHEDULE_STEPPERS_MAX, MOR_ERROR_ARGUMENT,
               "%d steppers are in the schedule already, the most allowed", MOR_SCHEDULE_STEPPERS_MAX);
+    MOR_CHECK(context, stepper->n_before >= 0 && stepper->n_before <= stepper->n_stages, MOR_ERROR_INTERNAL,
+              "stepper '%s' has %d stages and claims %d of them before the exchange", stepper->name, stepper->n_stages,
+              stepper->n_before);
     MOR_TRY(context, mor_stage_verify(context, stepper->stages, stepper->n_stages, evolving));
     schedule->steppers[schedule->n_steppers++] = *stepper;
     return MOR_OK;
@@ -48,19 +50,43 @@ double mor_schedule_time(const mor_schedule *schedule)
     return (double)schedule->now * schedule->tick;
 }
 
+/* A follower that needs more sub-steps than this in a common step has collapsed. */
+enum { SUBSTEPS_MAX = 1 << 20 };
+
+static mor_status ask_steppers(mor_context *context, mor_schedule *schedule)
+{
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        const mor_stepper *stepper = &schedule->steppers[s];
+        schedule->proposals[s] = INFINITY;
+        schedule->limits[s] = "";
+        MOR_TRY(context,
+                stepper->operations->propose(context, stepper->owner, &schedule->proposals[s], &schedule->limits[s]));
+    }
+    return MOR_OK;
+}
+
+static bool has_leader(const mor_schedule *schedule)
+{
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        if (schedule->steppers[s].is_leader) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The common step: the shortest of the leaders; without leaders, or at a single rate, the shortest of all. */
 static mor_status propose_step(mor_context *context, mor_schedule *schedule, int64_t *ticks)
 {
     double shortest = (double)schedule->end * schedule->tick;
+    const bool is_for_all = schedule->is_single_rate || !has_leader(schedule);
     schedule->limit = "the end of the run";
+    MOR_TRY(context, ask_steppers(context, schedule));
     for (int s = 0; s < schedule->n_steppers; ++s) {
-        const mor_stepper *stepper = &schedule->steppers[s];
-        double length = INFINITY;
-        const char *limit = "";
-        MOR_TRY(context, stepper->operations->propose(context, stepper->owner, &length, &limit));
         /* Written so that a length that is not a number is taken, and reported below. */
-        if (!(length >= shortest)) {
-            shortest = length;
-            schedule->limit = limit;
+        if ((is_for_all || schedule->steppers[s].is_leader) && !(schedule->proposals[s] >= shortest)) {
+            shortest = schedule->proposals[s];
+            schedule->limit = schedule->limits[s];
         }
     }
     const double n_ticks = floor(shortest / schedule->tick);
@@ -70,6 +96,129 @@ static mor_status propose_step(mor_context *context, mor_schedule *schedule, int
               shortest, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->limit,
               (double)SHORTEST_STEP_TICKS * schedule->tick);
     *ticks = (int64_t)n_ticks;
+    return MOR_OK;
+}
+
+/* Sub-steps of each stepper alone, and the groups of those that may touch: island[s] has the bits of s's group. */
+static mor_status find_islands(mor_context *context, mor_schedule *schedule, double length, uint64_t *island)
+{
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        const double ratio = ceil(length / schedule->proposals[s] * (1.0 - 1.0e-12));
+        /* Written so that a proposal that is not a number or not positive is reported. */
+        MOR_CHECK(
+            context, schedule->proposals[s] > 0.0 && ratio <= (double)SUBSTEPS_MAX, MOR_ERROR_NUMERIC,
+            "the time step of '%s' collapsed to %.3g s at t = %.9g s (step %llu), limited by %s, while the common "
+            "step is %.3g s; at most %d sub-steps are allowed. Look at the last snapshot; a smaller 'courant' may "
+            "help",
+            schedule->steppers[s].name, schedule->proposals[s], mor_schedule_time(schedule),
+            (unsigned long long)schedule->n_steps, schedule->limits[s], length, SUBSTEPS_MAX);
+        schedule->substeps[s] = schedule->steppers[s].is_leader || !(ratio > 1.0) ? 1 : (int)ratio;
+        island[s] = MOR_BIT(s);
+    }
+    if (schedule->exchange == NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, schedule->exchange->find_partners(context, schedule->exchange->owner, length, island,
+                                                       schedule->n_steppers));
+    /* As many rounds as there are steppers join every chain of partners. */
+    for (int round = 0; round < schedule->n_steppers; ++round) {
+        for (int s = 0; s < schedule->n_steppers; ++s) {
+            island[s] |= MOR_BIT(s);
+            for (int other = 0; other < schedule->n_steppers; ++other) {
+                if ((island[s] & MOR_BIT(other)) != 0 || (island[other] & MOR_BIT(s)) != 0) {
+                    island[s] |= island[other] | MOR_BIT(other);
+                }
+            }
+        }
+    }
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        for (int other = 0; other < schedule->n_steppers; ++other) {
+            if ((island[s] & MOR_BIT(other)) != 0 && schedule->substeps[other] > schedule->substeps[s]) {
+                schedule->substeps[s] = schedule->substeps[other];
+            }
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status run_stages(mor_context *context, const mor_stepper *stepper, int first, int last,
+                             const mor_step *step)
+{
+    for (int k = first; k < last; ++k) {
+        MOR_TRY(context, stepper->stages[k].run(context, stepper->owner, step));
+    }
+    return MOR_OK;
+}
+
+/* All sub-steps of the followers in one island. They add up to the common step to the tick. */
+static mor_status run_island(mor_context *context, mor_schedule *schedule, uint64_t members, int64_t ticks, int n_parts)
+{
+    int64_t now = schedule->now;
+    for (int part = 0; part < n_parts; ++part) {
+        const int64_t part_ticks = ticks / n_parts + (part < ticks % n_parts ? 1 : 0);
+        const mor_step step = {(double)part_ticks * schedule->tick, (double)now * schedule->tick, schedule->n_steps,
+                               part, n_parts};
+        for (int s = 0; s < schedule->n_steppers; ++s) {
+            if ((members & MOR_BIT(s)) != 0) {
+                const mor_stepper *stepper = &schedule->steppers[s];
+                MOR_TRY(context, run_stages(context, stepper, 0, stepper->n_before, &step));
+            }
+        }
+        if (schedule->exchange != NULL) {
+            MOR_TRY(context, schedule->exchange->run(context, schedule->exchange->owner, members, &step));
+        }
+        for (int s = 0; s < schedule->n_steppers; ++s) {
+            if ((members & MOR_BIT(s)) != 0) {
+                const mor_stepper *stepper = &schedule->steppers[s];
+                MOR_TRY(context, run_stages(context, stepper, stepper->n_before, stepper->n_stages, &step));
+            }
+        }
+        now += part_ticks;
+    }
+    return MOR_OK;
+}
+
+static mor_status run_followers(mor_context *context, mor_schedule *schedule, const uint64_t *island, int64_t ticks,
+                                const mor_step *common)
+{
+    uint64_t done = 0;
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        if (!schedule->steppers[s].is_leader && (done & MOR_BIT(s)) == 0) {
+            MOR_TRY(context, run_island(context, schedule, island[s], ticks, schedule->substeps[s]));
+            done |= island[s];
+        }
+    }
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        const mor_stepper *stepper = &schedule->steppers[s];
+        schedule->n_particle_steps += (uint64_t)stepper->n_particles * (uint64_t)schedule->substeps[s];
+        if (!stepper->is_leader && stepper->operations->finish != NULL) {
+            MOR_TRY(context, stepper->operations->finish(context, stepper->owner, common));
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status begin_followers(mor_context *context, const mor_schedule *schedule, const mor_step *common)
+{
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        const mor_stepper *stepper = &schedule->steppers[s];
+        if (!stepper->is_leader && stepper->operations->begin != NULL) {
+            MOR_TRY(context, stepper->operations->begin(context, stepper->owner, common));
+        }
+    }
+    return MOR_OK;
+}
+
+/* The leaders' stages before or after the exchange with the followers. */
+static mor_status run_leaders(mor_context *context, const mor_schedule *schedule, bool is_after, const mor_step *common)
+{
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        const mor_stepper *stepper = &schedule->steppers[s];
+        if (stepper->is_leader) {
+            MOR_TRY(context, is_after ? run_stages(context, stepper, stepper->n_before, stepper->n_stages, common)
+                                      : run_stages(context, stepper, 0, stepper->n_before, common));
+        }
+    }
     return MOR_OK;
 }
 
@@ -83,15 +232,33 @@ mor_status mor_schedule_step(mor_context *context, mor_schedule *schedule, int64
     } else if (2 * ticks > left) {
         ticks = left - left / 2;
     }
-    const mor_step step = {(double)ticks * schedule->tick, mor_schedule_time(schedule), schedule->n_steps};
-    for (int s = 0; s < schedule->n_steppers; ++s) {
-        const mor_stepper *stepper = &schedule->steppers[s];
-        for (int k = 0; k < stepper->n_stages; ++k) {
-            MOR_TRY(context, stepper->stages[k].run(context, stepper->owner, &step));
-        }
-    }
+    const mor_step common = {(double)ticks * schedule->tick, mor_schedule_time(schedule), schedule->n_steps, 0, 1};
+    uint64_t island[MOR_SCHEDULE_STEPPERS_MAX];
+    MOR_TRY(context, find_islands(context, schedule, common.length, island)); /* may fail: before anything moves */
+    MOR_TRY(context, begin_followers(context, schedule, &common));
+    MOR_TRY(context, run_leaders(context, schedule, false, &common));
+    MOR_TRY(context, run_followers(context, schedule, island, ticks, &common));
+    MOR_TRY(context, run_leaders(context, schedule, true, &common));
     schedule->now += ticks;
     schedule->n_steps += 1;
-    schedule->step_length = step.length;
+    schedule->step_length = common.length;
     return MOR_OK;
+}
+
+mor_status mor_schedule_preview(mor_context *context, mor_schedule *schedule, double *length)
+{
+    int64_t ticks = 0;
+    uint64_t island[MOR_SCHEDULE_STEPPERS_MAX];
+    MOR_TRY(context, propose_step(context, schedule, &ticks));
+    *length = (double)ticks * schedule->tick;
+    return find_islands(context, schedule, *length, island);
+}
+
+int mor_schedule_rate_ratio(const mor_schedule *schedule)
+{
+    int ratio = 1;
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        ratio = schedule->substeps[s] > ratio ? schedule->substeps[s] : ratio;
+    }
+    return ratio;
 }

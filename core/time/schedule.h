@@ -8,6 +8,15 @@
 #include <stdbool.h>
 
 /** @file
+ *  Several clocks, one time. Leaders (soil) take the common step; followers (rocks) divide it into as many equal
+ *  sub-steps as their own limit asks for, between two halves of the leaders' stages:
+ *
+ *      begin of followers | leaders: forces | followers: kappa x (first half, exchange, second half), finish |
+ *      leaders: motion
+ *
+ *  so that the forces between leaders and followers are held over the sub-steps, Zhang et al. (2024) eqs. 51-60.
+ *  Followers that may touch in a step take their sub-steps together, at the rate of the fastest.
+ *
  *  Time on an integer line. A tick is a power of two of a second so small that the whole run has about 2^52 of them;
  *  every time is a whole number of ticks and therefore exact: steps add up to output times and to the end without
  *  rounding, and a change of the unit of time by a power of two changes no bit of the rest. */
@@ -24,6 +33,12 @@ typedef struct mor_schedule {
     const char *limit;  /* what limited it; static */
     mor_stepper steppers[MOR_SCHEDULE_STEPPERS_MAX];
     int n_steppers;
+    const mor_exchange *exchange;                  /* among followers; borrowed; NULL: none */
+    bool is_single_rate;                           /* every stepper takes the shortest step of all */
+    int substeps[MOR_SCHEDULE_STEPPERS_MAX];       /* sub-steps of each stepper in the last common step, kappa */
+    double proposals[MOR_SCHEDULE_STEPPERS_MAX];   /* longest step of each before the last common step, s */
+    const char *limits[MOR_SCHEDULE_STEPPERS_MAX]; /* what limits each; static */
+    uint64_t n_particle_steps;                     /* sum of particles times sub-steps over all steps */
 } mor_schedule;
 
 /** Sets the clock to zero.
@@ -42,6 +57,17 @@ mor_status mor_schedule_init(mor_context *context, mor_schedule *schedule, doubl
 mor_status mor_schedule_add(mor_context *context, mor_schedule *schedule, const mor_stepper *stepper,
                             uint64_t evolving);
 
+/** Finds the lengths that the next step would have without taking it: fills proposals, limits and substeps.
+ *  @param context  [in,out]  one object
+ *  @param schedule [in,out]  one object
+ *  @param length   [out]     one number; length of the common step, unit s
+ *  Returns: MOR_OK; MOR_ERROR_NUMERIC when the step collapses. */
+mor_status mor_schedule_preview(mor_context *context, mor_schedule *schedule, double *length);
+
+/** Returns the most sub-steps that any stepper took in the last common step, 1 when there was none.
+ *  @param schedule [in]  one object */
+int mor_schedule_rate_ratio(const mor_schedule *schedule);
+
 /** Returns the number of whole ticks nearest to a time, unit s.
  *  @param schedule [in]  one object
  *  @param time     [in]  time, unit s */
@@ -51,7 +77,8 @@ int64_t mor_schedule_ticks(const mor_schedule *schedule, double time);
  *  @param schedule [in]  one object */
 double mor_schedule_time(const mor_schedule *schedule);
 
-/** Takes one step, not beyond a given tick. Two steps of equal length are taken where one and a crumb would be needed.
+/** Takes one common step, not beyond a given tick. Two steps of equal length are taken where one and a crumb would be
+ *  needed.
  *  @param context  [in,out]  one object
  *  @param schedule [in,out]  one object
  *  @param until    [in]      tick not to be passed, > now

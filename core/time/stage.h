@@ -17,8 +17,8 @@
 
 /** Data that stages hand on beside the particle fields. */
 enum {
-    MOR_RESOURCE_RECORDS = 60, /* packed neighbor records */
-    MOR_RESOURCE_LISTS = 61,   /* neighbor lists */
+    MOR_RESOURCE_RECORDS = 60,  /* packed neighbor records */
+    MOR_RESOURCE_LISTS = 61,    /* neighbor lists */
     MOR_RESOURCE_WALL_SUMS = 62 /* kernel sums over walls */
 };
 
@@ -27,9 +27,11 @@ enum {
 
 /** Everything a stage is told about the step it works in. */
 typedef struct mor_step {
-    double length;      /* length of the step, s */
-    double time;        /* time at its start, s */
-    uint64_t number;    /* steps done before it */
+    double length;   /* length of the step, s */
+    double time;     /* time at its start, s */
+    uint64_t number; /* common steps done before it */
+    int part;        /* number of the sub-step in the common step, from 0 */
+    int n_parts;     /* sub-steps of the common step; 1 for a common step; 0 counts as 1 */
 } mor_step;
 
 /** One stage. Static or owned by the stepper. */

@@ -5,6 +5,8 @@
 
 #include "core/time/stage.h"
 
+#include <stdbool.h>
+
 /** @file
  *  Something that advances at its own rate: soil, a group of elastic bodies, a group of rigid ones. The schedule
  *  (core/time/schedule.h) owns time and tells steppers when to move. */
@@ -12,8 +14,13 @@
 /** What a stepper can do. One constant table per kind. */
 typedef struct mor_stepper_operations {
     const char *kind;
-    /** Writes the longest stable step, one number, unit s, and a static word for what limits it. */
+    /** Writes the longest stable step, one number, unit s (INFINITY: any), and a static word for what limits it. */
     mor_status (*propose)(mor_context *context, void *owner, double *step_length, const char **limit);
+    /** Of a follower, NULL: nothing to do. Called once before the leaders' first stages of a common step: the follower
+     *  shows the leaders where it will be in the middle of the step, one object. */
+    mor_status (*begin)(mor_context *context, void *owner, const mor_step *step);
+    /** Of a follower, NULL: nothing to do. Called once after the sub-steps of a common step, one object. */
+    mor_status (*finish)(mor_context *context, void *owner, const mor_step *step);
 } mor_stepper_operations;
 
 /** One stepper. Borrowed by the schedule; the owner object belongs to whoever made it. */
@@ -23,7 +30,20 @@ typedef struct mor_stepper {
     void *owner;                              /* first argument of operations and stages */
     const mor_stage *stages;                  /* shape [n_stages]; one step is all of them in order */
     int n_stages;
-    int64_t n_particles;                      /* for the unit of account, particle-steps */
+    int n_before;        /* stages before the exchange: of a leader, with all followers; of a
+                                               * follower, with its partners (contact) */
+    int64_t n_particles; /* for the unit of account, particle-steps */
+    bool is_leader;      /* takes the common step; followers take sub-steps within it */
 } mor_stepper;
+
+/** What happens among followers in the middle of a sub-step. Borrowed by the schedule. */
+typedef struct mor_exchange {
+    void *owner; /* first argument of the functions */
+    /** For each of the n_steppers steppers writes into partners, shape [n_steppers], the bits of the steppers it may
+     *  touch within a common step of the given length [s]. Those take their sub-steps together. */
+    mor_status (*find_partners)(mor_context *context, void *owner, double length, uint64_t *partners, int n_steppers);
+    /** Lets the steppers of a set of bits act on one another; one object for the sub-step. */
+    mor_status (*run)(mor_context *context, void *owner, uint64_t members, const mor_step *step);
+} mor_exchange;
 
 #endif

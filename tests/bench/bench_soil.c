@@ -51,7 +51,7 @@ static void time_step(scene *it, timing *t)
     const char *limit = "";
     scene_require(it, stepper->operations->propose(&it->context, stepper->owner, &length, &limit));
     const int64_t ticks = mor_schedule_ticks(schedule, length);
-    const mor_step step = {(double)ticks * schedule->tick, mor_schedule_time(schedule), schedule->n_steps};
+    const mor_step step = {(double)ticks * schedule->tick, mor_schedule_time(schedule), schedule->n_steps, 0, 1};
     double before = mor_clock_now();
     for (int k = 0; k < stepper->n_stages; ++k) {
         scene_require(it, stepper->stages[k].run(&it->context, stepper->owner, &step));

@@ -29,14 +29,24 @@ static const char finished_run_case[] =
     "numerics = { density_reinitialization = 7; sort_interval = 11; };"
     "output = { snapshots = 6; pictures = false; };";
 
-/** Writes the case as case.cfg of the scratch folder; path, shape [MOR_PATH_BYTES], receives where. */
+/** Writes a case, zero-terminated with ' in place of ", as case.cfg of the scratch folder; path, shape
+ *  [MOR_PATH_BYTES], receives where. */
+static inline void finished_run_store_text(run_folder *folder, const char *source, char *path)
+{
+    const size_t n_bytes = strlen(source);
+    char *text = malloc(n_bytes + 1);
+    assert_non_null(text);
+    for (size_t k = 0; k < n_bytes; ++k) {
+        text[k] = source[k] == '\'' ? '"' : source[k];
+    }
+    run_folder_store(run_folder_file(folder, path, "case.cfg"), text, n_bytes);
+    free(text);
+}
+
+/** Writes the case above as case.cfg of the scratch folder; path, shape [MOR_PATH_BYTES], receives where. */
 static inline void finished_run_store_case(run_folder *folder, char *path)
 {
-    char text[sizeof finished_run_case];
-    for (size_t k = 0; k < sizeof text; ++k) {
-        text[k] = finished_run_case[k] == '\'' ? '"' : finished_run_case[k];
-    }
-    run_folder_store(run_folder_file(folder, path, "case.cfg"), text, sizeof text - 1);
+    finished_run_store_text(folder, finished_run_case, path);
 }
 
 /** Puts the path of a file of a run into path, shape [MOR_PATH_BYTES]; names are zero-terminated. */
@@ -78,19 +88,19 @@ static inline void finished_run_read_hash(run_folder *folder, const char *run, c
     free(text);
 }
 
-/** Fails unless a field of the first set has the same bits in both snapshots. */
-static inline void finished_run_compare_field(run_folder *folder, const mor_snapshot *a, const mor_snapshot *b,
+/** Fails unless a field of a set, number `at`, has the same bits in both snapshots. */
+static inline void finished_run_compare_field(run_folder *folder, const mor_snapshot *a, const mor_snapshot *b, int at,
                                               int field)
 {
-    const mor_snapshot_set *set = &a->sets[0];
+    const mor_snapshot_set *set = &a->sets[at];
     const size_t n_bytes = (size_t)(set->n_particles * set->fields[field].n_components) * sizeof(double);
     double *values_a = malloc(n_bytes);
     double *values_b = malloc(n_bytes);
     assert_non_null(values_a);
     assert_non_null(values_b);
-    assert_string_equal(set->fields[field].name, b->sets[0].fields[field].name);
+    assert_string_equal(set->fields[field].name, b->sets[at].fields[field].name);
     assert_int_equal(mor_snapshot_read_field(&folder->context, a, set, &set->fields[field], values_a), MOR_OK);
-    assert_int_equal(mor_snapshot_read_field(&folder->context, b, &b->sets[0], &b->sets[0].fields[field], values_b),
+    assert_int_equal(mor_snapshot_read_field(&folder->context, b, &b->sets[at], &b->sets[at].fields[field], values_b),
                      MOR_OK);
     assert_memory_equal(values_a, values_b, n_bytes);
     free(values_a);
@@ -117,10 +127,13 @@ static inline void finished_run_compare_snapshots(run_folder *folder, const char
         assert_memory_equal(&a.items[k].time, &b.items[k].time, sizeof(double));
         assert_int_equal(mor_snapshot_open(&folder->context, &one, path_a, a.items[k].step), MOR_OK);
         assert_int_equal(mor_snapshot_open(&folder->context, &other, path_b, b.items[k].step), MOR_OK);
-        assert_int_equal(one.sets[0].n_particles, other.sets[0].n_particles);
-        assert_int_equal(one.sets[0].n_fields, other.sets[0].n_fields);
-        for (int field = 0; field < one.sets[0].n_fields; ++field) {
-            finished_run_compare_field(folder, &one, &other, field);
+        assert_int_equal(one.n_sets, other.n_sets);
+        for (int set = 0; set < one.n_sets; ++set) {
+            assert_int_equal(one.sets[set].n_particles, other.sets[set].n_particles);
+            assert_int_equal(one.sets[set].n_fields, other.sets[set].n_fields);
+            for (int field = 0; field < one.sets[set].n_fields; ++field) {
+                finished_run_compare_field(folder, &one, &other, set, field);
+            }
         }
         mor_snapshot_close(&folder->context, &one);
         mor_snapshot_close(&folder->context, &other);

@@ -134,6 +134,68 @@ static void pictures_do_not_depend_on_run_or_number_of_threads(void **state)
     }
 }
 
+/* Two square pieces of 6 x 6 particles that touch, and grains below. */
+static void draw_pieces(run_folder *folder, const double *part, mor_canvas **canvas)
+{
+    double rock[72][3];
+    double sand[24][3];
+    double value[24];
+    for (int i = 0; i < 72; ++i) {
+        rock[i][0] = 0.02 * (i % 12) + 0.01;
+        rock[i][1] = 0.02 * (i / 12) + 0.05;
+        rock[i][2] = 0.0;
+    }
+    for (int i = 0; i < 24; ++i) {
+        sand[i][0] = rock[i][0];
+        sand[i][1] = 0.02 * (i / 12) + 0.01;
+        sand[i][2] = 0.0;
+        value[i] = i;
+    }
+    const mor_picture_group groups[2] = {
+        {.name = "soil", .position = sand[0], .n_particles = 24, .radius = 0.01, .value = value},
+        {.name = "rock",
+         .position = rock[0],
+         .n_particles = 72,
+         .radius = 0.01,
+         .part = part,
+         .color = {0.8, 0.7, 0.6},
+         .is_piece = true}};
+    mor_picture picture = pile_picture(groups, 2, 2);
+    picture.width = 800;
+    picture.height = 500;
+    assert_int_equal(mor_picture_draw(&folder->context, &picture, canvas), MOR_OK);
+}
+
+/* Number of separate dark stretches in a row of pixels between the first and the last dark one. */
+static int count_lines(const mor_canvas *canvas, int row, int n_columns)
+{
+    int n = 0;
+    bool was_dark = false;
+    for (int column = 100; column < n_columns - 130; ++column) { /* between the axes' frame and the color bar */
+        uint8_t rgb[3];
+        mor_canvas_pixel(canvas, column, row, rgb);
+        const bool is_dark = rgb[0] < 130 && rgb[0] > rgb[2]; /* darkened stone: warm, unlike the frame */
+        n += is_dark && !was_dark;
+        was_dark = is_dark;
+    }
+    return n;
+}
+
+static void touching_pieces_are_parted_by_a_line(void **state)
+{
+    run_folder *folder = *state;
+    double part[72];
+    for (int i = 0; i < 72; ++i) {
+        part[i] = i % 12 < 6 ? 0.0 : 1.0;
+    }
+    for (int n_parts = 1; n_parts <= 2; ++n_parts) {
+        mor_canvas *canvas = NULL;
+        draw_pieces(folder, n_parts == 2 ? part : NULL, &canvas);
+        assert_int_equal(count_lines(canvas, 170, 800), n_parts + 1); /* a row through the middle of the rocks */
+        mor_canvas_free(&folder->context, &canvas);
+    }
+}
+
 static void pictures_are_drawn_with_floating_point_traps_on(void **state)
 {
     run_folder *folder = *state;
@@ -240,6 +302,7 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(pictures_do_not_depend_on_run_or_number_of_threads, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(touching_pieces_are_parted_by_a_line, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(pictures_are_drawn_with_floating_point_traps_on, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(light_falls_from_above, run_folder_setup, run_folder_teardown),

@@ -16,8 +16,8 @@
 #define MOR_SOURCE_DIR "."
 #endif
 
-/* Each file in bad_cases/ is base.cfg with one defect. The message must name the file, the line, what was found there,
- * and what to write instead. */
+/* Each file in bad_cases/ is base.cfg or base_rocks.cfg with one defect. The message must name the file, the line, what
+ * was found there, and what to write instead. */
 
 #define FOLDER MOR_SOURCE_DIR "/tests/regression/bad_cases"
 
@@ -37,7 +37,7 @@ static const bad_case bad_cases[] = {
     {"unknown_in_soil", 8, "unknown name 'nam' in soil[0]", "allowed: name, velocity, shape"},
     {"unknown_in_shape", 9, "unknown name 'radius' in soil[0].shape", "allowed: type, min, max"},
     {"unknown_model", 11, "\"druker_prager\"", "did you mean 'drucker_prager'?"},
-    {"unknown_shape", 9, "\"bocks\"", "allowed: box, cylinder, sphere, half_space, polygon, union"},
+    {"unknown_shape", 9, "\"bocks\"", "allowed: box, cylinder, cone, sphere, half_space, polygon, union"},
     {"unknown_probe_type", 24, "\"runout\"", "did you mean 'run_out'?"},
     {"unknown_probe", 25, "\"height\"", "allowed: run_out"},
     {"unknown_word", 21, "\"ruff\"", "allowed: rough, smooth, coulomb"},
@@ -79,7 +79,7 @@ static const bad_case bad_cases[] = {
     {"duplicate_expectation", 26, "a second expectation of 'run_out'", "line 25 has it"},
     {"missing_spacing", 0, "found no 'spacing' in the file", "allowed: > 0 m"},
     {"missing_domain", 0, "found no 'domain' in the file", "allowed: a group"},
-    {"missing_soil", 0, "found no 'soil' in the file", "allowed: a list"},
+    {"missing_soil", 0, "found neither 'soil' nor 'bodies'", "allowed: at least one soil region or one body"},
     {"missing_shape", 18, "found no 'shape' in walls[0]", "allowed: a group"},
     {"missing_parameter", 10, "found no 'youngs_modulus'", "allowed: > 0 Pa"},
     {"missing_radius", 9, "found no 'radius' in soil[0].shape", "allowed: > 0 m"},
@@ -115,9 +115,60 @@ static const bad_case bad_cases[] = {
     {"deep_nesting", 1, "brackets nested more than 64 deep", "allowed: at most 64"},
     {"empty_file", 0, "found no 'dimension' in the file", "allowed: a whole number"},
     {"binary_file", 1, "control byte", "is this a case file?"},
+    {"rock_without_density", 18, "found no 'density' in bodies[0].material", "allowed: > 0 kg/m3"},
+    {"rock_without_shape", 11, "found no 'shape' in bodies[0]", "allowed: a group"},
+    {"rock_of_unknown_model", 18, "model = \"neo_hooke\"", "did you mean 'neo_hookean'?"},
+    {"rock_of_soil", 18, "\"drucker_prager\"", "allowed: rigid, neo_hookean"},
+    {"rock_unknown_name", 16, "unknown name 'velocty' in bodies[0]", "did you mean 'velocity'?"},
+    {"rock_of_zero_axis", 15, "a direction of length zero", "give it a length"},
+    {"rock_of_no_contact_modulus", 14, "bodies[0].contact_modulus = 0", "allowed: > 0 Pa"},
+    {"rock_friction_negative", 14, "friction_coefficient = -0.1", "allowed: >= 0"},
+    {"rock_friction_idle", 14, "'friction_coefficient', which has no effect", "with friction = \"coulomb\""},
+    {"rock_friction_missing", 11, "found no 'friction_coefficient'", "allowed: >= 0"},
+    {"rock_rigid_parameter", 23, "unknown name 'youngs_modulus' in bodies[1].material", "allowed: model, density"},
+    {"rock_rigid_clamp", 24, "found 'clamp', which has no effect on the body 'block'",
+     "with the model of an elastic material"},
+    {"rock_rigid_start", 24, "found 'start', which has no effect on the body 'block'",
+     "with the model of an elastic material"},
+    {"rock_elastic_prescribed", 14, "found 'motion', which has no effect on the body 'ball'", "with model = \"rigid\""},
+    {"rock_elastic_locked", 14, "found 'locked', which has no effect on the body 'ball'",
+     "with model = \"rigid\" and motion = \"free\""},
+    {"rock_prescribed_spring", 25, "found 'spring', which has no effect on the body 'block'", "motion = \"free\""},
+    {"rock_spring_without_stiffness", 25, "found no 'stiffness' in bodies[1].spring", "allowed: >= 0 N/m"},
+    {"rock_spring_without_effect", 25, "a spring of stiffness 0 and damping 0", "one of them above 0"},
+    {"rock_spring_wrong_unit", 25, "stiffness = \"2 kN\"", "converts to N/m"},
+    {"rock_lock_unknown", 24, "bodies[1].locked[1] = \"ra\"", "allowed: x, y, z, rx, ry, rz"},
+    {"rock_velocity_locked", 24, "velocity with a component that 'y' in locked takes away",
+     "zero in locked directions"},
+    {"rock_lock_turned", 24, "'x' in locked, which the turn of placement takes away", "change the locks or the turn"},
+    {"rock_start_incomplete", 14, "found no 'direction' in this type of start", "add it"},
+    {"rock_start_idle", 14, "found 'speed', which has no effect with this type of start", "with type = \"cantilever\""},
+    {"rock_start_askew", 14, "not at right angles to axis", "across the bar"},
+    {"rock_without_end", 22, "a body whose shape has no end along x", "make it a wall"},
+    {"rock_named_as_rock", 21, "the name 'ball' again", "taken by line 11"},
+    {"rock_named_as_wall", 21, "the name 'gate' again", "taken by line 9"},
+    {"rock_name_too_long", 21, "bodies[1].name = \"bbbb", "shorten it"},
+    {"rock_out_of_plane", 14, "found position with a component along z in plane strain", "allowed: x and y"},
+    {"rock_turning_out_of_plane", 17, "found angular_velocity with a component in the plane", "(0, 0, z)"},
+    {"contact_friction_negative", 28, "contact.friction_coefficient = -0.5", "allowed: >= 0"},
+    {"contact_restitution_zero", 29, "contact.pairs[0].restitution = 0", "allowed: in (0, 1]"},
+    {"contact_restitution_high", 28, "contact.restitution = 1.5", "allowed: in (0, 1]"},
+    {"contact_unknown_body", 29, "pairs[0].first = \"bal\"", "did you mean 'ball'?"},
+    {"contact_of_walls", 29, "a pair of two walls, 'gate' and 'floor'", "name a body"},
+    {"contact_with_itself", 29, "a pair of 'ball' with itself", "name another"},
+    {"contact_pair_twice", 30, "the pair of 'floor' and 'ball' again", "line 29 has it"},
+    {"probe_of_unknown_rock", 31, "probes[0].body = \"boll\"", "did you mean 'ball'?"},
+    {"probe_without_rock", 31, "found no 'body' in a probe of type 'body_velocity'", "add it"},
+    {"probe_without_soil", 31, "found the probe 'ball_speed' of type 'repose_angle' in a case without soil",
+     "remove the probe or add soil"},
+    {"probe_without_rocks", 24, "found the probe 'contact_depth' of type 'contact_depth' in a case without bodies",
+     "add bodies"},
+    {"contact_without_rocks", 23, "found 'contact', which has no effect in a case without bodies", "with bodies"},
 };
 
-enum { N_BAD_CASES = sizeof bad_cases / sizeof bad_cases[0] };
+static const char *const bases[] = {"base.cfg", "base_rocks.cfg"};
+
+enum { N_BAD_CASES = sizeof bad_cases / sizeof bad_cases[0], N_BASES = sizeof bases / sizeof bases[0] };
 
 typedef struct fixture {
     mor_context context;
@@ -186,14 +237,18 @@ static void every_bad_case_is_refused_with_place_finding_and_advice(void **state
     assert_int_equal(n_wrong, 0);
 }
 
-static void the_base_of_the_bad_cases_is_good(void **state)
+static void the_bases_of_the_bad_cases_are_good(void **state)
 {
     fixture *f = *state;
-    const mor_status status = mor_case_read(&f->context, FOLDER "/base.cfg", NULL, 0, f->registry, &f->the_case);
-    if (status != MOR_OK) {
-        fail_msg("%s", f->context.message);
+    for (int k = 0; k < N_BASES; ++k) {
+        char path[PATH_BYTES];
+        snprintf(path, sizeof path, "%s/%s", FOLDER, bases[k]);
+        const mor_status status = mor_case_read(&f->context, path, NULL, 0, f->registry, &f->the_case);
+        if (status != MOR_OK) {
+            fail_msg("%s", f->context.message);
+        }
+        mor_case_clear(&f->context, &f->the_case);
     }
-    mor_case_clear(&f->context, &f->the_case);
 }
 
 static int is_listed(const char *file)
@@ -205,7 +260,12 @@ static int is_listed(const char *file)
             return 1;
         }
     }
-    return strcmp(file, "base.cfg") == 0;
+    for (int k = 0; k < N_BASES; ++k) {
+        if (strcmp(file, bases[k]) == 0) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 static void every_file_of_the_folder_is_listed(void **state)
@@ -227,13 +287,13 @@ static void every_file_of_the_folder_is_listed(void **state)
     }
     closedir(folder);
     assert_int_equal(n_unlisted, 0);
-    assert_int_equal(n_files, N_BAD_CASES + 1);
+    assert_int_equal(n_files, N_BAD_CASES + N_BASES);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_base_of_the_bad_cases_is_good),
+        cmocka_unit_test(the_bases_of_the_bad_cases_are_good),
         cmocka_unit_test(every_bad_case_is_refused_with_place_finding_and_advice),
         cmocka_unit_test(every_file_of_the_folder_is_listed),
     };

@@ -70,7 +70,8 @@ static mor_status build_scene(const char *setting, char *message, size_t room)
         status = mor_simulation_init(&context, &simulation, &the_case, registry);
     }
     if (status == MOR_OK) {
-        status = mor_pictures_check(&context, &the_case, &simulation.soil.set);
+        mor_set *const sets[] = {&simulation.soil.set};
+        status = mor_pictures_check(&context, &the_case, sets, 1);
     }
     snprintf(message, room, "%s", status == MOR_OK ? "" : context.message);
     mor_simulation_clear(&context, &simulation);

@@ -11,7 +11,7 @@ import sys
 import source
 
 TIERS = ("unit", "property", "physics", "regression")
-ASSERTION = re.compile(r"\b(assert_\w+|fail_msg|fail|mor_expect\w*)[ \t]*\(")
+ASSERTION = re.compile(r"\b(assert_\w+|fail_msg|fail|mor_expect\w*|(?:\w+_)?scene_expect\w*)[ \t]*\(")
 TEST = re.compile(r"\bstatic\s+void\s+(\w+)\s*\(\s*void\s*\*\*\s*\w+\s*\)")
 
 

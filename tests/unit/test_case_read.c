@@ -1,30 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/case_read.h"
-#include "cases/driver/case_schema.h"
 #include "core/base/math.h"
-#include "core/material/params.h"
 #include "core/particle/shape_analytic.h"
-#include "materials/builtin.h"
+#include "tests/common/case_reading.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
-
-typedef struct fixture {
-    mor_context context;
-    mor_context units_context;
-    mor_units *units;
-    mor_registry *registry;
-    mor_case first;
-    mor_case second;
-} fixture;
 
 /* Everything a case in three dimensions may have. */
 static const char full_text[] =
@@ -73,71 +53,12 @@ static const char least_text[] =
     "  material = { model = \"drucker_prager\"; density = 2000; youngs_modulus = 1e6; poissons_ratio = 0.2;\n"
     "    friction_angle = 0.5; }; } );\n";
 
-static int set_up(void **state)
-{
-    fixture *f = calloc(1, sizeof *f);
-    if (f == NULL) {
-        return 1;
-    }
-    *state = f;
-    mor_context_init(&f->context);
-    mor_context_init(&f->units_context);
-    return mor_units_new(&f->units_context, &f->units) != MOR_OK ||
-           mor_registry_new(&f->context, &f->registry) != MOR_OK ||
-           mor_materials_register_builtin(&f->context, f->registry) != MOR_OK;
-}
-
-static int tear_down(void **state)
-{
-    fixture *f = *state;
-    mor_case_clear(&f->context, &f->first);
-    mor_case_clear(&f->context, &f->second);
-    mor_registry_free(&f->context, &f->registry);
-    mor_units_free(&f->units_context, &f->units);
-    const int is_leaking = f->context.memory_bytes != 0;
-    free(f);
-    return is_leaking;
-}
-
-static mor_status try_read(fixture *f, const char *text, size_t n_bytes, const char *const *settings, mor_case *out)
-{
-    int n_settings = 0;
-    while (settings != NULL && settings[n_settings] != NULL) {
-        ++n_settings;
-    }
-    const mor_case_text given = {.name = "t.cfg",
-                                 .text = text,
-                                 .n_bytes = (int64_t)n_bytes,
-                                 .settings = settings,
-                                 .n_settings = n_settings,
-                                 .registry = f->registry,
-                                 .units = f->units};
-    mor_case_clear(&f->context, out);
-    return mor_case_read_text(&f->context, &given, out);
-}
-
-static void read_text(fixture *f, const char *text, const char *const *settings, mor_case *out)
-{
-    if (try_read(f, text, strlen(text), settings, out) != MOR_OK) {
-        fail_msg("%s", f->context.message);
-    }
-}
-
-static void refuse(fixture *f, const char *text, const char *const *settings, const char *start, const char *fragment)
-{
-    const mor_status status = try_read(f, text, strlen(text), settings, &f->first);
-    if (status != MOR_ERROR_CONFIG || strncmp(f->context.message, start, strlen(start)) != 0 ||
-        strstr(f->context.message, fragment) == NULL) {
-        fail_msg("status %d, message '%s'; expected '%s ... %s'", (int)status, f->context.message, start, fragment);
-    }
-}
-
 /* ---- What arrives ------------------------------------------------------------------------------------------------ */
 
 static void values_arrive_in_si(void **state)
 {
-    fixture *f = *state;
-    read_text(f, full_text, NULL, &f->first);
+    case_reading *f = *state;
+    case_reading_read(f, full_text, NULL, &f->first);
     const mor_case *c = &f->first;
     assert_string_equal(c->title, "Full \"case\" \\ 3D");
     assert_string_equal(c->path, "t.cfg");
@@ -169,8 +90,8 @@ static void values_arrive_in_si(void **state)
 
 static void what_is_not_written_gets_its_default(void **state)
 {
-    fixture *f = *state;
-    read_text(f, least_text, NULL, &f->first);
+    case_reading *f = *state;
+    case_reading_read(f, least_text, NULL, &f->first);
     const mor_case *c = &f->first;
     assert_string_equal(c->title, "");
     assert_int_equal(c->seed, 1);
@@ -194,8 +115,8 @@ static void what_is_not_written_gets_its_default(void **state)
 
 static void plane_strain_takes_vectors_of_two(void **state)
 {
-    fixture *f = *state;
-    read_text(f, least_text, NULL, &f->first);
+    case_reading *f = *state;
+    case_reading_read(f, least_text, NULL, &f->first);
     const mor_case *c = &f->first;
     assert_true(c->gravity[0] == 0.0 && c->gravity[1] == -9.81 && c->gravity[2] == 0.0); /* exact */
     assert_true(c->domain_minimum[2] == -0.01 && c->domain_maximum[2] == 0.01);          /* exact: a spacing */
@@ -207,8 +128,8 @@ static void plane_strain_takes_vectors_of_two(void **state)
 
 static void shapes_are_built_as_described(void **state)
 {
-    fixture *f = *state;
-    read_text(f, full_text, NULL, &f->first);
+    case_reading *f = *state;
+    case_reading_read(f, full_text, NULL, &f->first);
     const mor_shape *column = f->first.soils[0].shape;
     assert_true(mor_shape_distance(column, (double[]){-0.05, 0.0, 0.01}) < 0.0);  /* in the cylinder */
     assert_true(mor_shape_distance(column, (double[]){-0.005, 0.0, 0.05}) > 0.0); /* in the ball taken away */
@@ -222,8 +143,8 @@ static void shapes_are_built_as_described(void **state)
 
 static void the_placement_becomes_a_rotation(void **state)
 {
-    fixture *f = *state;
-    read_text(f, full_text, NULL, &f->first);
+    case_reading *f = *state;
+    case_reading_read(f, full_text, NULL, &f->first);
     const double *turn = f->first.turn;
     const double axis[3] = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0};
     double turned[3];
@@ -238,8 +159,8 @@ static void the_placement_becomes_a_rotation(void **state)
 
 static void probes_are_completed_by_their_type(void **state)
 {
-    fixture *f = *state;
-    read_text(f, full_text, NULL, &f->first);
+    case_reading *f = *state;
+    case_reading_read(f, full_text, NULL, &f->first);
     const mor_case_probe *p = f->first.probes;
     assert_int_equal(f->first.n_probes, 6);
     assert_string_equal(p[0].name, "run_out");
@@ -259,31 +180,31 @@ static void probes_are_completed_by_their_type(void **state)
 
 static void settings_of_the_command_line_win(void **state)
 {
-    fixture *f = *state;
+    case_reading *f = *state;
     const char *settings[] = {"numerics.stress_diffusion=0", "soil[0].material.friction_angle=40 deg", "spacing=2 mm",
                               "spacing=4 mm", NULL};
-    read_text(f, full_text, settings, &f->first);
+    case_reading_read(f, full_text, settings, &f->first);
     assert_true(f->first.numerics.stress_diffusion == 0.0 && f->first.spacing == 0.004); /* exact: the last one */
     const mor_schema *schema = mor_registry_find(f->registry, "drucker_prager")->parameters;
     const double angle = f->first.soils[0].parameters[mor_params_find(schema, "friction_angle")];
     assert_true(fabs(angle - 40.0 * MOR_PI / 180.0) < 2e-16); /* two roundings */
-    refuse(f, full_text, (const char *[]){"spacing=5 kg", NULL}, "--set 'spacing=5 kg': found spacing = \"5 kg\"",
-           "allowed: > 0 m");
-    refuse(f, full_text, (const char *[]){"numerics.corant=1", NULL}, "--set 'numerics.corant=1': found the unknown",
-           "did you mean 'courant'?");
-    refuse(f, full_text, (const char *[]){"soil[7].name=x", NULL}, "--set 'soil[7].name=x': found entry [7]",
-           "allowed");
+    case_reading_refuse(f, full_text, (const char *[]){"spacing=5 kg", NULL},
+                        "--set 'spacing=5 kg': found spacing = \"5 kg\"", "allowed: > 0 m");
+    case_reading_refuse(f, full_text, (const char *[]){"numerics.corant=1", NULL},
+                        "--set 'numerics.corant=1': found the unknown", "did you mean 'courant'?");
+    case_reading_refuse(f, full_text, (const char *[]){"soil[7].name=x", NULL},
+                        "--set 'soil[7].name=x': found entry [7]", "allowed");
 }
 
 static void the_unit_of_an_energy_depends_on_the_dimension(void **state)
 {
-    fixture *f = *state;
+    case_reading *f = *state;
     const char *plane[] = {"probes=( { type = \"kinetic_energy\"; } )",
                            "expect=( { probe = \"kinetic_energy\"; value = \"2 kJ/m\"; tolerance = 0.1; } )", NULL};
-    read_text(f, least_text, plane, &f->first);
+    case_reading_read(f, least_text, plane, &f->first);
     assert_true(f->first.expectations[0].value == 2000.0); /* exact */
     plane[1] = "expect=( { probe = \"kinetic_energy\"; value = \"2 kJ\"; tolerance = 0.1; } )";
-    refuse(f, least_text, plane, "--set 'expect=", "converts to J/m");
+    case_reading_refuse(f, least_text, plane, "--set 'expect=", "converts to J/m");
 }
 
 static void what_belongs_together_is_demanded_together(void **state)
@@ -306,20 +227,20 @@ static void what_belongs_together_is_demanded_together(void **state)
                 {"scale.mass=3", "even powers of two"},
                 {"scale.length=0", "out of range"},
                 {"dimension=2", "in plane strain"}};
-    fixture *f = *state;
+    case_reading *f = *state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
-        refuse(f, full_text, (const char *[]){rows[k].setting, NULL}, "", rows[k].fragment);
+        case_reading_refuse(f, full_text, (const char *[]){rows[k].setting, NULL}, "", rows[k].fragment);
     }
 }
 
 static void a_cut_case_is_refused_or_whole_but_never_half_kept(void **state)
 {
-    fixture *f = *state;
+    case_reading *f = *state;
     mor_case_clear(&f->context, &f->first);
     const size_t before = f->context.memory_bytes;
     int n_refused = 0;
     for (size_t n_bytes = 0; n_bytes < strlen(full_text); n_bytes += 13) {
-        if (try_read(f, full_text, n_bytes, NULL, &f->first) != MOR_OK) {
+        if (case_reading_try(f, full_text, n_bytes, NULL, &f->first) != MOR_OK) {
             ++n_refused;
             assert_int_equal(f->context.status, MOR_ERROR_CONFIG);
             assert_non_null(strstr(f->context.message, "t.cfg:"));
@@ -333,62 +254,15 @@ static void a_cut_case_is_refused_or_whole_but_never_half_kept(void **state)
 
 /* ---- The scale --------------------------------------------------------------------------------------------------- */
 
-static void compare_scaled(fixture *f, const mor_schema *schema, bool keeps_scale, const double *plain,
-                           const double *scaled)
-{
-    mor_dimension dimension;
-    assert_int_equal(mor_units_dimension(&f->context, f->units, schema->unit, &dimension), MOR_OK);
-    const int power = keeps_scale ? 0
-                                  : 2 * dimension.power[MOR_BASE_LENGTH] - 4 * dimension.power[MOR_BASE_MASS] +
-                                        6 * dimension.power[MOR_BASE_TIME];
-    for (int a = 0; a < schema->n_components; ++a) {
-        const double expected = ldexp(plain[a], power);
-        if (memcmp(&expected, &scaled[a], sizeof expected) != 0 && !(isnan(plain[a]) && isnan(scaled[a]))) {
-            fail_msg("%s: %g becomes %g, expected %g", schema->key, plain[a], scaled[a], expected);
-        }
-    }
-}
-
-static void compare_scaled_group(fixture *f, const mor_case_group *group, const void *plain, const void *scaled)
-{
-    for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
-        if (key->storage == MOR_CASE_STORE_REALS) {
-            compare_scaled(f, &key->schema, key->keeps_scale, (const double *)((const char *)plain + key->offset),
-                           (const double *)((const char *)scaled + key->offset));
-        }
-    }
-}
-
 static void the_scale_multiplies_every_dimensional_value_exactly(void **state)
 {
-    fixture *f = *state;
+    case_reading *f = *state;
     const char *settings[] = {"scale.length=4", "scale.mass=0.0625", "scale.time=64", NULL};
-    read_text(f, full_text, NULL, &f->first);
-    read_text(f, full_text, settings, &f->second);
+    case_reading_read(f, full_text, NULL, &f->first);
+    case_reading_read(f, full_text, settings, &f->second);
     const mor_case *plain = &f->first;
     const mor_case *scaled = &f->second;
-    compare_scaled_group(f, &mor_case_root_group, plain, scaled);
-    for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
-        if (strcmp(group->name, "scale") != 0) {
-            compare_scaled_group(f, group, plain, scaled);
-        }
-    }
-    for (int k = 0; k < plain->n_soils; ++k) {
-        compare_scaled_group(f, &mor_case_soil_group, &plain->soils[k], &scaled->soils[k]);
-        compare_scaled_group(f, &mor_case_material_group, &plain->soils[k], &scaled->soils[k]);
-        compare_scaled_group(f, &mor_case_stress_group, &plain->soils[k], &scaled->soils[k]);
-        const mor_schema *schema = mor_registry_find(f->registry, plain->soils[k].model)->parameters;
-        for (int p = 0; schema[p].key != NULL; ++p) {
-            const int at = mor_params_offset(schema, p);
-            compare_scaled(f, &schema[p], false, &plain->soils[k].parameters[at], &scaled->soils[k].parameters[at]);
-        }
-    }
-    for (int k = 0; k < plain->n_walls; ++k) {
-        compare_scaled_group(f, &mor_case_wall_group, &plain->walls[k], &scaled->walls[k]);
-    }
-    for (int k = 0; k < plain->n_probes; ++k) {
-        compare_scaled_group(f, &mor_case_probe_group, &plain->probes[k], &scaled->probes[k]);
-    }
+    case_reading_scaled_cases(f);
     const double point[3] = {0.03, 0.02, 0.04};
     const double far_point[3] = {0.12, 0.08, 0.16};
     const double distance = mor_shape_distance(plain->soils[0].shape, point);
@@ -402,105 +276,22 @@ static void the_scale_multiplies_every_dimensional_value_exactly(void **state)
 
 /* ---- Writing and reading again ----------------------------------------------------------------------------------- */
 
-static char *write_text(fixture *f, const mor_case *the_case)
-{
-    char *text = NULL;
-    size_t n_bytes = 0;
-    FILE *stream = open_memstream(&text, &n_bytes);
-    assert_non_null(stream);
-    const mor_status status = mor_case_write_stream(&f->context, the_case, f->registry, stream);
-    fclose(stream);
-    if (status != MOR_OK) {
-        fail_msg("%s", f->context.message);
-    }
-    return text;
-}
-
-static void compare_outlines(const mor_case_shape *a, const mor_case_shape *b)
-{
-    assert_int_equal(a->kind, b->kind);
-    assert_int_equal(a->is_flat, b->is_flat);
-    assert_memory_equal(a->first, b->first, sizeof a->first);
-    assert_memory_equal(a->second, b->second, sizeof a->second);
-    assert_true(a->radius == b->radius && a->height == b->height && a->angle == b->angle); /* exact: the same bits */
-    assert_int_equal(a->n_points, b->n_points);
-    for (int k = 0; k < 2 * a->n_points; ++k) {
-        assert_true(a->points[k] == b->points[k]); /* exact: the same bits */
-    }
-    assert_int_equal(a->n_children, b->n_children);
-    for (int k = 0; k < a->n_children; ++k) {
-        compare_outlines(&a->children[k], &b->children[k]);
-    }
-}
-
-/* Takes away what may differ: pointers, places, and what was written. */
-static mor_case *strip(const mor_case *the_case)
-{
-    mor_case *copy = malloc(sizeof *copy);
-    assert_non_null(copy);
-    memcpy(copy, the_case, sizeof *copy);
-    memset(copy->path, 0, sizeof copy->path);
-    copy->written = copy->written_domain = copy->written_lattice = copy->written_placement = 0;
-    copy->written_scale = copy->written_numerics = copy->written_output = 0;
-    for (int k = 0; k < copy->n_soils; ++k) {
-        mor_case_soil *soil = &copy->soils[k];
-        memset(&soil->place, 0, sizeof soil->place);
-        memset(&soil->outline, 0, sizeof soil->outline);
-        soil->shape = NULL;
-        soil->written = soil->written_stress = soil->written_material = soil->written_parameters = 0;
-    }
-    for (int k = 0; k < copy->n_walls; ++k) {
-        memset(&copy->walls[k].place, 0, sizeof copy->walls[k].place);
-        memset(&copy->walls[k].outline, 0, sizeof copy->walls[k].outline);
-        copy->walls[k].shape = NULL;
-        copy->walls[k].written = 0;
-    }
-    for (int k = 0; k < copy->n_probes; ++k) {
-        memset(&copy->probes[k].place, 0, sizeof copy->probes[k].place);
-        copy->probes[k].written = 0;
-    }
-    for (int k = 0; k < copy->n_expectations; ++k) {
-        memset(&copy->expectations[k].place, 0, sizeof copy->expectations[k].place);
-        copy->expectations[k].written = 0;
-    }
-    return copy;
-}
-
-static void check_round_trip(fixture *f, const char *text, const char *const *settings)
-{
-    read_text(f, text, settings, &f->first);
-    char *written = write_text(f, &f->first);
-    read_text(f, written, NULL, &f->second);
-    free(written);
-    mor_case *first = strip(&f->first);
-    mor_case *second = strip(&f->second);
-    const int difference = memcmp(first, second, sizeof *first);
-    free(first);
-    free(second);
-    assert_int_equal(difference, 0);
-    for (int k = 0; k < f->first.n_soils; ++k) {
-        compare_outlines(&f->first.soils[k].outline, &f->second.soils[k].outline);
-    }
-    for (int k = 0; k < f->first.n_walls; ++k) {
-        compare_outlines(&f->first.walls[k].outline, &f->second.walls[k].outline);
-    }
-}
-
 static void a_written_case_reads_back_to_the_same_bits(void **state)
 {
-    check_round_trip(*state, full_text, NULL);
-    check_round_trip(*state, least_text, NULL);
-    check_round_trip(*state, full_text,
-                     (const char *[]){"scale.length=4", "scale.mass=0.0625", "scale.time=64", "placement.angle=7 deg",
-                                      "probes[2].direction=(1, 2, 3)", "spacing=0.1 in", NULL});
-    check_round_trip(*state, least_text, (const char *[]){"scale.length=0.25", "scale.time=16", NULL});
+    case_reading_round_trip(*state, full_text, NULL);
+    case_reading_round_trip(*state, least_text, NULL);
+    case_reading_round_trip(*state, full_text,
+                            (const char *[]){"scale.length=4", "scale.mass=0.0625", "scale.time=64",
+                                             "placement.angle=7 deg", "probes[2].direction=(1, 2, 3)", "spacing=0.1 in",
+                                             NULL});
+    case_reading_round_trip(*state, least_text, (const char *[]){"scale.length=0.25", "scale.time=16", NULL});
 }
 
 static void a_written_case_marks_defaults_and_only_them(void **state)
 {
-    fixture *f = *state;
-    read_text(f, full_text, NULL, &f->first);
-    char *text = write_text(f, &f->first);
+    case_reading *f = *state;
+    case_reading_read(f, full_text, NULL, &f->first);
+    char *text = case_reading_write(f, &f->first);
     assert_non_null(strstr(text, "smoothing_ratio = 1.3; # default\n"));
     assert_non_null(strstr(text, "damping = \"2.0 1/s\";\n"));
     assert_non_null(strstr(text, "spacing = \"0.005 m\";\n"));
@@ -508,23 +299,23 @@ static void a_written_case_marks_defaults_and_only_them(void **state)
     assert_non_null(strstr(text, "dilation_angle = \"0.0 rad\"; # default\n"));
     assert_non_null(strstr(text, "cone = \"extension\";\n"));
     assert_non_null(strstr(text, "# lateral_ratio: 1 - sin(friction_angle) (default)\n"));
-    read_text(f, text, NULL, &f->second);
+    case_reading_read(f, text, NULL, &f->second);
     free(text);
-    text = write_text(f, &f->second);
+    text = case_reading_write(f, &f->second);
     assert_null(strstr(text, "; # default\n"));
     free(text);
 }
 
 static void a_case_is_written_to_a_file_or_not_with_a_reason(void **state)
 {
-    fixture *f = *state;
+    case_reading *f = *state;
     char path[512];
     const char *scratch = getenv("TMPDIR");
     snprintf(path, sizeof path, "%s/case_read_XXXXXX", scratch == NULL ? "/tmp" : scratch);
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     close(descriptor);
-    read_text(f, least_text, NULL, &f->first);
+    case_reading_read(f, least_text, NULL, &f->first);
     const mor_status written = mor_case_write(&f->context, &f->first, f->registry, path);
     mor_case_clear(&f->context, &f->second);
     const mor_status again = mor_case_read(&f->context, path, NULL, 0, f->registry, &f->second);
@@ -555,5 +346,5 @@ int main(void)
         cmocka_unit_test(a_written_case_marks_defaults_and_only_them),
         cmocka_unit_test(a_case_is_written_to_a_file_or_not_with_a_reason),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, case_reading_set_up, case_reading_tear_down);
 }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case_schema.h"
 #include "core/base/units.h"
+#include "core/material/params.h"
 #include "materials/builtin.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@
 
 #include <cmocka.h>
 
-enum { GROUPS_MAX = 32 };
+enum { GROUPS_MAX = 48 };
 
 typedef struct fixture {
     mor_context context;
@@ -69,12 +70,15 @@ static void check_table(fixture *f, const mor_case_group *group)
     int n_keys = 0;
     for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
         const mor_schema *s = &key->schema;
-        const bool is_sound = stored_bytes(key) == key->size && s->text != NULL && s->minimum <= s->maximum &&
-                              mor_case_key_find(group->keys, s->key) == n_keys &&
-                              mor_units_dimension(&f->context, f->units, s->unit, &dimension) == MOR_OK &&
-                              (s->is_required || key->computed != NULL || s->kind == MOR_SCHEMA_TEXT ||
-                               (s->default_value >= s->minimum && s->default_value <= s->maximum)) &&
-                              (s->kind == MOR_SCHEMA_CHOICE) == (s->choices != NULL);
+        const bool is_sound =
+            stored_bytes(key) == key->size && s->text != NULL && s->minimum <= s->maximum &&
+            mor_case_key_find(group->keys, s->key) == n_keys &&
+            mor_units_dimension(&f->context, f->units, s->unit, &dimension) == MOR_OK &&
+            mor_units_dimension(&f->context, f->units, mor_case_key_schema(key, 2).unit, &dimension) == MOR_OK &&
+            (key->storage != MOR_CASE_STORE_BOOL || s->choices == NULL || mor_params_choice(s->choices, NULL) == 2) &&
+            (s->is_required || key->computed != NULL || s->kind == MOR_SCHEMA_TEXT ||
+             (s->default_value >= s->minimum && s->default_value <= s->maximum)) &&
+            (s->kind == MOR_SCHEMA_CHOICE) == (s->choices != NULL);
         if (!is_sound) {
             fail_msg("the entry '%s' of '%s' is not sound", s->key, group->name);
         }
@@ -86,8 +90,10 @@ static void check_table(fixture *f, const mor_case_group *group)
 static int list_groups(const mor_case_group **groups)
 {
     static const mor_case_group *const single[] = {
-        &mor_case_root_group, &mor_case_soil_group,  &mor_case_material_group,   &mor_case_stress_group,
-        &mor_case_wall_group, &mor_case_probe_group, &mor_case_expectation_group};
+        &mor_case_root_group,          &mor_case_soil_group,   &mor_case_material_group,    &mor_case_stress_group,
+        &mor_case_wall_group,          &mor_case_probe_group,  &mor_case_expectation_group, &mor_case_body_group,
+        &mor_case_body_material_group, &mor_case_spring_group, &mor_case_start_group,       &mor_case_contact_group,
+        &mor_case_pair_group};
     int n = 0;
     for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
         groups[n++] = single[k];
@@ -114,10 +120,43 @@ static void the_tables_are_sound(void **state)
         assert_int_equal(mor_units_dimension(&f->context, f->units, type->unit, &dimension), MOR_OK);
         assert_int_equal(mor_units_dimension(&f->context, f->units, type->unit_plane, &dimension), MOR_OK);
         assert_int_equal(type->required & ~type->allowed, 0);
+        assert_int_equal(mor_case_probe_required(type, 3), type->required);
+        const bool is_free_of_axis = (mor_case_probe_required(type, 2) & MOR_CASE_PROBE_DIRECTION) == 0;
+        assert_true((type->traits & MOR_CASE_PROBE_OF_TURN) == 0 || is_free_of_axis);
+        /* A key that names a body or a wall is never left open. */
+        const unsigned named = MOR_CASE_PROBE_BODY | MOR_CASE_PROBE_WALL;
+        assert_int_equal(type->allowed & named, type->required & named);
+        assert_true((type->allowed & MOR_CASE_PROBE_BODY) == 0 || (type->traits & MOR_CASE_PROBE_OF_BODIES) != 0);
         assert_ptr_equal(mor_case_probe_type_find(type->name), type);
     }
     for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
         assert_true(mor_case_key_find(mor_case_probe_group.keys, mor_case_probe_key_names[k]) >= 0);
+    }
+}
+
+/* Each condition must be about a name that the tables have, and hold for every kind it says. */
+static void conditions_of_bodies_name_what_the_tables_have(void **state)
+{
+    static const char *const names[] = {"motion", "locked", "spring", "clamp", "start"};
+    static const struct {
+        const char *model;
+        bool is_prescribed;
+        bool has[5]; /* in the order of names */
+    } kinds[] = {{"rigid", false, {true, true, true, false, false}},
+                 {"rigid", true, {true, false, false, false, false}},
+                 {"neo_hookean", false, {false, false, false, true, true}}};
+    (void)state;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
+        mor_case_body body = {.is_prescribed = kinds[k].is_prescribed};
+        snprintf(body.model, sizeof body.model, "%s", kinds[k].model);
+        for (size_t n = 0; n < sizeof names / sizeof names[0]; ++n) {
+            assert_int_equal(mor_case_body_condition(&body, names[n]) == NULL, kinds[k].has[n]);
+        }
+        assert_null(mor_case_body_condition(&body, "velocity"));
+    }
+    for (const mor_case_key *key = mor_case_start_group.keys; key->schema.key != NULL; ++key) {
+        const bool is_type = strcmp(key->schema.key, "type") == 0;
+        assert_int_equal(mor_case_start_condition(MOR_CASE_MOTION_UNIFORM, key->schema.key) == NULL, is_type);
     }
 }
 
@@ -143,6 +182,9 @@ static void the_printed_reference_names_every_key(void **state)
     assert_non_null(strstr(text, "\n| `youngs_modulus` | number | Pa | **required** | > 0 |"));
     assert_non_null(strstr(text, "\n| `wall_dissipation` | word |  | separation | separation, approach, both |"));
     assert_non_null(strstr(text, "\n| `kinetic_energy` | J (J/m) |"));
+    assert_non_null(strstr(text, "\n| `stiffness` | number | N/m (N/m2) | **required** | >= 0 |"));
+    assert_non_null(strstr(text, "\n| `motion` | word |  | free | free, prescribed |"));
+    assert_non_null(strstr(text, "\n| `body_rotation_angle` | rad | `direction` (required in 3D) `body` (required) |"));
     free(text);
 }
 
@@ -150,6 +192,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_tables_are_sound),
+        cmocka_unit_test(conditions_of_bodies_name_what_the_tables_have),
         cmocka_unit_test(the_printed_reference_names_every_key),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

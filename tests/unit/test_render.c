@@ -280,6 +280,13 @@ static void bad_particles_are_refused_by_group_and_number(void **state)
     group.color[2] = 255.0;
     expect_refusal(folder, &picture, "color component 2 is 255");
     group.color[2] = 0.0;
+    group.part = p.value;
+    p.value[11] = 0.5;
+    expect_refusal(folder, &picture, "belongs to part 0.5");
+    for (int i = 0; i < PILE; ++i) {
+        p.value[i] = i == 13 ? -1.0 : 0.0;
+    }
+    expect_refusal(folder, &picture, "particle 13 belongs to part -1");
     group.n_particles = 0;
     expect_refusal(folder, &picture, "nothing to draw");
 }
@@ -419,6 +426,56 @@ static void color_range_leaves_out_a_runaway_particle(void **state)
     assert_true(model.range.low >= 0.0 && model.range.high < 130.0); /* values reach 110 */
 }
 
+static void pieces_in_the_plane_lie_on_levels_of_their_own_each_upon_a_dark_copy(void **state)
+{
+    run_folder *folder = *state;
+    const double grain[3] = {0.0, 0.0, 0.0};
+    const double two[6] = {0.02, 0.0, 0.0, 0.04, 0.0, 0.0};
+    const double part[2] = {0.0, 1.0};
+    const mor_picture_group groups[2] = {
+        {.position = two, .n_particles = 2, .radius = 0.01, .part = part, .is_piece = true},
+        {.position = grain, .n_particles = 1, .radius = 0.01}};
+    const mor_picture picture = pile_picture(groups, 2, 2);
+    mor_model model;
+    build_model(folder, &picture, &model);
+    assert_int_equal(model.solid.n_spheres, 5);
+    for (int k = 0; k < 2; ++k) {
+        const float *copy = model.solid.spheres + 8 * k;
+        const float *disc = copy + 4;
+        assert_true(copy[0] == disc[0] && copy[1] == disc[1]); /* exact: the same place */
+        assert_true(copy[3] >= disc[3] && copy[2] + copy[3] < disc[2] - disc[3]);
+        assert_true(model.solid.color[6 * k] < 0.2f * model.solid.color[6 * k + 3]);
+        assert_true(model.solid.rim[2 * k + 1] < model.solid.rim[4]);
+        assert_true(copy[2] - copy[3] > (k == 0 ? model.solid.spheres[18] : disc[2 - 8]));
+    }
+    mor_model_clear(&folder->context, &model);
+}
+
+static void parts_of_one_color_differ_in_shade(void **state)
+{
+    run_folder *folder = *state;
+    double position[24] = {0.0};
+    double part[8];
+    for (int k = 0; k < 8; ++k) {
+        position[3 * k] = 0.1 * k;
+        part[k] = k;
+    }
+    const mor_picture_group group = {
+        .position = position, .n_particles = 8, .radius = 0.01, .part = part, .is_piece = true};
+    const mor_picture picture = pile_picture(&group, 1, 3);
+    mor_model model;
+    build_model(folder, &picture, &model);
+    assert_int_equal(model.solid.n_spheres, 8); /* in space a piece has no dark copy */
+    for (int k = 0; k < 8; ++k) {
+        const float *color = model.solid.color + 3 * k;
+        assert_true(color[0] > color[1] && color[1] > color[2]); /* all of them a warm gray */
+        for (int other = 0; other < k; ++other) {
+            assert_true(fabsf(color[0] / model.solid.color[3 * other] - 1.0f) > 0.02f); /* the eye sees 1 to 2 % */
+        }
+    }
+    mor_model_clear(&folder->context, &model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -447,6 +504,9 @@ int main(void)
         cmocka_unit_test(ground_lies_on_top_of_an_inclined_floor),
         cmocka_unit_test_setup_teardown(color_range_leaves_out_a_runaway_particle, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(pieces_in_the_plane_lie_on_levels_of_their_own_each_upon_a_dark_copy,
+                                        run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(parts_of_one_color_differ_in_shade, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,11 +50,12 @@ static mor_status see_step(mor_context *context, void *owner, const mor_step *st
 
 static const mor_stage stages[] = {{"take", take_step, 0, 0, 0, "takes a step"},
                                    {"see", see_step, 0, 0, 0, "comes second"}};
-static const mor_stepper_operations operations = {"walker", propose};
+static const mor_stepper_operations operations = {"walker", propose, NULL, NULL};
 
 static void add_walker(mor_context *context, mor_schedule *schedule, walker *w)
 {
-    const mor_stepper stepper = {"walker", &operations, w, stages, 2, 1};
+    const mor_stepper stepper = {
+        .name = "walker", .operations = &operations, .owner = w, .stages = stages, .n_stages = 2, .n_particles = 1};
     assert_int_equal(mor_schedule_add(context, schedule, &stepper, 0), MOR_OK);
 }
 
@@ -284,7 +285,8 @@ static void stepper_is_checked_before_it_is_added(void **state)
     walker w;
     start(&context, &schedule, &w, 1.0, 0.25);
     const mor_stage reads[] = {{"reads", take_step, MOR_BIT(3), 0, 0, "reads field 3"}};
-    const mor_stepper stepper = {"reader", &operations, &w, reads, 1, 1};
+    const mor_stepper stepper = {
+        .name = "reader", .operations = &operations, .owner = &w, .stages = reads, .n_stages = 1, .n_particles = 1};
     assert_int_equal(mor_schedule_add(&context, &schedule, &stepper, 0), MOR_ERROR_INTERNAL);
     assert_int_equal(schedule.n_steppers, 1);
     assert_int_equal(mor_schedule_add(&context, &schedule, &stepper, MOR_BIT(3)), MOR_OK);
@@ -293,6 +295,26 @@ static void stepper_is_checked_before_it_is_added(void **state)
     }
     assert_int_equal(mor_schedule_add(&context, &schedule, &stepper, MOR_BIT(3)), MOR_ERROR_ARGUMENT);
     assert_int_equal(schedule.n_steppers, MOR_SCHEDULE_STEPPERS_MAX);
+}
+
+static void claims_about_the_exchange_are_checked(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_schedule schedule;
+    walker w;
+    start(&context, &schedule, &w, 1.0, 0.25);
+    for (int n_before = -1; n_before <= 3; ++n_before) {
+        const mor_stepper stepper = {.name = "claims",
+                                     .operations = &operations,
+                                     .owner = &w,
+                                     .stages = stages,
+                                     .n_stages = 2,
+                                     .n_before = n_before};
+        const bool is_possible = n_before >= 0 && n_before <= 2;
+        assert_int_equal(mor_schedule_add(&context, &schedule, &stepper, 0), is_possible ? MOR_OK : MOR_ERROR_INTERNAL);
+    }
+    assert_non_null(strstr(context.message, "stepper 'claims' has 2 stages and claims 3"));
 }
 
 int main(void)
@@ -308,6 +330,7 @@ int main(void)
         cmocka_unit_test(shortest_proposal_wins_and_is_named),
         cmocka_unit_test(failures_reach_the_caller_and_leave_the_clock),
         cmocka_unit_test(stepper_is_checked_before_it_is_added),
+        cmocka_unit_test(claims_about_the_exchange_are_checked),
     };
     return CLOUD_RUN(tests);
 }

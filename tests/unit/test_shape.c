@@ -96,6 +96,32 @@ static bool is_inside_cylinder(const double *point)
     return along > 0.0 && along < cylinder_height && across2 < cylinder_radius * cylinder_radius;
 }
 
+static mor_status make_cone(mor_context *context, mor_shape **shape)
+{
+    return mor_shape_new_cone(context, foot, axis, cylinder_radius, cylinder_height, shape);
+}
+
+static void cone_surface(double u, double v, double *point)
+{
+    const double side[3] = {2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
+    const double other[3] = {2.0 / 3.0, -2.0 / 3.0, -1.0 / 3.0};
+    const double turn = 2.0 * MOR_PI * v;
+    const double share = u < 0.3 ? sqrt(u / 0.3) : sqrt((u - 0.3) / 0.7); /* of the radius: even over the area */
+    const double along = u < 0.3 ? 0.0 : (1.0 - share) * cylinder_height;
+    for (int a = 0; a < 3; ++a) {
+        point[a] =
+            foot[a] + along * axis[a] / 3.0 + cylinder_radius * share * (cos(turn) * side[a] + sin(turn) * other[a]);
+    }
+}
+
+static bool is_inside_cone(const double *point)
+{
+    const double offset[3] = {point[0] - foot[0], point[1] - foot[1], point[2] - foot[2]};
+    const double along = mor_vector_dot(offset, axis) / 3.0;
+    const double across = sqrt(mor_vector_dot(offset, offset) - along * along);
+    return along > 0.0 && across < cylinder_radius * (1.0 - along / cylinder_height);
+}
+
 static mor_status make_sphere(mor_context *context, mor_shape **shape)
 {
     return mor_shape_new_sphere(context, center, sphere_radius, shape);
@@ -142,7 +168,8 @@ static bool is_inside_polygon(const double *point)
 static const kind kinds[] = {{make_box, box_surface, is_inside_box},
                              {make_cylinder, cylinder_surface, is_inside_cylinder},
                              {make_sphere, sphere_surface, is_inside_sphere},
-                             {make_polygon, polygon_surface, is_inside_polygon}};
+                             {make_polygon, polygon_surface, is_inside_polygon},
+                             {make_cone, cone_surface, is_inside_cone}};
 enum { N_KINDS = sizeof kinds / sizeof kinds[0] };
 
 /* Points of the plane evenly, by the golden ratio: u in equal steps, v in multiples of the ratio. */
@@ -179,8 +206,8 @@ static void distance_is_that_to_the_nearest_surface_point(void **state)
             }
             const double distance = mor_shape_distance(shape, point);
             assert_int_equal(distance < 0.0, kinds[k].is_inside(point));
-            assert_true(fabs(distance) <= sqrt(nearest2) + 1e-14);        /* no sample is nearer: rounding */
-            assert_true(sqrt(nearest2) - fabs(distance) <= 0.04);         /* samples lie up to 0.04 m apart */
+            assert_true(fabs(distance) <= sqrt(nearest2) + 1e-14); /* no sample is nearer: rounding */
+            assert_true(sqrt(nearest2) - fabs(distance) <= 0.04);  /* samples lie up to 0.04 m apart */
         }
         mor_shape_free(&context, &shape);
     }
@@ -404,7 +431,7 @@ static void bounds_are_the_range_of_the_surface(void **state)
             assert_true(bounds.minimum[a] < least + 1e-14 && bounds.maximum[a] > greatest - 1e-14); /* rounding */
             const bool is_endless = bounds.minimum[a] == -INFINITY && bounds.maximum[a] == INFINITY;
             assert_int_equal(is_endless, k == 3 && a == 2);
-            assert_true(is_endless || (least - bounds.minimum[a] < 0.01 &&      /* the samples, 0.02 m apart, */
+            assert_true(is_endless || (least - bounds.minimum[a] < 0.01 &&    /* the samples, 0.02 m apart, */
                                        bounds.maximum[a] - greatest < 0.01)); /* miss the extreme by half of that */
         }
         mor_shape_free(&context, &shape);
@@ -449,6 +476,38 @@ static void translate_and_rotate_are_placements(void **state)
         assert_true(bounds.minimum[a] == -INFINITY && bounds.maximum[a] == INFINITY);
     }
     mor_shape_free(&context, &turned);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+static void cone_is_a_triangle_turned_about_its_axis(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    const double base[3] = {0.5, -0.25, 1.0};
+    const double down[3] = {0.0, 0.0, -2.0};
+    /* Radius 3, height 4, slant 5, apex down; in the plane x: distances by the theorem of Pythagoras. */
+    const struct {
+        double across, along, distance;
+    } cases[] = {{0.0, 1.0, -1.0},                  /* the base is nearest: 1 against (3 * 4 - 1 * 3) / 5 = 1.8 */
+                 {0.0, 3.0, -0.6},                  /* the side is nearest: (4 - 3) * 3 / 5 */
+                 {1.0, -2.0, 2.0},                  /* above the base */
+                 {6.0, -4.0, 5.0},                  /* beside and above the rim: 3, 4, 5 */
+                 {3.0 + 4.0, 3.0, 5.0},             /* straight out from the side at the rim: 4, 3, 5 */
+                 {3.0 + 4.0 - 1.5, 2.0 + 3.0, 5.0}, /* straight out from the middle of the side */
+                 {3.0, 8.0, 5.0},                   /* beyond the apex: 3, 4, 5 */
+                 {0.0, 6.0, 2.0}};                  /* below the apex */
+    mor_shape *cone = NULL;
+    assert_int_equal(mor_shape_new_cone(&context, base, down, 3.0, 4.0, &cone), MOR_OK);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        const double point[3] = {base[0] - cases[k].across, base[1], base[2] - cases[k].along};
+        assert_true(fabs(mor_shape_distance(cone, point) - cases[k].distance) < 4e-15); /* a few ulp of 5 */
+    }
+    mor_bounds bounds;
+    mor_shape_bounds(cone, &bounds);
+    assert_true(bounds.minimum[2] == -3.0 && bounds.maximum[2] == 1.0);  /* exact: whole numbers */
+    assert_true(bounds.minimum[0] == -2.5 && bounds.maximum[1] == 2.75); /* exact: binary fractions */
+    mor_shape_free(&context, &cone);
     assert_int_equal(context.memory_bytes, 0);
 }
 
@@ -505,6 +564,7 @@ int main(void)
         cmocka_unit_test(placed_shape_keeps_distances_and_lies_in_its_bounds),
         cmocka_unit_test(bounds_are_the_range_of_the_surface),
         cmocka_unit_test(translate_and_rotate_are_placements),
+        cmocka_unit_test(cone_is_a_triangle_turned_about_its_axis),
         cmocka_unit_test(open_box_is_unbounded_where_it_is_open),
         cmocka_unit_test(polygon_distance_does_not_depend_on_orientation),
     };

@@ -41,6 +41,10 @@ static void wrong_simple_shapes_are_refused_by_value(void **state)
     expect_refusal(&context, mor_shape_new_cylinder(&context, zero, one, 0.0, 1.0, &shape), shape, "radius");
     expect_refusal(&context, mor_shape_new_cylinder(&context, zero, one, 1.0, -2.0, &shape), shape, "-2");
     expect_refusal(&context, mor_shape_new_cylinder(&context, broken, one, 1.0, 1.0, &shape), shape, "nan");
+    expect_refusal(&context, mor_shape_new_cone(&context, zero, zero, 1.0, 1.0, &shape), shape, "axis of the cone");
+    expect_refusal(&context, mor_shape_new_cone(&context, zero, one, -1.0, 1.0, &shape), shape, "radius of the cone");
+    expect_refusal(&context, mor_shape_new_cone(&context, zero, one, 1.0, 0.0, &shape), shape, "height of the cone");
+    expect_refusal(&context, mor_shape_new_cone(&context, broken, one, 1.0, 1.0, &shape), shape, "nan");
     expect_refusal(&context, mor_shape_new_sphere(&context, zero, 0.0, &shape), shape, "above zero");
     expect_refusal(&context, mor_shape_new_sphere(&context, zero, INFINITY, &shape), shape, "inf");
     expect_refusal(&context, mor_shape_new_half_space(&context, zero, zero, &shape), shape, "normal");

@@ -14,6 +14,7 @@ enum { JACOBI_SWEEPS = 30 };
 
 static const double outer_share = 0.01;     /* left out at each end of an automatic range */
 static const double plane_swelling = 1.55;  /* discs of a disturbed lattice leave no gap */
+static const double piece_swelling = 1.5;   /* in space: bumps remain, gaps do not */
 static const double space_swelling = 1.22;  /* single grains still show on a closed surface */
 static const double magnitude_limit = 1e12; /* m; keeps view space inside single precision */
 
@@ -34,7 +35,8 @@ static double radius_of(const mor_picture_group *group, int64_t i)
 
 double mor_model_radius(const mor_picture *picture, const mor_picture_group *group, int64_t i)
 {
-    const double usual = picture->dimension == 2 ? plane_swelling : space_swelling;
+    const double in_space = group->is_piece ? piece_swelling : space_swelling;
+    const double usual = picture->dimension == 2 ? plane_swelling : in_space;
     return (picture->swelling > 0.0 ? picture->swelling : usual) * radius_of(group, i);
 }
 
@@ -56,6 +58,12 @@ static mor_status check_group(mor_context *context, const mor_picture_group *gro
         MOR_CHECK(context, group->value == NULL || fabs(group->value[i]) < MOR_TICKS_LARGEST, MOR_ERROR_ARGUMENT,
                   "group '%s': particle %lld has value %g; only finite values below %g have a color", name_group(group),
                   (long long)i, group->value == NULL ? 0.0 : group->value[i], MOR_TICKS_LARGEST);
+    }
+    for (int64_t i = 0; group->part != NULL && i < group->n_particles; ++i) {
+        const double part = group->part[i];
+        MOR_CHECK(context, part >= 0.0 && part <= MOR_PICTURE_PART_MAX && part == floor(part), MOR_ERROR_ARGUMENT,
+                  "group '%s': particle %lld belongs to part %g; parts are whole numbers from 0 to %d",
+                  name_group(group), (long long)i, part, MOR_PICTURE_PART_MAX);
     }
     for (int c = 0; c < 3; ++c) {
         MOR_CHECK(context, group->color[c] >= 0.0 && group->color[c] <= 1.0, MOR_ERROR_ARGUMENT,

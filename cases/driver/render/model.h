@@ -25,6 +25,7 @@ typedef struct mor_model_range {
 typedef struct mor_model_layer {
     float *spheres;   /* shape [n_spheres,4], px, view space */
     float *color;     /* shape [n_spheres,3], 1, linear sRGB */
+    float *rim;       /* shape [n_spheres], 1; darkening at the rim of a disc */
     mor_scene *scene; /* NULL when n_spheres is 0 */
     int64_t n_spheres;
 } mor_model_layer;
@@ -39,6 +40,8 @@ typedef struct mor_model {
     mor_model_layer ghost;
     mor_shade_ground ground;
     double grid;            /* m; spacing of the ground's grid */
+    double level_step;      /* px; between the levels of parts, view space; set by the build */
+    double outline;         /* px; width of the line around parts in the plane; set between survey and build */
     double low[3], high[3]; /* shape [3], px; box around all spheres, view space */
 } mor_model;
 

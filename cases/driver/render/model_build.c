@@ -17,6 +17,11 @@ static const double ground_gray = 0.95;                 /* screen value */
 static const double box_slack = 1.001;                  /* room for rounding to single precision */
 static const double patch_share = 2.1;                  /* radius of the ground / half the width of the scene */
 static const double grazing = 0.05;                     /* a ground seen at a flatter angle is left out */
+static const double grain_rim = 0.30;                   /* discs of grains are told apart by their rims */
+static const double smooth_rim = 0.06;                  /* discs of one piece are not */
+static const double outline_share = 0.16;               /* linear light of the line around a part / that of the part */
+static const double shade_spread = 0.50;                /* between the lightest and the darkest part of one color */
+static const double level_gap = 2.5;                    /* between the levels of parts / the largest disc */
 
 /* The part the cut takes away: all points with positive coordinates along both directions. */
 typedef struct cut_corner {
@@ -66,6 +71,11 @@ void mor_model_group_color(const mor_picture_group *group, double *screen)
     memcpy(screen, is_unset ? stone_gray : group->color, sizeof stone_gray);
 }
 
+static bool is_lined(const mor_picture *picture, const mor_picture_group *group)
+{
+    return picture->dimension == 2 && group->is_piece;
+}
+
 static void decode_group_color(const mor_picture_group *group, double *linear)
 {
     double screen[3];
@@ -75,13 +85,57 @@ static void decode_group_color(const mor_picture_group *group, double *linear)
     }
 }
 
+/* Light of a part / that of its group: spread so that neighbors in number differ most (van der Corput). */
+static double shade_part(const mor_picture_group *group, int64_t i)
+{
+    double reversed = 0.0;
+    double weight = 0.5;
+    if (group->part == NULL) {
+        return 1.0;
+    }
+    for (int bits = (int)group->part[i] + 1; bits > 0; bits /= 2) {
+        reversed += weight * (bits % 2);
+        weight *= 0.5;
+    }
+    return 1.0 + shade_spread * (reversed - 0.5);
+}
+
+/* view: shape [3], color: shape [3]. */
+static void add_sphere(mor_model *model, mor_model_layer *layer, const double *view, double radius, const double *color,
+                       double rim)
+{
+    float *sphere = layer->spheres + 4 * layer->n_spheres;
+    for (int a = 0; a < 3; ++a) {
+        sphere[a] = (float)view[a];
+        layer->color[3 * layer->n_spheres + a] = (float)fmin(color[a], 1.0);
+        model->low[a] = fmin(model->low[a], view[a] - box_slack * radius);
+        model->high[a] = fmax(model->high[a], view[a] + box_slack * radius);
+    }
+    sphere[3] = (float)radius;
+    layer->rim[layer->n_spheres] = (float)rim;
+    layer->n_spheres += 1;
+}
+
+/* Outlined parts lie on levels of their own towards the viewer, each upon a larger dark copy of itself: what shows of
+ * the copy is the line around it. */
+static void add_outlined(mor_model *model, mor_model_layer *layer, double *view, double radius, const double *color,
+                         double level)
+{
+    const double dark[3] = {outline_share * color[0], outline_share * color[1], outline_share * color[2]};
+    view[2] = level - 0.5 * model->level_step;
+    add_sphere(model, layer, view, radius + model->outline, dark, 0.0);
+    view[2] = level;
+    add_sphere(model, layer, view, radius, color, smooth_rim);
+}
+
+/* level: of the group's part 0, px. */
 static void add_group(const mor_picture *picture, const mor_picture_group *group, const mor_colormap *map,
-                      mor_model *model)
+                      mor_model *model, double level)
 {
     mor_model_layer *layer = group->style == MOR_PICTURE_GHOST ? &model->ghost : &model->solid;
     const cut_corner corner = find_corner(picture, model);
-    double color[3];
-    decode_group_color(group, color);
+    double base[3];
+    decode_group_color(group, base);
     for (int64_t i = 0; i < group->n_particles; ++i) {
         const double *x = group->position + 3 * i;
         if (is_left_out(&corner, group, x)) {
@@ -89,20 +143,53 @@ static void add_group(const mor_picture *picture, const mor_picture_group *group
         }
         const double point[3] = {x[0], x[1], picture->dimension == 3 ? x[2] : 0.0};
         const double radius = model->camera.scale * mor_model_radius(picture, group, i);
+        const double shade = shade_part(group, i);
+        double color[3] = {shade * base[0], shade * base[1], shade * base[2]};
         double view[3];
         mor_camera_to_view(&model->camera, point, view);
         if (group->value != NULL) {
             mor_colormap_at(map, (group->value[i] - model->range.low) / (model->range.high - model->range.low), color);
         }
-        float *sphere = layer->spheres + 4 * layer->n_spheres;
-        for (int a = 0; a < 3; ++a) {
-            sphere[a] = (float)view[a];
-            layer->color[3 * layer->n_spheres + a] = (float)color[a];
-            model->low[a] = fmin(model->low[a], view[a] - box_slack * radius);
-            model->high[a] = fmax(model->high[a], view[a] + box_slack * radius);
+        if (is_lined(picture, group)) {
+            const double part = group->part != NULL ? group->part[i] : 0.0;
+            add_outlined(model, layer, view, radius, color, level + part * model->level_step);
+        } else {
+            add_sphere(model, layer, view, radius, color, grain_rim);
         }
-        sphere[3] = (float)radius;
-        layer->n_spheres += 1;
+    }
+}
+
+/* Number of the last part of a group. */
+static double find_last_part(const mor_picture_group *group)
+{
+    double last = 0.0;
+    for (int64_t i = 0; group->part != NULL && i < group->n_particles; ++i) {
+        last = fmax(last, group->part[i]);
+    }
+    return last;
+}
+
+static void find_level_step(const mor_picture *picture, mor_model *model)
+{
+    double largest = 0.0;
+    for (int g = 0; g < picture->n_groups; ++g) {
+        for (int64_t i = 0; i < picture->groups[g].n_particles; ++i) {
+            largest = fmax(largest, mor_model_radius(picture, picture->groups + g, i));
+        }
+    }
+    model->level_step = 2.0 * level_gap * (model->camera.scale * largest + model->outline);
+}
+
+static void add_groups(const mor_picture *picture, const mor_colormap *map, mor_model *model)
+{
+    find_level_step(picture, model);
+    double level = model->level_step;
+    for (int g = 0; g < picture->n_groups; ++g) {
+        const mor_picture_group *group = picture->groups + g;
+        if (picture->dimension == 2 || group->style != MOR_PICTURE_GROUND) {
+            add_group(picture, group, map, model, level);
+            level += is_lined(picture, group) ? model->level_step * (1.0 + find_last_part(group)) : 0.0;
+        }
     }
 }
 
@@ -118,10 +205,13 @@ static mor_status reserve_layer(mor_context *context, const mor_picture *picture
 {
     int64_t n = 0;
     for (int g = 0; g < picture->n_groups; ++g) {
-        n += is_in_layer(picture, picture->groups + g, is_ghost) ? picture->groups[g].n_particles : 0;
+        const mor_picture_group *group = picture->groups + g;
+        const int64_t n_copies = is_lined(picture, group) ? 2 : 1;
+        n += is_in_layer(picture, group, is_ghost) ? n_copies * group->n_particles : 0;
     }
     MOR_TRY(context, MOR_NEW(context, &layer->spheres, 4 * n, "spheres of a picture"));
     MOR_TRY(context, MOR_NEW(context, &layer->color, 3 * n, "colors of a picture"));
+    MOR_TRY(context, MOR_NEW(context, &layer->rim, n, "rims of a picture"));
     return MOR_OK;
 }
 
@@ -210,11 +300,7 @@ mor_status mor_model_build(mor_context *context, const mor_picture *picture, con
         model->low[a] = DBL_MAX;
         model->high[a] = -DBL_MAX;
     }
-    for (int g = 0; g < picture->n_groups; ++g) {
-        if (picture->dimension == 2 || picture->groups[g].style != MOR_PICTURE_GROUND) {
-            add_group(picture, picture->groups + g, map, model);
-        }
-    }
+    add_groups(picture, map, model);
     if (picture->dimension == 3 && !picture->hides_ground) {
         lay_ground(picture, model);
     }
@@ -228,6 +314,7 @@ static void clear_layer(mor_context *context, mor_model_layer *layer)
     mor_scene_free(context, &layer->scene);
     MOR_FREE(context, &layer->spheres);
     MOR_FREE(context, &layer->color);
+    MOR_FREE(context, &layer->rim);
 }
 
 void mor_model_clear(mor_context *context, mor_model *model)

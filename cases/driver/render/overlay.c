@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { SAMPLE_STRIPS = 24 };
+
 static const double text_gray = 0.13;
 static const double quiet_gray = 0.35;
 
@@ -205,30 +207,70 @@ void mor_overlay_gravity(mor_canvas *canvas, const mor_camera *camera, const dou
     mor_canvas_text(canvas, beside, "g", &font);
 }
 
-void mor_overlay_legend(mor_canvas *canvas, const mor_picture *picture, const double *place, double limit, double unit)
+static bool is_listed(const mor_picture *picture, const mor_picture_group *group)
+{
+    const bool is_plane = picture->dimension == 3 && group->style == MOR_PICTURE_GROUND;
+    return group->name != NULL && group->name[0] != '\0' && group->n_particles > 0 && !is_plane;
+}
+
+/* Where everything is colored by value the color bar says enough. */
+static bool needs_legend(const mor_picture *picture)
+{
+    bool has_plain = false;
+    for (int g = 0; g < picture->n_groups; ++g) {
+        has_plain = has_plain || (is_listed(picture, picture->groups + g) && picture->groups[g].value == NULL);
+    }
+    return has_plain;
+}
+
+/* A strip of the color map, or a disc; box: left, top, width, height. */
+static void draw_sample(mor_canvas *canvas, const mor_colormap *map, const mor_picture_group *group, const double *box,
+                        double unit)
+{
+    mor_canvas_pen pen = {.opacity = group->style == MOR_PICTURE_GHOST ? 0.45 : 1.0};
+    const mor_canvas_pen edge = make_pen((group->is_piece ? 2.4 : 1.2) * unit, group->is_piece ? 0.2 : quiet_gray);
+    if (group->value == NULL) {
+        const double center[2] = {box[0] + 0.5 * box[2], box[1] + 0.5 * box[3]};
+        mor_model_group_color(group, pen.color);
+        mor_canvas_circle(canvas, center, 0.5 * box[3], &pen);
+        mor_canvas_circle(canvas, center, 0.5 * box[3], &edge);
+        return;
+    }
+    for (int strip = 0; strip < SAMPLE_STRIPS; ++strip) {
+        double linear[3];
+        mor_colormap_at(map, (strip + 0.5) / SAMPLE_STRIPS, linear);
+        for (int c = 0; c < 3; ++c) {
+            pen.color[c] = mor_colormap_encode(linear[c]);
+        }
+        /* Each slice covers a hair of the next one so that no seam shows. */
+        const double hair = strip + 1 < SAMPLE_STRIPS ? 0.5 : 0.0;
+        const double slice[4] = {box[0] + strip * box[2] / SAMPLE_STRIPS, box[1], box[2] / SAMPLE_STRIPS + hair,
+                                 box[3]};
+        mor_canvas_rectangle(canvas, slice, &pen);
+    }
+    mor_canvas_rectangle(canvas, box, &edge);
+}
+
+void mor_overlay_legend(mor_canvas *canvas, const mor_colormap *map, const mor_picture *picture, const double *place,
+                        double limit, double unit)
 {
     const mor_canvas_font font = make_font(21.0 * unit, MOR_CANVAS_LEFT, 0.5 * limit);
-    const double radius = 9.0 * unit;
+    const double height = 18.0 * unit;
+    const double gap = 9.0 * unit;
     double right = place[0];
-    for (int g = picture->n_groups - 1; g >= 0; --g) {
+    for (int g = picture->n_groups - 1; g >= 0 && needs_legend(picture); --g) {
         const mor_picture_group *group = picture->groups + g;
-        const bool is_plane = picture->dimension == 3 && group->style == MOR_PICTURE_GROUND;
-        if (group->name == NULL || group->name[0] == '\0' || group->value != NULL || group->n_particles == 0 ||
-            is_plane) {
+        if (!is_listed(picture, group)) {
             continue;
         }
-        const double width = fmin(mor_canvas_text_width(canvas, group->name, &font), font.limit);
-        const double left = right - width - 2.0 * radius - 9.0 * unit;
+        const double width = group->value != NULL ? 2.6 * height : height;
+        const double left = right - width - gap - fmin(mor_canvas_text_width(canvas, group->name, &font), font.limit);
         if (left < place[0] - limit) {
             break;
         }
-        const double center[2] = {left + radius, place[1]};
-        const double text[2] = {left + 2.0 * radius + 9.0 * unit, place[1]};
-        mor_canvas_pen pen = {.opacity = group->style == MOR_PICTURE_GHOST ? 0.45 : 1.0};
-        mor_model_group_color(group, pen.color);
-        mor_canvas_circle(canvas, center, radius, &pen);
-        const mor_canvas_pen edge = make_pen(1.2 * unit, quiet_gray);
-        mor_canvas_circle(canvas, center, radius, &edge);
+        const double box[4] = {left, place[1] - 0.5 * height, width, height};
+        const double text[2] = {left + width + gap, place[1]};
+        draw_sample(canvas, map, group, box, unit);
         mor_canvas_text(canvas, text, group->name, &font);
         right = left - 30.0 * unit;
     }

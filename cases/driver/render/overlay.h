@@ -50,12 +50,15 @@ void mor_overlay_triad(mor_canvas *canvas, const mor_camera *camera, const doubl
 void mor_overlay_gravity(mor_canvas *canvas, const mor_camera *camera, const double *up, const double *place,
                          double unit);
 
-/** Draws a row of the groups of one color, ending at the right.
+/** Draws a row of the groups that have a name, ending at the right: colored ones as a strip of the color map, when
+ *  others have one color.
  *  @param canvas  [in,out]  one object
+ *  @param map     [in]      one object
  *  @param picture [in]      one object
  *  @param place   [in]      shape [2], unit px; right end of the row
  *  @param limit   [in]      longest row, px; groups that do not fit are left out
  *  @param unit    [in]      px */
-void mor_overlay_legend(mor_canvas *canvas, const mor_picture *picture, const double *place, double limit, double unit);
+void mor_overlay_legend(mor_canvas *canvas, const mor_colormap *map, const mor_picture *picture, const double *place,
+                        double limit, double unit);
 
 #endif

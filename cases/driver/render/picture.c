@@ -14,6 +14,7 @@
 static const double ambient_share = 0.22; /* reach of crevice darkening / larger side of the scene */
 static const double plane_margin = 0.03;  /* room around the particles inside the axes / size of the scene */
 static const double smallest_side = 0.34; /* of the room for axes: a flat deposit gets at least this much height */
+static const double outline_width = 2.4;  /* of parts in the plane, unit px */
 static const double shown_tilt = 0.02;    /* sine of the angle from which gravity is drawn */
 
 /* One picture while it is drawn. */
@@ -119,8 +120,8 @@ static mor_status render_block(mor_context *context, plate *p)
     const mor_camera_extent *extent = &model->extent;
     const double wide = fmax(extent->maximum[0] - extent->minimum[0], extent->maximum[1] - extent->minimum[1]);
     mor_shade shade = {
-        .solid = {model->solid.scene, model->solid.spheres, model->solid.color},
-        .ghost = {model->ghost.scene, model->ghost.spheres, model->ghost.color},
+        .solid = {model->solid.scene, model->solid.spheres, model->solid.color, model->solid.rim},
+        .ghost = {model->ghost.scene, model->ghost.spheres, model->ghost.color, model->ghost.rim},
         .ghost_opacity = 0.28,
         .is_flat = is_plane,
         .ground = model->ground,
@@ -175,7 +176,7 @@ static void draw_surroundings(plate *p)
         const double bar[4] = {p->width - 176.0 * unit, bar_middle - 0.5 * bar_height, 26.0 * unit, bar_height};
         mor_overlay_color_bar(p->canvas, &p->map, picture, &p->model.range, bar);
     }
-    mor_overlay_legend(p->canvas, picture, legend, 0.55 * p->width, unit);
+    mor_overlay_legend(p->canvas, &p->map, picture, legend, 0.55 * p->width, unit);
 }
 
 static mor_status draw_plate(mor_context *context, plate *p)
@@ -186,6 +187,7 @@ static mor_status draw_plate(mor_context *context, plate *p)
     } else {
         lay_out_space(p);
     }
+    p->model.outline = outline_width * p->unit;
     MOR_TRY(context, mor_model_build(context, p->picture, &p->map, &p->model));
     MOR_TRY(context, mor_canvas_new(context, &p->canvas, p->width, p->height));
     MOR_TRY(context, render_block(context, p));

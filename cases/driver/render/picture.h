@@ -14,7 +14,10 @@
  *  color bar, scale bar or axes, and a legend. A record filled with zeros but for dimension and groups is a valid
  *  picture. It does not read runs and does not know what a soil or a rock is. */
 
-enum { MOR_PICTURE_GROUPS_MAX = 64 };
+enum {
+    MOR_PICTURE_GROUPS_MAX = 96,
+    MOR_PICTURE_PART_MAX = 9999 /* largest number of a part of a group */
+};
 
 /** How the particles of a group are shown. */
 typedef enum mor_picture_style {
@@ -39,7 +42,11 @@ typedef struct mor_picture_group {
     double radius;          /* m; of every particle when radii is NULL: half the particle spacing */
     const double *radii;    /* shape [n_particles], m; NULL: radius holds for all */
     const double *value;    /* shape [n_particles], in the unit of the picture's value_unit; NULL: one color */
-    double color[3]; /* shape [3]; screen values, 1, in [0, 1]; read when value is NULL; all zero: a stone gray */
+    double color[3];    /* shape [3]; screen values, 1, in [0, 1]; read when value is NULL; all zero: a stone gray */
+    const double *part; /* shape [n_particles], whole numbers from 0 to MOR_PICTURE_PART_MAX; which part of the group a
+                           particle belongs to: parts of one color differ slightly in shade. NULL: all of one part */
+    bool is_piece; /* one piece of material per part, not grains: drawn with a closed surface, and in the plane with
+                           a dark line around each part, over groups that are not */
     mor_picture_style style;
     bool is_whole; /* the cut leaves this group alone */
 } mor_picture_group;
@@ -60,7 +67,7 @@ typedef struct mor_picture {
     double range[2];        /* shape [2], unit value_unit; lower and upper end of the color bar */
     mor_picture_cut cut;    /* in space only */
     double swelling;        /* 1; particles are drawn this much larger than their radius, so that a body looks
-                                        closed; 1: as they are; 0: 1.55 in the plane, 1.22 in space */
+                                        closed; 1: as they are; 0: 1.55 in the plane; in space 1.22, pieces 1.5 */
     int width;              /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
     int height;             /* pixels; 0: in space from the width, or MOR_CANVAS_HEIGHT; in the plane what the
                                         axes need, at most that, so that a series wants a frame */

@@ -19,7 +19,6 @@ static const double sky_share = 0.64;           /* light from the sky on an open
 static const double key_share = 0.52;           /* light of the key on a surface facing it */
 static const double key_blur = 0.07;            /* sine of the half angle the key light covers */
 static const double fade_share = 0.08;          /* how far the farthest surface goes to the background */
-static const double rim_share = 0.30;           /* darkening at the rim of a disc in plane pictures */
 
 /* What stays the same for all pixels. */
 typedef struct frame {
@@ -43,6 +42,7 @@ typedef struct surface {
     double point[3];
     double normal[3];
     const float *color;
+    double rim; /* of a disc in plane pictures */
 } surface;
 
 /* One instruction each; fmin and fmax are calls because of NaN. */
@@ -175,6 +175,7 @@ static bool find_surface(const frame *f, const mor_shade_layer *layer, const dou
         found->point[a] = (double)sphere[a] + radius * n[a];
     }
     found->color = layer->color + 3 * i;
+    found->rim = (double)layer->rim[i];
     return true;
 }
 
@@ -237,7 +238,7 @@ static void light_solid(const frame *f, const surface *s, const probe *p, double
     const mor_shade *shade = f->shade;
     if (shade->is_flat) {
         const double rim = 1.0 - s->normal[2];
-        const double light = 1.0 - rim_share * rim * rim;
+        const double light = 1.0 - s->rim * rim * rim;
         for (int c = 0; c < 3; ++c) {
             color[c] = light * (double)s->color[c];
         }

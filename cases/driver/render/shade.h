@@ -16,6 +16,7 @@ typedef struct mor_shade_layer {
     const mor_scene *scene; /* borrowed; NULL: the layer is empty */
     const float *spheres;   /* shape [n,4], px; what the scene was built from */
     const float *color;     /* shape [n,3], 1; linear sRGB */
+    const float *rim;       /* shape [n], 1, in [0, 1]; how much darker the rim of a disc is in plane pictures */
 } mor_shade_layer;
 
 /** A round patch of a plane that fades towards its edge and carries a square grid of thin lines. */
@@ -36,7 +37,7 @@ typedef struct mor_shade {
     mor_shade_layer solid; /* what hides, casts shadows and takes light */
     mor_shade_layer ghost; /* what is seen through: the nearest surface only, without shadows */
     double ghost_opacity;  /* 1; in [0, 1] */
-    bool is_flat;          /* plane pictures: no light, no ground, only a darker rim around each disc */
+    bool is_flat;          /* plane pictures: no light, no ground, only the rims of the discs */
     double up[3];          /* shape [3], 1, unit vector; against gravity */
     mor_shade_ground ground;
     double background[3]; /* shape [3], 1; linear sRGB */

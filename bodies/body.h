@@ -1,0 +1,192 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_BODIES_BODY_H
+#define MOR_BODIES_BODY_H
+
+#include "core/particle/set.h"
+#include "core/particle/shape.h"
+#include "core/sph/boundary.h"
+
+/** @file
+ *  Rocks. A group holds all bodies of one material in one particle set, each body one range of it. The group is plain
+ *  data that everyone around it shares: the solver that moves it (elastic.h, rigid.h), contact among bodies
+ *  (contact.h), and the soil, which sees the group as a moving boundary (core/sph/boundary.h).
+ *
+ *  Reference configuration: the placed positions at time zero. A body's level set is known there; the shape itself is
+ *  described in a frame of its own: X = shape_turn * x + shape_move. */
+
+enum {
+    MOR_BODY_GROUPS_MAX = 8,
+    MOR_BODY_NODE_PARTICLES = 32 /* particles that carry one surface node, at most */
+};
+
+/** How the bodies of a group move. */
+typedef enum mor_body_kind {
+    MOR_BODY_ELASTIC, /* total-Lagrangian SPH */
+    MOR_BODY_RIGID    /* six degrees of freedom */
+} mor_body_kind;
+
+/** Mass properties of the true shape, not of its particles. Per meter of thickness in plane strain. */
+typedef struct mor_body_mass {
+    double volume;     /* m3 (m2) */
+    double center[3];  /* of mass, m */
+    double inertia[6]; /* about the center, per unit of density: integral of (r2 I - r r), symmetric tensor, m5 (m4) */
+} mor_body_mass;
+
+/** One body. */
+typedef struct mor_body {
+    char name[MOR_FIELD_NAME_BYTES];
+    int64_t first, n_particles;  /* range in the set */
+    int64_t first_node, n_nodes; /* range in the group's surface nodes */
+    const mor_shape *shape;      /* level set in the shape's frame; borrowed */
+    double shape_turn[9];        /* shape [3,3], rotation matrix, 1; shape's frame to reference configuration */
+    double shape_move[3];        /* m */
+    double density;              /* kg/m3 */
+    double mass;                 /* kg (kg/m) */
+    mor_body_mass geometry;      /* in the reference configuration */
+    double contact_modulus;      /* pressure that pushes two surfaces into one another by one spacing, Pa */
+    /* Motion as a whole. Rigid: kept current at the end of each sub-step. Elastic: the mean, found after each common
+     * step. */
+    double center[3];           /* of mass, m */
+    double velocity[3];         /* of the center, m/s */
+    double angular_velocity[3]; /* rad/s */
+    double turn[9];             /* rotation since the reference configuration, shape [3,3], 1 */
+    double rotation_angle[3];   /* integral of the angular velocity since the start, rad */
+    bool is_held;               /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
+    /* Forces. */
+    double contact_force[3];  /* of other bodies and walls on a rigid body, at its center, in this sub-step, N (N/m) */
+    double contact_moment[3]; /* about its center, N m (N) */
+    double
+        soil_impulse[3]; /* received from the soil since the start, as integrated by the body's solver, N s (N s/m) */
+    double contact_impulse[3]; /* received from contact since the start, likewise, N s (N s/m) */
+} mor_body;
+
+/** Up to MOR_BLOCK particles of one body: the unit of loops and sums, so that no sum depends on threads. */
+typedef struct mor_body_piece {
+    int64_t first, n_particles; /* range in the set */
+    int body;                   /* index of the body */
+} mor_body_piece;
+
+enum { MOR_BODY_PIECE_VALUES = 24 };
+
+/** All bodies of one material. Owner: the solver of the group. */
+typedef struct mor_body_group {
+    mor_body_kind kind;
+    int dimension;     /* 2 (plane strain in x, y) or 3 */
+    double spacing;    /* m */
+    mor_set set;       /* particles in the order (body, cluster); never permuted. Fields in use: POSITION, VELOCITY,
+                            * MASS, DENSITY, and those the solver adds */
+    double *reference; /* shape [n_particles, 3], reference positions, m */
+    double *volume;    /* shape [n_particles], in the reference configuration, m3 (m2); each body's add up to its own */
+    int32_t *body_of;  /* shape [n_particles], index of the body */
+    double *contact_force; /* shape [n_particles, 3]; of contact in this sub-step, N (N/m); NULL for rigid groups */
+    mor_body *bodies;      /* shape [n_bodies] */
+    int n_bodies;
+    mor_boundary boundary; /* what the soil sees; patch b is body b; boundary.force is the soil's force on particles */
+    double *start;         /* shape [n_particles, 3]; positions at the start of the common step, for eq. 60, m */
+    /* Surface nodes carry contact. A node is a weighted mean of particles of its body, exact for linear fields:
+     * sum w = 1, sum w X_particle = X_node. */
+    int64_t n_nodes;
+    double *node_reference;                      /* shape [n_nodes, 3], on the surface, reference configuration, m */
+    double *node_area;                           /* shape [n_nodes], m2 (m); each body's add up to about its surface */
+    int32_t *node_count;                         /* shape [n_nodes], particles in use; 0 for rigid groups */
+    int32_t *node_particles;                     /* shape [n_nodes, MOR_BODY_NODE_PARTICLES] */
+    double *node_weights;                        /* shape [n_nodes, MOR_BODY_NODE_PARTICLES], 1 */
+    double gravity[3];                           /* m/s2 */
+    double gravity_ramp;                         /* time over which gravity grows from zero, s */
+    double damping;                              /* rate of velocity damping, for settling, 1/s */
+    double domain_minimum[3], domain_maximum[3]; /* m */
+    /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Hung in by mor_contact_init. */
+    double (*longest_contact_step)(const void *contact, const struct mor_body_group *group);
+    const void *contact;    /* first argument of longest_contact_step; borrowed */
+    mor_body_piece *pieces; /* shape [n_pieces]; by rising range, without gaps */
+    int64_t n_pieces;
+    double *piece_values;      /* shape [n_pieces, MOR_BODY_PIECE_VALUES]; scratch of sums over pieces, any unit */
+    double *reference_centers; /* shape [n_bodies, 3]; mean of a body's reference positions, m */
+    double *reference_spreads; /* shape [n_bodies, 9]; inverse of the sum of (X - center) (x) (X - center) over a body's
+                                * particles, zero when they lie in a plane (on a line); 1/m2 */
+} mor_body_group;
+
+/** What a body is made from. Borrowed during mor_body_group_init, but for the shape. */
+typedef struct mor_body_request {
+    const char *name;        /* zero-terminated */
+    const double *positions; /* shape [n_particles, 3], reference configuration, m */
+    int64_t n_particles;
+    const mor_shape *shape;     /* one object; borrowed for the life of the group */
+    double shape_turn[9];       /* shape [3,3], 1 */
+    double shape_move[3];       /* m */
+    double density;             /* kg/m3 */
+    mor_body_mass geometry;     /* of the shape, in the reference configuration (mor_body_mass_find, then placed) */
+    double velocity[3];         /* of the center of mass, m/s */
+    double angular_velocity[3]; /* about the center of mass, rad/s */
+    mor_wall_friction soil_friction;
+    double soil_friction_coefficient; /* Coulomb only, 1 */
+    double contact_modulus;           /* Pa */
+} mor_body_request;
+
+/** Makes a group: sorts each body's particles into clusters, gives them volume and mass so that each body's add up to
+ *  the true ones, sets the motion at the start (velocity + angular velocity x arm), makes surface nodes.
+ *  @param context    [in,out]  one object
+ *  @param group      [out]     one object; cleared after a failure
+ *  @param name       [in]      zero-terminated; of the set and the boundary
+ *  @param kind       [in]      how the bodies move
+ *  @param dimension  [in]      2 or 3
+ *  @param spacing    [in]      unit m
+ *  @param requests   [in]      shape [n_bodies]
+ *  @param n_bodies   [in]      number of bodies, >= 1
+ *  @param field_mask [in]      built-in fields beside POSITION, VELOCITY, MASS, DENSITY; see mor_set_init
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body of no particles; MOR_ERROR_MEMORY. */
+mor_status mor_body_group_init(mor_context *context, mor_body_group *group, const char *name, mor_body_kind kind,
+                               int dimension, double spacing, const mor_body_request *requests, int n_bodies,
+                               uint64_t field_mask);
+
+/** Frees what the group owns; accepts a zeroed one.
+ *  @param context [in,out]  one object
+ *  @param group   [in,out]  one object */
+void mor_body_group_clear(mor_context *context, mor_body_group *group);
+
+/** Shows the soil where the particles will be in the middle of the coming common step, and remembers where they are
+ *  now. Velocities stay the means over the last common step (at the start: the initial ones).
+ *  @param context [in,out]  one object
+ *  @param group   [in,out]  one object
+ *  @param length  [in]      length of the common step, unit s */
+void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);
+
+/** After the sub-steps: gives the soil the mean velocities over the common step, Zhang et al. (2024) eq. 60, and the
+ *  largest speed, of the means and of the present velocities.
+ *  @param context [in,out]  one object
+ *  @param group   [in,out]  one object
+ *  @param length  [in]      length of the common step, unit s */
+void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
+
+/** Finds an elastic body's motion as a whole from its particles: center, mean velocity, angular velocity (angular
+ *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map), rotation angle.
+ *  @param context [in,out]  one object
+ *  @param group   [in,out]  one object
+ *  @param length  [in]      time since the last call, unit s; for the rotation angle */
+void mor_body_group_observe(mor_context *context, mor_body_group *group, double length);
+
+/** Kinetic energy and momenta of one body from its particles.
+ *  @param group            [in]   one object
+ *  @param body             [in]   index of the body
+ *  @param momentum         [out]  shape [3], unit kg m/s (kg/s)
+ *  @param angular_momentum [out]  shape [3], about the origin of coordinates, unit kg m2/s (kg m/s)
+ *  Returns: kinetic energy, unit J (J/m). For a rigid body use mor_rigid_energy, which knows the true inertia. */
+double mor_body_group_momentum(const mor_body_group *group, int body, double *momentum, double *angular_momentum);
+
+/** Volume, center and inertia of a shape in its own frame.
+ *  @param context   [in,out]  one object
+ *  @param shape     [in]      one object; bounded (in x, y for plane strain)
+ *  @param dimension [in]      2 or 3
+ *  @param mass      [out]     one object
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an empty or unbounded shape. Accuracy: 1e-5 relative or better; exact for
+ *  axis-aligned boxes. Cost: adaptive cells, milliseconds. */
+mor_status mor_body_mass_find(mor_context *context, const mor_shape *shape, int dimension, mor_body_mass *mass);
+
+/** Places mass properties: X = turn * x + move.
+ *  @param mass [in,out]  one object
+ *  @param turn [in]      shape [3,3], rotation matrix, unit 1
+ *  @param move [in]      shape [3], unit m */
+void mor_body_mass_place(mor_body_mass *mass, const double *turn, const double *move);
+
+#endif

@@ -1,0 +1,59 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_BODIES_BODY_INTERNAL_H
+#define MOR_BODIES_BODY_INTERNAL_H
+
+#include "bodies/body.h"
+#include "core/base/math.h"
+
+#include <stdbool.h>
+
+/** @file
+ *  What the files of the bodies share among themselves. Not for others. */
+
+/** Threads of one loop; stands in for the context in MOR_PARALLEL_FOR. */
+typedef struct mor_body_team {
+    int n_threads;
+} mor_body_team;
+
+enum { MOR_BODY_TEAM_PARTICLES = 1500 /* fewer particles than these are not worth a second thread */ };
+
+/** Threads for a loop over a number of particles: waking a team costs as much as some hundred particles. */
+static inline mor_body_team mor_body_team_for(const mor_context *context, int64_t n_particles)
+{
+    return (mor_body_team){n_particles < MOR_BODY_TEAM_PARTICLES ? 1 : context->n_threads};
+}
+
+/** out += factor * a x b; shape [3] each; unit of out: product of theirs. */
+static inline void mor_vector_cross_add(double factor, const double *a, const double *b, double *out)
+{
+    out[0] += factor * (a[1] * b[2] - a[2] * b[1]);
+    out[1] += factor * (a[2] * b[0] - a[0] * b[2]);
+    out[2] += factor * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/** Inverse of a matrix, shape [3,3]; false, and zero, when it is singular: its determinant is less than 1e-9 of that of
+ *  a multiple of I of the same norm. */
+static inline bool mor_matrix_invert(const double *m, double *inverse)
+{
+    double norm2 = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3;
+        const int c = (a + 2) % 3;
+        for (int k = 0; k < 3; ++k) {
+            const int p = (k + 1) % 3;
+            const int q = (k + 2) % 3;
+            inverse[3 * k + a] = m[3 * b + p] * m[3 * c + q] - m[3 * b + q] * m[3 * c + p];
+            norm2 += m[3 * a + k] * m[3 * a + k];
+        }
+    }
+    const double determinant = m[0] * inverse[0] + m[1] * inverse[3] + m[2] * inverse[6];
+    const double size = sqrt(norm2 / 3.0);
+    const bool is_regular = fabs(determinant) > 1e-9 * (size * size * size);
+    for (int k = 0; k < 9; ++k) {
+        inverse[k] = is_regular ? inverse[k] / determinant : 0.0;
+    }
+    return is_regular;
+}
+
+#endif

@@ -1,0 +1,536 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/contact_work.h"
+
+#include "core/base/math.h"
+
+#include <string.h>
+
+#define TANGENTIAL_RATIO 0.8 /* stiffness of the friction spring over that of the normal spring, 1 */
+#define STICK_DAMPING 0.2    /* damping ratio of the friction spring, 1 */
+#define DAMPING_LIMIT 0.5    /* share of a relative velocity that damping may take away in a step, 1 */
+
+/* What one pair needs to know while its touches become forces. The pair force acts on the first body along normal. */
+typedef struct pair_sums {
+    const mor_contact_near *near;
+    const mor_contact_law *law;
+    double force;     /* sum of the nodes' normal forces, N */
+    double center[3]; /* their centroid, m */
+    double normal[3]; /* their mean direction, 1 */
+    double stiffness; /* sum over touching nodes, N/m */
+    double factor;    /* damped over elastic normal force, 1 */
+    double length;    /* of the sub-step, s */
+    int64_t begin;    /* its touches */
+    int64_t end;
+} pair_sums;
+
+static void cross(const double *a, const double *b, double *out)
+{
+    for (int k = 0; k < 3; ++k) {
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+}
+
+/* Solves symmetric * x = b; plane strain: about z only. */
+static void solve_symmetric(int dimension, const double *m, const double *b, double *x)
+{
+    x[0] = x[1] = x[2] = 0.0;
+    if (dimension == 2) {
+        x[2] = m[MOR_ZZ] > 0.0 ? b[2] / m[MOR_ZZ] : 0.0;
+        return;
+    }
+    const double r[6] = {m[1] * m[2] - m[4] * m[4], m[0] * m[2] - m[5] * m[5], m[0] * m[1] - m[3] * m[3],
+                         m[5] * m[4] - m[3] * m[2], m[3] * m[5] - m[0] * m[4], m[3] * m[4] - m[5] * m[1]};
+    const double determinant = m[0] * r[0] + m[3] * r[3] + m[5] * r[5];
+    if (determinant > 0.0) {
+        mor_symmetric_apply(r, b, x);
+        for (int a = 0; a < 3; ++a) {
+            x[a] /= determinant;
+        }
+    }
+}
+
+/* Center, velocity, inertia and spin of a body from its particles. */
+static void observe_elastic(mor_contact_body *c)
+{
+    const mor_body *body = &c->group->bodies[c->body];
+    const double *x = c->group->set.data[MOR_FIELD_POSITION] + 3 * body->first;
+    const double *v = c->group->set.data[MOR_FIELD_VELOCITY] + 3 * body->first;
+    const double *m = c->group->set.data[MOR_FIELD_MASS] + body->first;
+    double mass = 0.0;
+    double spin[3] = {0.0, 0.0, 0.0};
+    memset(c->center, 0, sizeof c->center);
+    memset(c->velocity, 0, sizeof c->velocity);
+    memset(c->inertia, 0, sizeof c->inertia);
+    for (int64_t i = 0; i < body->n_particles; ++i) {
+        mass += m[i];
+        for (int a = 0; a < 3; ++a) {
+            c->center[a] += m[i] * x[3 * i + a];
+            c->velocity[a] += m[i] * v[3 * i + a];
+        }
+    }
+    for (int a = 0; a < 3; ++a) {
+        c->center[a] /= mass;
+        c->velocity[a] /= mass;
+    }
+    for (int64_t i = 0; i < body->n_particles; ++i) {
+        const double d[3] = {x[3 * i] - c->center[0], x[3 * i + 1] - c->center[1], x[3 * i + 2] - c->center[2]};
+        double moment[3];
+        cross(d, v + 3 * i, moment);
+        for (int a = 0; a < 3; ++a) {
+            spin[a] += m[i] * moment[a];
+            c->inertia[a] += m[i] * (mor_vector_dot(d, d) - d[a] * d[a]);
+            c->inertia[3 + a] -= m[i] * d[a] * d[(a + 1) % 3];
+        }
+    }
+    solve_symmetric(c->group->dimension, c->inertia, spin, c->spin);
+}
+
+static void observe_body(mor_contact_body *c)
+{
+    const mor_body *body = &c->group->bodies[c->body];
+    if (c->is_observed) {
+        return;
+    }
+    if (c->group->kind == MOR_BODY_ELASTIC) {
+        observe_elastic(c);
+    } else {
+        memcpy(c->center, body->center, sizeof c->center);
+        memcpy(c->velocity, body->velocity, sizeof c->velocity);
+        memcpy(c->spin, body->angular_velocity, sizeof c->spin);
+    }
+    c->is_observed = true;
+}
+
+/* Velocity of the point of a body, or wall, at a place as if it were rigid. */
+static void whole_velocity(const mor_contact *contact, int second, const double *place, double *velocity)
+{
+    if (second >= contact->work->n_bodies) {
+        memcpy(velocity, contact->walls[second - contact->work->n_bodies].velocity, 3 * sizeof *velocity);
+        return;
+    }
+    mor_contact_body *c = &contact->work->bodies[second];
+    observe_body(c);
+    const double arm[3] = {place[0] - c->center[0], place[1] - c->center[1], place[2] - c->center[2]};
+    cross(c->spin, arm, velocity);
+    for (int a = 0; a < 3; ++a) {
+        velocity[a] += c->velocity[a];
+    }
+}
+
+static double inverse_mass(const mor_contact *contact, int second)
+{
+    if (second >= contact->work->n_bodies) {
+        return 0.0;
+    }
+    const mor_contact_body *c = &contact->work->bodies[second];
+    const mor_body *body = &c->group->bodies[c->body];
+    return body->is_held ? 0.0 : 1.0 / body->mass;
+}
+
+/* Force at a place on a whole body: an elastic one is accelerated as if it were rigid. */
+static void push_whole(mor_contact *contact, int second, const double *place, const double *force)
+{
+    mor_contact_work *work = contact->work;
+    if (second >= work->n_bodies) {
+        return;
+    }
+    mor_contact_body *c = &work->bodies[second];
+    mor_body_group *group = c->group;
+    const mor_body *body = &group->bodies[c->body];
+    if (group->kind == MOR_BODY_RIGID) {
+        mor_body_point_push(group, c->body, &(mor_body_support){0, NULL, NULL}, place, force);
+        return;
+    }
+    const double arm[3] = {place[0] - c->center[0], place[1] - c->center[1], place[2] - c->center[2]};
+    const double *x = group->set.data[MOR_FIELD_POSITION];
+    const double *m = group->set.data[MOR_FIELD_MASS];
+    double moment[3], turn[3];
+    double mass = 0.0;
+    cross(arm, force, moment);
+    solve_symmetric(group->dimension, c->inertia, moment, turn);
+    for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
+        mass += m[i];
+    }
+    for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
+        const double d[3] = {x[3 * i] - c->center[0], x[3 * i + 1] - c->center[1], x[3 * i + 2] - c->center[2]};
+        double around[3];
+        cross(turn, d, around);
+        for (int a = 0; a < 3; ++a) {
+            group->contact_force[3 * i + a] += m[i] * (force[a] / mass + around[a]);
+        }
+    }
+}
+
+static void push_wall(mor_contact *contact, const mor_contact_near *near, const double *force)
+{
+    const mor_contact_work *work = contact->work;
+    if (near->second < work->n_bodies) {
+        return;
+    }
+    const int group = work->bodies[near->first].group_index;
+    double *sum = work->wall_force + 3 * ((int64_t)group * contact->n_walls + near->second - work->n_bodies);
+    for (int a = 0; a < 3; ++a) {
+        sum[a] -= force[a];
+    }
+}
+
+/* Force on the node of a touch; the opposite on its partner. */
+static void push_both(mor_contact *contact, const mor_contact_near *near, int64_t index, const double *force)
+{
+    const mor_contact_work *work = contact->work;
+    const mor_contact_touch *touch = &work->touches[index];
+    const double opposite[3] = {-force[0], -force[1], -force[2]};
+    const mor_contact_body *owner = &work->bodies[touch->side == 0 ? near->first : near->second];
+    const mor_body_support node = mor_body_node_support(owner->group, touch->node);
+    mor_body_point_push(owner->group, owner->body, &node, touch->place, force);
+    const int other = touch->side == 0 ? near->second : near->first;
+    if (other < work->n_bodies) {
+        const mor_contact_body *partner = &work->bodies[other];
+        const mor_body_support support = {touch->support_count, work->support_particles + MOR_CONTACT_SUPPORT * index,
+                                          work->support_weights + MOR_CONTACT_SUPPORT * index};
+        mor_body_point_push(partner->group, partner->body, &support, touch->place, opposite);
+    } else {
+        push_wall(contact, near, force);
+    }
+}
+
+/* Sums the normal forces of a pair; false when nothing touches. */
+static bool sum_pair(mor_contact *contact, pair_sums *sums)
+{
+    mor_contact_work *work = contact->work;
+    const int group = work->bodies[sums->near->first].group_index;
+    for (int64_t k = sums->begin; k < sums->end; ++k) {
+        const mor_contact_touch *touch = &work->touches[k];
+        if (!(touch->gap < 0.0)) {
+            continue;
+        }
+        const double force = -touch->stiffness * touch->gap;
+        const double sign = touch->side == 0 ? 1.0 : -1.0;
+        sums->force += force;
+        sums->stiffness += touch->stiffness;
+        for (int a = 0; a < 3; ++a) {
+            sums->center[a] += force * touch->place[a];
+            sums->normal[a] += sign * force * touch->normal[a];
+        }
+        work->group_spring[group] -= 0.5 * force * touch->gap;
+        work->group_deepest[group] = fmax(work->group_deepest[group], -touch->gap);
+    }
+    const double length = mor_vector_length(sums->normal);
+    if (!(sums->force > 0.0) || !(length > 0.0)) {
+        return sums->force > 0.0;
+    }
+    for (int a = 0; a < 3; ++a) {
+        sums->center[a] /= sums->force;
+        sums->normal[a] /= length;
+    }
+    return true;
+}
+
+/* Restitution: the normal force of the pair grows with the speed of closing, docs/theory/contact.md. */
+static void damp_pair(mor_contact *contact, pair_sums *sums)
+{
+    const mor_contact_work *work = contact->work;
+    const mor_contact_near *near = sums->near;
+    const double inverse = inverse_mass(contact, near->first) + inverse_mass(contact, near->second);
+    const double y = work->rebound[work->law_of[near->pair]];
+    double *impact = &contact->impacts[near->pair];
+    double own[3], other[3];
+    sums->factor = 1.0;
+    if (!(y > 0.0) || !(inverse > 0.0) || mor_vector_dot(sums->normal, sums->normal) == 0.0) {
+        return;
+    }
+    whole_velocity(contact, near->first, sums->center, own);
+    whole_velocity(contact, near->second, sums->center, other);
+    const double difference[3] = {other[0] - own[0], other[1] - own[1], other[2] - own[2]};
+    const double closing = mor_vector_dot(difference, sums->normal);
+    /* The fastest closing of an episode is its impact: a touch at rest may be hit later. */
+    *impact = fmax(*impact, fmax(closing, contact->settings.slowest_impact));
+    if (!(*impact > 0.0)) {
+        return;
+    }
+    const double rate = fmin(y / *impact, DAMPING_LIMIT / (sums->force * inverse * sums->length));
+    sums->factor = fmax(0.0, 1.0 + rate * closing);
+    /* The nodes' forces need not be parallel; what is damped is their resultant. */
+    double resultant = 0.0;
+    for (int64_t k = sums->begin; k < sums->end; ++k) {
+        const mor_contact_touch *touch = &work->touches[k];
+        const double sign = touch->side == 0 ? 1.0 : -1.0;
+        resultant -=
+            touch->gap < 0.0 ? sign * touch->stiffness * touch->gap * mor_vector_dot(touch->normal, sums->normal) : 0.0;
+    }
+    const double extra = resultant * (sums->factor - 1.0);
+    const double force[3] = {extra * sums->normal[0], extra * sums->normal[1], extra * sums->normal[2]};
+    const double opposite[3] = {-force[0], -force[1], -force[2]};
+    push_whole(contact, near->first, sums->center, force);
+    push_whole(contact, near->second, sums->center, opposite);
+    push_wall(contact, near, force);
+    contact->damping_energy += extra * closing * sums->length;
+}
+
+/* Place of a partner among the slots of a node: its own, else a free one, else -1. */
+static int find_slot(const double *partners, double partner)
+{
+    int empty = -1;
+    for (int s = MOR_CONTACT_SLOTS - 1; s >= 0; --s) {
+        if (partners[s] == partner) {
+            return s;
+        }
+        empty = partners[s] == 0.0 ? s : empty;
+    }
+    return empty;
+}
+
+/* Mass that a friction spring moves on one side, inverted: a share of a rigid body, the layer under an elastic node. */
+static double inverse_share(const mor_contact *contact, const pair_sums *sums, int second, double stiffness)
+{
+    const double inverse = inverse_mass(contact, second);
+    if (inverse == 0.0) {
+        return 0.0;
+    }
+    const mor_contact_body *c = &contact->work->bodies[second];
+    if (c->group->kind == MOR_BODY_RIGID) {
+        return inverse * sums->stiffness / stiffness;
+    }
+    const double area = stiffness / mor_contact_bedding(contact, sums->near->first, sums->near->second);
+    return 1.0 / (c->group->bodies[c->body].density * c->group->spacing * area);
+}
+
+/* Tangential spring and damper of one node, capped by Coulomb's law. */
+static void rub_node(mor_contact *contact, const pair_sums *sums, int64_t index)
+{
+    mor_contact_work *work = contact->work;
+    const mor_contact_touch *touch = &work->touches[index];
+    const int own = touch->side == 0 ? sums->near->first : sums->near->second;
+    const int other = touch->side == 0 ? sums->near->second : sums->near->first;
+    const int group = work->bodies[own].group_index;
+    const int64_t entry = work->first_node[group] + touch->node;
+    double *partners = contact->history.data[work->field_partners] + MOR_CONTACT_SLOTS * entry;
+    const int slot = find_slot(partners, (double)(other + 1));
+    double none[3] = {0.0, 0.0, 0.0};
+    double *spring =
+        slot < 0 ? none : contact->history.data[work->field_springs] + 3 * (MOR_CONTACT_SLOTS * entry + slot);
+    const double stiffness = TANGENTIAL_RATIO * touch->stiffness;
+    const double inverse =
+        inverse_share(contact, sums, own, touch->stiffness) + inverse_share(contact, sums, other, touch->stiffness);
+    const double cap = -sums->law->friction_coefficient * sums->factor * touch->stiffness * touch->gap;
+    const double before2 = mor_vector_dot(spring, spring);
+    const double along = mor_vector_dot(spring, touch->normal);
+    const double off = mor_vector_dot(touch->slip, touch->normal);
+    double turned[3], slide[3], force[3];
+    for (int a = 0; a < 3; ++a) {
+        turned[a] = spring[a] - along * touch->normal[a];
+        slide[a] = touch->slip[a] - off * touch->normal[a];
+    }
+    /* The spring turns with the tangent plane and keeps its length. */
+    const double turned2 = mor_vector_dot(turned, turned);
+    const double stretch = turned2 > 0.0 ? sqrt(before2 / turned2) : 0.0;
+    const double damping =
+        inverse > 0.0 ? fmin(2.0 * STICK_DAMPING * sqrt(stiffness / inverse), DAMPING_LIMIT / (inverse * sums->length))
+                      : 0.0;
+    for (int a = 0; a < 3; ++a) {
+        spring[a] = turned[a] * stretch + slide[a] * sums->length;
+        force[a] = -stiffness * spring[a] - damping * slide[a];
+    }
+    /* Spring and whole force are capped each on its own: a damper must not load the spring. */
+    const double size = mor_vector_length(force);
+    const double pull = stiffness * mor_vector_length(spring);
+    for (int a = 0; a < 3; ++a) {
+        force[a] *= size > cap ? cap / size : 1.0;
+        spring[a] *= pull > cap ? cap / pull : 1.0;
+    }
+    const double stored = 0.5 * stiffness * mor_vector_dot(spring, spring);
+    contact->friction_energy -=
+        mor_vector_dot(force, slide) * sums->length + (slot < 0 ? 0.0 : stored - 0.5 * stiffness * before2);
+    if (slot >= 0) {
+        partners[slot] = other + 1;
+        work->group_spring[group] += stored;
+        work->slot_mark[MOR_CONTACT_SLOTS * entry + slot] = 1;
+        work->kept_slots[work->n_kept++] = MOR_CONTACT_SLOTS * entry + slot;
+    }
+    push_both(contact, sums->near, index, force);
+}
+
+static void act_on_pair(mor_contact *contact, int k, double length)
+{
+    mor_contact_work *work = contact->work;
+    pair_sums sums = {.near = &work->near[work->active[k]], .length = length};
+    const int law = work->law_of[sums.near->pair];
+    sums.law = law == 0 ? &contact->settings.law : &contact->settings.pairs[law - 1].law;
+    sums.begin = work->first_touch[k];
+    sums.end = work->first_touch[k + 1];
+    if (!sum_pair(contact, &sums)) {
+        return;
+    }
+    damp_pair(contact, &sums);
+    work->pair_mark[sums.near->pair] = 1;
+    work->kept_pairs[work->n_kept_pairs++] = sums.near->pair;
+    for (int64_t index = sums.begin; index < sums.end; ++index) {
+        const mor_contact_touch *touch = &work->touches[index];
+        if (!(touch->gap < 0.0)) {
+            continue;
+        }
+        double force[3];
+        for (int a = 0; a < 3; ++a) {
+            force[a] = -touch->stiffness * touch->gap * touch->normal[a];
+        }
+        push_both(contact, sums.near, index, force);
+        if (sums.law->friction_coefficient > 0.0) {
+            rub_node(contact, &sums, index);
+        }
+    }
+}
+
+/* Lists what the state remembers, once after a start or a resume. */
+static void recall(mor_contact *contact)
+{
+    mor_contact_work *work = contact->work;
+    const double *partners = contact->history.data[work->field_partners];
+    if (work->is_warm) {
+        return;
+    }
+    for (int64_t k = 0; k < MOR_CONTACT_SLOTS * contact->history.n_particles; ++k) {
+        if (partners[k] != 0.0) {
+            work->held_slots[work->n_held++] = k;
+        }
+    }
+    for (int64_t k = 0; k < work->n_pairs; ++k) {
+        if (contact->impacts[k] > 0.0) {
+            work->hit_pairs[work->n_hit++] = k;
+        }
+    }
+    work->is_warm = true;
+}
+
+/* The body whose node an entry of the history is. */
+static int body_of_entry(const mor_contact *contact, int64_t entry)
+{
+    const mor_contact_work *work = contact->work;
+    int b = work->n_bodies - 1;
+    while (work->first_node[work->bodies[b].group_index] +
+               work->bodies[b].group->bodies[work->bodies[b].body].first_node >
+           entry) {
+        --b;
+    }
+    return b;
+}
+
+/* Empties a slot whose contact ended; the energy left in its spring is lost. */
+static void release_slot(mor_contact *contact, int64_t slot, int own)
+{
+    const mor_contact_work *work = contact->work;
+    const int64_t entry = slot / MOR_CONTACT_SLOTS;
+    double *partner = contact->history.data[work->field_partners] + slot;
+    double *spring = contact->history.data[work->field_springs] + 3 * slot;
+    if (*partner == 0.0) {
+        return; /* cleared from outside, as at the end of a settling */
+    }
+    const int other = (int)*partner - 1;
+    const mor_contact_near pair = {.first = own < other ? own : other, .second = own < other ? other : own};
+    const double stiffness =
+        TANGENTIAL_RATIO * mor_contact_stiffness(contact, &pair, own < other ? 0 : 1,
+                                                 entry - work->first_node[work->bodies[own].group_index]);
+    contact->friction_energy += 0.5 * stiffness * mor_vector_dot(spring, spring);
+    *partner = 0.0;
+    memset(spring, 0, 3 * sizeof *spring);
+}
+
+/* Forgets springs and impact speeds of contacts that ended; those of other members' bodies stay. */
+static void forget(mor_contact *contact, uint64_t members)
+{
+    mor_contact_work *work = contact->work;
+    for (int64_t k = 0; k < work->n_held; ++k) {
+        const int64_t slot = work->held_slots[k];
+        const int own = body_of_entry(contact, slot / MOR_CONTACT_SLOTS);
+        if (work->slot_mark[slot] != 0) {
+            continue;
+        }
+        if ((contact->stepper_bits[work->bodies[own].group_index] & members) != 0) {
+            release_slot(contact, slot, own);
+        } else {
+            work->kept_slots[work->n_kept++] = slot;
+        }
+    }
+    for (int64_t k = 0; k < work->n_kept; ++k) {
+        work->slot_mark[work->kept_slots[k]] = 0;
+    }
+    int64_t *slots = work->held_slots;
+    work->held_slots = work->kept_slots;
+    work->kept_slots = slots;
+    work->n_held = work->n_kept;
+}
+
+static void forget_impacts(mor_contact *contact, uint64_t members)
+{
+    mor_contact_work *work = contact->work;
+    for (int64_t k = 0; k < work->n_hit; ++k) {
+        const int64_t pair = work->hit_pairs[k];
+        int first = 0;
+        while (mor_contact_pair_index(contact, first + 1, first + 2) <= pair && first + 1 < work->n_bodies) {
+            ++first;
+        }
+        if (work->pair_mark[pair] != 0) {
+            continue;
+        }
+        if ((contact->stepper_bits[work->bodies[first].group_index] & members) != 0) {
+            contact->impacts[pair] = 0.0;
+        } else {
+            work->kept_pairs[work->n_kept_pairs++] = pair;
+        }
+    }
+    for (int64_t k = 0; k < work->n_kept_pairs; ++k) {
+        work->pair_mark[work->kept_pairs[k]] = 0;
+    }
+    int64_t *pairs = work->hit_pairs;
+    work->hit_pairs = work->kept_pairs;
+    work->kept_pairs = pairs;
+    work->n_hit = work->n_kept_pairs;
+}
+
+/* Starts the sums of the members' groups anew. */
+static void clear_sums(mor_contact *contact, uint64_t members)
+{
+    mor_contact_work *work = contact->work;
+    const int64_t n = 3 * (int64_t)contact->n_walls;
+    for (int g = 0; g < contact->n_groups; ++g) {
+        if ((contact->stepper_bits[g] & members) == 0) {
+            continue;
+        }
+        work->group_spring[g] = 0.0;
+        work->group_deepest[g] = 0.0;
+        if (n > 0) {
+            memset(work->wall_force + n * g, 0, (size_t)n * sizeof *work->wall_force);
+        }
+    }
+    work->n_kept = 0;
+    work->n_kept_pairs = 0;
+}
+
+static void add_sums(mor_contact *contact)
+{
+    const mor_contact_work *work = contact->work;
+    contact->spring_energy = 0.0;
+    contact->deepest = 0.0;
+    for (int w = 0; w < contact->n_walls; ++w) {
+        memset(contact->walls[w].force, 0, sizeof contact->walls[w].force);
+    }
+    for (int g = 0; g < contact->n_groups; ++g) {
+        contact->spring_energy += work->group_spring[g];
+        contact->deepest = fmax(contact->deepest, work->group_deepest[g]);
+        for (int64_t k = 0; k < 3 * (int64_t)contact->n_walls; ++k) {
+            contact->walls[k / 3].force[k % 3] += work->wall_force[3 * (int64_t)g * contact->n_walls + k];
+        }
+    }
+}
+
+void mor_contact_act(mor_contact *contact, uint64_t members, double length)
+{
+    recall(contact);
+    clear_sums(contact, members);
+    for (int k = 0; k < contact->work->n_active; ++k) {
+        act_on_pair(contact, k, length);
+    }
+    forget(contact, members);
+    forget_impacts(contact, members);
+    add_sums(contact);
+}

@@ -1,0 +1,150 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/contact_work.h"
+
+#include "core/base/math.h"
+#include "core/particle/shape_analytic.h"
+
+/* Lengths in spacings. */
+#define NORMAL_STEP 0x1p-10 /* of the differences that give a normal */
+#define FAR_GAP 4.0         /* stands for: no particle of the body is near */
+
+enum { WIDENINGS = 10 };
+
+static void normalize(int dimension, double *vector)
+{
+    if (dimension == 2) {
+        vector[2] = 0.0;
+    }
+    const double length = mor_vector_length(vector);
+    for (int a = 0; a < 3; ++a) {
+        vector[a] = length > 0.0 ? vector[a] / length : 0.0;
+    }
+}
+
+static void look_at_wall(const mor_contact *contact, const mor_contact_wall *wall, int dimension, double spacing,
+                         mor_contact_touch *touch)
+{
+    double offset[3], place[3], normal[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = touch->place[a] - wall->velocity[a] * contact->time - wall->move[a];
+    }
+    mor_matrix_apply_transposed(wall->turn, offset, place);
+    touch->gap = mor_shape_distance(wall->shape, place);
+    if (touch->gap < 0.0) {
+        mor_shape_normal(wall->shape, place, NORMAL_STEP * spacing, normal);
+        mor_matrix_apply(wall->turn, normal, touch->normal);
+        normalize(dimension, touch->normal);
+    }
+}
+
+/* Gap and normal of a point of the reference configuration; the normal in that configuration. */
+static double reference_gap(const mor_body_group *group, const mor_body *body, const double *reference, double *normal)
+{
+    double offset[3], place[3], own[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = reference[a] - body->shape_move[a];
+    }
+    mor_matrix_apply_transposed(body->shape_turn, offset, place);
+    const double gap = mor_shape_distance(body->shape, place);
+    if (normal != NULL) {
+        mor_shape_normal(body->shape, place, NORMAL_STEP * group->spacing, own);
+        mor_matrix_apply(body->shape_turn, own, normal);
+    }
+    return gap;
+}
+
+static void look_at_rigid(const mor_contact_body *partner, mor_contact_touch *touch)
+{
+    const mor_body *body = &partner->group->bodies[partner->body];
+    double offset[3], reference[3], normal[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = touch->place[a] - body->center[a];
+    }
+    mor_matrix_apply_transposed(body->turn, offset, reference);
+    for (int a = 0; a < 3; ++a) {
+        reference[a] += body->geometry.center[a];
+    }
+    touch->gap = reference_gap(partner->group, body, reference, NULL);
+    if (touch->gap < 0.0) {
+        reference_gap(partner->group, body, reference, normal);
+        mor_matrix_apply(body->turn, normal, touch->normal);
+        normalize(partner->group->dimension, touch->normal);
+    }
+}
+
+/* Maps the point back into the reference configuration by weights that are exact for linear fields now. */
+static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *touch, int32_t *particles,
+                            double *weights)
+{
+    const mor_body_group *group = partner->group;
+    const mor_body *body = &group->bodies[partner->body];
+    const double *positions = group->set.data[MOR_FIELD_POSITION];
+    const double stale = partner->travel - partner->tree_travel;
+    double radius = MOR_BODY_POINT_RADIUS * group->spacing;
+    double gradient[9];
+    touch->gap = FAR_GAP * group->spacing;
+    touch->support_count = 0;
+    for (int widening = 0; widening < WIDENINGS; ++widening, radius *= MOR_BODY_POINT_GROWTH) {
+        const int n = mor_body_find_near(&partner->tree, positions, body->first, touch->place, radius, stale, particles,
+                                         MOR_CONTACT_SUPPORT);
+        if (n == 0 && widening == 0) {
+            return;
+        }
+        const bool is_crowd = n >= mor_body_point_crowd(group->dimension) || n == body->n_particles;
+        if (is_crowd && mor_body_linear_weights(group->dimension, positions, particles, n, touch->place, radius,
+                                                weights, group->reference, gradient)) {
+            touch->support_count = n;
+            break;
+        }
+    }
+    if (touch->support_count == 0) {
+        return;
+    }
+    double reference[3] = {0.0, 0.0, 0.0};
+    double normal[3];
+    for (int k = 0; k < touch->support_count; ++k) {
+        for (int a = 0; a < 3; ++a) {
+            reference[a] += weights[k] * group->reference[3 * (int64_t)particles[k] + a];
+        }
+    }
+    const double gap = reference_gap(group, body, reference, normal);
+    mor_matrix_apply_transposed(gradient, normal, touch->normal);
+    /* The level set falls with the slope |gradient^T normal| per length of the present configuration. */
+    const double slope = mor_vector_length(touch->normal);
+    touch->gap = slope > 0.0 ? gap / slope : gap;
+    normalize(group->dimension, touch->normal);
+}
+
+void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
+                         bool is_whole, int32_t *particles, double *weights)
+{
+    const int own = touch->side == 0 ? near->first : near->second;
+    const int other = touch->side == 0 ? near->second : near->first;
+    const mor_contact_body *owner = &contact->work->bodies[own];
+    const mor_contact_body *partner = mor_contact_group(contact, other) != NULL ? &contact->work->bodies[other] : NULL;
+    const mor_contact_wall *wall = partner == NULL ? &contact->walls[other - contact->work->n_bodies] : NULL;
+    mor_body_node_place(owner->group, owner->body, touch->node, touch->place);
+    touch->support_count = 0;
+    if (wall != NULL) {
+        look_at_wall(contact, wall, owner->group->dimension, owner->group->spacing, touch);
+    } else if (partner->group->kind == MOR_BODY_RIGID) {
+        look_at_rigid(partner, touch);
+    } else {
+        look_at_elastic(partner, touch, particles, weights);
+    }
+    if (!is_whole || !(touch->gap < 0.0)) {
+        return;
+    }
+    double against[3];
+    const mor_body_support node = mor_body_node_support(owner->group, touch->node);
+    const mor_body_support support = {touch->support_count, particles, weights};
+    mor_body_point_velocity(owner->group, owner->body, &node, touch->place, touch->slip);
+    if (partner != NULL) {
+        mor_body_point_velocity(partner->group, partner->body, &support, touch->place, against);
+    }
+    for (int a = 0; a < 3; ++a) {
+        touch->slip[a] -= wall != NULL ? wall->velocity[a] : against[a];
+    }
+    touch->stiffness = mor_contact_stiffness(contact, near, touch->side, touch->node);
+}

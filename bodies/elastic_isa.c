@@ -1,0 +1,406 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Compiled once per instruction set; MOR_ISA is its name. */
+#include "bodies/elastic_internal.h"
+
+#ifndef MOR_ISA
+#define MOR_ISA baseline
+#endif
+#define MOR_JOIN_(a, b) a##b
+#define MOR_JOIN(a, b) MOR_JOIN_(a, b)
+#define MOR_TEXT_(a) #a
+#define MOR_TEXT(a) MOR_TEXT_(a)
+
+/* Numbers in one register. A cluster is served in 8 / LANES parts, each with the arithmetic of the others. */
+#if defined(__AVX512F__)
+#define LANES 8
+#elif defined(__AVX__)
+#define LANES 4
+#else
+#define LANES 2
+#endif
+enum { PARTS = MOR_CLUSTER / LANES };
+
+typedef double vec __attribute__((vector_size(LANES * sizeof(double))));
+typedef double unaligned_vec __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
+
+typedef float single __attribute__((vector_size(LANES * sizeof(float)), aligned(4), may_alias));
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE vec spread(double a)
+{
+    return a - (vec){0.0};
+}
+
+INLINE vec zero(void)
+{
+    return (vec){0.0};
+}
+
+/* One component of consecutive records. */
+INLINE vec load(const double *records, int stride, int component)
+{
+    vec a;
+    for (int lane = 0; lane < LANES; ++lane) {
+        a[lane] = records[lane * stride + component];
+    }
+    return a;
+}
+
+INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
+{
+    for (int lane = 0; lane < n_lanes; ++lane) {
+        out[lane * stride + component] = a[lane];
+    }
+}
+
+/* LANES numbers one after another. */
+INLINE vec row(const double *a)
+{
+    return *(const unaligned_vec *)a;
+}
+
+/* One part of a cluster: its first slot and particle, particles in use, neighbors. */
+typedef struct part {
+    const mor_elastic_cluster *cluster;
+    int64_t slot, particle;
+    int n_lanes;
+    const int32_t *entries;
+    const float *weights;
+    const double *inverse, *sum; /* this part's columns of [6, 8] and [3, 8] */
+} part;
+
+INLINE part part_of(const mor_elastic_work *work, int64_t c, int p)
+{
+    const mor_elastic_cluster *cluster = &work->clusters[c];
+    const int left = cluster->n_lanes - p * LANES;
+    return (part){cluster,
+                  c * MOR_CLUSTER + p * LANES,
+                  cluster->first + p * LANES,
+                  left < LANES ? (left > 0 ? left : 0) : LANES,
+                  work->entries + cluster->first_entry,
+                  work->weights + cluster->first_entry * MOR_CLUSTER + p * LANES,
+                  work->inverses + c * 6 * MOR_CLUSTER + p * LANES,
+                  work->sums + c * 3 * MOR_CLUSTER + p * LANES};
+}
+
+INLINE vec weight_of(const part *p, int32_t entry)
+{
+    const single weights = *(const single *)(p->weights + (int64_t)entry * MOR_CLUSTER);
+#if LANES == 8 && !defined(__clang__)
+    /* Spelled out because gcc widens in halves and goes through memory; 4 stands for the current rounding. */
+    return (vec)__builtin_ia32_cvtps2pd512_mask(weights, (vec){0.0}, (unsigned char)-1, 4);
+#else
+    return __builtin_convertvector(weights, vec);
+#endif
+}
+
+/* The symmetric matrix m^-1 as d x d. */
+INLINE void load_inverse(const part *p, vec *m, const int d)
+{
+    for (int a = 0; a < d; ++a) {
+        m[a * d + a] = row(p->inverse + a * MOR_CLUSTER);
+    }
+    m[1] = m[d] = row(p->inverse + MOR_XY * MOR_CLUSTER);
+    if (d == 3) {
+        m[5] = m[7] = row(p->inverse + MOR_YZ * MOR_CLUSTER);
+        m[2] = m[6] = row(p->inverse + MOR_ZX * MOR_CLUSTER);
+    }
+}
+
+INLINE void forces_part(const mor_elastic_job *job, const part *p, const int d)
+{
+    const int size = d + d * d;
+    const double *own = job->work->stressed + p->slot * size;
+    vec x[3];
+    vec f[3];
+    for (int a = 0; a < d; ++a) {
+        x[a] = load(own, size, a);
+        f[a] = zero();
+    }
+    for (int32_t entry = 0; entry < p->cluster->n_entries; ++entry) {
+        const double *other = job->work->stressed + (int64_t)p->entries[entry] * size;
+        const double *t = other + d;
+        const vec k = weight_of(p, entry);
+        vec r[3];
+        for (int a = 0; a < d; ++a) {
+            r[a] = x[a] - other[a];
+        }
+        for (int a = 0; a < d; ++a) {
+            vec sum = r[0] * t[a * d];
+            for (int b = 1; b < d; ++b) {
+                sum += r[b] * t[a * d + b];
+            }
+            f[a] += k * sum;
+        }
+    }
+    for (int a = 0; a < 3; ++a) {
+        vec sum = a < d ? f[a < d ? a : 0] : zero();
+        for (int b = 0; b < d && a < d; ++b) {
+            sum += load(own, size, (1 + a) * d + b) * row(p->sum + b * MOR_CLUSTER);
+        }
+        store(job->acceleration + 3 * p->particle, 3, a, p->n_lanes, sum);
+    }
+}
+
+/* Central forces against what the linear map does not see, added to the acceleration. */
+INLINE void hourglass_part(const mor_elastic_job *job, const part *p, const int d)
+{
+    const int size = 2 * d + d * d;
+    const double *own = job->work->shadow + p->slot * size;
+    const vec factor = spread(job->work->constants[p->cluster->body].hourglass);
+    vec reference[3];
+    vec x[3];
+    vec map[9];
+    vec f[3];
+    for (int a = 0; a < d; ++a) {
+        reference[a] = load(own, size, a);
+        x[a] = load(own, size, d + a);
+        f[a] = zero();
+    }
+    for (int k = 0; k < d * d; ++k) {
+        map[k] = load(own, size, 2 * d + k);
+    }
+    for (int32_t entry = 0; entry < p->cluster->n_entries; ++entry) {
+        const double *other = job->work->shadow + (int64_t)p->entries[entry] * size;
+        vec r0[3];
+        vec r[3];
+        vec length2 = spread(job->tiny);
+        vec excess = zero();
+        for (int a = 0; a < d; ++a) {
+            r0[a] = reference[a] - other[a];
+            r[a] = x[a] - other[d + a];
+            length2 += r[a] * r[a];
+        }
+        for (int a = 0; a < d; ++a) {
+            vec mapped = zero();
+            for (int b = 0; b < d; ++b) {
+                mapped += (map[a * d + b] + other[(2 + a) * d + b]) * r0[b];
+            }
+            excess += (0.5 * mapped - r[a]) * r[a];
+        }
+        /* One r of the projection and one of the unit vector: delta e = (excess . r / |r|) r / |r|. */
+        const vec push = weight_of(p, entry) * excess / length2;
+        for (int a = 0; a < d; ++a) {
+            f[a] += push * r[a];
+        }
+    }
+    double *out = job->acceleration + 3 * p->particle;
+    for (int a = 0; a < d; ++a) {
+        for (int lane = 0; lane < p->n_lanes; ++lane) {
+            out[3 * lane + a] += factor[lane] * f[a][lane];
+        }
+    }
+}
+
+INLINE void rate_part(const mor_elastic_job *job, const part *p, const int d)
+{
+    const int size = 2 * d;
+    const double *own = job->work->moving + p->slot * size;
+    vec x[3];
+    vec v[3];
+    vec sum[9];
+    vec m[9];
+    for (int a = 0; a < d; ++a) {
+        x[a] = load(own, size, a);
+        v[a] = load(own, size, d + a);
+    }
+    for (int k = 0; k < d * d; ++k) {
+        sum[k] = zero();
+    }
+    for (int32_t entry = 0; entry < p->cluster->n_entries; ++entry) {
+        const double *other = job->work->moving + (int64_t)p->entries[entry] * size;
+        const vec k = weight_of(p, entry);
+        vec kr[3];
+        for (int b = 0; b < d; ++b) {
+            kr[b] = k * (x[b] - other[b]);
+        }
+        for (int a = 0; a < d; ++a) {
+            const vec w = v[a] - other[d + a];
+            for (int b = 0; b < d; ++b) {
+                sum[a * d + b] += w * kr[b];
+            }
+        }
+    }
+    load_inverse(p, m, d);
+    for (int a = 0; a < d; ++a) {
+        for (int b = 0; b < d; ++b) {
+            vec rate = sum[a * d] * m[b];
+            for (int c = 1; c < d; ++c) {
+                rate += sum[a * d + c] * m[c * d + b];
+            }
+            store(job->rate + 9 * p->particle, 9, 3 * a + b, p->n_lanes, rate);
+        }
+    }
+}
+
+/* Adds F S_D to P, eqs. 46 and 47. Returns Pi (sym F^T dF/dt)^2, the power per reference volume. */
+INLINE vec add_damping(const vec *f, const vec *rate, vec viscosity, vec *piola, const int d)
+{
+    vec s[9];
+    vec power = zero();
+    for (int a = 0; a < d; ++a) {
+        for (int b = a; b < d; ++b) {
+            vec sum = zero();
+            for (int c = 0; c < d; ++c) {
+                sum += rate[3 * c + a] * f[3 * c + b] + f[3 * c + a] * rate[3 * c + b];
+            }
+            sum *= 0.5;
+            power += (a == b ? 1.0 : 2.0) * sum * sum;
+            s[3 * a + b] = s[3 * b + a] = viscosity * sum;
+        }
+    }
+    for (int a = 0; a < d; ++a) {
+        for (int b = 0; b < d; ++b) {
+            for (int c = 0; c < d; ++c) {
+                piola[3 * a + b] += f[3 * a + c] * s[3 * c + b];
+            }
+        }
+    }
+    return viscosity * power;
+}
+
+INLINE vec determinant_of(const vec *f)
+{
+    return f[0] * (f[4] * f[8] - f[5] * f[7]) + f[1] * (f[5] * f[6] - f[3] * f[8]) + f[2] * (f[3] * f[7] - f[4] * f[6]);
+}
+
+/* P F^T / J. */
+INLINE void store_cauchy(const vec *piola, const vec *f, vec inverse_j, double *out, int n_lanes)
+{
+    static const int rows[6] = {0, 1, 2, 0, 1, 2};
+    static const int columns[6] = {0, 1, 2, 1, 2, 0};
+    for (int k = 0; k < 6; ++k) {
+        const vec *a = piola + 3 * rows[k];
+        const vec *b = f + 3 * columns[k];
+        store(out, 6, k, n_lanes, (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * inverse_j);
+    }
+}
+
+INLINE double stress_part(const mor_elastic_job *job, const part *p, int64_t first_particle, const int d)
+{
+    const int size = d + d * d;
+    const int shadow_size = 2 * d + d * d;
+    const mor_elastic_constants *body = &job->work->constants[p->cluster->body];
+    double *own = job->work->stressed + p->slot * size;
+    vec f[9];
+    vec piola[9];
+    vec m[9];
+    vec power = zero();
+    for (int k = 0; k < 9; ++k) {
+        f[k] = load(job->gradient + 9 * p->particle, 9, k);
+        piola[k] = load(job->piola + 9 * (p->particle - first_particle), 9, k);
+    }
+    const vec inverse_j = 1.0 / determinant_of(f);
+    if (job->stress != NULL) {
+        store_cauchy(piola, f, inverse_j, job->stress + 6 * p->particle, p->n_lanes);
+    }
+    if (job->damping_per_mass > 0.0) {
+        vec rate[9];
+        for (int k = 0; k < 9; ++k) {
+            rate[k] = load(job->rate + 9 * p->particle, 9, k);
+        }
+        power = add_damping(f, rate, (job->damping_per_mass * body->density) * inverse_j, piola, d);
+    }
+    load_inverse(p, m, d);
+    for (int a = 0; a < d; ++a) {
+        for (int b = 0; b < d; ++b) {
+            vec t = piola[3 * a] * m[b];
+            for (int c = 1; c < d; ++c) {
+                t += piola[3 * a + c] * m[c * d + b];
+            }
+            store(own, size, (1 + a) * d + b, p->n_lanes, -body->inverse_density * t);
+            if (job->work->shadow != NULL) {
+                store(job->work->shadow + p->slot * shadow_size, shadow_size, (2 + a) * d + b, p->n_lanes,
+                      f[3 * a + b]);
+            }
+        }
+    }
+    double sum = 0.0;
+    for (int lane = 0; lane < p->n_lanes; ++lane) {
+        sum += power[lane];
+        for (int a = 0; a < d && job->work->shadow != NULL; ++a) {
+            job->work->shadow[(p->slot + lane) * shadow_size + d + a] = job->position[3 * (p->particle + lane) + a];
+        }
+    }
+    return sum;
+}
+
+INLINE double stress_range(const mor_elastic_job *job, int64_t first, int64_t last, const int d)
+{
+    const int64_t first_particle = job->work->clusters[first].first;
+    double power = 0.0;
+    for (int64_t c = first; c < last; ++c) {
+        double sum = 0.0;
+        for (int k = 0; k < PARTS; ++k) {
+            const part p = part_of(job->work, c, k);
+            sum += stress_part(job, &p, first_particle, d);
+        }
+        power += sum * job->work->constants[job->work->clusters[c].body].particle_volume;
+    }
+    return power;
+}
+
+static double stress_2d(const mor_elastic_job *job, int64_t first, int64_t last)
+{
+    return stress_range(job, first, last, 2);
+}
+
+static double stress_3d(const mor_elastic_job *job, int64_t first, int64_t last)
+{
+    return stress_range(job, first, last, 3);
+}
+
+/* A loop over clusters for each number of dimensions. */
+#define MOR_ELASTIC_LOOPS(name)                                                                                        \
+    static void name##_2d(const mor_elastic_job *job, int64_t first, int64_t last)                                     \
+    {                                                                                                                  \
+        for (int64_t c = first * PARTS; c < last * PARTS; ++c) {                                                       \
+            const part p = part_of(job->work, c / PARTS, (int)(c % PARTS));                                            \
+            name##_part(job, &p, 2);                                                                                   \
+        }                                                                                                              \
+    }                                                                                                                  \
+    static void name##_3d(const mor_elastic_job *job, int64_t first, int64_t last)                                     \
+    {                                                                                                                  \
+        for (int64_t c = first * PARTS; c < last * PARTS; ++c) {                                                       \
+            const part p = part_of(job->work, c / PARTS, (int)(c % PARTS));                                            \
+            name##_part(job, &p, 3);                                                                                   \
+        }                                                                                                              \
+    }
+MOR_ELASTIC_LOOPS(forces)
+MOR_ELASTIC_LOOPS(hourglass)
+MOR_ELASTIC_LOOPS(rate)
+
+static void drift(const mor_elastic_job *job, const mor_body_piece *piece, double time)
+{
+    double *restrict x = job->position;
+    double *restrict gradient = job->gradient;
+    const double *restrict v = job->velocity;
+    const double *restrict rate = job->rate;
+    const double density = job->work->constants[piece->body].density;
+    const int64_t last = piece->first + piece->n_particles;
+    for (int64_t k = 3 * piece->first; k < 3 * last; ++k) {
+        x[k] += time * v[k];
+    }
+    for (int64_t i = piece->first; i < last; i += LANES) {
+        const int n_lanes = last - i < LANES ? (int)(last - i) : LANES;
+        vec f[9];
+        for (int64_t k = 9 * i; k < 9 * (i + n_lanes); ++k) {
+            gradient[k] += time * rate[k];
+        }
+        for (int k = 0; k < 9; ++k) {
+            f[k] = load(gradient + 9 * i, 9, k);
+        }
+        store(job->density + i, 1, 0, n_lanes, density / determinant_of(f));
+    }
+}
+
+const mor_elastic_table *MOR_JOIN(mor_elastic_table_, MOR_ISA)(void);
+
+const mor_elastic_table *MOR_JOIN(mor_elastic_table_, MOR_ISA)(void)
+{
+    static const mor_elastic_table table = {MOR_TEXT(MOR_ISA),  {forces_2d, forces_3d}, {hourglass_2d, hourglass_3d},
+                                            {rate_2d, rate_3d}, {stress_2d, stress_3d}, drift};
+    return &table;
+}

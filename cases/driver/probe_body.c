@@ -1,0 +1,294 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Probes of bodies, their contact, and their coupling with the soil. */
+#include "cases/driver/probe_measure.h"
+
+#include "core/base/math.h"
+
+#include <string.h>
+
+typedef mor_probe_view view;
+
+static mor_status find_body(mor_context *context, const view *v, const mor_simulation_body **found)
+{
+    const mor_case *c = v->simulation->the_case;
+    for (int b = 0; b < c->n_bodies; ++b) {
+        if (strcmp(c->bodies[b].name, v->probe->body) == 0) {
+            *found = &v->simulation->bodies.of[b];
+            return MOR_OK;
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "found body '%s'; allowed are the names of the case's bodies; correct the name", v->probe->body);
+}
+
+static const mor_body *body_of(const mor_simulation_body *it)
+{
+    return &it->group->bodies[it->index];
+}
+
+/* Component of a vector of the body along the probe's direction. */
+static mor_status along(mor_context *context, const view *v, const double *(*pick)(const mor_simulation_body *),
+                        double *value)
+{
+    const mor_simulation_body *it = NULL;
+    MOR_TRY(context, find_body(context, v, &it));
+    *value = mor_vector_dot(pick(it), v->frame.direction);
+    return MOR_OK;
+}
+
+static const double *pick_center(const mor_simulation_body *it)
+{
+    return body_of(it)->center;
+}
+
+static const double *pick_velocity(const mor_simulation_body *it)
+{
+    return body_of(it)->velocity;
+}
+
+static const double *pick_rotation(const mor_simulation_body *it)
+{
+    return body_of(it)->rotation_angle;
+}
+
+static const double *pick_spin(const mor_simulation_body *it)
+{
+    return body_of(it)->angular_velocity;
+}
+
+static const double *pick_soil_force(const mor_simulation_body *it)
+{
+    return it->group->boundary.patches[it->index].force;
+}
+
+static const double *pick_impulse_given(const mor_simulation_body *it)
+{
+    return it->group->boundary.patches[it->index].impulse;
+}
+
+static const double *pick_impulse_received(const mor_simulation_body *it)
+{
+    return body_of(it)->soil_impulse;
+}
+
+static mor_status position(mor_context *context, const view *v, double *value)
+{
+    MOR_TRY(context, along(context, v, pick_center, value));
+    *value -= mor_vector_dot(v->frame.origin, v->frame.direction);
+    return MOR_OK;
+}
+
+static mor_status velocity(mor_context *context, const view *v, double *value)
+{
+    return along(context, v, pick_velocity, value);
+}
+
+static mor_status rotation_angle(mor_context *context, const view *v, double *value)
+{
+    return along(context, v, pick_rotation, value);
+}
+
+static mor_status angular_velocity(mor_context *context, const view *v, double *value)
+{
+    return along(context, v, pick_spin, value);
+}
+
+static mor_status force_soil(mor_context *context, const view *v, double *value)
+{
+    return along(context, v, pick_soil_force, value);
+}
+
+static mor_status impulse_given(mor_context *context, const view *v, double *value)
+{
+    return along(context, v, pick_impulse_given, value);
+}
+
+static mor_status impulse_received(mor_context *context, const view *v, double *value)
+{
+    return along(context, v, pick_impulse_received, value);
+}
+
+/* About the body's center; the patch has it about the origin of coordinates. */
+static mor_status moment_soil(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation_body *it = NULL;
+    MOR_TRY(context, find_body(context, v, &it));
+    const mor_boundary_patch *patch = &it->group->boundary.patches[it->index];
+    const double *center = body_of(it)->center;
+    *value = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const int next = (a + 1) % 3;
+        const int last = (a + 2) % 3;
+        const double moved = patch->moment[a] - (center[next] * patch->force[last] - center[last] * patch->force[next]);
+        *value += moved * v->frame.direction[a];
+    }
+    return MOR_OK;
+}
+
+static mor_status force_contact(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation_body *it = NULL;
+    MOR_TRY(context, find_body(context, v, &it));
+    const mor_body *body = body_of(it);
+    *value = 0.0;
+    if (it->rigid != NULL) {
+        *value = mor_vector_dot(body->contact_force, v->frame.direction);
+        return MOR_OK;
+    }
+    for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
+        *value += mor_vector_dot(it->group->contact_force + 3 * i, v->frame.direction);
+    }
+    return MOR_OK;
+}
+
+static mor_status kinetic_energy(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation_body *it = NULL;
+    double momentum[3];
+    double angular[3];
+    MOR_TRY(context, find_body(context, v, &it));
+    *value = it->rigid != NULL ? mor_rigid_energy(it->rigid, it->index, momentum, angular)
+                               : mor_body_group_momentum(it->group, it->index, momentum, angular);
+    return MOR_OK;
+}
+
+static mor_status elastic_energy(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation_body *it = NULL;
+    MOR_TRY(context, find_body(context, v, &it));
+    *value = it->elastic != NULL ? mor_elastic_energy(it->elastic, it->index) : 0.0;
+    return MOR_OK;
+}
+
+mor_status mor_probe_depth(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation_body *it = NULL;
+    MOR_TRY(context, find_body(context, v, &it));
+    *value = mor_simulation_body_depth(it, v->frame.up, mor_vector_dot(v->frame.origin, v->frame.up));
+    return MOR_OK;
+}
+
+static mor_status largest_depth(mor_context *context, const view *v, double *value)
+{
+    MOR_TRY(context, mor_probe_depth(context, v, value));
+    *value = fmax(*value, v->simulation->extremes[v->number]);
+    return MOR_OK;
+}
+
+/* Kinetic [0], potential [1] and elastic [2] energy of all bodies; springs of contact are elastic. */
+static void all_energies(const view *v, double *energies)
+{
+    mor_simulation_bodies_energy(&v->simulation->bodies, v->frame.origin, &energies[0], &energies[1], &energies[2]);
+}
+
+static mor_status bodies_kinetic_energy(mor_context *context, const view *v, double *value)
+{
+    double energies[3];
+    (void)context;
+    all_energies(v, energies);
+    *value = energies[0];
+    return MOR_OK;
+}
+
+static mor_status bodies_elastic_energy(mor_context *context, const view *v, double *value)
+{
+    double energies[3];
+    (void)context;
+    all_energies(v, energies);
+    *value = energies[2];
+    return MOR_OK;
+}
+
+static mor_status contact_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = v->simulation->bodies.contact.spring_energy;
+    return MOR_OK;
+}
+
+static mor_status contact_friction_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = v->simulation->bodies.contact.friction_energy;
+    return MOR_OK;
+}
+
+static mor_status contact_damping_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = v->simulation->bodies.contact.damping_energy;
+    return MOR_OK;
+}
+
+static mor_status contact_depth(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = v->simulation->bodies.contact.deepest;
+    return MOR_OK;
+}
+
+static mor_status wall_contact_force(mor_context *context, const view *v, double *value)
+{
+    const mor_contact *contact = &v->simulation->bodies.contact;
+    for (int w = 0; w < contact->n_walls; ++w) {
+        if (strcmp(contact->walls[w].name, v->probe->wall) == 0) {
+            *value = mor_vector_dot(contact->walls[w].force, v->frame.direction);
+            return MOR_OK;
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+}
+
+static mor_status rate_ratio(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = (double)mor_schedule_rate_ratio(&v->simulation->schedule);
+    return MOR_OK;
+}
+
+/* Of soil and bodies about the probe's origin. */
+static mor_status angular_momentum(mor_context *context, const view *v, double *value)
+{
+    double momentum[3];
+    double sum[3];
+    const double *x = v->points.position;
+    const double *u = v->simulation->soil.set.data[MOR_FIELD_VELOCITY];
+    (void)context;
+    mor_simulation_bodies_momentum(&v->simulation->bodies, v->frame.origin, momentum, sum);
+    for (int64_t i = 0; i < v->points.n_points; ++i) {
+        for (int a = 0; a < 3; ++a) {
+            const int next = (a + 1) % 3;
+            const int last = (a + 2) % 3;
+            sum[a] += v->points.mass[i] * ((x[3 * i + next] - v->frame.origin[next]) * u[3 * i + last] -
+                                           (x[3 * i + last] - v->frame.origin[last]) * u[3 * i + next]);
+        }
+    }
+    *value = mor_vector_dot(sum, v->frame.direction);
+    return MOR_OK;
+}
+
+const mor_probe_measure mor_probe_body_measures[] = {{"body_position", position},
+                                                     {"body_velocity", velocity},
+                                                     {"body_rotation_angle", rotation_angle},
+                                                     {"body_angular_velocity", angular_velocity},
+                                                     {"body_force_soil", force_soil},
+                                                     {"body_moment_soil", moment_soil},
+                                                     {"body_force_contact", force_contact},
+                                                     {"body_impulse_soil_given", impulse_given},
+                                                     {"body_impulse_soil_received", impulse_received},
+                                                     {"body_kinetic_energy", kinetic_energy},
+                                                     {"body_elastic_energy", elastic_energy},
+                                                     {"penetration_depth", mor_probe_depth},
+                                                     {MOR_PROBE_LARGEST_DEPTH, largest_depth},
+                                                     {"bodies_kinetic_energy", bodies_kinetic_energy},
+                                                     {"bodies_elastic_energy", bodies_elastic_energy},
+                                                     {"contact_energy", contact_energy},
+                                                     {"contact_friction_energy", contact_friction_energy},
+                                                     {"contact_damping_energy", contact_damping_energy},
+                                                     {"contact_depth", contact_depth},
+                                                     {"wall_contact_force", wall_contact_force},
+                                                     {"rate_ratio", rate_ratio},
+                                                     {"angular_momentum", angular_momentum},
+                                                     {NULL, NULL}};

@@ -1,0 +1,445 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* From the rocks of a case to groups of bodies and their contact. */
+#include "cases/driver/simulation_bodies.h"
+
+#include "cases/driver/case_schema.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "relaxation/lattice.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Particles that a body must have along each axis. */
+enum { ACROSS = 4 };
+
+/* Overlap below this part of the spacing is touching. */
+#define TOUCHING 0.05
+
+void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *turn, double *move)
+{
+    const double length = mor_vector_length(body->axis);
+    const double axis[3] = {body->axis[0] / length, body->axis[1] / length, body->axis[2] / length};
+    double own[9];
+    mor_matrix_rotation(axis, body->angle, own);
+    for (int k = 0; k < 9; ++k) {
+        turn[k] = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            turn[k] += the_case->turn[3 * (k / 3) + a] * own[3 * a + k % 3];
+        }
+    }
+    mor_matrix_apply(the_case->turn, body->position, move);
+    for (int a = 0; a < 3; ++a) {
+        move[a] += the_case->move[a];
+    }
+}
+
+/* Signed distance of a point of the run to a shape given in a frame of its own, m. */
+static double placed_distance(const mor_shape *shape, const double *turn, const double *move, const double *point)
+{
+    double moved[3];
+    double local[3];
+    for (int a = 0; a < 3; ++a) {
+        moved[a] = point[a] - move[a];
+    }
+    mor_matrix_apply_transposed(turn, moved, local);
+    return shape->operations->distance(shape, local);
+}
+
+bool mor_simulation_body_holds(const mor_case *the_case, const mor_case_body *body, const double *point)
+{
+    double turn[9];
+    double move[3];
+    mor_simulation_body_frame(the_case, body, turn, move);
+    return placed_distance(body->shape, turn, move, point) < 0.0;
+}
+
+/* Fills a body's shape with whole cells, as many as fit best along each axis of its own frame. */
+static mor_status fill_body(mor_context *context, const mor_case *c, const mor_case_body *it,
+                            mor_lattice_points *points)
+{
+    mor_lattice_request request;
+    mor_bounds bounds;
+    mor_lattice_request_init(&request);
+    request.shape = it->shape;
+    request.dimension = c->dimension;
+    request.spacing = c->spacing;
+    it->shape->operations->bounds(it->shape, &bounds);
+    for (int a = 0; a < c->dimension; ++a) {
+        const double extent = bounds.maximum[a] - bounds.minimum[a];
+        const double n = floor(extent / c->spacing + 0.5);
+        MOR_CHECK(context, isfinite(extent) && extent > 0.0, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' without end along its own %c; allowed are bounded shapes; use a box, "
+                  "sphere, cylinder, or cut the shape off",
+                  it->place.file, it->place.line, it->name, "xyz"[a]);
+        MOR_CHECK(context, n >= ACROSS, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' %g m long along its own %c, which is %g particles at a spacing of %g m; "
+                  "allowed are at least %d particles across; use a smaller spacing or a larger body",
+                  it->place.file, it->place.line, it->name, extent, "xyz"[a], n, c -> spacing, ACROSS);
+        request.origin[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]) - 0.5 * n * c->spacing;
+    }
+    mor_simulation_body_frame(c, it, request.turn, request.move);
+    const mor_status status = mor_lattice_fill(context, &request, points);
+    if (status == MOR_ERROR_ARGUMENT) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", it->place.file, it->place.line, it->name,
+                        context->message);
+    }
+    MOR_TRY(context, status);
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' without a single particle at a spacing of %g m; allowed are shapes at least %d "
+              "spacings thick; use a smaller spacing or a thicker body",
+              it->place.file, it->place.line, it->name, c->spacing, ACROSS);
+    return MOR_OK;
+}
+
+/* Speed that things in the case may reach: falling through the domain, or moving as they start. */
+static double find_speed(const mor_case *c)
+{
+    double height = 0.0;
+    double diagonal = 0.0;
+    double squared = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double extent = a < c->dimension ? c->domain_maximum[a] - c->domain_minimum[a] : 0.0;
+        height += extent * fabs(c->gravity[a]);
+        diagonal += extent * extent;
+    }
+    for (int b = 0; b < c->n_bodies; ++b) {
+        squared = fmax(squared, mor_vector_dot(c->bodies[b].velocity, c->bodies[b].velocity));
+    }
+    squared = fmax(squared, 2.0 * height);
+    return squared > 0.0 ? sqrt(squared) : sqrt(diagonal) / c->end;
+}
+
+static mor_status make_request(mor_context *context, const mor_case *c, const mor_case_body *it,
+                               mor_lattice_points *points, mor_body_request *request)
+{
+    MOR_TRY(context, fill_body(context, c, it, points));
+    *request = (mor_body_request){.name = it->name,
+                                  .positions = points->positions,
+                                  .n_particles = points->n_points,
+                                  .shape = it->shape,
+                                  .density = it->density,
+                                  .soil_friction = (mor_wall_friction)it->soil_friction,
+                                  .soil_friction_coefficient = it->soil_friction_coefficient,
+                                  .contact_modulus = mor_case_contact_modulus(c, it)};
+    mor_simulation_body_frame(c, it, request->shape_turn, request->shape_move);
+    MOR_TRY(context, mor_body_mass_find(context, it->shape, c->dimension, &request->geometry));
+    mor_body_mass_place(&request->geometry, request->shape_turn, request->shape_move);
+    mor_matrix_apply(c->turn, it->velocity, request->velocity);
+    mor_matrix_apply(c->turn, it->angular_velocity, request->angular_velocity);
+    return MOR_OK;
+}
+
+static bool has_same_material(const mor_case_body *a, const mor_case_body *b)
+{
+    return strcmp(a->model, b->model) == 0 && a->density == b->density &&
+           memcmp(a->parameters, b->parameters, sizeof a->parameters) == 0;
+}
+
+/* How a rigid body moves, in the frame of the run. */
+static void set_motion(const mor_case *c, const mor_case_body *it, const mor_body_request *request,
+                       mor_rigid_motion *motion)
+{
+    memset(motion, 0, sizeof *motion);
+    motion->is_prescribed = it->is_prescribed;
+    memcpy(motion->velocity, request->velocity, sizeof motion->velocity);
+    memcpy(motion->angular_velocity, request->angular_velocity, sizeof motion->angular_velocity);
+    for (int k = 0; k < 6; ++k) {
+        motion->locked |= it->is_locked[k] ? 1u << k : 0u;
+    }
+    motion->has_spring = it->has_spring;
+    if (it->has_spring) {
+        double offset[3];
+        mor_matrix_apply(request->shape_turn, it->spring_point, motion->spring_point);
+        mor_matrix_apply(c->turn, it->spring_anchor, motion->spring_anchor);
+        for (int a = 0; a < 3; ++a) {
+            motion->spring_point[a] += request->shape_move[a];
+            motion->spring_anchor[a] += c->move[a];
+            offset[a] = motion->spring_point[a] - motion->spring_anchor[a];
+        }
+        motion->spring_length = isnan(it->spring_length) ? mor_vector_length(offset) : it->spring_length;
+        motion->spring_stiffness = it->spring_stiffness;
+        motion->spring_damping = it->spring_damping;
+    }
+}
+
+/* One group in the making. */
+typedef struct recipe {
+    int members[MOR_CASE_BODIES_MAX]; /* numbers in the case */
+    int n_members;
+    mor_lattice_points points[MOR_CASE_BODIES_MAX];
+    mor_body_request requests[MOR_CASE_BODIES_MAX];
+    mor_rigid_motion motions[MOR_CASE_BODIES_MAX];
+} recipe;
+
+static void name_group(const mor_simulation_bodies *bodies, const char *model, char *name, size_t room)
+{
+    int n_same = 1;
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        n_same += strncmp(bodies->groups[g]->set.name, model, strlen(model)) == 0;
+    }
+    snprintf(name, room, n_same > 1 ? "%s_%d" : "%s", model, n_same);
+}
+
+static mor_status make_elastic(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_material *material, recipe *r)
+{
+    const mor_case_body *first = &c->bodies[r->members[0]];
+    mor_material_instance **instance = &bodies->materials[bodies->n_elastics];
+    mor_elastic *elastic = &bodies->elastics[bodies->n_elastics];
+    const mor_elastic_settings settings = {c->numerics.body_smoothing_ratio, c->numerics.body_courant,
+                                           c->numerics.body_damping, c->numerics.hourglass};
+    char name[MOR_FIELD_NAME_BYTES];
+    name_group(bodies, first->model, name, sizeof name);
+    MOR_TRY(context, mor_material_create(context, material, first->density, first->parameters, instance));
+    MOR_TRY(context, mor_elastic_init(context, elastic, name, &settings, *instance, c->dimension, c->spacing,
+                                      r->requests, r->n_members));
+    bodies->n_elastics += 1;
+    for (int m = 0; m < r->n_members; ++m) {
+        bodies->of[r->members[m]] = (mor_simulation_body){&elastic->group, m, elastic, NULL};
+    }
+    bodies->groups[bodies->n_groups++] = &elastic->group;
+    return MOR_OK;
+}
+
+static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, recipe *r)
+{
+    mor_rigid *rigid = &bodies->rigid;
+    for (int m = 0; m < r->n_members; ++m) {
+        set_motion(c, &c->bodies[r->members[m]], &r->requests[m], &r->motions[m]);
+    }
+    MOR_TRY(context,
+            mor_rigid_init(context, rigid, "rigid", c->dimension, c->spacing, r->requests, r->motions, r->n_members));
+    bodies->has_rigid = true;
+    for (int m = 0; m < r->n_members; ++m) {
+        bodies->of[r->members[m]] = (mor_simulation_body){&rigid->group, m, NULL, rigid};
+    }
+    bodies->groups[bodies->n_groups++] = &rigid->group;
+    return MOR_OK;
+}
+
+/* The group of one body and of all later bodies of its material. */
+static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                             const mor_registry *registry, int leader, recipe *r)
+{
+    const mor_case_body *first = &c->bodies[leader];
+    const mor_material *material = NULL;
+    mor_status status = MOR_OK;
+    MOR_CHECK(context, bodies->n_groups < MOR_BODY_GROUPS_MAX, MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' of one more material; allowed are %d materials of bodies, all rigid bodies "
+              "counting as one; give some bodies the same material",
+              first->place.file, first->place.line, first->name, MOR_BODY_GROUPS_MAX);
+    if (!mor_case_body_is_rigid(first)) {
+        MOR_TRY(context, mor_registry_require(context, registry, first->model, &material));
+    }
+    memset(r, 0, sizeof *r);
+    for (int b = leader; b < c->n_bodies && status == MOR_OK; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        if (b == leader ||
+            (mor_case_body_is_rigid(first) ? mor_case_body_is_rigid(it) : has_same_material(first, it))) {
+            const int m = r->n_members++;
+            r->members[m] = b;
+            status = make_request(context, c, it, &r->points[m], &r->requests[m]);
+        }
+    }
+    if (status == MOR_OK) {
+        status = mor_case_body_is_rigid(first) ? make_rigid(context, bodies, c, r)
+                                               : make_elastic(context, bodies, c, material, r);
+    }
+    for (int m = 0; m < r->n_members; ++m) {
+        mor_lattice_clear(context, &r->points[m]);
+    }
+    return status;
+}
+
+/* A body's number as a field, so that pictures can tell bodies apart. */
+static mor_status add_body_field(mor_context *context, mor_body_group *group)
+{
+    const mor_field_info info = {.name = "body",
+                                 .n_components = 1,
+                                 .unit = "1",
+                                 .writer = "set-up",
+                                 .flags = MOR_FIELD_OUTPUT,
+                                 .text = "number of the body in its group"};
+    int field = 0;
+    MOR_TRY(context, mor_set_add_field(context, &group->set, &info, &field));
+    for (int64_t i = 0; i < group->set.n_particles; ++i) {
+        group->set.data[field][i] = (double)group->body_of[i];
+    }
+    return MOR_OK;
+}
+
+/* The name of a body by its group and place there. */
+static const mor_case_body *case_body(const mor_simulation_bodies *bodies, const mor_case *c, const mor_body *body)
+{
+    for (int b = 0; b < c->n_bodies; ++b) {
+        if (&bodies->of[b].group->bodies[bodies->of[b].index] == body) {
+            return &c->bodies[b];
+        }
+    }
+    return &c->bodies[0];
+}
+
+static mor_status check_node(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                             const mor_simulation_frame *frame, const mor_body *body, const double *node)
+{
+    const mor_case_body *it = case_body(bodies, c, body);
+    for (int a = 0; a < c->dimension; ++a) {
+        MOR_CHECK(context, node[a] >= frame->domain_minimum[a] && node[a] <= frame->domain_maximum[a], MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; allowed are bodies inside it; "
+                  "enlarge 'domain' or move the body",
+                  it->place.file, it->place.line, it->name, node[0], node[1], node[2]);
+    }
+    for (int b = 0; b < c->n_bodies; ++b) {
+        const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
+        const double depth =
+            other == body ? 0.0 : -placed_distance(other->shape, other->shape_turn, other->shape_move, node);
+        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' overlapping body '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
+                  "move one of them",
+                  it->place.file, it->place.line, it->name, c->bodies[b].name, depth, node[0], node[1], node[2],
+                  TOUCHING * c->spacing);
+    }
+    for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
+        const double depth = -placed_distance(c->walls[w].shape, c->turn, c->move, node);
+        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' overlapping wall '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
+                  "move the body or the wall",
+                  it->place.file, it->place.line, it->name, c->walls[w].name, depth, node[0], node[1], node[2],
+                  TOUCHING * c->spacing);
+    }
+    return MOR_OK;
+}
+
+/* Surfaces tell overlaps exactly, particles only to half a spacing. */
+static mor_status check_places(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_simulation_frame *frame)
+{
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        const mor_body_group *group = bodies->groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            const mor_body *body = &group->bodies[b];
+            for (int64_t s = body->first_node; s < body->first_node + body->n_nodes; ++s) {
+                MOR_TRY(context, check_node(context, bodies, c, frame, body, group->node_reference + 3 * s));
+            }
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_simulation_frame *frame, int first_bit)
+{
+    mor_contact_wall walls[MOR_CASE_WALLS_MAX];
+    uint64_t bits[MOR_BODY_GROUPS_MAX];
+    const double strength = mor_vector_length(frame->gravity);
+    const double slowest = strength > 0.0 ? 0.1 * sqrt(strength * c->spacing) : 1.0e-3 * find_speed(c);
+    memset(walls, 0, sizeof walls);
+    for (int w = 0; w < c->n_walls; ++w) {
+        snprintf(walls[w].name, sizeof walls[w].name, "%s", c->walls[w].name);
+        walls[w].shape = c->walls[w].shape;
+        memcpy(walls[w].turn, c->turn, sizeof walls[w].turn);
+        memcpy(walls[w].move, c->move, sizeof walls[w].move);
+        mor_matrix_apply(c->turn, c->walls[w].velocity, walls[w].velocity);
+    }
+    for (int p = 0; p < c->contact.n_pairs; ++p) {
+        const mor_case_contact_pair *it = &c->contact.pairs[p];
+        snprintf(bodies->pairs[p].first, sizeof bodies->pairs[p].first, "%s", it->first);
+        snprintf(bodies->pairs[p].second, sizeof bodies->pairs[p].second, "%s", it->second);
+        bodies->pairs[p].law = (mor_contact_law){it->friction_coefficient, it->restitution};
+    }
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        bits[g] = MOR_BIT(first_bit + g);
+    }
+    const mor_contact_settings settings = {
+        {c->contact.friction_coefficient, c->contact.restitution}, bodies->pairs, c->contact.n_pairs, slowest};
+    MOR_TRY(context, mor_contact_init(context, &bodies->contact, &settings, bodies->groups, bits, bodies->n_groups,
+                                      walls, c->n_walls));
+    bodies->has_contact = true;
+    mor_contact_exchange(&bodies->contact, &bodies->exchange);
+    return MOR_OK;
+}
+
+static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                              const mor_registry *registry)
+{
+    recipe *r = NULL;
+    MOR_TRY(context, MOR_NEW(context, &r, 1, "groups of bodies"));
+    mor_status status = MOR_OK;
+    /* Elastic groups first, so that the rigid one is the last. */
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int b = 0; b < c->n_bodies && status == MOR_OK; ++b) {
+            if (mor_case_body_is_rigid(&c->bodies[b]) == (pass == 1) && bodies->of[b].group == NULL) {
+                status = make_group(context, bodies, c, registry, b, r);
+            }
+        }
+    }
+    MOR_FREE(context, &r);
+    return status;
+}
+
+mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
+                                      const mor_registry *registry, const mor_simulation_frame *frame, int first_bit)
+{
+    memset(bodies, 0, sizeof *bodies);
+    if (the_case->n_bodies == 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, make_groups(context, bodies, the_case, registry));
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        mor_body_group *group = bodies->groups[g];
+        memcpy(group->gravity, frame->gravity, sizeof group->gravity);
+        memcpy(group->domain_minimum, frame->domain_minimum, sizeof group->domain_minimum);
+        memcpy(group->domain_maximum, frame->domain_maximum, sizeof group->domain_maximum);
+        group->gravity_ramp = the_case->numerics.gravity_ramp;
+        group->damping = the_case->numerics.damping;
+        MOR_TRY(context, add_body_field(context, group));
+    }
+    MOR_TRY(context, check_places(context, bodies, the_case, frame));
+    MOR_TRY(context, make_contact(context, bodies, the_case, frame, first_bit));
+    bodies->n_packed = mor_simulation_bodies_packed(bodies);
+    MOR_TRY(context, MOR_NEW(context, &bodies->packed, bodies->n_packed, "motion of bodies for checkpoints"));
+    return mor_simulation_bodies_settle(context, bodies, the_case, 0.0);
+}
+
+void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bodies)
+{
+    if (bodies->has_contact) {
+        mor_contact_clear(context, &bodies->contact);
+    }
+    for (int k = 0; k < MOR_BODY_GROUPS_MAX; ++k) {
+        mor_elastic_clear(context, &bodies->elastics[k]);
+        mor_material_destroy(context, &bodies->materials[k]);
+    }
+    mor_rigid_clear(context, &bodies->rigid);
+    MOR_FREE(context, &bodies->packed);
+    memset(bodies, 0, sizeof *bodies);
+}
+
+static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil *soil, mor_boundary *boundary)
+{
+    const mor_soil_barrier barrier = {true, c->numerics.barrier_stiffness, c->numerics.barrier_radius};
+    MOR_TRY(context, mor_soil_add_boundary(context, soil, boundary, (mor_wall_stress)c->numerics.body_stress));
+    return barrier.stiffness > 0.0 ? mor_soil_set_barrier(context, soil, boundary, &barrier) : MOR_OK;
+}
+
+mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
+                                      mor_soil *soil, mor_schedule *schedule)
+{
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        mor_stepper stepper;
+        uint64_t evolving = 0;
+        if (g < bodies->n_elastics) {
+            mor_elastic_stepper(&bodies->elastics[g], &stepper, &evolving);
+        } else {
+            mor_rigid_stepper(&bodies->rigid, &stepper, &evolving);
+        }
+        MOR_TRY(context, mor_schedule_add(context, schedule, &stepper, evolving));
+        if (soil != NULL) {
+            MOR_TRY(context, show_to_soil(context, the_case, soil, &bodies->groups[g]->boundary));
+        }
+    }
+    schedule->exchange = bodies->has_contact ? &bodies->exchange : NULL;
+    return MOR_OK;
+}

@@ -1,0 +1,43 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_SOIL_CONTACT_INTERNAL_H
+#define MOR_CORE_SPH_SOIL_CONTACT_INTERNAL_H
+
+#include "core/sph/soil_contact.h"
+
+/** @file
+ *  What the files of the soil's contact share among themselves. Not for others. */
+
+enum { MOR_CONTACT_GRAIN = 16 /* clusters or slots a thread takes at once */ };
+
+/** Number of lanes of a slot that hold particles, 0 to 8. */
+static inline int64_t mor_soil_contact_lanes(const mor_pair_slot *slot, int64_t n_particles)
+{
+    const int64_t left = n_particles - (int64_t)slot->cluster * MOR_CLUSTER;
+    return left < MOR_CLUSTER ? left : MOR_CLUSTER;
+}
+
+/** Velocity of the boundary as one particle of a slot sees it, shape [3], unit m/s; lane counts from the first slot. */
+static inline const double *mor_soil_contact_velocity(const mor_soil_contact *contact, int64_t lane)
+{
+    return contact->is_wall ? contact->velocity : contact->mean_velocity + 3 * lane;
+}
+
+/** Finds the barrier's force on each particle and the longest step it allows.
+ *  @param context     [in,out]  one object
+ *  @param contact     [in,out]  one object
+ *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
+ *  @param n_particles [in]      number of soil particles */
+void mor_soil_contact_repel(mor_context *context, mor_soil_contact *contact, const double *records,
+                            int64_t n_particles);
+
+/** Adds the barrier's force on the points of one slot to theirs, pair by pair.
+ *  @param contact     [in]      one object
+ *  @param slot        [in]      one object
+ *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
+ *  @param n_particles [in]      number of soil particles
+ *  @param force       [in,out]  shape [n_points, 3], unit N (N/m) */
+void mor_soil_contact_repel_points(const mor_soil_contact *contact, const mor_pair_slot *slot, const double *records,
+                                   int64_t n_particles, double *force);
+
+#endif

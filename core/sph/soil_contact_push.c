@@ -1,0 +1,287 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* What a boundary does to the soil: kernel sums, push and drag, slot by slot. */
+#include "core/sph/soil_contact_internal.h"
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+
+#include <string.h>
+
+enum { GRAIN = MOR_CONTACT_GRAIN };
+
+/* Tractions below this part of the bulk modulus are rounding: whether such a particle slides is not theirs to say. */
+#define NOISE 1.0e-9
+
+/* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
+#define LARGEST_SHARE 0.6
+
+void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                          const mor_pair_constants *constants, const double *records, int64_t n_particles)
+{
+    const int64_t n = contact->n_slots;
+    const double *points = contact->boundary->records;
+    MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
+        const int64_t first = chunk * GRAIN;
+        double *sums = contact->sums + first * MOR_CLUSTER * MOR_KERNEL_SUMS;
+        const mor_pair_kernel_job job = {records, n_particles,   points, MOR_BOUNDARY_RECORD, &contact->relation,
+                                         sums,    contact->slots};
+        table->kernel(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
+    }
+    mor_soil_contact_follow(context, contact, table, constants, records);
+}
+
+void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                             const mor_pair_constants *constants, const double *records)
+{
+    const int64_t n = contact->n_slots;
+    if (contact->is_wall) {
+        return;
+    }
+    const mor_pair_mean_job job = {records, contact->boundary->records, contact->slots, contact->mean_velocity};
+    MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
+        const int64_t first = chunk * GRAIN;
+        table->mean(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
+    }
+}
+
+void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                               const mor_pair_constants *constants, const double *records, const mor_relation *inner)
+{
+    const int64_t n = contact->n_slots;
+    if (contact->stress == MOR_WALL_STRESS_UNIFORM) {
+        return;
+    }
+    const mor_pair_tangent_job job = {records, inner, contact->slots, contact->sums, contact->divergence};
+    MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
+        const int64_t first = chunk * GRAIN;
+        table->tangent(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
+    }
+}
+
+/* What the wall adds to a divergence when it carries a share of the kernel's moment and the soil the rest. */
+static double continuation(double share)
+{
+    const double limited = share < LARGEST_SHARE ? share : LARGEST_SHARE;
+    return limited / (1.0 - limited);
+}
+
+/* Continues the soil's stress into the wall. At a smooth wall the mirror image's shear has the other sign. */
+static void add_continuation(const mor_soil_contact *contact, mor_wall_friction friction, int64_t lane,
+                             const double *record, double *acceleration)
+{
+    const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
+    const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
+    const double *moment = sums + MOR_KERNEL_SUM_MOMENT;
+    const double *divergence = contact->divergence + 6 * lane;
+    const double length2 = mor_vector_dot(gradient, gradient);
+    if (!(length2 > 0.0)) {
+        return;
+    }
+    double turned[3];
+    mor_symmetric_apply(moment, gradient, turned);
+    const double across = mor_vector_dot(turned, gradient) / length2;
+    const double along = (mor_symmetric_trace(moment) - across) / (contact->dimension - 1);
+    const double factor_along = continuation(along) / record[MOR_RECORD_DENSITY];
+    const double factor_across =
+        contact->stress == MOR_WALL_STRESS_LINEAR ? continuation(across) / record[MOR_RECORD_DENSITY] : 0.0;
+    const double flip = friction == MOR_WALL_SMOOTH ? 2.0 * mor_vector_dot(divergence, gradient) / length2 : 0.0;
+    for (int a = 0; a < 3; ++a) {
+        acceleration[a] += factor_along * (divergence[a] - flip * gradient[a]) + factor_across * divergence[3 + a];
+    }
+}
+
+/* Closing speed as the limiter counts it, eq. 23 with the one-sided states of eqs. 32-34. */
+static double limited_speed(double closing, mor_dissipation dissipation)
+{
+    if (dissipation == MOR_DISSIPATION_SEPARATION) {
+        return closing < 0.0 ? -closing : 0.0;
+    }
+    return dissipation == MOR_DISSIPATION_APPROACH && closing < 0.0 ? 0.0 : fabs(closing);
+}
+
+/* What one push needs beside the particle. */
+typedef struct pusher {
+    mor_dissipation dissipation;
+    double limiter_rate;             /* eta / c0, s/m */
+    const mor_boundary_patch *patch; /* its friction */
+    const double *velocity;          /* of the boundary, m/s */
+    const double *gradient;          /* sum V grad_i W, 1/m */
+    const double *repulsion;         /* acceleration by the barrier, m/s2; NULL without */
+} pusher;
+
+/* Acceleration of one particle by the wall, in which is what a continued stress adds; returns the part of the
+ * tangential motion that is mirrored. At a Coulomb wall the cap holds for all of the tangential part, and the barrier
+ * presses, too. */
+static double push_particle(const pusher *p, const double *record, double *acceleration)
+{
+    const double *gradient = p->gradient;
+    const double length = mor_vector_length(gradient);
+    if (!(length > 0.0)) {
+        return 1.0;
+    }
+    /* Wall normal, eq. 33: the kernel gradient over the wall points into it. */
+    const double normal[3] = {-gradient[0] / length, -gradient[1] / length, -gradient[2] / length};
+    double relative[3];
+    for (int a = 0; a < 3; ++a) {
+        relative[a] = record[MOR_RECORD_VELOCITY + a] - p->velocity[a];
+    }
+    const double closing = -mor_vector_dot(relative, normal);
+    const double slope = 2.0 * p->limiter_rate * limited_speed(closing, p->dissipation);
+    const double pressure = (slope < 1.0 ? slope : 1.0) * record[MOR_RECORD_IMPEDANCE] * closing;
+    double traction[3];
+    mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
+    const double factor = -2.0 * length / record[MOR_RECORD_DENSITY];
+    const double own = factor * (mor_vector_dot(traction, normal) - pressure);
+    const double continued = mor_vector_dot(acceleration, normal);
+    const double along = own + continued;
+    const double own_part = p->patch->friction == MOR_WALL_SMOOTH ? 0.0 : 1.0;
+    double tangential[3];
+    for (int a = 0; a < 3; ++a) {
+        tangential[a] = own_part * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]) + acceleration[a] -
+                        continued * normal[a];
+    }
+    double hold = 1.0;
+    double stick = own_part;
+    if (p->patch->friction == MOR_WALL_COULOMB) {
+        const double pressing = p->repulsion != NULL ? along + mor_vector_dot(p->repulsion, normal) : along;
+        const double limit = p->patch->friction_coefficient * (pressing > 0.0 ? pressing : 0.0);
+        const double trial = mor_vector_length(tangential);
+        const double noise =
+            -factor * NOISE * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
+        hold = trial > limit ? limit / trial : 1.0;
+        stick = trial > limit ? (limit + noise) / (trial + noise) : 1.0;
+    }
+    for (int a = 0; a < 3; ++a) {
+        acceleration[a] = along * normal[a] + hold * tangential[a];
+    }
+    return stick;
+}
+
+/* The push of one slot; adds it to the acceleration of its particles. */
+static void push_slot(mor_soil_contact *contact, pusher p, int64_t slot, const double *records, int64_t n_particles,
+                      double *acceleration)
+{
+    const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+    p.patch = &contact->boundary->patches[contact->slots[slot].patch];
+    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
+        const int64_t lane = slot * MOR_CLUSTER + k;
+        const double *record = records + (first + k) * MOR_RECORD_SIZE;
+        const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
+        double *push = contact->push + 3 * lane;
+        double repulsion[3] = {0.0, 0.0, 0.0};
+        push[0] = push[1] = push[2] = 0.0;
+        if (contact->stress != MOR_WALL_STRESS_UNIFORM) {
+            add_continuation(contact, p.patch->friction, lane, record, push);
+        }
+        for (int a = 0; a < 3 && contact->barrier.is_on; ++a) {
+            repulsion[a] = contact->repulsion[3 * lane + a] / mass;
+        }
+        p.velocity = mor_soil_contact_velocity(contact, lane);
+        p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+        p.repulsion = contact->barrier.is_on ? repulsion : NULL;
+        contact->stick[lane] = push_particle(&p, record, push);
+        for (int a = 0; a < 3; ++a) {
+            acceleration[(first + k) * 3 + a] += contact->barrier.is_on ? push[a] + repulsion[a] : push[a];
+        }
+    }
+}
+
+/* Force and moment of one patch. Serial on purpose: the sums then do not depend on the number of threads. */
+static void sum_patch(mor_soil_contact *contact, int patch, const double *records, int64_t n_particles)
+{
+    double force[3] = {0.0, 0.0, 0.0};
+    double moment[3] = {0.0, 0.0, 0.0};
+    for (int32_t k = contact->first_of_patch[patch]; k < contact->first_of_patch[patch + 1]; ++k) {
+        const int64_t slot = contact->patch_slots[k];
+        const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+        for (int64_t lane = 0; lane < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++lane) {
+            const double *record = records + (first + lane) * MOR_RECORD_SIZE;
+            const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
+            const double *push = contact->push + (slot * MOR_CLUSTER + lane) * 3;
+            const double *repulsion =
+                contact->barrier.is_on ? contact->repulsion + (slot * MOR_CLUSTER + lane) * 3 : NULL;
+            double part[3];
+            for (int a = 0; a < 3; ++a) {
+                part[a] = repulsion != NULL ? mass * push[a] + repulsion[a] : mass * push[a];
+                force[a] -= part[a];
+            }
+            for (int a = 0; a < 3; ++a) {
+                const int b = (a + 1) % 3;
+                const int c = (a + 2) % 3;
+                moment[a] -= record[b] * part[c] - record[c] * part[b];
+            }
+        }
+    }
+    memcpy(contact->boundary->patches[patch].force, force, sizeof force);
+    memcpy(contact->boundary->patches[patch].moment, moment, sizeof moment);
+}
+
+void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
+                           double limiter_rate, const double *records, int64_t n_particles, double *acceleration)
+{
+    const int n_patches = contact->boundary->n_patches;
+    const pusher shared = {.dissipation = dissipation, .limiter_rate = limiter_rate};
+    if (contact->barrier.is_on) {
+        mor_soil_contact_repel(context, contact, records, n_particles);
+    }
+    MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
+        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+            push_slot(contact, shared, slot, records, n_particles, acceleration);
+        }
+    }
+    MOR_PARALLEL_FOR (context, patch, n_patches, 1) {
+        sum_patch(contact, (int)patch, records, n_particles);
+    }
+    memset(contact->force, 0, sizeof contact->force);
+    for (int p = 0; p < n_patches; ++p) {
+        for (int a = 0; a < 3; ++a) {
+            contact->force[a] += contact->boundary->patches[p].force[a];
+        }
+    }
+}
+
+/* Velocity that the wall's mirror image has beyond the particle's own, 2 (u - v) where it sticks. */
+static void mirrored_difference(const double *velocity, const double *record, const double *gradient, double stick,
+                                double *difference)
+{
+    const double length2 = mor_vector_dot(gradient, gradient);
+    double relative[3];
+    for (int a = 0; a < 3; ++a) {
+        relative[a] = record[MOR_RECORD_VELOCITY + a] - velocity[a];
+    }
+    const double across = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double normal = across * gradient[a];
+        difference[a] = -2.0 * (normal + stick * (relative[a] - normal));
+    }
+}
+
+static void drag_slot(const mor_soil_contact *contact, int64_t slot, const double *records, int64_t n_particles,
+                      double *velocity_gradient, double *density_rate)
+{
+    const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
+        const int64_t lane = slot * MOR_CLUSTER + k;
+        const int64_t i = first + k;
+        const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+        const double *record = records + i * MOR_RECORD_SIZE;
+        double difference[3];
+        mirrored_difference(mor_soil_contact_velocity(contact, lane), record, gradient, contact->stick[lane],
+                            difference);
+        for (int a = 0; a < 9; ++a) {
+            velocity_gradient[i * 9 + a] += difference[a / 3] * gradient[a % 3];
+        }
+        density_rate[i] -= record[MOR_RECORD_DENSITY] * mor_vector_dot(difference, gradient);
+    }
+}
+
+void mor_soil_contact_drag(mor_context *context, mor_soil_contact *contact, const double *records, int64_t n_particles,
+                           double *velocity_gradient, double *density_rate)
+{
+    MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
+        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+            drag_slot(contact, slot, records, n_particles, velocity_gradient, density_rate);
+        }
+    }
+}

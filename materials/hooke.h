@@ -1,0 +1,64 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_MATERIALS_HOOKE_H
+#define MOR_MATERIALS_HOOKE_H
+
+#include "core/material/material.h"
+
+/** @file
+ *  What isotropic elastic laws share: the two parameters, the constants made of them, and the operations that need
+ *  nothing else. */
+
+/** Places of the parameters in the value array. */
+enum { MOR_HOOKE_YOUNGS_MODULUS, MOR_HOOKE_POISSONS_RATIO, MOR_HOOKE_COUNT };
+
+typedef struct mor_hooke mor_hooke;
+
+/** The work of a law on one batch: advance_rate or stress_total, compiled for one instruction set. */
+typedef mor_status (*mor_hooke_run)(const mor_hooke *constants, const mor_batch *batch);
+
+/** Constants of one instance. */
+struct mor_hooke {
+    double shear;      /* G = E/(2(1+nu)), Pa */
+    double two_shear;  /* 2G, Pa */
+    double lame;       /* lambda = K - 2G/3, Pa */
+    double bulk;       /* K = E/(3(1-2nu)), Pa */
+    double wave_speed; /* m/s, see mor_hooke_wave_speed */
+    mor_hooke_run run;
+};
+
+/** Parameter schema: youngs_modulus, poissons_ratio; shape [MOR_HOOKE_COUNT + 1], ended by key NULL. */
+extern const mor_schema mor_hooke_parameters[];
+
+/** State schema of a law without internal variables; ended by key NULL. */
+extern const mor_schema mor_hooke_no_state[];
+
+/** Makes the constants of an instance.
+ *  @param services [in]      one object
+ *  @param instance [in,out]  one object
+ *  @param run      [in]      the law's function for the machine it runs on
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance, mor_hooke_run run);
+
+/** The operation destroy.
+ *  @param services [in]      one object
+ *  @param instance [in,out]  one object */
+void mor_hooke_destroy(const mor_services *services, mor_material_instance *instance);
+
+/** The operations advance_rate and stress_total: the function chosen when the instance was made.
+ *  @param instance [in]  one object
+ *  @param batch    [in]  one object
+ *  Returns: what the law returns. */
+mor_status mor_hooke_run_batch(const mor_material_instance *instance, const mor_batch *batch);
+
+/** The operation wave_speed: c0 = sqrt(K/rho0), Zhang et al. (2024), whose time steps follow from it. Pressure waves
+ *  run faster, at sqrt(K/rho0) times sqrt(3(1-nu)/(1+nu)): 1.34 times at nu = 0.25, and 1.73 times at nu = 0. This the
+ *  CFL number 0.4 of the source allows for. Below nu = 0, where the ratio grows without bound, the speed is that of
+ *  pressure waves over sqrt(3), which at nu = 0 is the same.
+ *  @param instance [in]   one object
+ *  @param batch    [in]   one object
+ *  @param speed    [out]  shape [n]; unit m/s
+ *  Returns: MOR_OK. */
+mor_status mor_hooke_wave_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed);
+
+#endif

@@ -1,0 +1,170 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tests/common/contact_scene.h"
+
+/* Two balls that meet: momenta are kept to rounding, the speeds after are those of the law. */
+
+static const double RADIUS = 0.02;
+static const double SPEED = 1.0;
+
+typedef struct meeting {
+    mor_body_kind kind;
+    int dimension;
+    double restitution, friction;
+    double offset; /* of the lines of flight, over the radius */
+    double modulus;
+} meeting;
+
+typedef struct outcome {
+    double before[3], after[3];                 /* total momentum, kg m/s */
+    double turning_before[3], turning_after[3]; /* total angular momentum about the origin, kg m2/s */
+    double velocity[2][3], spin[2][3];
+    double energy_before, energy_after;
+    double mass, inertia;
+    double highest_energy;
+} outcome;
+
+static outcome meet(const meeting *it)
+{
+    const double gap = 1.002 * RADIUS;
+    const double rise = 0.5 * it->offset * RADIUS;
+    const double run = sqrt(gap * gap - rise * rise);
+    const contact_scene_body balls[2] = {
+        {.kind = it->kind, .radius = RADIUS, .position = {-run, -rise, 0.0}, .velocity = {SPEED, 0.0, 0.0}},
+        {.kind = it->kind, .radius = RADIUS, .position = {run, rise, 0.0}, .velocity = {-SPEED, 0.0, 0.0}}};
+    const contact_scene_request request = {.dimension = it->dimension,
+                                           .spacing = RADIUS / 8,
+                                           .bodies = balls,
+                                           .n_bodies = 2,
+                                           .law = {it->friction, it->restitution},
+                                           .modulus = it->modulus,
+                                           .poisson = 0.3,
+                                           .density = 2500.0,
+                                           .slowest_impact = 1.0e-3,
+                                           .end = 0.05};
+    contact_scene scene;
+    outcome o;
+    memset(&o, 0, sizeof o);
+    contact_scene_open(&scene, &request);
+    o.energy_before = contact_scene_totals(&scene, o.before, o.turning_before);
+    bool has_met = false;
+    double last = o.energy_before;
+    while (contact_scene_time(&scene) < request.end && !(has_met && scene.contact.deepest == 0.0)) {
+        contact_scene_step(&scene, request.end);
+        has_met = has_met || scene.contact.deepest > 0.0;
+        /* Springs are those of the middle of the step. */
+        double momentum[3], angular[3];
+        const double total = contact_scene_totals(&scene, momentum, angular);
+        const double kinetic = total - scene.contact.spring_energy;
+        o.highest_energy = fmax(o.highest_energy, 0.5 * (kinetic + last) + scene.contact.spring_energy);
+        last = kinetic;
+    }
+    assert_true(has_met && scene.contact.deepest == 0.0);
+    o.energy_after = contact_scene_totals(&scene, o.after, o.turning_after);
+    for (int k = 0; k < 2; ++k) {
+        contact_scene_velocity(&scene, k, o.velocity[k]);
+        memcpy(o.spin[k], contact_scene_of(&scene, k)->angular_velocity, sizeof o.spin[k]);
+    }
+    o.mass = contact_scene_of(&scene, 0)->mass;
+    o.inertia = contact_scene_of(&scene, 0)->geometry.inertia[MOR_ZZ] * request.density;
+    contact_scene_close(&scene);
+    return o;
+}
+
+static void expect_momenta_kept(const outcome *o)
+{
+    const double momentum = o->mass * SPEED;
+    for (int a = 0; a < 3; ++a) {
+        contact_scene_expect("momentum", o->after[a], o->before[a], 1.0e-12 * momentum); /* rounding, 1e4 steps */
+        contact_scene_expect("angular momentum", o->turning_after[a], o->turning_before[a],
+                             1.0e-11 * momentum * RADIUS); /* rounding, arms of differences */
+    }
+}
+
+static void rigid_balls_give_back_the_speed_they_came_with(void **state)
+{
+    (void)state;
+    const outcome o = meet(&(meeting){MOR_BODY_RIGID, 3, 1.0, 0.0, 0.0, 1.0e7});
+    expect_momenta_kept(&o);
+    contact_scene_expect("speed after", o.velocity[1][0], SPEED,
+                         0.03 * SPEED); /* the step's error at touch and leave */
+}
+
+static void rigid_balls_give_back_half_the_speed(void **state)
+{
+    (void)state;
+    const outcome o = meet(&(meeting){MOR_BODY_RIGID, 3, 0.5, 0.0, 0.0, 1.0e7});
+    expect_momenta_kept(&o);
+    contact_scene_expect("speed after", o.velocity[1][0], 0.5 * SPEED, 0.03 * SPEED); /* as above */
+}
+
+static void elastic_discs_give_back_most_of_the_speed(void **state)
+{
+    (void)state;
+    const outcome o = meet(&(meeting){MOR_BODY_ELASTIC, 2, 1.0, 0.0, 0.0, 1.0e7});
+    expect_momenta_kept(&o);
+    contact_scene_expect("speed after", o.velocity[1][0], SPEED, 0.03 * SPEED);
+}
+
+static void elastic_balls_give_back_half_the_speed(void **state)
+{
+    (void)state;
+    const outcome o = meet(&(meeting){MOR_BODY_ELASTIC, 3, 0.5, 0.0, 0.0, 1.0e7});
+    expect_momenta_kept(&o);
+    contact_scene_expect("speed after", o.velocity[1][0], 0.5 * SPEED, 0.03 * SPEED);
+}
+
+/* Total impulse on the second ball over its mass, and what turns it. */
+static double impulse_of(const outcome *o)
+{
+    const double change[3] = {o->velocity[1][0] + SPEED, o->velocity[1][1], o->velocity[1][2]};
+    return mor_vector_length(change);
+}
+
+/* Balls that slide on one another throughout: the impulse along the tangent is mu times the one along the normal, and
+ * turns both balls the same way. The normal itself turns by 0.01 while they touch, so directions are not compared. A
+ * ball of nodes is rough by itself, which the same meeting without friction shows. */
+static void sliding_balls_follow_coulomb(void **state)
+{
+    (void)state;
+    const double friction = 0.05;
+    const outcome smooth = meet(&(meeting){MOR_BODY_RIGID, 3, 1.0, 0.0, 1.0, 1.0e8});
+    const outcome o = meet(&(meeting){MOR_BODY_RIGID, 3, 1.0, friction, 1.0, 1.0e8});
+    expect_momenta_kept(&o);
+    const double whole = impulse_of(&o) * o.mass * RADIUS / o.inertia;
+    const double spin = friction / sqrt(1.0 + friction * friction) * whole;
+    contact_scene_expect("spin without friction", smooth.spin[0][2], 0.0,
+                         0.006 * whole); /* chance of 8 nodes a radius */
+    for (int k = 0; k < 2; ++k) {
+        contact_scene_expect("spin by friction", fabs(o.spin[k][2]) - fabs(smooth.spin[k][2]), spin,
+                             0.03 * spin); /* arms shorter by the depth, step */
+    }
+    assert_true(o.energy_after < o.energy_before);
+}
+
+/* Balls that stick part of the time take less than Coulomb's limit, and never gain energy. */
+static void sticking_balls_stay_under_the_cone(void **state)
+{
+    (void)state;
+    const double friction = 0.5;
+    const outcome o = meet(&(meeting){MOR_BODY_RIGID, 3, 1.0, friction, 1.0, 1.0e7});
+    expect_momenta_kept(&o);
+    const double limit = friction / sqrt(1.0 + friction * friction) * impulse_of(&o) * o.mass * RADIUS / o.inertia;
+    assert_true(fabs(o.spin[0][2]) < limit);
+    assert_true(fabs(o.spin[0][2]) > 0.1 * limit);
+    assert_true(o.energy_after < o.energy_before);
+    contact_scene_expect("highest energy", o.highest_energy, o.energy_before, 0.005 * o.energy_before); /* step */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rigid_balls_give_back_the_speed_they_came_with),
+        cmocka_unit_test(rigid_balls_give_back_half_the_speed),
+        cmocka_unit_test(sliding_balls_follow_coulomb),
+        cmocka_unit_test(sticking_balls_stay_under_the_cone),
+        cmocka_unit_test(elastic_discs_give_back_most_of_the_speed),
+        cmocka_unit_test(elastic_balls_give_back_half_the_speed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,180 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/pictures.h"
+#include "core/io/snapshot.h"
+#include "tests/common/run_folder.h"
+
+#include <math.h>
+#include <sys/stat.h>
+
+/* What the leak sanitizer is to ignore: Fontconfig, behind Cairo, keeps what it knows of fonts. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig";
+}
+
+enum { COLUMNS = 24, ROWS = 6, N_PARTICLES = COLUMNS * ROWS };
+static const double spacing = 0.01; /* m */
+
+/* A block of particles whose lower left corner is at (x, 0), moving at a speed. */
+static void fill_set(run_folder *folder, mor_set *set, const char *name, double x, double speed)
+{
+    const uint64_t fields = 1U << MOR_FIELD_POSITION | 1U << MOR_FIELD_VELOCITY | 1U << MOR_FIELD_STRESS;
+    assert_int_equal(mor_set_init(&folder->context, set, name, N_PARTICLES, fields), MOR_OK);
+    for (int i = 0; i < N_PARTICLES; ++i) {
+        set->data[MOR_FIELD_POSITION][3 * i] = x + spacing * (i % COLUMNS + 0.5);
+        set->data[MOR_FIELD_POSITION][3 * i + 1] = spacing * (i / COLUMNS + 0.5);
+        set->data[MOR_FIELD_VELOCITY][3 * i] = speed * (i % COLUMNS);
+        set->data[MOR_FIELD_STRESS][6 * i] = speed * (i / COLUMNS);
+    }
+}
+
+/* The upper half is body 1, the lower half body 0. */
+static void add_bodies(run_folder *folder, mor_set *set)
+{
+    const mor_field_info info = {"body", 1, "1", "set-up", MOR_FIELD_OUTPUT, "number of the body"};
+    int index = 0;
+    assert_int_equal(mor_set_add_field(&folder->context, set, &info, &index), MOR_OK);
+    for (int i = 0; i < N_PARTICLES; ++i) {
+        set->data[index][i] = i < N_PARTICLES / 2 ? 0.0 : 1.0;
+    }
+}
+
+static void make_part(run_folder *folder, const char *name)
+{
+    char path[MOR_PATH_BYTES];
+    assert_int_equal(mkdir(run_folder_file(folder, path, name), 0700), 0);
+}
+
+static void write_series(run_folder *folder, int n_energies)
+{
+    char path[MOR_PATH_BYTES];
+    FILE *file = fopen(run_folder_file(folder, path, "series.csv"), "w");
+    assert_non_null(file);
+    fprintf(file, "time [s],step [1],step_length [s],rate_ratio [1],depth [m]");
+    for (int k = 0; k < n_energies; ++k) {
+        fprintf(file, ",energy_%d [J/m]", k);
+    }
+    for (int row = 0; row < 3; ++row) {
+        fprintf(file, "\n%d,%d,1,1,%s", row, row, row == 0 ? "nan" : "0.5");
+        for (int k = 0; k < n_energies; ++k) {
+            fprintf(file, ",%d", row * k);
+        }
+    }
+    fprintf(file, "\n");
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Writes one snapshot of the sets and draws it; the caller frees what was printed. */
+static char *render(run_folder *folder, const char *color, mor_set *const *sets, int n_sets, int n_energies,
+                    mor_status *status)
+{
+    static mor_case the_case; /* large */
+    const mor_snapshot_options options = {.is_single = false};
+    mor_snapshot_writer writer;
+    char *printed = NULL;
+    size_t n_bytes = 0;
+    the_case = (mor_case){.dimension = 2, .spacing = spacing, .gravity = {0.0, -9.81, 0.0}, .title = "Pictures"};
+    the_case.turn[0] = the_case.turn[4] = the_case.turn[8] = 1.0;
+    snprintf(the_case.output.color_field, sizeof the_case.output.color_field, "%s", color);
+    make_part(folder, "snapshots");
+    make_part(folder, "images");
+    write_series(folder, n_energies);
+    assert_int_equal(mor_snapshot_writer_init(&folder->context, &writer, folder->path, &options, -1), MOR_OK);
+    assert_int_equal(mor_snapshot_writer_add(&folder->context, &writer, sets, n_sets, 0, 0.0), MOR_OK);
+    mor_snapshot_writer_clear(&folder->context, &writer);
+    FILE *output = open_memstream(&printed, &n_bytes);
+    assert_non_null(output);
+    *status = mor_pictures_render(&folder->context, &the_case, folder->path, MOR_PICTURES_KEY, output);
+    assert_int_equal(fclose(output), 0);
+    return printed;
+}
+
+static void expect_picture(run_folder *folder, const char *printed, const char *name)
+{
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    free(run_folder_load(run_folder_file(folder, path, name), &n_bytes));
+    assert_true(n_bytes > 5000); /* an empty plate with a title has about 4000 bytes */
+    assert_non_null(strstr(printed, name));
+}
+
+static void soil_with_rocks_and_rocks_alone_are_drawn(void **state)
+{
+    run_folder *folder = *state;
+    mor_set soil;
+    mor_set rocks;
+    mor_status status = MOR_OK;
+    fill_set(folder, &soil, "soil", 0.0, 0.1);
+    fill_set(folder, &rocks, "neo_hookean", 0.24, 0.4);
+    add_bodies(folder, &rocks);
+    char *printed = render(folder, "speed", (mor_set *const[]){&soil, &rocks}, 2, 2, &status);
+    assert_int_equal(status, MOR_OK);
+    expect_picture(folder, printed, "images/step_000000_speed.png");
+    free(printed);
+    mor_set_clear(&folder->context, &soil);
+    mor_set_clear(&folder->context, &rocks);
+}
+
+static void without_soil_bodies_are_colored_and_those_that_cannot_be_stay_stone(void **state)
+{
+    run_folder *folder = *state;
+    mor_set rigid;
+    mor_set rocks;
+    mor_status status = MOR_OK;
+    fill_set(folder, &rocks, "neo_hookean", 0.0, 1e5);
+    const uint64_t fields = 1U << MOR_FIELD_POSITION | 1U << MOR_FIELD_VELOCITY;
+    assert_int_equal(mor_set_init(&folder->context, &rigid, "rigid", 1, fields), MOR_OK);
+    char *printed = render(folder, "von_mises", (mor_set *const[]){&rigid, &rocks}, 2, 2, &status);
+    assert_int_equal(status, MOR_OK);
+    expect_picture(folder, printed, "images/step_000000_von_mises.png");
+    free(printed);
+    mor_set_clear(&folder->context, &rigid);
+    mor_set_clear(&folder->context, &rocks);
+}
+
+static void a_color_that_no_set_has_is_refused_by_name(void **state)
+{
+    run_folder *folder = *state;
+    mor_set rigid;
+    mor_status status = MOR_OK;
+    const uint64_t fields = 1U << MOR_FIELD_POSITION | 1U << MOR_FIELD_VELOCITY;
+    assert_int_equal(mor_set_init(&folder->context, &rigid, "rigid", 1, fields), MOR_OK);
+    free(render(folder, "pressure", (mor_set *const[]){&rigid}, 1, 2, &status));
+    assert_int_equal(status, MOR_ERROR_CONFIG);
+    assert_non_null(strstr(folder->context.message, "the bodies have no field 'stress'"));
+    mor_set_clear(&folder->context, &rigid);
+}
+
+static void charts_hold_as_many_curves_as_colors_tell_apart(void **state)
+{
+    run_folder *folder = *state;
+    mor_set rocks;
+    mor_status status = MOR_OK;
+    fill_set(folder, &rocks, "rigid", 0.0, 1.0);
+    char *printed = render(folder, "speed", (mor_set *const[]){&rocks}, 1, 10, &status);
+    assert_int_equal(status, MOR_OK);
+    expect_picture(folder, printed, "images/chart_depth.png");
+    expect_picture(folder, printed, "images/chart_energy_0.png");
+    expect_picture(folder, printed, "images/chart_energy_8.png"); /* the ninth starts a second chart */
+    assert_null(strstr(printed, "chart_energy_1.png"));
+    assert_null(strstr(printed, "chart_energy_9.png"));
+    free(printed);
+    mor_set_clear(&folder->context, &rocks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(soil_with_rocks_and_rocks_alone_are_drawn, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(without_soil_bodies_are_colored_and_those_that_cannot_be_stay_stone,
+                                        run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_color_that_no_set_has_is_refused_by_name, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(charts_hold_as_many_curves_as_colors_tell_apart, run_folder_setup,
+                                        run_folder_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

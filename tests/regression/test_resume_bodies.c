@@ -1,0 +1,103 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tests/common/body_variant.h"
+#include "tests/common/finished_run.h"
+
+#include "cases/driver/run.h"
+
+#include <math.h>
+
+/* A run with rocks that was stopped and resumed must leave the same folder behind as one that never stopped: particles,
+ * rocks, what their contact remembers, series and snapshots. Everything is exact. */
+
+static const char *const outputs[] = {
+    "output={snapshots=6; pictures=false;}",
+    "probes=({type='body_position'; body='BODY'; direction=(0, 1, 1);}, {type='body_impulse_soil_given'; body='BODY'; "
+    "direction=(1, 0, 0);},"
+    "{type='body_impulse_soil_received'; body='BODY'; direction=(1, 0, 0);}, {type='penetration_depth_largest'; "
+    "body='BODY';},"
+    "{type='contact_friction_energy';}, {type='contact_damping_energy';}, {type='total_energy';}, "
+    "{type='rate_ratio';})"};
+
+enum { N_OUTPUTS = sizeof outputs / sizeof *outputs };
+
+/* Runs a case in a folder of that name, from the beginning or its checkpoint; stop_at is a time in s or NAN. */
+static void run_case(run_folder *folder, const char *text, const char *name, const scene_variant *it, double stop_at,
+                     bool is_resume)
+{
+    char case_path[MOR_PATH_BYTES];
+    char run_path[MOR_PATH_BYTES];
+    char *settings[SCENE_VARIANT_SETTINGS + N_OUTPUTS];
+    int n_settings = 0;
+    mor_registry *registry = NULL;
+    mor_run_outcome outcome;
+    FILE *output = tmpfile();
+    assert_non_null(output);
+    finished_run_store_text(folder, text, case_path);
+    for (int k = 0; k < N_OUTPUTS; ++k) {
+        char *setting = scene_quote(outputs[k]);
+        for (char *mark = strstr(setting, "BODY"); mark != NULL; mark = strstr(mark, "BODY")) {
+            memcpy(mark, text == body_plane ? "hung" : "ball", 4);
+        }
+        settings[n_settings++] = setting;
+    }
+    for (int k = 0; it->settings[k] != NULL; ++k) {
+        settings[n_settings++] = scene_quote(it->settings[k]);
+    }
+    const mor_run_options options = {.case_path = case_path,
+                                     .folder = run_folder_file(folder, run_path, name),
+                                     .settings = (const char *const *)settings,
+                                     .n_settings = n_settings,
+                                     .is_resume = is_resume,
+                                     .stop_at = stop_at,
+                                     .command = "test_resume_bodies",
+                                     .version = "0",
+                                     .commit = "",
+                                     .output = output};
+    assert_int_equal(mor_registry_new(&folder->context, &registry), MOR_OK);
+    assert_int_equal(mor_materials_register_builtin(&folder->context, registry), MOR_OK);
+    if (mor_run(&folder->context, &options, registry, &outcome) != MOR_OK) {
+        fail_msg("'%s': %s", it->name, folder->context.message);
+    }
+    assert_int_equal(outcome.is_finished, isnan(stop_at));
+    mor_registry_free(&folder->context, &registry);
+    for (int k = 0; k < n_settings; ++k) {
+        free(settings[k]);
+    }
+    fclose(output);
+}
+
+static void check_all(run_folder *folder, const char *text)
+{
+    for (int k = 0; k < BODY_VARIANTS; ++k) {
+        char whole[64];
+        char stopped[64];
+        snprintf(whole, sizeof whole, "whole_%d", k);
+        snprintf(stopped, sizeof stopped, "stopped_%d", k);
+        run_case(folder, text, whole, &body_variants[k], NAN, false);
+        run_case(folder, text, stopped, &body_variants[k], 0.021, false);
+        run_case(folder, text, stopped, &body_variants[k], NAN, true);
+        finished_run_compare(folder, whole, stopped);
+    }
+}
+
+static void rocks_in_plane_strain_resume_as_if_never_stopped(void **state)
+{
+    check_all(*state, body_plane);
+}
+
+static void rocks_in_space_resume_as_if_never_stopped(void **state)
+{
+    check_all(*state, body_space);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(rocks_in_plane_strain_resume_as_if_never_stopped, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(rocks_in_space_resume_as_if_never_stopped, run_folder_setup,
+                                        run_folder_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,210 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tests/common/contact_scene.h"
+
+static const double SIDE = 0.1;
+
+static const contact_scene_wall floor_wall = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
+
+static contact_scene_request plain_request(const contact_scene_body *bodies, int n_bodies)
+{
+    return (contact_scene_request){.dimension = 2,
+                                   .spacing = SIDE / 4,
+                                   .bodies = bodies,
+                                   .n_bodies = n_bodies,
+                                   .law = {0.3, 0.5},
+                                   .modulus = 1.0e6,
+                                   .poisson = 0.3,
+                                   .density = 2000.0,
+                                   .damping_factor = 1.0,
+                                   .slowest_impact = 0.01,
+                                   .end = 1.0};
+}
+
+static contact_scene_body block_at(mor_body_kind kind, double x, double y)
+{
+    return (contact_scene_body){.kind = kind, .half = {0.5 * SIDE, 0.5 * SIDE, 0.5 * SIDE}, .position = {x, y, 0.0}};
+}
+
+static void try_settings(const mor_contact_settings *settings, const char *expected)
+{
+    const contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.5), block_at(MOR_BODY_RIGID, 1.0, 0.5)};
+    contact_scene_request request = plain_request(bodies, 2);
+    request.walls = &floor_wall;
+    request.n_walls = 1;
+    contact_scene scene;
+    contact_scene_open(&scene, &request);
+    mor_contact again;
+    mor_body_group *group = &scene.rigid.group;
+    const uint64_t bit = 1;
+    assert_int_equal(mor_contact_init(&scene.context, &again, settings, &group, &bit, 1, scene.contact.walls, 1),
+                     MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(scene.context.message, expected));
+    assert_null(again.work);
+    contact_scene_close(&scene);
+}
+
+static void wrong_settings_are_refused(void **state)
+{
+    (void)state;
+    const mor_contact_law law = {0.3, 0.5};
+    const mor_contact_pair unknown = {"b0", "pillar", {0.3, 0.5}};
+    const mor_contact_pair itself = {"b0", "b0", {0.3, 0.5}};
+    const mor_contact_pair walls = {"w0", "w0", {0.3, 0.5}};
+    const mor_contact_pair sticky = {"b0", "w0", {0.3, 0.0}};
+    try_settings(&(mor_contact_settings){{-0.1, 0.5}, NULL, 0, 0.01}, "friction coefficient");
+    try_settings(&(mor_contact_settings){{NAN, 0.5}, NULL, 0, 0.01}, "friction coefficient");
+    try_settings(&(mor_contact_settings){{0.1, 1.5}, NULL, 0, 0.01}, "restitution");
+    try_settings(&(mor_contact_settings){{0.1, 0.5}, NULL, 0, -1.0}, "slowest impact");
+    try_settings(&(mor_contact_settings){law, &unknown, 1, 0.01}, "no body or wall 'pillar'");
+    try_settings(&(mor_contact_settings){law, &itself, 1, 0.01}, "two bodies, or a body and a wall");
+    try_settings(&(mor_contact_settings){law, &walls, 1, 0.01}, "two bodies, or a body and a wall");
+    try_settings(&(mor_contact_settings){law, &sticky, 1, 0.01}, "restitution");
+}
+
+static void bodies_alone_may_take_any_step(void **state)
+{
+    (void)state;
+    const contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.5), block_at(MOR_BODY_RIGID, 1.0, 0.5)};
+    const contact_scene_request request = plain_request(bodies, 2);
+    contact_scene scene;
+    contact_scene_open(&scene, &request);
+    assert_true(isinf(mor_contact_longest_step(&scene.contact, &scene.rigid.group)));
+    contact_scene_close(&scene);
+}
+
+/* sqrt(m/K) with K of the whole face; a fifth of it. */
+static void the_step_is_a_part_of_the_period_on_the_contact_spring(void **state)
+{
+    (void)state;
+    const contact_scene_body body = block_at(MOR_BODY_RIGID, 0.0, 0.5 * SIDE);
+    contact_scene_request request = plain_request(&body, 1);
+    request.walls = &floor_wall;
+    request.n_walls = 1;
+    request.law.restitution = 1.0;
+    contact_scene scene;
+    contact_scene_open(&scene, &request);
+    const double stiffness = request.modulus / request.spacing * SIDE;
+    const double expected = 0.2 * sqrt(request.density * SIDE * SIDE / stiffness);
+    contact_scene_expect("step", mor_contact_longest_step(&scene.contact, &scene.rigid.group), expected,
+                         1.0e-6 * expected); /* places of nodes by Newton steps */
+    contact_scene_close(&scene);
+}
+
+static void partners_are_those_that_can_meet(void **state)
+{
+    (void)state;
+    contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.5), block_at(MOR_BODY_ELASTIC, 1.0, 0.5)};
+    bodies[0].velocity[0] = 1.0;
+    const contact_scene_request request = plain_request(bodies, 2);
+    contact_scene scene;
+    contact_scene_open(&scene, &request);
+    uint64_t partners[2] = {1, 2};
+    const mor_exchange *e = &scene.exchange;
+    assert_int_equal(e->find_partners(&scene.context, e->owner, 0.1, partners, 2), MOR_OK);
+    assert_int_equal(partners[0], 1);
+    assert_int_equal(partners[1], 2);
+    assert_int_equal(e->find_partners(&scene.context, e->owner, 0.9, partners, 2), MOR_OK);
+    assert_int_equal(partners[0], 3);
+    assert_int_equal(partners[1], 3);
+    contact_scene_close(&scene);
+}
+
+/* A belt drags a block with mu g until both are equally fast; the block's own law holds, not the default. */
+static void a_belt_drags_a_block_by_the_law_of_the_pair(void **state)
+{
+    (void)state;
+    const double friction = 0.2;
+    const mor_contact_pair pair = {"w0", "b0", {friction, 0.5}};
+    const contact_scene_wall belt = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.5, 0.0, 0.0}};
+    const contact_scene_body body = block_at(MOR_BODY_RIGID, 0.0, 0.5 * SIDE);
+    contact_scene_request request = plain_request(&body, 1);
+    request.walls = &belt;
+    request.n_walls = 1;
+    request.pairs = &pair;
+    request.n_pairs = 1;
+    request.gravity[1] = -10.0;
+    contact_scene scene;
+    double velocity[3];
+    contact_scene_open(&scene, &request);
+    contact_scene_run(&scene, 0.1);
+    contact_scene_velocity(&scene, 0, velocity);
+    contact_scene_expect("speed while sliding", velocity[0], friction * 10.0 * 0.1, 0.03 * 0.2); /* first touch */
+    contact_scene_run(&scene, 0.6);
+    contact_scene_velocity(&scene, 0, velocity);
+    contact_scene_expect("speed in the end", velocity[0], 0.5, 0.01); /* what still swings on the springs */
+    contact_scene_close(&scene);
+}
+
+/* A wall that rises carries a block; nothing else changes. */
+static void a_rising_wall_lifts_a_block(void **state)
+{
+    (void)state;
+    const contact_scene_wall lift = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.1, 0.0}};
+    contact_scene_body body = block_at(MOR_BODY_RIGID, 0.0, 0.5 * SIDE);
+    body.velocity[1] = 0.1;
+    contact_scene_request request = plain_request(&body, 1);
+    request.walls = &lift;
+    request.n_walls = 1;
+    request.gravity[1] = -10.0;
+    contact_scene scene;
+    double center[3];
+    contact_scene_open(&scene, &request);
+    contact_scene_run(&scene, 0.5);
+    contact_scene_center(&scene, 0, center);
+    contact_scene_expect("height", center[1], 0.5 * SIDE + 0.1 * 0.5, 0.05 * request.spacing); /* depth under weight */
+    contact_scene_close(&scene);
+}
+
+/* A body that is moved as prescribed pushes a free one and is not pushed back. */
+static void a_held_body_counts_as_infinitely_heavy(void **state)
+{
+    (void)state;
+    contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.0), block_at(MOR_BODY_RIGID, 1.01 * SIDE, 0.0)};
+    bodies[0].is_held = true;
+    bodies[0].velocity[0] = 1.0;
+    contact_scene_request request = plain_request(bodies, 2);
+    request.law.restitution = 0.5;
+    contact_scene scene;
+    double velocity[3];
+    contact_scene_open(&scene, &request);
+    contact_scene_run(&scene, 0.05);
+    contact_scene_velocity(&scene, 0, velocity);
+    assert_true(velocity[0] == 1.0); /* exact: prescribed */
+    contact_scene_velocity(&scene, 1, velocity);
+    contact_scene_expect("speed of the free one", velocity[0], 1.5, 0.03 * 1.5); /* step */
+    contact_scene_close(&scene);
+}
+
+/* A gap to a neighbor keeps forces, lists and history empty. */
+static void bodies_that_do_not_touch_feel_nothing(void **state)
+{
+    (void)state;
+    const contact_scene_body bodies[2] = {block_at(MOR_BODY_ELASTIC, 0.0, 0.0),
+                                          block_at(MOR_BODY_ELASTIC, 1.01 * SIDE, 0.0)};
+    const contact_scene_request request = plain_request(bodies, 2);
+    contact_scene scene;
+    contact_scene_open(&scene, &request);
+    contact_scene_run(&scene, 0.01);
+    const mor_body_group *group = &scene.elastic.group;
+    for (int64_t k = 0; k < 3 * group->set.n_particles; ++k) {
+        assert_true(group->contact_force[k] == 0.0); /* exact: never added to */
+    }
+    assert_true(scene.contact.deepest == 0.0 && scene.contact.spring_energy == 0.0);
+    contact_scene_close(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wrong_settings_are_refused),
+        cmocka_unit_test(bodies_alone_may_take_any_step),
+        cmocka_unit_test(the_step_is_a_part_of_the_period_on_the_contact_spring),
+        cmocka_unit_test(partners_are_those_that_can_meet),
+        cmocka_unit_test(a_belt_drags_a_block_by_the_law_of_the_pair),
+        cmocka_unit_test(a_rising_wall_lifts_a_block),
+        cmocka_unit_test(a_held_body_counts_as_infinitely_heavy),
+        cmocka_unit_test(bodies_that_do_not_touch_feel_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
