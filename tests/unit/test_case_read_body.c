@@ -148,9 +148,9 @@ static void what_is_not_written_about_bodies_gets_its_default(void **state)
     assert_true(c->contact.friction_coefficient == 0.5 && c->contact.restitution == 0.5);     /* exact */
     assert_true(c->numerics.body_smoothing_ratio == 1.15 && c->numerics.body_courant == 0.4); /* exact */
     assert_true(c->numerics.body_damping == 1.0 && c->numerics.hourglass == 0.1);             /* exact */
-    assert_true(c->numerics.barrier_radius == 0.01); /* exact: half the spacing */
+    assert_true(c->numerics.barrier_radius == 0.01); /* exact: the spacing */
     assert_false(c->numerics.single_rate || c->numerics.angular_momentum);
-    assert_int_equal(c->numerics.body_stress, 0);
+    assert_int_equal(c->numerics.body_stress, 2); /* linear */
     const mor_case_body *b = c->bodies;
     assert_true(b[0].axis[0] == 0.0 && b[0].axis[1] == 0.0 && b[0].axis[2] == 1.0); /* exact */
     assert_int_equal(b[0].soil_friction, MOR_CASE_FRICTION_ROUGH);
