@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "materials/drucker_prager.h"
 
-#include "core/material/lanes.h"
 #include "materials/invariants.h"
+#include "materials/rate_lanes.h"
 
 #include <float.h>
 #include <math.h>
@@ -30,21 +30,7 @@ typedef struct drucker_prager {
  * would be mapped again and again by its last bit. */
 static const double YIELD_ROUNDING = 16.0 * DBL_EPSILON;
 
-/* Largest norm of the velocity gradient times the step; beyond it one increment is no longer small. */
-static const double INCREMENT_LIMIT = 1.0;
-
 static const double INVERSE_SQRT3 = 0.57735026918962576451;
-
-/* A block of particles, one array per number, so that every loop below is a loop over lanes. */
-typedef struct block {
-    double stress[6][MOR_LANES];      /* Pa, start, then end */
-    double gradient[9][MOR_LANES];    /* velocity gradient times the step, 1 */
-    double extra[6][MOR_LANES];       /* extra stress rate times the step, Pa */
-    double plastic_strain[MOR_LANES]; /* start, then end, 1 */
-    double dissipation[MOR_LANES];    /* J/m3 */
-    double increment2[MOR_LANES];     /* squared norm of gradient, 1 */
-    double zero_if_finite[MOR_LANES]; /* 0 when all results are finite, else NaN */
-} block;
 
 mor_drucker_prager_surface mor_drucker_prager_cone_fit(mor_drucker_prager_cone cone, double angle, double cohesion)
 {
@@ -58,66 +44,7 @@ mor_drucker_prager_surface mor_drucker_prager_cone_fit(mor_drucker_prager_cone c
     return (mor_drucker_prager_surface){.slope = 2.0 * sine / corner, .strength = 6.0 * cohesion * cos(angle) / corner};
 }
 
-/* Moving between the host's arrays and a block. */
-
-static MOR_LANES_INLINE void load(const double *from, int64_t n_lanes, int n_components, double factor,
-                                  double (*to)[MOR_LANES])
-{
-    for (int64_t lane = 0; lane < n_lanes; ++lane) {
-        for (int a = 0; a < n_components; ++a) {
-            to[a][lane] = from[n_components * lane + a] * factor;
-        }
-    }
-}
-
-static MOR_LANES_INLINE void load_block(const mor_batch *batch, int64_t first, int64_t n_lanes, block *b)
-{
-    load(batch->stress_in + 6 * first, n_lanes, 6, 1.0, b->stress);
-    load(batch->velocity_gradient + 9 * first, n_lanes, 9, batch->time_step, b->gradient);
-    if (batch->extra_stress_rate != NULL) {
-        load(batch->extra_stress_rate + 6 * first, n_lanes, 6, batch->time_step, b->extra);
-    }
-    for (int64_t lane = 0; lane < n_lanes; ++lane) {
-        b->plastic_strain[lane] = batch->state_in[0][first + lane];
-    }
-}
-
-static MOR_LANES_INLINE void store_block(const mor_batch *batch, int64_t first, int64_t n_lanes, const block *b)
-{
-    for (int64_t lane = 0; lane < n_lanes; ++lane) {
-        for (int a = 0; a < 6; ++a) {
-            batch->stress_out[6 * (first + lane) + a] = b->stress[a][lane];
-        }
-    }
-    for (int64_t lane = 0; lane < n_lanes; ++lane) {
-        batch->state_out[0][first + lane] = b->plastic_strain[lane];
-    }
-    if (batch->dissipation != NULL) {
-        for (int64_t lane = 0; lane < n_lanes; ++lane) {
-            batch->dissipation[first + lane] = b->dissipation[lane];
-        }
-    }
-}
-
 /* The update of one particle. */
-
-/* Elastic stress increment of a strain increment: 2G times the deviator plus K times the trace. */
-static MOR_LANES_INLINE mor_symmetric apply_stiffness(const drucker_prager *m, mor_symmetric strain)
-{
-    const double mean = m->lame * mor_invariant_i1(strain);
-    return (mor_symmetric){m->two_shear * strain.xx + mean, m->two_shear * strain.yy + mean,
-                           m->two_shear * strain.zz + mean, m->two_shear * strain.xy,
-                           m->two_shear * strain.yz,        m->two_shear * strain.zx};
-}
-
-/* Half of the increment before the rotation and half after it: second order, and symmetric in time. */
-static MOR_LANES_INLINE mor_symmetric predict(const drucker_prager *m, mor_symmetric stress, mor_gradient gradient,
-                                              mor_symmetric extra)
-{
-    const mor_symmetric increment = mor_symmetric_add(apply_stiffness(m, mor_gradient_strain(gradient)), 1.0, extra);
-    const mor_symmetric turned = mor_symmetric_spin(mor_symmetric_add(stress, 0.5, increment), gradient);
-    return mor_symmetric_add(turned, 0.5, increment);
-}
 
 typedef struct returned {
     mor_symmetric stress;  /* Pa */
@@ -156,87 +83,21 @@ static MOR_LANES_INLINE returned map_to_cone(const drucker_prager *m, mor_symmet
     };
 }
 
-static MOR_LANES_INLINE void advance_lanes(const drucker_prager *m, block *b)
+static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block *b)
 {
+    /* A copy, so that the compiler knows that stores to the block leave it alone. */
+    const drucker_prager m = *(const drucker_prager *)constants;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
-        const mor_symmetric stress = {b->stress[0][lane], b->stress[1][lane], b->stress[2][lane],
-                                      b->stress[3][lane], b->stress[4][lane], b->stress[5][lane]};
-        const mor_symmetric extra = {b->extra[0][lane], b->extra[1][lane], b->extra[2][lane],
-                                     b->extra[3][lane], b->extra[4][lane], b->extra[5][lane]};
-        const mor_gradient gradient = {b->gradient[0][lane], b->gradient[1][lane], b->gradient[2][lane],
-                                       b->gradient[3][lane], b->gradient[4][lane], b->gradient[5][lane],
-                                       b->gradient[6][lane], b->gradient[7][lane], b->gradient[8][lane]};
-        const returned r = map_to_cone(m, predict(m, stress, gradient, extra));
-        b->stress[0][lane] = r.stress.xx;
-        b->stress[1][lane] = r.stress.yy;
-        b->stress[2][lane] = r.stress.zz;
-        b->stress[3][lane] = r.stress.xy;
-        b->stress[4][lane] = r.stress.yz;
-        b->stress[5][lane] = r.stress.zx;
-        b->plastic_strain[lane] += r.plastic_strain;
+        const returned r = map_to_cone(&m, mor_rate_predict(m.two_shear, m.lame, b, lane));
+        mor_rate_write(b, lane, r.stress);
+        b->state[lane] += r.plastic_strain;
         b->dissipation[lane] = r.dissipation;
-        b->increment2[lane] = mor_gradient_norm2(gradient);
-        b->zero_if_finite[lane] = 0.0 * r.stress.xx + 0.0 * r.stress.yy + 0.0 * r.stress.zz + 0.0 * r.stress.xy +
-                                  0.0 * r.stress.yz + 0.0 * r.stress.zx + 0.0 * b->plastic_strain[lane];
     }
-}
-
-/* Finds the first lane that fails and why; a sum over the lanes is zero when none does. */
-static mor_status find_failure(const block *b, int64_t n_lanes, int64_t *failed_lane)
-{
-    for (int64_t lane = 0; lane < n_lanes; ++lane) {
-        *failed_lane = lane;
-        if (b->increment2[lane] > INCREMENT_LIMIT * INCREMENT_LIMIT) {
-            return isfinite(b->increment2[lane]) ? MOR_RETRY_SMALLER_STEP : MOR_ERROR_NUMERIC;
-        }
-        if (!(b->zero_if_finite[lane] == 0.0)) {
-            return MOR_ERROR_NUMERIC;
-        }
-    }
-    return MOR_OK;
-}
-
-static MOR_LANES_INLINE int is_block_fine(const block *b)
-{
-    double worst = 0.0;
-    double zero = 0.0;
-    for (int lane = 0; lane < MOR_LANES; ++lane) {
-        worst = b->increment2[lane] > worst ? b->increment2[lane] : worst;
-        zero += b->zero_if_finite[lane];
-    }
-    return worst <= INCREMENT_LIMIT * INCREMENT_LIMIT && zero == 0.0;
 }
 
 static MOR_LANES_INLINE mor_status advance_batch(const drucker_prager *model, const mor_batch *batch)
 {
-    const drucker_prager m = *model;
-    /* The last block runs through the same code with empty lanes: a result must not depend on a particle's place. */
-    block b = {0};
-    for (int64_t first = 0; first < batch->n; first += MOR_LANES) {
-        const int64_t left = batch->n - first;
-        const int64_t n_lanes = left < MOR_LANES ? left : MOR_LANES;
-        if (n_lanes == MOR_LANES) {
-            load_block(batch, first, MOR_LANES, &b);
-        } else {
-            b = (block){0};
-            load_block(batch, first, n_lanes, &b);
-        }
-        advance_lanes(&m, &b);
-        if (!is_block_fine(&b)) {
-            int64_t failed_lane = 0;
-            const mor_status status = find_failure(&b, n_lanes, &failed_lane);
-            if (batch->failed != NULL) {
-                *batch->failed = first + failed_lane;
-            }
-            return status;
-        }
-        if (n_lanes == MOR_LANES) {
-            store_block(batch, first, MOR_LANES, &b);
-        } else {
-            store_block(batch, first, n_lanes, &b);
-        }
-    }
-    return MOR_OK;
+    return mor_rate_run(model, batch, advance_lanes, 1);
 }
 
 MOR_LANES_VARIANTS(advance_batch, drucker_prager)

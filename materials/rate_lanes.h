@@ -1,0 +1,184 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_MATERIALS_RATE_LANES_H
+#define MOR_MATERIALS_RATE_LANES_H
+
+#include "core/material/lanes.h"
+#include "materials/invariants.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/** @file
+ *  The frame of a law of rate form with isotropic elasticity: blocks of particles, the elastic trial with the rotation
+ *  of the stress, refusal of increments that are not small. A law adds the end stress of one block. */
+
+/** Largest norm of the velocity gradient times the step; beyond it one increment is no longer small; unit 1. */
+#define MOR_RATE_INCREMENT_LIMIT 1.0
+
+/** A block of particles, one array per number, so that every loop over lanes can be one of vectors. */
+typedef struct mor_rate_block {
+    double stress[6][MOR_LANES];    /* Pa, start, then end */
+    double gradient[9][MOR_LANES];  /* velocity gradient times the step, 1 */
+    double extra[6][MOR_LANES];     /* extra stress rate times the step, Pa */
+    double state[MOR_LANES];        /* of a law with one state variable, start, then end; its unit */
+    double dissipation[MOR_LANES];  /* J/m3 */
+    double increment2[MOR_LANES];   /* squared norm of gradient, 1 */
+    double zero_if_fine[MOR_LANES]; /* 0 when all results are finite, else NaN; 1 */
+} mor_rate_block;
+
+/** The end of one block: reads gradient, extra; updates stress, state; writes dissipation. Constants are one object. */
+typedef void (*mor_rate_law)(const void *constants, mor_rate_block *b);
+
+static MOR_LANES_INLINE void mor_rate_load_part(const double *from, int64_t n_lanes, int n_components, double factor,
+                                                double (*to)[MOR_LANES])
+{
+    for (int64_t lane = 0; lane < n_lanes; ++lane) {
+        for (int a = 0; a < n_components; ++a) {
+            to[a][lane] = from[n_components * lane + a] * factor;
+        }
+    }
+}
+
+static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
+                                           mor_rate_block *b)
+{
+    mor_rate_load_part(batch->stress_in + 6 * first, n_lanes, 6, 1.0, b->stress);
+    mor_rate_load_part(batch->velocity_gradient + 9 * first, n_lanes, 9, batch->time_step, b->gradient);
+    if (batch->extra_stress_rate != NULL) {
+        mor_rate_load_part(batch->extra_stress_rate + 6 * first, n_lanes, 6, batch->time_step, b->extra);
+    }
+    for (int64_t lane = 0; has_state && lane < n_lanes; ++lane) {
+        b->state[lane] = batch->state_in[0][first + lane];
+    }
+}
+
+static MOR_LANES_INLINE void mor_rate_store(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
+                                            const mor_rate_block *b)
+{
+    for (int64_t lane = 0; lane < n_lanes; ++lane) {
+        for (int a = 0; a < 6; ++a) {
+            batch->stress_out[6 * (first + lane) + a] = b->stress[a][lane];
+        }
+    }
+    for (int64_t lane = 0; has_state && lane < n_lanes; ++lane) {
+        batch->state_out[0][first + lane] = b->state[lane];
+    }
+    if (batch->dissipation != NULL) {
+        for (int64_t lane = 0; lane < n_lanes; ++lane) {
+            batch->dissipation[first + lane] = b->dissipation[lane];
+        }
+    }
+}
+
+/** Reads the gradient of a lane; unit 1. */
+static MOR_LANES_INLINE mor_gradient mor_rate_gradient(const mor_rate_block *b, int lane)
+{
+    return (mor_gradient){b->gradient[0][lane], b->gradient[1][lane], b->gradient[2][lane],
+                          b->gradient[3][lane], b->gradient[4][lane], b->gradient[5][lane],
+                          b->gradient[6][lane], b->gradient[7][lane], b->gradient[8][lane]};
+}
+
+/** Elastic trial of a lane, unit Pa: half of the increment before the rotation and half after it, which is of second
+ *  order and symmetric in time. two_shear and lame in Pa. */
+static MOR_LANES_INLINE mor_symmetric mor_rate_predict(double two_shear, double lame, const mor_rate_block *b, int lane)
+{
+    const mor_symmetric stress = {b->stress[0][lane], b->stress[1][lane], b->stress[2][lane],
+                                  b->stress[3][lane], b->stress[4][lane], b->stress[5][lane]};
+    const mor_symmetric extra = {b->extra[0][lane], b->extra[1][lane], b->extra[2][lane],
+                                 b->extra[3][lane], b->extra[4][lane], b->extra[5][lane]};
+    const mor_gradient gradient = mor_rate_gradient(b, lane);
+    const mor_symmetric strain = mor_gradient_strain(gradient);
+    const double mean = lame * mor_invariant_i1(strain);
+    const mor_symmetric elastic = {two_shear * strain.xx + mean, two_shear * strain.yy + mean,
+                                   two_shear * strain.zz + mean, two_shear * strain.xy,
+                                   two_shear * strain.yz,        two_shear * strain.zx};
+    const mor_symmetric increment = mor_symmetric_add(elastic, 1.0, extra);
+    const mor_symmetric turned = mor_symmetric_spin(mor_symmetric_add(stress, 0.5, increment), gradient);
+    return mor_symmetric_add(turned, 0.5, increment);
+}
+
+/** Stores the end stress [Pa] of a lane. */
+static MOR_LANES_INLINE void mor_rate_write(mor_rate_block *b, int lane, mor_symmetric stress)
+{
+    b->stress[0][lane] = stress.xx;
+    b->stress[1][lane] = stress.yy;
+    b->stress[2][lane] = stress.zz;
+    b->stress[3][lane] = stress.xy;
+    b->stress[4][lane] = stress.yz;
+    b->stress[5][lane] = stress.zx;
+}
+
+/** Finds the first lane that may not pass, and why; a sum over the lanes is zero when none does. */
+static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t n_lanes, int64_t *failed_lane)
+{
+    for (int64_t lane = 0; lane < n_lanes; ++lane) {
+        *failed_lane = lane;
+        if (!isfinite(b->increment2[lane])) {
+            return MOR_ERROR_NUMERIC;
+        }
+        if (b->increment2[lane] > MOR_RATE_INCREMENT_LIMIT * MOR_RATE_INCREMENT_LIMIT) {
+            return MOR_RETRY_SMALLER_STEP;
+        }
+        if (!(b->zero_if_fine[lane] == 0.0)) {
+            return MOR_ERROR_NUMERIC;
+        }
+    }
+    return MOR_OK;
+}
+
+/* Sets what tells whether the lanes may pass, and tells it. */
+static MOR_LANES_INLINE int mor_rate_judge(mor_rate_block *b, int has_state)
+{
+    double worst = 0.0;
+    double zero = 0.0;
+    for (int lane = 0; lane < MOR_LANES; ++lane) {
+        b->increment2[lane] = mor_gradient_norm2(mor_rate_gradient(b, lane));
+        b->zero_if_fine[lane] = 0.0 * b->stress[0][lane] + 0.0 * b->stress[1][lane] + 0.0 * b->stress[2][lane] +
+                                0.0 * b->stress[3][lane] + 0.0 * b->stress[4][lane] + 0.0 * b->stress[5][lane] +
+                                (has_state ? 0.0 * b->state[lane] : 0.0);
+        worst = b->increment2[lane] > worst ? b->increment2[lane] : worst;
+        zero += b->zero_if_fine[lane];
+    }
+    return worst <= MOR_RATE_INCREMENT_LIMIT * MOR_RATE_INCREMENT_LIMIT && zero == 0.0;
+}
+
+/** Runs a law over a batch. The last block runs through the same code with empty lanes: a result must not depend on a
+ *  particle's place.
+ *  @param constants [in]      one object; the law's
+ *  @param batch     [in,out]  one object
+ *  @param law       [in]      the end of one block
+ *  @param has_state [in]      whether the law has a state variable, which is then the first one
+ *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small; MOR_ERROR_NUMERIC. */
+static MOR_LANES_INLINE mor_status mor_rate_run(const void *constants, const mor_batch *batch, mor_rate_law law,
+                                                int has_state)
+{
+    mor_rate_block b = {0};
+    for (int64_t first = 0; first < batch->n; first += MOR_LANES) {
+        const int64_t left = batch->n - first;
+        const int64_t n_lanes = left < MOR_LANES ? left : MOR_LANES;
+        if (n_lanes == MOR_LANES) {
+            mor_rate_load(batch, first, MOR_LANES, has_state, &b);
+        } else {
+            b = (mor_rate_block){0};
+            mor_rate_load(batch, first, n_lanes, has_state, &b);
+        }
+        law(constants, &b);
+        if (!mor_rate_judge(&b, has_state)) {
+            int64_t failed_lane = 0;
+            const mor_status status = mor_rate_find_failure(&b, n_lanes, &failed_lane);
+            if (batch->failed != NULL) {
+                *batch->failed = first + failed_lane;
+            }
+            return status;
+        }
+        if (n_lanes == MOR_LANES) {
+            mor_rate_store(batch, first, MOR_LANES, has_state, &b);
+        } else {
+            mor_rate_store(batch, first, n_lanes, has_state, &b);
+        }
+    }
+    return MOR_OK;
+}
+
+#endif
