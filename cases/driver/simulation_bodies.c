@@ -219,6 +219,24 @@ static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies
     return MOR_OK;
 }
 
+/* A body that cannot be made is an error of the case: says where it stands there. */
+static mor_status blame_body(mor_context *context, const mor_case *c, const recipe *r, mor_status status)
+{
+    const mor_case_body *it = &c->bodies[r->members[r->n_members - 1]];
+    if (status != MOR_ERROR_ARGUMENT) {
+        return status;
+    }
+    for (int m = 0; m < r->n_members; ++m) {
+        char quoted[MOR_CASE_NAME_BYTES + 2];
+        snprintf(quoted, sizeof quoted, "'%s'", c->bodies[r->members[m]].name);
+        if (strstr(context->message, quoted) != NULL) {
+            it = &c->bodies[r->members[m]];
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: found a body that cannot be made: %s", it->place.file,
+                    it->place.line, context->message);
+}
+
 /* The group of one body and of all later bodies of its material. */
 static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
                              const mor_registry *registry, int leader, recipe *r)
@@ -247,6 +265,7 @@ static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies
         status = mor_case_body_is_rigid(first) ? make_rigid(context, bodies, c, r)
                                                : make_elastic(context, bodies, c, material, r);
     }
+    status = blame_body(context, c, r, status);
     for (int m = 0; m < r->n_members; ++m) {
         mor_lattice_clear(context, &r->points[m]);
     }
@@ -281,6 +300,20 @@ static const mor_case_body *case_body(const mor_simulation_bodies *bodies, const
     return &c->bodies[0];
 }
 
+/* What is moved as prescribed or clamped may stand in a wall. */
+static mor_status check_walls(mor_context *context, const mor_case *c, const mor_case_body *it, const double *point)
+{
+    for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
+        const double depth = -placed_distance(c->walls[w].shape, c->turn, c->move, point);
+        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' overlapping wall '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
+                  "move the body or the wall",
+                  it->place.file, it->place.line, it->name, c->walls[w].name, depth, point[0], point[1], point[2],
+                  TOUCHING * c->spacing);
+    }
+    return MOR_OK;
+}
+
 static mor_status check_node(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
                              const mor_simulation_frame *frame, const mor_body *body, const double *node)
 {
@@ -301,18 +334,10 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
                   it->place.file, it->place.line, it->name, c->bodies[b].name, depth, node[0], node[1], node[2],
                   TOUCHING * c->spacing);
     }
-    for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
-        const double depth = -placed_distance(c->walls[w].shape, c->turn, c->move, node);
-        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' overlapping wall '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
-                  "move the body or the wall",
-                  it->place.file, it->place.line, it->name, c->walls[w].name, depth, node[0], node[1], node[2],
-                  TOUCHING * c->spacing);
-    }
-    return MOR_OK;
+    return check_walls(context, c, it, node);
 }
 
-/* Surfaces tell overlaps exactly, particles only to half a spacing. */
+/* Surfaces tell overlaps exactly, particles only to half a spacing; but a wall may stand inside a body. */
 static mor_status check_places(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
                                const mor_simulation_frame *frame)
 {
@@ -322,6 +347,9 @@ static mor_status check_places(mor_context *context, const mor_simulation_bodies
             const mor_body *body = &group->bodies[b];
             for (int64_t s = body->first_node; s < body->first_node + body->n_nodes; ++s) {
                 MOR_TRY(context, check_node(context, bodies, c, frame, body, group->node_reference + 3 * s));
+            }
+            for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
+                MOR_TRY(context, check_walls(context, c, case_body(bodies, c, body), group->reference + 3 * i));
             }
         }
     }

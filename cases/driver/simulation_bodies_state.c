@@ -145,10 +145,11 @@ static void cross_add(const double *spin, const double *arm, double *velocity)
     }
 }
 
-/* Velocities of an elastic body: at rest (held or not), or those of its start. */
-static void set_elastic(const mor_case *c, const mor_case_body *it, const mor_simulation_body *body, bool is_resting,
-                        bool is_held)
+/* Velocities of an elastic body: at rest (held or not), or those of its start. Returns the particles in its clamp. */
+static int64_t set_elastic(const mor_case *c, const mor_case_body *it, const mor_simulation_body *body, bool is_resting,
+                           bool is_held)
 {
+    int64_t n_clamped = 0;
     mor_body_group *group = body->group;
     const mor_body *own = &group->bodies[body->index];
     double velocity[3];
@@ -167,6 +168,7 @@ static void set_elastic(const mor_case *c, const mor_case_body *it, const mor_si
         }
         mor_matrix_apply_transposed(c->turn, moved, scene);
         const bool is_clamped = it->clamp != NULL && it->clamp->operations->distance(it->clamp, scene) < 0.0;
+        n_clamped += is_clamped;
         body->elastic->held[i] = is_clamped || is_held;
         memcpy(v, velocity, sizeof velocity);
         cross_add(spin, arm, v);
@@ -177,6 +179,7 @@ static void set_elastic(const mor_case *c, const mor_case_body *it, const mor_si
             memset(v, 0, 3 * sizeof *v);
         }
     }
+    return n_clamped;
 }
 
 static void set_rigid(const mor_case *c, const mor_case_body *it, const mor_simulation_body *body, bool is_resting,
@@ -233,7 +236,12 @@ mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bod
         const bool is_held = is_resting && (mor_vector_length(it->velocity) > 0.0 || it->motion_speed > 0.0 ||
                                             mor_vector_length(it->angular_velocity) > 0.0);
         if (body->elastic != NULL) {
-            set_elastic(the_case, it, body, is_resting, is_held);
+            const int64_t n_clamped = set_elastic(the_case, it, body, is_resting, is_held);
+            MOR_CHECK(context, it->clamp == NULL || n_clamped > 0, MOR_ERROR_CONFIG,
+                      "%s:%d: found a clamp of body '%s' that holds none of its %lld particles; allowed are clamps "
+                      "around at least one; move the clamp, which is placed in the case and not in the frame of the "
+                      "body, or remove it",
+                      it->place.file, it->place.line, it->name, (long long)own->n_particles);
         } else {
             set_rigid(the_case, it, body, is_resting, is_held);
         }

@@ -5,6 +5,7 @@
 #include "cases/driver/pictures.h"
 #include "cases/driver/simulation.h"
 #include "materials/builtin.h"
+#include "tests/common/program.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -33,10 +34,34 @@ static const char base[] =
     "friction = \"rough\"; } );\n"
     "output = { color = \"speed\"; };\n";
 
-static const struct {
+/* Lines 1 to 11; the ball stands in line 9, the block in line 10. */
+static const char base_rocks[] =
+    "title = \"rocks\";\n"
+    "dimension = 2;\n"
+    "spacing = \"0.1 m\";\n"
+    "end = \"1 s\";\n"
+    "gravity = (\"0 m/s2\", \"-10 m/s2\");\n"
+    "domain = { min = (\"-1 m\", \"-1 m\"); max = (\"6 m\", \"3 m\"); };\n"
+    "soil = ( { name = \"sand\"; shape = { type = \"box\"; min = (\"0 m\", \"0 m\"); max = (\"1 m\", \"1 m\"); }; "
+    "material = { model = \"drucker_prager\"; density = \"2000 kg/m3\"; youngs_modulus = \"1 MPa\"; "
+    "poissons_ratio = 0.3; friction_angle = \"30 deg\"; }; } );\n"
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (\"0 m\", \"0 m\"); normal = (0, 1); }; }, "
+    "{ name = \"post\"; shape = { type = \"box\"; min = (\"4 m\", \"0.5 m\"); max = (\"4.2 m\", \"0.7 m\"); }; } );\n"
+    "bodies = ( { name = \"ball\"; position = (\"2 m\", \"0.5 m\"); shape = { type = \"sphere\"; center = (\"0 m\", "
+    "\"0 "
+    "m\"); radius = \"0.3 m\"; }; material = { model = \"neo_hookean\"; density = \"2400 kg/m3\"; youngs_modulus = "
+    "\"10 MPa\"; poissons_ratio = 0.2; }; },\n"
+    "{ name = \"block\"; position = (\"3 m\", \"0.3 m\"); shape = { type = \"box\"; min = (\"-0.3 m\", \"-0.3 m\"); "
+    "max "
+    "= (\"0.3 m\", \"0.3 m\"); }; material = { model = \"rigid\"; density = \"2400 kg/m3\"; }; } );\n"
+    "output = { color = \"speed\"; };\n";
+
+typedef struct bad_scene {
     const char *setting, *found, *remedy; /* setting NULL: the base itself, which is good */
     bool has_line;
-} scenes[] = {
+} bad_scene;
+
+static const bad_scene scenes[] = {
     {NULL, NULL, NULL, false},
     {"walls[0].shape.point=(\"0 m\", \"0.25 m\")", "overlapping wall 'floor': 20 of its 100 particles", "move one",
      true},
@@ -52,10 +77,46 @@ static const struct {
     {"spacing=1.1e-5 m", "lattice nodes", "larger spacing", true},
 };
 
-enum { N_SCENES = sizeof scenes / sizeof *scenes };
+/* Whatever is wrong with a rock is told with its line. */
+static const bad_scene rock_scenes[] = {
+    {NULL, NULL, NULL, false},
+    {"bodies[1].position=(\"2.55 m\", \"0.5 m\")", "body 'ball' overlapping body 'block' by 0.0346", "move one of them",
+     true},
+    {"bodies[1].position=(\"2 m\", \"0.5 m\")", "body 'ball' overlapping body 'block'", "move one of them", true},
+    {"bodies[1].position=(\"3 m\", \"0.25 m\")", "body 'block' overlapping wall 'floor' by 0.05 m",
+     "move the body or the wall", true},
+    {"bodies[1].position=(\"4.1 m\", \"0.6 m\")", "body 'block' overlapping wall 'post'", "move the body or the wall",
+     true},
+    {"bodies[1].position=(\"5.9 m\", \"0.5 m\")", "body 'block' reaching out of the domain", "enlarge 'domain' or move",
+     true},
+    {"bodies[1].position=(\"3 m\", \"-40 m\")", "body 'block' reaching out of the domain", "enlarge 'domain' or move",
+     true},
+    {"bodies[1].shape.max=(\"0.3 m\", \"0 m\")", "0.3 m long along its own y, which is 3 particles",
+     "smaller spacing or a larger body", true},
+    {"bodies[0].shape.radius=0.1 m", "0.2 m long along its own x, which is 2 particles", "at least 4 particles across",
+     true},
+    {"bodies[1].shape={type=\"half_space\"; point=(\"0 m\", \"0 m\"); normal=(0, 1);}", "no end along x",
+     "make it a wall", false},
+    {"bodies[1].shape={type=\"difference\"; from={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.3 m\";}; "
+     "minus={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.299 m\";};}",
+     "body 'block' without a single particle", "thicker body", true},
+    /* A ring of one layer: in its straight parts no neighbor lies aside. */
+    {"bodies[0].shape={type=\"difference\"; from={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.3 m\";}; "
+     "minus={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.24 m\";};}",
+     "body 'ball' is too thin at", "make the spacing (0.1 m) smaller or the body rigid", true},
+    {"bodies[0].shape={type=\"rotate\"; angle=\"45 deg\"; shape={type=\"box\"; min=(\"-0.5 m\", \"-0.03 m\"); "
+     "max=(\"0.5 m\", \"0.03 m\");};}",
+     "body 'ball' has too few particles near", "smaller spacing or make it rigid", true},
+    {"bodies[0].clamp={type=\"box\"; min=(\"4 m\", \"0 m\"); max=(\"5 m\", \"1 m\");}",
+     "a clamp of body 'ball' that holds none of its", "move the clamp", true},
+    {"soil[0].shape={type=\"box\"; min=(\"2.9 m\", \"0.2 m\"); max=(\"3.1 m\", \"0.4 m\");}",
+     "soil 'sand' without a single particle", "make the region larger", true},
+};
+
+enum { N_SCENES = sizeof scenes / sizeof *scenes, N_ROCK_SCENES = sizeof rock_scenes / sizeof *rock_scenes };
 
 /* Reads and builds a scene; message receives what was said. */
-static mor_status build_scene(const char *setting, char *message, size_t room)
+static mor_status build_scene(const char *source, const char *setting, char *message, size_t room)
 {
     static mor_case the_case; /* large, and empty again after each use */
     static mor_simulation simulation;
@@ -64,7 +125,8 @@ static mor_status build_scene(const char *setting, char *message, size_t room)
     mor_context_init(&context);
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
     assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK);
-    const mor_case_text text = {"scene.cfg", base, (int64_t)strlen(base), &setting, setting != NULL, registry, NULL};
+    const mor_case_text text = {"scene.cfg", source, (int64_t)strlen(source), &setting, setting != NULL,
+                                registry,    NULL};
     mor_status status = mor_case_read_text(&context, &text, &the_case);
     if (status == MOR_OK) {
         status = mor_simulation_init(&context, &simulation, &the_case, registry);
@@ -81,22 +143,46 @@ static mor_status build_scene(const char *setting, char *message, size_t room)
     return status;
 }
 
-static void scene_that_cannot_be_built_is_refused_with_place_and_remedy(void **state)
+static void expect_refusals(const char *source, const bad_scene *list, int n)
 {
-    (void)state;
-    for (int k = 0; k < N_SCENES; ++k) {
+    for (int k = 0; k < n; ++k) {
         char message[MOR_CONTEXT_MESSAGE_BYTES];
-        const mor_status status = build_scene(scenes[k].setting, message, sizeof message);
-        if (scenes[k].setting == NULL) {
+        const mor_status status = build_scene(source, list[k].setting, message, sizeof message);
+        if (list[k].setting == NULL) {
             assert_int_equal(status, MOR_OK);
             continue;
         }
-        const bool is_told = strstr(message, scenes[k].found) != NULL && strstr(message, scenes[k].remedy) != NULL &&
-                             (!scenes[k].has_line || strstr(message, "scene.cfg:") != NULL);
-        if (status == MOR_OK || !is_told) {
-            fail_msg("--set %s: status %d, message: %s", scenes[k].setting, (int)status, message);
+        const bool is_told = strstr(message, list[k].found) != NULL && strstr(message, list[k].remedy) != NULL &&
+                             (!list[k].has_line || strstr(message, "scene.cfg:") != NULL);
+        if (status != MOR_ERROR_CONFIG || !is_told) {
+            fail_msg("--set %s: status %d, message: %s", list[k].setting, (int)status, message);
         }
     }
+}
+
+static void scene_that_cannot_be_built_is_refused_with_place_and_remedy(void **state)
+{
+    (void)state;
+    expect_refusals(base, scenes, N_SCENES);
+}
+
+static void rock_that_cannot_be_built_is_refused_with_place_and_remedy(void **state)
+{
+    (void)state;
+    expect_refusals(base_rocks, rock_scenes, N_ROCK_SCENES);
+}
+
+/* The program ends with the code of bad input and says where to look. */
+static void program_refuses_a_scene_as_bad_input(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    run_folder_store(run_folder_file(folder, path, "case.cfg"), base_rocks, strlen(base_rocks));
+    const char *const arguments[] = {
+        "run", "case.cfg", "-o", "out", "--set", "bodies[1].position=(\"3 m\", \"0.25 m\")", NULL};
+    program_outcome outcome = program_run(folder, arguments, 2);
+    program_expect_text(outcome.errors, "case.cfg:10: found body 'block' overlapping wall 'floor'");
+    program_clear(&outcome);
 }
 
 /* Stacked regions share one surface: the lower one carries the weight of the upper one. */
@@ -130,6 +216,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_that_cannot_be_built_is_refused_with_place_and_remedy),
+        cmocka_unit_test(rock_that_cannot_be_built_is_refused_with_place_and_remedy),
+        cmocka_unit_test_setup_teardown(program_refuses_a_scene_as_bad_input, run_folder_setup, run_folder_teardown),
         cmocka_unit_test(geostatic_stress_counts_all_soil_straight_above),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

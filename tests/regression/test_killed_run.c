@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/random.h"
 #include "core/io/checkpoint.h"
+#include "tests/common/body_variant.h"
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
 
@@ -56,17 +57,19 @@ static bool kill_after(run_folder *folder, const char *const *arguments, double 
     return is_killed;
 }
 
-static void run_killed_at_random_moments_ends_as_if_never_killed(void **state)
+/* Kills a run of a case, zero-terminated text, and resumes it until it ends. */
+static void kill_at_random_moments(run_folder *folder, const char *text, const char *spacing)
 {
-    run_folder *folder = *state;
     char case_path[MOR_PATH_BYTES];
     const char *wish = getenv("MOR_KILLS");
     const int n_kills = wish != NULL ? atoi(wish) : N_KILLS;
     /* Checkpoints all the time, so that many kills fall into the writing of one. */
-#define RUN "run", case_path, "-t", "1", "--set", "spacing=4 mm", "--set", "output.checkpoint_seconds=0.02", "-o"
+#define RUN                                                                                                            \
+    "run", case_path, "-t", "1", "--set", spacing, "--set", "output.snapshots=6", "--set", "output.pictures=false",    \
+        "--set", "output.checkpoint_seconds=0.02", "-o"
     const char *const whole[] = {RUN, "whole", NULL};
     const char *const killed[] = {RUN, "killed", "--resume", NULL};
-    finished_run_store_case(folder, case_path);
+    finished_run_store_text(folder, text, case_path);
     const double before = read_clock();
     run_to_the_end(folder, whole);
     const double duration = read_clock() - before;
@@ -79,6 +82,16 @@ static void run_killed_at_random_moments_ends_as_if_never_killed(void **state)
     assert_true(n_killed >= 1); /* the first comes well before the end */
     run_to_the_end(folder, killed);
     finished_run_compare(folder, "whole", "killed");
+}
+
+static void run_killed_at_random_moments_ends_as_if_never_killed(void **state)
+{
+    kill_at_random_moments(*state, finished_run_case, "spacing=4 mm");
+}
+
+static void run_with_rocks_killed_at_random_moments_ends_as_if_never_killed(void **state)
+{
+    kill_at_random_moments(*state, body_plane, "spacing=5 mm");
 }
 
 /* Runs the case into two folders: one undisturbed, one stopped half-way with a checkpoint and one before it. */
@@ -187,6 +200,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(run_killed_at_random_moments_ends_as_if_never_killed, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(run_with_rocks_killed_at_random_moments_ends_as_if_never_killed,
+                                        run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(truncated_checkpoint_falls_back_to_the_one_before, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(checkpoint_with_a_turned_bit_falls_back_to_the_one_before, run_folder_setup,
