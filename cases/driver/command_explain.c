@@ -34,6 +34,42 @@ static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *s
     }
 }
 
+/* Smallest distance of a soil particle from the face of a wall, in spacings. */
+static double find_gap(const mor_simulation *s, int wall)
+{
+    const mor_case *c = s->the_case;
+    const mor_shape *shape = c->walls[wall].shape;
+    double nearest = INFINITY;
+    for (int64_t i = 0; i < s->soil.set.n_particles; ++i) {
+        const double *position = s->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
+        double moved[3];
+        double local[3];
+        for (int a = 0; a < 3; ++a) {
+            moved[a] = position[a] - c->move[a];
+        }
+        mor_matrix_apply_transposed(c->turn, moved, local);
+        nearest = fmin(nearest, shape->operations->distance(shape, local));
+    }
+    return nearest / c->spacing;
+}
+
+/* Soil that rests on a wall begins half a spacing off its face; nearer it is thrown off, farther it falls first. Soil
+ * more than a spacing off, and a little for rounding, is not meant to touch. */
+static void print_gaps(FILE *out, const mor_simulation *s)
+{
+    const double allowed = 0.2;
+    const double touching = 1.01;
+    for (int w = 0; w < s->the_case->n_walls && s->has_soil; ++w) {
+        const double gap = find_gap(s, w);
+        if (gap <= touching && fabs(gap - 0.5) > allowed) {
+            fprintf(out,
+                    "warning: the soil begins %.2f spacings off wall '%s', not 0.5, and will %s; put faces of walls "
+                    "and soil a whole number of spacings from lattice.origin\n",
+                    gap, s->the_case->walls[w].name, gap < 0.5 ? "be pushed away" : "fall against it");
+        }
+    }
+}
+
 /* Thinnest extent of the soil in spacings; warnings about what the method cannot resolve. */
 static void print_warnings(FILE *out, const mor_simulation *s)
 {
@@ -55,6 +91,7 @@ static void print_warnings(FILE *out, const mor_simulation *s)
                     n, "xyz"[a], THIN);
         }
     }
+    print_gaps(out, s);
     if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {
         fprintf(out, "warning: there is no wall; everything falls freely\n");
     }
