@@ -5,7 +5,6 @@
 #include "bodies/body_surface.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "core/particle/tree.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -152,8 +151,8 @@ static mor_status fill_group(mor_context *context, mor_body_group *group, const 
 {
     int32_t *order = NULL;
     int64_t first = 0;
-    MOR_TRY(context, MOR_NEW(context, &order, group->set.n_particles, "order of body particles"));
-    for (int b = 0; b < group->n_bodies; ++b) {
+    mor_status status = MOR_NEW(context, &order, group->set.n_particles, "order of body particles");
+    for (int b = 0; b < group->n_bodies && status == MOR_OK; ++b) {
         const mor_body_request *request = &requests[b];
         place_body(request, &group->bodies[b]);
         group->bodies[b].first = first;
@@ -161,12 +160,18 @@ static mor_status fill_group(mor_context *context, mor_body_group *group, const 
                                                           .n_points = request->n_particles,
                                                           .friction = request->soil_friction,
                                                           .friction_coefficient = request->soil_friction_coefficient};
-        mor_tree_order(request->positions, 3, request->n_particles, order);
+        status = mor_body_order(context, request, group->dimension, group->spacing, order);
+        if (status != MOR_OK) {
+            break;
+        }
         place_particles(group, b, request, order);
         find_reference(group, b);
         first += request->n_particles;
     }
     MOR_FREE(context, &order);
+    if (status != MOR_OK) {
+        return mor_context_pass(context, status, MOR_HERE);
+    }
     make_pieces(group);
     memcpy(group->start, group->reference, (size_t)(3 * first) * sizeof *group->start);
     /* The points behind the last one repeat it. */

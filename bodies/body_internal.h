@@ -24,6 +24,11 @@ static inline mor_body_team mor_body_team_for(const mor_context *context, int64_
     return (mor_body_team){n_particles < MOR_BODY_TEAM_PARTICLES ? 1 : context->n_threads};
 }
 
+/** Finds the order in which a body keeps its particles: cluster by cluster, clusters that are near close together.
+ *  order: shape [n_particles], indices into the request's positions. Returns MOR_OK or MOR_ERROR_MEMORY. */
+mor_status mor_body_order(mor_context *context, const mor_body_request *request, int dimension, double spacing,
+                          int32_t *order);
+
 /** out += factor * a x b; shape [3] each; unit of out: product of theirs. */
 static inline void mor_vector_cross_add(double factor, const double *a, const double *b, double *out)
 {

@@ -186,8 +186,9 @@ static void solve_dense(const double *m, const double *b, double *x)
     }
 }
 
-/* Pulls a node to the edge or corner next to it: the place nearest to the tangent planes around it. */
-static void sharpen(const cover *c, double *point)
+/* Pulls a node to the edge or corner next to it: the place nearest to the tangent planes around it. Returns whether
+ * there is one. */
+static bool sharpen(const cover *c, double *point)
 {
     const int dimension = c->group->dimension;
     const double spacing = c->group->spacing;
@@ -197,7 +198,7 @@ static void sharpen(const cover *c, double *point)
         double q[3] = {point[0], point[1], point[2]};
         q[k / 2] += (k % 2 == 0 ? 1.0 : -1.0) * BEND_STEP * spacing;
         if (!project(c, q)) {
-            return;
+            return false;
         }
         mor_shape_normal(c->body->shape, q, NORMAL_STEP * spacing, normals[k]);
         for (int j = 0; j < k; ++j) {
@@ -215,7 +216,7 @@ static void sharpen(const cover *c, double *point)
         m[4 * a] += EDGE_STAY;
     }
     if (smallest >= EDGE_COSINE) {
-        return;
+        return false;
     }
     double move[3];
     solve_dense(m, b, move);
@@ -224,6 +225,24 @@ static void sharpen(const cover *c, double *point)
     }
     if (mor_vector_length(move) < EDGE_REACH * spacing && project(c, best)) {
         memcpy(point, best, sizeof best);
+        return true;
+    }
+    return false;
+}
+
+/* Makes one of a node and a point beside it. Neither counts more, so that a symmetric body has symmetric nodes; but
+ * edges stay. */
+static void merge(const cover *c, double *node, const double *point, bool is_edge)
+{
+    double middle[3] = {node[0], node[1], node[2]};
+    if (sharpen(c, middle)) {
+        return;
+    }
+    for (int a = 0; a < 3; ++a) {
+        middle[a] = is_edge ? point[a] : 0.5 * (node[a] + point[a]);
+    }
+    if (project(c, middle)) {
+        memcpy(node, middle, sizeof middle);
     }
 }
 
@@ -262,10 +281,11 @@ static mor_status add_node(mor_context *context, cover *c, double *point, int32_
     if (!project(c, point)) {
         return MOR_OK;
     }
-    sharpen(c, point);
+    const bool is_edge = sharpen(c, point);
     int64_t home = 0;
     *node = find_near(c, point, &home);
     if (*node >= 0) {
+        merge(c, c->nodes + 3 * (int64_t)*node, point, is_edge);
         return MOR_OK;
     }
     MOR_TRY(context, grow_cover(context, c));

@@ -33,7 +33,9 @@ int mor_body_find_near(const mor_tree *tree, const double *positions, int64_t fi
         const double *box = tree->boxes + 6 * node;
         double distance2 = 0.0;
         for (int a = 0; a < 3; ++a) {
-            const double off = fmax(0.0, fmax(box[a] - point[a], point[a] - box[3 + a]));
+            const double below = box[a] - point[a];
+            const double above = point[a] - box[3 + a];
+            const double off = below > 0.0 ? below : (above > 0.0 ? above : 0.0);
             distance2 += off * off;
         }
         if (distance2 >= (radius + stale) * (radius + stale)) {

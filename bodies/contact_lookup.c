@@ -9,6 +9,10 @@
 #define NORMAL_STEP 0x1p-10 /* of the differences that give a normal */
 #define FAR_GAP 4.0         /* stands for: no particle of the body is near */
 
+/* Largest sum of the sizes of weights. On a surface it is 2, in a corner 3 to 4. When the crowd is one row of particles
+ * and a bit of the next, it grows without bound, and the place in the reference configuration with it. */
+#define LARGEST_SPREAD 6.0
+
 enum { WIDENINGS = 10 };
 
 static void normalize(int dimension, double *vector)
@@ -73,6 +77,15 @@ static void look_at_rigid(const mor_contact_body *partner, mor_contact_touch *to
     }
 }
 
+static double spread_of(const double *weights, int n)
+{
+    double spread = 0.0;
+    for (int k = 0; k < n; ++k) {
+        spread += fabs(weights[k]);
+    }
+    return spread;
+}
+
 /* Maps the point back into the reference configuration by weights that are exact for linear fields now. */
 static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *touch, int32_t *particles,
                             double *weights)
@@ -91,10 +104,12 @@ static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *
         if (n == 0 && widening == 0) {
             return;
         }
-        const bool is_crowd = n >= mor_body_point_crowd(group->dimension) || n == body->n_particles;
-        if (is_crowd && mor_body_linear_weights(group->dimension, positions, particles, n, touch->place, radius,
-                                                weights, group->reference, gradient)) {
-            touch->support_count = n;
+        const bool is_all = n == body->n_particles || n == MOR_CONTACT_SUPPORT;
+        const bool is_fit = (is_all || n >= mor_body_point_crowd(group->dimension)) &&
+                            mor_body_linear_weights(group->dimension, positions, particles, n, touch->place, radius,
+                                                    weights, group->reference, gradient);
+        touch->support_count = is_fit ? n : 0;
+        if (is_fit && (is_all || spread_of(weights, n) <= LARGEST_SPREAD)) {
             break;
         }
     }

@@ -19,17 +19,17 @@ enum { FIELD_GRADIENT = MOR_FIELD_CORE_COUNT, FIELD_RATE };
 
 /* One sub-step. Contact acts between the first and the second stage. */
 static const mor_stage elastic_stages[] = {
-    {"first drift", mor_elastic_drift_first, BIT(VELOCITY) | RATE, 0, BIT(POSITION) | GRADIENT | BIT(DENSITY),
-     "positions and deformation gradients to the middle of the sub-step"},
-    {"stress", mor_elastic_find_stress, BIT(POSITION) | GRADIENT | RATE, BIT(STRESS) | RECORDS, 0,
-     "the material's stress and the Kelvin-Voigt damper"},
+    {"first drift", mor_elastic_drift_first, BIT(VELOCITY), 0, BIT(POSITION),
+     "positions to the middle of the sub-step"},
+    {"stress", mor_elastic_find_stress, BIT(POSITION) | RATE, BIT(STRESS) | RECORDS, GRADIENT,
+     "deformation gradients to the middle of the sub-step; the material's stress and the Kelvin-Voigt damper"},
     {"forces", mor_elastic_sum_forces, RECORDS, BIT(ACCELERATION), 0,
-     "acceleration by the neighbors, and hourglass control when switched on"},
+     "acceleration by the neighbors, hourglass control included"},
     {"kick", mor_elastic_kick, BIT(ACCELERATION) | BIT(MASS), 0, BIT(VELOCITY) | RECORDS,
      "soil, contact, gravity; velocities to the end of the sub-step"},
-    {"deformation rate", mor_elastic_find_rate, RECORDS, RATE, 0, "rate of the deformation gradient"},
-    {"second drift", mor_elastic_drift_second, BIT(VELOCITY) | RATE, 0, BIT(POSITION) | GRADIENT | BIT(DENSITY),
-     "positions and deformation gradients to the end of the sub-step"},
+    {"deformation rate", mor_elastic_find_rate, RECORDS, RATE, GRADIENT | BIT(DENSITY),
+     "rate of the deformation gradient; deformation gradients and densities to the end of the sub-step"},
+    {"second drift", mor_elastic_drift_second, BIT(VELOCITY), 0, BIT(POSITION), "positions to the end of the sub-step"},
 };
 
 static const uint64_t evolving_fields =
@@ -179,7 +179,6 @@ void mor_elastic_clear(mor_context *context, mor_elastic *elastic)
         MOR_FREE(context, &work->weights);
         MOR_FREE(context, &work->stressed);
         MOR_FREE(context, &work->moving);
-        MOR_FREE(context, &work->shadow);
         MOR_FREE(context, &work->inverses);
         MOR_FREE(context, &work->sums);
         MOR_FREE(context, &work->constants);
@@ -205,6 +204,7 @@ mor_status mor_elastic_prepare(mor_context *context, mor_elastic *elastic)
         fastest = fastest >= speed2 ? fastest : speed2;
     }
     elastic->largest_speed = sqrt(fastest);
+    elastic->work->is_energy_known = false;
     mor_elastic_pack_velocities(context, elastic);
     MOR_TRY(context, mor_elastic_find_rate(context, elastic, NULL));
     mor_body_group_observe(context, group, 0.0);
@@ -275,14 +275,31 @@ void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *e
     *evolving = evolving_fields;
 }
 
-double mor_elastic_energy(const mor_elastic *elastic, int body)
+static double hourglass_energy(const mor_elastic *elastic, int body)
+{
+    const mor_elastic_work *work = elastic->work;
+    const mor_elastic_job job = mor_elastic_job_of(elastic, 0.0);
+    int64_t first = 0;
+    int64_t last = work->n_clusters;
+    while (body >= 0 && work->clusters[first].body < body) {
+        ++first;
+    }
+    while (body >= 0 && work->clusters[last - 1].body > body) {
+        --last;
+    }
+    return elastic->settings.hourglass > 0.0
+               ? work->table->hourglass[elastic->group.dimension == 3 ? 1 : 0](&job, first, last)
+               : 0.0;
+}
+
+static double find_energy(const mor_elastic *elastic, int body)
 {
     const double *state_in[MOR_MATERIAL_STATES_MAX];
     double *state_out[MOR_MATERIAL_STATES_MAX];
     const mor_body_group *group = &elastic->group;
     const int64_t first = body >= 0 ? group->bodies[body].first : 0;
     const int64_t last = body >= 0 ? first + group->bodies[body].n_particles : group->set.n_particles;
-    double energy = 0.0;
+    double energy = hourglass_energy(elastic, body);
     for (int64_t start = first; start < last; start += BATCH) {
         double stored[BATCH];
         const int64_t n = last - start < BATCH ? last - start : BATCH;
@@ -295,4 +312,18 @@ double mor_elastic_energy(const mor_elastic *elastic, int body)
         }
     }
     return energy;
+}
+
+double mor_elastic_energy(const mor_elastic *elastic, int body)
+{
+    mor_elastic_work *work = elastic->work;
+    if (body >= 0) {
+        return find_energy(elastic, body);
+    }
+    /* Several probes ask for it at the same time. */
+    if (!work->is_energy_known) {
+        work->energy = find_energy(elastic, body);
+        work->is_energy_known = true;
+    }
+    return work->energy;
 }

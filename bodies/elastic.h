@@ -18,9 +18,9 @@ typedef struct mor_elastic_settings {
     double smoothing_ratio; /* h / spacing, > 0.5, 1; 1.15 in the source */
     double courant;         /* CFL number, 1; 0.4 in the source */
     double damping_factor;  /* Kelvin-Voigt damping over that of the source, Pi = factor * density * c0 * h / 2; 1 */
-    double hourglass;       /* strength of the hourglass control, 1; 0: off. Pairs pull along r_ij with
+    double hourglass;       /* strength of the hourglass control, 1; 0: off. Pairs pull with
                              * hourglass rho0 c0^2 V_i V_j |W'| / r0 times what the mean linear map misses of r_ij,
-                             * after Ganzenmueller (2015) */
+                             * after Silling (2017) */
 } mor_elastic_settings;
 
 /** A group of elastic bodies. Owner: the run. */
@@ -76,9 +76,10 @@ mor_status mor_elastic_prepare(mor_context *context, mor_elastic *elastic);
  *  @param evolving [out]  one number; bits valid at the start of a step */
 void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *evolving);
 
-/** Returns the strain energy of one body, unit J (J/m); NaN when the material cannot tell.
+/** Returns the strain energy of one body, that held by hourglass control included, unit J (J/m); NaN when the material
+ *  cannot tell.
  *  @param elastic [in]  one object
- *  @param body    [in]  index of the body, or -1 for all */
+ *  @param body    [in]  index of the body, or -1 for all; their sum is kept until a sub-step or mor_elastic_prepare */
 double mor_elastic_energy(const mor_elastic *elastic, int body);
 
 #endif

@@ -28,11 +28,6 @@ typedef float single __attribute__((vector_size(LANES * sizeof(float)), aligned(
 
 #define INLINE static inline __attribute__((always_inline))
 
-INLINE vec spread(double a)
-{
-    return a - (vec){0.0};
-}
-
 INLINE vec zero(void)
 {
     return (vec){0.0};
@@ -66,8 +61,8 @@ typedef struct part {
     const mor_elastic_cluster *cluster;
     int64_t slot, particle;
     int n_lanes;
-    const int32_t *entries;
-    const float *weights;
+    const mor_elastic_entry *entries;
+    const float *weights;        /* this part's columns of [n_rows, 8] */
     const double *inverse, *sum; /* this part's columns of [6, 8] and [3, 8] */
 } part;
 
@@ -80,14 +75,14 @@ INLINE part part_of(const mor_elastic_work *work, int64_t c, int p)
                   cluster->first + p * LANES,
                   left < LANES ? (left > 0 ? left : 0) : LANES,
                   work->entries + cluster->first_entry,
-                  work->weights + cluster->first_entry * MOR_CLUSTER + p * LANES,
+                  work->weights + p * LANES,
                   work->inverses + c * 6 * MOR_CLUSTER + p * LANES,
                   work->sums + c * 3 * MOR_CLUSTER + p * LANES};
 }
 
-INLINE vec weight_of(const part *p, int32_t entry)
+INLINE vec weight_of(const part *p, const mor_elastic_entry *entry)
 {
-    const single weights = *(const single *)(p->weights + (int64_t)entry * MOR_CLUSTER);
+    const single weights = *(const single *)(p->weights + (int64_t)entry->weights * MOR_CLUSTER);
 #if LANES == 8 && !defined(__clang__)
     /* Spelled out because gcc widens in halves and goes through memory; 4 stands for the current rounding. */
     return (vec)__builtin_ia32_cvtps2pd512_mask(weights, (vec){0.0}, (unsigned char)-1, 4);
@@ -111,25 +106,27 @@ INLINE void load_inverse(const part *p, vec *m, const int d)
 
 INLINE void forces_part(const mor_elastic_job *job, const part *p, const int d)
 {
-    const int size = d + d * d;
+    const int size = 2 * d + d * d;
     const double *own = job->work->stressed + p->slot * size;
     vec x[3];
+    vec y[3];
     vec f[3];
     for (int a = 0; a < d; ++a) {
         x[a] = load(own, size, a);
+        y[a] = load(own, size, d + a);
         f[a] = zero();
     }
-    for (int32_t entry = 0; entry < p->cluster->n_entries; ++entry) {
-        const double *other = job->work->stressed + (int64_t)p->entries[entry] * size;
-        const double *t = other + d;
+    for (const mor_elastic_entry *entry = p->entries; entry < p->entries + p->cluster->n_entries; ++entry) {
+        const double *other = job->work->stressed + (int64_t)entry->slot * size;
+        const double *t = other + 2 * d;
         const vec k = weight_of(p, entry);
         vec r[3];
         for (int a = 0; a < d; ++a) {
             r[a] = x[a] - other[a];
         }
         for (int a = 0; a < d; ++a) {
-            vec sum = r[0] * t[a * d];
-            for (int b = 1; b < d; ++b) {
+            vec sum = other[d + a] - y[a];
+            for (int b = 0; b < d; ++b) {
                 sum += r[b] * t[a * d + b];
             }
             f[a] += k * sum;
@@ -138,60 +135,46 @@ INLINE void forces_part(const mor_elastic_job *job, const part *p, const int d)
     for (int a = 0; a < 3; ++a) {
         vec sum = a < d ? f[a < d ? a : 0] : zero();
         for (int b = 0; b < d && a < d; ++b) {
-            sum += load(own, size, (1 + a) * d + b) * row(p->sum + b * MOR_CLUSTER);
+            sum += load(own, size, (2 + a) * d + b) * row(p->sum + b * MOR_CLUSTER);
         }
         store(job->acceleration + 3 * p->particle, 3, a, p->n_lanes, sum);
     }
 }
 
-/* Central forces against what the linear map does not see, added to the acceleration. */
-INLINE void hourglass_part(const mor_elastic_job *job, const part *p, const int d)
+/* Sum of k |F R - r|^2 over the neighbors of all lanes, m2. */
+INLINE double hourglass_part(const mor_elastic_job *job, const part *p, const int d)
 {
     const int size = 2 * d + d * d;
-    const double *own = job->work->shadow + p->slot * size;
-    const vec factor = spread(job->work->constants[p->cluster->body].hourglass);
+    const double *own = job->work->stressed + p->slot * size;
     vec reference[3];
     vec x[3];
     vec map[9];
-    vec f[3];
+    vec sum = zero();
     for (int a = 0; a < d; ++a) {
         reference[a] = load(own, size, a);
-        x[a] = load(own, size, d + a);
-        f[a] = zero();
-    }
-    for (int k = 0; k < d * d; ++k) {
-        map[k] = load(own, size, 2 * d + k);
-    }
-    for (int32_t entry = 0; entry < p->cluster->n_entries; ++entry) {
-        const double *other = job->work->shadow + (int64_t)p->entries[entry] * size;
-        vec r0[3];
-        vec r[3];
-        vec length2 = spread(job->tiny);
-        vec excess = zero();
-        for (int a = 0; a < d; ++a) {
-            r0[a] = reference[a] - other[a];
-            r[a] = x[a] - other[d + a];
-            length2 += r[a] * r[a];
+        x[a] = load(job->position + 3 * p->particle, 3, a);
+        for (int b = 0; b < d; ++b) {
+            map[a * d + b] = load(job->gradient + 9 * p->particle, 9, 3 * a + b);
         }
+    }
+    for (const mor_elastic_entry *entry = p->entries; entry < p->entries + p->cluster->n_entries; ++entry) {
+        const double *other = job->work->stressed + (int64_t)entry->slot * size;
+        const int64_t j = job->work->clusters[entry->slot / MOR_CLUSTER].first + entry->slot % MOR_CLUSTER;
+        vec miss2 = zero();
         for (int a = 0; a < d; ++a) {
-            vec mapped = zero();
+            vec miss = job->position[3 * j + a] - x[a];
             for (int b = 0; b < d; ++b) {
-                mapped += (map[a * d + b] + other[(2 + a) * d + b]) * r0[b];
+                miss += map[a * d + b] * (reference[b] - other[b]);
             }
-            excess += (0.5 * mapped - r[a]) * r[a];
+            miss2 += miss * miss;
         }
-        /* One r of the projection and one of the unit vector: delta e = (excess . r / |r|) r / |r|. */
-        const vec push = weight_of(p, entry) * excess / length2;
-        for (int a = 0; a < d; ++a) {
-            f[a] += push * r[a];
-        }
+        sum += weight_of(p, entry) * miss2;
     }
-    double *out = job->acceleration + 3 * p->particle;
-    for (int a = 0; a < d; ++a) {
-        for (int lane = 0; lane < p->n_lanes; ++lane) {
-            out[3 * lane + a] += factor[lane] * f[a][lane];
-        }
+    double total = 0.0;
+    for (int lane = 0; lane < p->n_lanes; ++lane) {
+        total += sum[lane];
     }
+    return total;
 }
 
 INLINE void rate_part(const mor_elastic_job *job, const part *p, const int d)
@@ -209,8 +192,8 @@ INLINE void rate_part(const mor_elastic_job *job, const part *p, const int d)
     for (int k = 0; k < d * d; ++k) {
         sum[k] = zero();
     }
-    for (int32_t entry = 0; entry < p->cluster->n_entries; ++entry) {
-        const double *other = job->work->moving + (int64_t)p->entries[entry] * size;
+    for (const mor_elastic_entry *entry = p->entries; entry < p->entries + p->cluster->n_entries; ++entry) {
+        const double *other = job->work->moving + (int64_t)entry->slot * size;
         const vec k = weight_of(p, entry);
         vec kr[3];
         for (int b = 0; b < d; ++b) {
@@ -235,8 +218,9 @@ INLINE void rate_part(const mor_elastic_job *job, const part *p, const int d)
     }
 }
 
-/* Adds F S_D to P, eqs. 46 and 47. Returns Pi (sym F^T dF/dt)^2, the power per reference volume. */
-INLINE vec add_damping(const vec *f, const vec *rate, vec viscosity, vec *piola, const int d)
+/* Adds F S_D to P, eqs. 46 and 47, where S_D = Pi sym(F^T dF/dt) / J is objective: it takes F at the time of dF/dt, half
+ * a sub-step ago, so that a steady spin makes no stress. Returns S_D : sym(F^T dF/dt), power per reference volume. */
+INLINE vec add_damping(const vec *f, const vec *rate, vec viscosity, double half_step, vec *piola, const int d)
 {
     vec s[9];
     vec power = zero();
@@ -244,7 +228,9 @@ INLINE vec add_damping(const vec *f, const vec *rate, vec viscosity, vec *piola,
         for (int b = a; b < d; ++b) {
             vec sum = zero();
             for (int c = 0; c < d; ++c) {
-                sum += rate[3 * c + a] * f[3 * c + b] + f[3 * c + a] * rate[3 * c + b];
+                const vec ra = rate[3 * c + a];
+                const vec rb = rate[3 * c + b];
+                sum += ra * (f[3 * c + b] - half_step * rb) + (f[3 * c + a] - half_step * ra) * rb;
             }
             sum *= 0.5;
             power += (a == b ? 1.0 : 2.0) * sum * sum;
@@ -280,8 +266,7 @@ INLINE void store_cauchy(const vec *piola, const vec *f, vec inverse_j, double *
 
 INLINE double stress_part(const mor_elastic_job *job, const part *p, int64_t first_particle, const int d)
 {
-    const int size = d + d * d;
-    const int shadow_size = 2 * d + d * d;
+    const int size = 2 * d + d * d;
     const mor_elastic_constants *body = &job->work->constants[p->cluster->body];
     double *own = job->work->stressed + p->slot * size;
     vec f[9];
@@ -301,7 +286,7 @@ INLINE double stress_part(const mor_elastic_job *job, const part *p, int64_t fir
         for (int k = 0; k < 9; ++k) {
             rate[k] = load(job->rate + 9 * p->particle, 9, k);
         }
-        power = add_damping(f, rate, (job->damping_per_mass * body->density) * inverse_j, piola, d);
+        power = add_damping(f, rate, (job->damping_per_mass * body->density) * inverse_j, job->half_step, piola, d);
     }
     load_inverse(p, m, d);
     for (int a = 0; a < d; ++a) {
@@ -310,18 +295,15 @@ INLINE double stress_part(const mor_elastic_job *job, const part *p, int64_t fir
             for (int c = 1; c < d; ++c) {
                 t += piola[3 * a + c] * m[c * d + b];
             }
-            store(own, size, (1 + a) * d + b, p->n_lanes, -body->inverse_density * t);
-            if (job->work->shadow != NULL) {
-                store(job->work->shadow + p->slot * shadow_size, shadow_size, (2 + a) * d + b, p->n_lanes,
-                      f[3 * a + b]);
-            }
+            store(own, size, (2 + a) * d + b, p->n_lanes,
+                  (0.5 * body->hourglass) * f[3 * a + b] - body->inverse_density * t);
         }
     }
     double sum = 0.0;
     for (int lane = 0; lane < p->n_lanes; ++lane) {
         sum += power[lane];
-        for (int a = 0; a < d && job->work->shadow != NULL; ++a) {
-            job->work->shadow[(p->slot + lane) * shadow_size + d + a] = job->position[3 * (p->particle + lane) + a];
+        for (int a = 0; a < d; ++a) {
+            own[lane * size + d + a] = body->hourglass * job->position[3 * (p->particle + lane) + a];
         }
     }
     return sum;
@@ -342,15 +324,33 @@ INLINE double stress_range(const mor_elastic_job *job, int64_t first, int64_t la
     return power;
 }
 
-static double stress_2d(const mor_elastic_job *job, int64_t first, int64_t last)
+INLINE double hourglass_range(const mor_elastic_job *job, int64_t first, int64_t last, const int d)
 {
-    return stress_range(job, first, last, 2);
+    double energy = 0.0;
+    for (int64_t c = first; c < last; ++c) {
+        const mor_elastic_constants *body = &job->work->constants[job->work->clusters[c].body];
+        double sum = 0.0;
+        for (int k = 0; k < PARTS; ++k) {
+            const part p = part_of(job->work, c, k);
+            sum += hourglass_part(job, &p, d);
+        }
+        energy += (0.25 * body->hourglass) * (body->density * body->particle_volume) * sum;
+    }
+    return energy;
 }
 
-static double stress_3d(const mor_elastic_job *job, int64_t first, int64_t last)
-{
-    return stress_range(job, first, last, 3);
-}
+/* A sum over clusters for each number of dimensions. */
+#define MOR_ELASTIC_SUMS(name)                                                                                         \
+    static double name##_2d(const mor_elastic_job *job, int64_t first, int64_t last)                                   \
+    {                                                                                                                  \
+        return name##_range(job, first, last, 2);                                                                      \
+    }                                                                                                                  \
+    static double name##_3d(const mor_elastic_job *job, int64_t first, int64_t last)                                   \
+    {                                                                                                                  \
+        return name##_range(job, first, last, 3);                                                                      \
+    }
+MOR_ELASTIC_SUMS(stress)
+MOR_ELASTIC_SUMS(hourglass)
 
 /* A loop over clusters for each number of dimensions. */
 #define MOR_ELASTIC_LOOPS(name)                                                                                        \
@@ -369,30 +369,28 @@ static double stress_3d(const mor_elastic_job *job, int64_t first, int64_t last)
         }                                                                                                              \
     }
 MOR_ELASTIC_LOOPS(forces)
-MOR_ELASTIC_LOOPS(hourglass)
 MOR_ELASTIC_LOOPS(rate)
 
-static void drift(const mor_elastic_job *job, const mor_body_piece *piece, double time)
+static void stretch(const mor_elastic_job *job, int64_t first, int64_t last)
 {
-    double *restrict x = job->position;
     double *restrict gradient = job->gradient;
-    const double *restrict v = job->velocity;
     const double *restrict rate = job->rate;
-    const double density = job->work->constants[piece->body].density;
-    const int64_t last = piece->first + piece->n_particles;
-    for (int64_t k = 3 * piece->first; k < 3 * last; ++k) {
-        x[k] += time * v[k];
+    const int64_t end = 9 * job->work->clusters[last].first;
+    for (int64_t k = 9 * job->work->clusters[first].first; k < end; ++k) {
+        gradient[k] += job->half_step * rate[k];
     }
-    for (int64_t i = piece->first; i < last; i += LANES) {
-        const int n_lanes = last - i < LANES ? (int)(last - i) : LANES;
+}
+
+static void density(const mor_elastic_job *job, int64_t first, int64_t last)
+{
+    for (int64_t c = first * PARTS; c < last * PARTS; ++c) {
+        const part p = part_of(job->work, c / PARTS, (int)(c % PARTS));
         vec f[9];
-        for (int64_t k = 9 * i; k < 9 * (i + n_lanes); ++k) {
-            gradient[k] += time * rate[k];
-        }
         for (int k = 0; k < 9; ++k) {
-            f[k] = load(gradient + 9 * i, 9, k);
+            f[k] = load(job->gradient + 9 * p.particle, 9, k);
         }
-        store(job->density + i, 1, 0, n_lanes, density / determinant_of(f));
+        store(job->density + p.particle, 1, 0, p.n_lanes,
+              job->work->constants[p.cluster->body].density / determinant_of(f));
     }
 }
 
@@ -400,7 +398,8 @@ const mor_elastic_table *MOR_JOIN(mor_elastic_table_, MOR_ISA)(void);
 
 const mor_elastic_table *MOR_JOIN(mor_elastic_table_, MOR_ISA)(void)
 {
-    static const mor_elastic_table table = {MOR_TEXT(MOR_ISA),  {forces_2d, forces_3d}, {hourglass_2d, hourglass_3d},
-                                            {rate_2d, rate_3d}, {stress_2d, stress_3d}, drift};
+    static const mor_elastic_table table = {
+        MOR_TEXT(MOR_ISA), {forces_2d, forces_3d}, {rate_2d, rate_3d},          stretch,
+        density,           {stress_2d, stress_3d}, {hourglass_2d, hourglass_3d}};
     return &table;
 }

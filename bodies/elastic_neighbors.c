@@ -3,6 +3,7 @@
 /* Neighbors in the reference configuration: found once, within each body. */
 #include "bodies/elastic_internal.h"
 
+#include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/particle/relation.h"
@@ -51,15 +52,12 @@ static mor_status allocate_work(mor_context *context, mor_elastic *elastic, int6
     MOR_TRY(context, MOR_NEW(context, &work->clusters, work->n_clusters + 1, "clusters of bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->entries, n_entries, "neighbors in bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->weights, n_entries * MOR_CLUSTER, "kernel weights in bodies"));
-    MOR_TRY(context, MOR_NEW(context, &work->stressed, n_slots * (d + d * d), "records of body particles"));
+    MOR_TRY(context, MOR_NEW(context, &work->stressed, n_slots * (2 * d + d * d), "records of body particles"));
     MOR_TRY(context, MOR_NEW(context, &work->moving, n_slots * 2 * d, "records of body particles"));
     MOR_TRY(context, MOR_NEW(context, &work->inverses, n_slots * 6, "correction matrices of bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->sums, n_slots * 3, "kernel sums of bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->chunk_values, n_chunks * 2, "results of chunks of bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->chunk_failed, n_chunks, "results of chunks of bodies"));
-    if (elastic->settings.hourglass > 0.0) {
-        MOR_TRY(context, MOR_NEW(context, &work->shadow, n_slots * (2 * d + d * d), "records for hourglass control"));
-    }
     return MOR_OK;
 }
 
@@ -82,7 +80,9 @@ static void fill_clusters(mor_elastic *elastic, const mor_relation *relations)
                                       .n_lanes = left < MOR_CLUSTER ? (int32_t)left : (int32_t)MOR_CLUSTER,
                                       .body = b};
             for (int32_t e = 0; e < count; ++e) {
-                work->entries[entry++] = (int32_t)(first_slot + relations[b].lists[k][e]);
+                work->entries[entry] =
+                    (mor_elastic_entry){(int32_t)(first_slot + relations[b].lists[k][e]), (int32_t)entry};
+                ++entry;
             }
         }
     }
@@ -99,11 +99,8 @@ static void fill_positions(mor_elastic *elastic)
         const mor_elastic_cluster *cluster = &work->clusters[slot / MOR_CLUSTER];
         const int64_t lane = slot % MOR_CLUSTER < cluster->n_lanes ? slot % MOR_CLUSTER : cluster->n_lanes - 1;
         const double *x = elastic->group.reference + 3 * (cluster->first + lane);
-        memcpy(work->stressed + slot * (d + d * d), x, (size_t)d * sizeof *x);
+        memcpy(work->stressed + slot * (2 * d + d * d), x, (size_t)d * sizeof *x);
         memcpy(work->moving + slot * 2 * d, x, (size_t)d * sizeof *x);
-        if (work->shadow != NULL) {
-            memcpy(work->shadow + slot * (2 * d + d * d), x, (size_t)d * sizeof *x);
-        }
     }
 }
 
@@ -119,7 +116,7 @@ static void weigh_lane(const mor_elastic *elastic, int64_t c, int lane, double *
     double sum[3] = {0.0};
     memset(moment, 0, 6 * sizeof *moment);
     for (int32_t e = 0; e < cluster->n_entries; ++e) {
-        const double *other = work->moving + (int64_t)work->entries[cluster->first_entry + e] * size;
+        const double *other = work->moving + (int64_t)work->entries[cluster->first_entry + e].slot * size;
         double r[3] = {0.0};
         for (int a = 0; a < d; ++a) {
             r[a] = x[a] - other[a];
@@ -214,6 +211,50 @@ static mor_status weigh_all(mor_context *context, mor_elastic *elastic)
     return MOR_OK;
 }
 
+/* Place of a row in the table of places, or of its first free place. */
+static int64_t find_place(const mor_elastic_work *work, const int32_t *places, int64_t n_places, const float *weights)
+{
+    const uint64_t hash = mor_hash_bytes(weights, MOR_CLUSTER * sizeof *weights);
+    int64_t place = (int64_t)(hash & (uint64_t)(n_places - 1));
+    while (places[place] >= 0 &&
+           memcmp(work->weights + (int64_t)places[place] * MOR_CLUSTER, weights, MOR_CLUSTER * sizeof *weights) != 0) {
+        place = (place + 1) & (n_places - 1);
+    }
+    return place;
+}
+
+/* Keeps of each row of weights one copy: in the loops they then come from the nearest cache. */
+static mor_status share_weights(mor_context *context, mor_elastic_work *work, int64_t n_entries)
+{
+    int32_t *places = NULL;
+    float *rows = NULL;
+    int64_t n_places = 1;
+    while (n_places < 2 * n_entries) {
+        n_places *= 2;
+    }
+    MOR_TRY(context, MOR_NEW(context, &places, n_places, "places of kernel weights"));
+    for (int64_t k = 0; k < n_places; ++k) {
+        places[k] = -1;
+    }
+    work->n_rows = 0;
+    for (int64_t e = 0; e < n_entries; ++e) {
+        float weights[MOR_CLUSTER];
+        memcpy(weights, work->weights + e * MOR_CLUSTER, sizeof weights);
+        const int64_t place = find_place(work, places, n_places, weights);
+        if (places[place] < 0) {
+            memcpy(work->weights + work->n_rows * MOR_CLUSTER, weights, sizeof weights);
+            places[place] = (int32_t)work->n_rows++;
+        }
+        work->entries[e].weights = places[place];
+    }
+    MOR_FREE(context, &places);
+    MOR_TRY(context, MOR_NEW(context, &rows, work->n_rows * MOR_CLUSTER, "kernel weights in bodies"));
+    memcpy(rows, work->weights, (size_t)(work->n_rows * MOR_CLUSTER) * sizeof *rows);
+    MOR_FREE(context, &work->weights);
+    work->weights = rows;
+    return MOR_OK;
+}
+
 mor_status mor_elastic_find_neighbors(mor_context *context, mor_elastic *elastic)
 {
     mor_relation *relations = NULL;
@@ -233,6 +274,9 @@ mor_status mor_elastic_find_neighbors(mor_context *context, mor_elastic *elastic
         fill_clusters(elastic, relations);
         fill_positions(elastic);
         status = weigh_all(context, elastic);
+    }
+    if (status == MOR_OK) {
+        status = share_weights(context, elastic->work, n_entries);
     }
     for (int b = 0; b < n_bodies; ++b) {
         mor_relation_clear(context, &relations[b]);

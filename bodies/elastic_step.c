@@ -8,7 +8,7 @@
 /* Particles of a chunk, with room for the vectors to read behind the last. */
 enum { CHUNK_PARTICLES = MOR_ELASTIC_CHUNK * MOR_CLUSTER };
 
-mor_elastic_job mor_elastic_job_of(const mor_elastic *elastic)
+mor_elastic_job mor_elastic_job_of(const mor_elastic *elastic, double length)
 {
     double *const *data = elastic->group.set.data;
     const double h = elastic->smoothing_length;
@@ -20,19 +20,19 @@ mor_elastic_job mor_elastic_job_of(const mor_elastic *elastic)
                              .gradient = data[elastic->field_gradient],
                              .rate = data[elastic->field_rate],
                              .damping_per_mass = 0.5 * elastic->settings.damping_factor * elastic->sound_speed * h,
-                             .tiny = h * h * 0x1p-100};
+                             .half_step = 0.5 * length};
 }
 
-/* Runs a loop over all clusters. */
-static void run_loop(mor_context *context, const mor_elastic *elastic, mor_elastic_loop loop)
+static int64_t count_chunks(const mor_elastic_work *work)
 {
-    const int64_t n = elastic->work->n_clusters;
-    const mor_elastic_job job = mor_elastic_job_of(elastic);
-    const mor_body_team team = mor_body_team_for(context, n * MOR_CLUSTER);
-    MOR_PARALLEL_FOR (&team, chunk, (n + MOR_ELASTIC_CHUNK - 1) / MOR_ELASTIC_CHUNK, 2) {
-        const int64_t last = (chunk + 1) * MOR_ELASTIC_CHUNK;
-        loop(&job, chunk * MOR_ELASTIC_CHUNK, last < n ? last : n);
-    }
+    return (work->n_clusters + MOR_ELASTIC_CHUNK - 1) / MOR_ELASTIC_CHUNK;
+}
+
+/* Behind the last cluster of a chunk. */
+static int64_t end_of_chunk(const mor_elastic_work *work, int64_t chunk)
+{
+    const int64_t end = (chunk + 1) * MOR_ELASTIC_CHUNK;
+    return end < work->n_clusters ? end : work->n_clusters;
 }
 
 static int index_of_dimension(const mor_elastic *elastic)
@@ -40,19 +40,26 @@ static int index_of_dimension(const mor_elastic *elastic)
     return elastic->group.dimension == 3 ? 1 : 0;
 }
 
-static void drift_half(mor_context *context, const mor_elastic *elastic, double half_step)
+/* Positions over a time; deformation gradients move in the stages that read them anyway. */
+static void drift(mor_context *context, const mor_elastic *elastic, double time)
 {
     const mor_body_group *group = &elastic->group;
-    const mor_elastic_job job = mor_elastic_job_of(elastic);
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
-        elastic->work->table->drift(&job, &group->pieces[p], half_step);
+        double *restrict x = group->set.data[MOR_FIELD_POSITION];
+        const double *restrict v = group->set.data[MOR_FIELD_VELOCITY];
+        const int64_t last = group->pieces[p].first + group->pieces[p].n_particles;
+        for (int64_t k = 3 * group->pieces[p].first; k < 3 * last; ++k) {
+            x[k] += time * v[k];
+        }
     }
 }
 
 mor_status mor_elastic_drift_first(mor_context *context, void *owner, const mor_step *step)
 {
-    drift_half(context, owner, 0.5 * step->length);
+    const mor_elastic *elastic = owner;
+    elastic->work->is_energy_known = false;
+    drift(context, elastic, 0.5 * step->length);
     return MOR_OK;
 }
 
@@ -62,8 +69,7 @@ static void find_chunk_stress(const mor_elastic *elastic, const mor_elastic_job 
     mor_elastic_work *work = elastic->work;
     const mor_material_instance *material = elastic->material;
     const mor_set *set = &elastic->group.set;
-    const int64_t end = (chunk + 1) * MOR_ELASTIC_CHUNK;
-    const int64_t last = end < work->n_clusters ? end : work->n_clusters;
+    const int64_t last = end_of_chunk(work, chunk);
     const int64_t first = work->clusters[chunk * MOR_ELASTIC_CHUNK].first;
     double piola[(CHUNK_PARTICLES + MOR_CLUSTER) * 9];
     const double *state_in[MOR_MATERIAL_STATES_MAX];
@@ -83,6 +89,7 @@ static void find_chunk_stress(const mor_elastic *elastic, const mor_elastic_job 
     for (int64_t k = 9 * batch.n; k < 9 * (batch.n + MOR_CLUSTER); ++k) {
         piola[k] = 0.0;
     }
+    work->table->stretch(job, chunk * MOR_ELASTIC_CHUNK, last);
     const mor_status status = material->operations.stress_total(material, &batch);
     work->chunk_values[2 * chunk] = (double)status;
     work->chunk_failed[chunk] = first + failed;
@@ -121,9 +128,9 @@ mor_status mor_elastic_find_stress(mor_context *context, void *owner, const mor_
 {
     mor_elastic *elastic = owner;
     mor_elastic_work *work = elastic->work;
-    const int64_t n_chunks = (work->n_clusters + MOR_ELASTIC_CHUNK - 1) / MOR_ELASTIC_CHUNK;
+    const int64_t n_chunks = count_chunks(work);
     const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
-    mor_elastic_job job = mor_elastic_job_of(elastic);
+    mor_elastic_job job = mor_elastic_job_of(elastic, step->length);
     /* Cauchy stress is for people; they look between common steps. */
     job.stress = step->part + 1 >= step->n_parts ? elastic->group.set.data[MOR_FIELD_STRESS] : NULL;
     MOR_PARALLEL_FOR (&team, chunk, n_chunks, 2) {
@@ -143,11 +150,11 @@ mor_status mor_elastic_find_stress(mor_context *context, void *owner, const mor_
 mor_status mor_elastic_sum_forces(mor_context *context, void *owner, const mor_step *step)
 {
     const mor_elastic *elastic = owner;
-    const mor_elastic_table *table = elastic->work->table;
-    (void)step;
-    run_loop(context, elastic, table->forces[index_of_dimension(elastic)]);
-    if (elastic->work->shadow != NULL) {
-        run_loop(context, elastic, table->hourglass[index_of_dimension(elastic)]);
+    const mor_elastic_loop forces = elastic->work->table->forces[index_of_dimension(elastic)];
+    const mor_elastic_job job = mor_elastic_job_of(elastic, step->length);
+    const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
+    MOR_PARALLEL_FOR (&team, chunk, count_chunks(elastic->work), 2) {
+        forces(&job, chunk * MOR_ELASTIC_CHUNK, end_of_chunk(elastic->work, chunk));
     }
     return MOR_OK;
 }
@@ -270,8 +277,19 @@ void mor_elastic_pack_velocities(mor_context *context, mor_elastic *elastic)
 mor_status mor_elastic_find_rate(mor_context *context, void *owner, const mor_step *step)
 {
     const mor_elastic *elastic = owner;
-    (void)step;
-    run_loop(context, elastic, elastic->work->table->rate[index_of_dimension(elastic)]);
+    const mor_elastic_table *table = elastic->work->table;
+    const mor_elastic_loop rate = table->rate[index_of_dimension(elastic)];
+    const mor_elastic_job job = mor_elastic_job_of(elastic, step != NULL ? step->length : 0.0);
+    const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
+    MOR_PARALLEL_FOR (&team, chunk, count_chunks(elastic->work), 2) {
+        const int64_t first = chunk * MOR_ELASTIC_CHUNK;
+        const int64_t last = end_of_chunk(elastic->work, chunk);
+        rate(&job, first, last);
+        if (step != NULL) {
+            table->stretch(&job, first, last);
+            table->density(&job, first, last);
+        }
+    }
     return MOR_OK;
 }
 
@@ -314,6 +332,7 @@ static mor_status check_domain(mor_context *context, const mor_elastic *elastic,
 mor_status mor_elastic_drift_second(mor_context *context, void *owner, const mor_step *step)
 {
     const mor_elastic *elastic = owner;
-    drift_half(context, elastic, 0.5 * step->length);
+    elastic->work->is_energy_known = false;
+    drift(context, elastic, 0.5 * step->length);
     return check_domain(context, elastic, step);
 }

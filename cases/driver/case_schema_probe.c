@@ -166,6 +166,10 @@ const mor_case_probe_type mor_case_probe_types[] = {
     /* All bodies, and their contacts. */
     {"bodies_kinetic_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "kinetic energy of all bodies"},
     {"bodies_elastic_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "strain energy of all bodies"},
+    {"bodies_damped_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0,
+     "energy lost to the viscous damping of elastic bodies since the start"},
+    {"bodies_energy_balance", "1", "1", 0, 0, OF_BODIES, 100.0,
+     "total energy and what bodies lost to viscous damping and contact / total energy at the start"},
     {"contact_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "energy stored in contacts of bodies"},
     {"contact_friction_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0,
      "energy lost to sliding in contacts of bodies since the start"},

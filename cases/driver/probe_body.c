@@ -200,6 +200,26 @@ static mor_status bodies_elastic_energy(mor_context *context, const view *v, dou
     return MOR_OK;
 }
 
+static mor_status bodies_damped_energy(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation_bodies *bodies = &v->simulation->bodies;
+    (void)context;
+    *value = 0.0;
+    for (int g = 0; g < bodies->n_elastics; ++g) {
+        *value += bodies->elastics[g].damped_energy;
+    }
+    return MOR_OK;
+}
+
+static mor_status bodies_energy_balance(mor_context *context, const view *v, double *value)
+{
+    const mor_contact *contact = &v->simulation->bodies.contact;
+    MOR_TRY(context, bodies_damped_energy(context, v, value));
+    *value += contact->friction_energy + contact->damping_energy + mor_simulation_energy(v->simulation, NULL);
+    *value /= v->simulation->initial_energy;
+    return MOR_OK;
+}
+
 static mor_status contact_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
@@ -284,6 +304,8 @@ const mor_probe_measure mor_probe_body_measures[] = {{"body_position", position}
                                                      {MOR_PROBE_LARGEST_DEPTH, largest_depth},
                                                      {"bodies_kinetic_energy", bodies_kinetic_energy},
                                                      {"bodies_elastic_energy", bodies_elastic_energy},
+                                                     {"bodies_damped_energy", bodies_damped_energy},
+                                                     {"bodies_energy_balance", bodies_energy_balance},
                                                      {"contact_energy", contact_energy},
                                                      {"contact_friction_energy", contact_friction_energy},
                                                      {"contact_damping_energy", contact_damping_energy},

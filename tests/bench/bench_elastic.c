@@ -87,7 +87,7 @@ static void bench(const size *row)
                                      .youngs = 1e4,
                                      .poisson = 0.25,
                                      .density = 1.0,
-                                     .settings = {1.15, 0.4, 1.0, 0.0},
+                                     .settings = {1.15, 0.4, 1.0, 0.1},
                                      .n_threads = mor_parallel_cores()};
     elastic_bodies it;
     elastic_open(&it, &request);

@@ -48,6 +48,34 @@ static void test_particles_share_volume_and_mass_of_their_body(void **state)
     elastic_close(&it);
 }
 
+/* Turned anyhow, a box of 4 x 6 x 8 (4 x 6) places is made of blocks of 2 x 2 x 2 (4 x 2). */
+static void test_clusters_of_a_lattice_are_its_blocks(void **state)
+{
+    (void)state;
+    static const elastic_piece box = {
+        .side = {0.4, 0.6, 0.8}, .axis = {0.48, 0.6, 0.64}, .angle = 0.9, .middle = {5.0, -3.0, 2.0}};
+    static const elastic_piece plate = {
+        .side = {0.4, 0.6}, .axis = {0.0, 0.0, 1.0}, .angle = 0.9, .middle = {5.0, -3.0}};
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        elastic_request request = request_of(dimension);
+        request.pieces = dimension == 3 ? &box : &plate;
+        request.n_pieces = 1;
+        elastic_bodies it;
+        double widest = 0.0;
+        elastic_open(&it, &request);
+        const mor_body_group *group = &it.elastic.group;
+        for (int64_t i = 0; i < group->set.n_particles; ++i) {
+            const double *x = group->reference + 3 * i;
+            const double *y = group->reference + 3 * (i / 8 * 8);
+            const double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+            widest = fmax(widest, mor_vector_length(d));
+        }
+        /* The diagonal of a block, for lane 0 is a corner of it; rounding of places of order 5 m. */
+        assert_float_equal(widest, 0.1 * sqrt(dimension == 3 ? 3.0 : 10.0), 1e-12);
+        elastic_close(&it);
+    }
+}
+
 static void test_ids_name_every_place_of_the_request_once(void **state)
 {
     (void)state;
@@ -217,6 +245,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_particles_share_volume_and_mass_of_their_body),
+        cmocka_unit_test(test_clusters_of_a_lattice_are_its_blocks),
         cmocka_unit_test(test_ids_name_every_place_of_the_request_once),
         cmocka_unit_test(test_observation_finds_the_motion_at_the_start),
         cmocka_unit_test(test_observation_follows_a_rotation_over_a_whole_turn),

@@ -65,6 +65,21 @@ static void deform(elastic_bodies *it, const double *f)
     }
 }
 
+/* Makes the deformation gradients those of the positions, which are then no longer a linear map. */
+static void fit_gradients(elastic_bodies *it)
+{
+    const mor_set *set = &it->elastic.group.set;
+    const size_t n = (size_t)set->n_particles;
+    memcpy(set->data[MOR_FIELD_VELOCITY], set->data[MOR_FIELD_POSITION], 3 * n * sizeof(double));
+    elastic_require(it, mor_elastic_prepare(&it->context, &it->elastic));
+    memcpy(set->data[it->elastic.field_gradient], set->data[it->elastic.field_rate], 9 * n * sizeof(double));
+    for (size_t i = 0; i < n && it->elastic.group.dimension == 2; ++i) {
+        set->data[it->elastic.field_gradient][9 * i + 8] = 1.0;
+    }
+    memset(set->data[MOR_FIELD_VELOCITY], 0, 3 * n * sizeof(double));
+    elastic_require(it, mor_elastic_prepare(&it->context, &it->elastic));
+}
+
 /* Runs stress and forces without moving anything. */
 static void find_acceleration(elastic_bodies *it)
 {
@@ -169,6 +184,9 @@ static void test_hourglass_control_sees_what_a_linear_map_does_not(void **state)
         for (int64_t i = 0; i < n; ++i) {
             x[3 * i] += group->set.id[i] % 2 == 0 ? 1e-3 : -1e-3;
         }
+        memcpy(without.elastic.group.set.data[MOR_FIELD_POSITION], x, 3 * (size_t)n * sizeof *x);
+        fit_gradients(&with);
+        fit_gradients(&without);
         find_hourglass(&with, &without, force);
         double sum[3] = {0.0};
         double moment[3] = {0.0};
@@ -184,8 +202,49 @@ static void test_hourglass_control_sees_what_a_linear_map_does_not(void **state)
         assert_true(zigzag > 10.0);                              /* c0^2 / spacing^2 * 1e-3 m is of order 100 m/s2 */
         assert_true(linear < 1e-11 * zigzag);                    /* rounding of positions of order 5 m */
         assert_true(mor_vector_length(sum) < 1e-11 * zigzag);    /* opposite pairs */
-        assert_true(mor_vector_length(moment) < 1e-11 * zigzag); /* central pairs */
+        assert_true(mor_vector_length(moment) < 1e-11 * zigzag); /* the energy does not change in a turn */
         elastic_close(&with);
+        elastic_close(&without);
+    }
+}
+
+/* The force is the slope of the energy: what a push of one particle changes. */
+static void test_hourglass_force_is_the_slope_of_its_energy(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        elastic_request request = request_of(dimension);
+        elastic_bodies it;
+        elastic_bodies without;
+        double energies[2][2];
+        static double force[3 * 2000];
+        elastic_open(&without, &request);
+        request.settings.hourglass = 0.5;
+        elastic_open(&it, &request);
+        const mor_set *set = &it.elastic.group.set;
+        double *x = set->data[MOR_FIELD_POSITION];
+        const double push = 1e-4;
+        for (int64_t k = 0; k < 3 * set->n_particles; ++k) {
+            x[k] += k % 3 < dimension ? 1e-3 * mor_random_uniform(2, (uint64_t)k, 0) : 0.0;
+        }
+        for (int k = 0; k < 3; ++k) {
+            static const double steps[3] = {1.0, -2.0, 1.0};
+            x[3 * 17 + 1] += steps[k] * push;
+            memcpy(without.elastic.group.set.data[MOR_FIELD_POSITION], x, 3 * (size_t)set->n_particles * sizeof *x);
+            fit_gradients(&it);
+            fit_gradients(&without);
+            for (int w = 0; w < 2 && k < 2; ++w) {
+                energies[k][w] = mor_elastic_energy(w == 0 ? &it.elastic : &without.elastic, 0);
+            }
+        }
+        find_hourglass(&it, &without, force);
+        const double slope = (energies[0][0] - energies[0][1] - energies[1][0] + energies[1][1]) / (2.0 * push);
+        const double expected = -set->data[MOR_FIELD_MASS][17] * force[3 * 17 + 1];
+        print_message("%dD: force %g N, slope %g N\n", dimension, expected, slope);
+        assert_true(fabs(expected) > 1e-3);                          /* N, and not a zero by chance */
+        assert_true(fabs(slope - expected) < 1e-6 * fabs(expected)); /* rounding: the energy is quadratic */
+        assert_true(energies[0][0] > energies[0][1]);
+        elastic_close(&it);
         elastic_close(&without);
     }
 }
@@ -297,6 +356,7 @@ int main(void)
         cmocka_unit_test(test_uniform_stress_makes_no_force_inside_and_none_in_sum),
         cmocka_unit_test(test_stress_of_the_set_is_hookes_for_small_strain),
         cmocka_unit_test(test_hourglass_control_sees_what_a_linear_map_does_not),
+        cmocka_unit_test(test_hourglass_force_is_the_slope_of_its_energy),
         cmocka_unit_test(test_held_particles_do_not_move_and_the_rest_does),
         cmocka_unit_test(test_impulses_are_the_integrals_of_the_forces),
         cmocka_unit_test(test_free_fall_is_exact_and_gravity_grows_over_its_ramp),
