@@ -30,6 +30,12 @@ typedef struct mor_rate_block {
 /** The end of one block: reads gradient, extra; updates stress, state; writes dissipation. Constants are one object. */
 typedef void (*mor_rate_law)(const void *constants, mor_rate_block *b);
 
+/** Reads numbers of some lanes.
+ *  @param from         [in]   shape [n_lanes, n_components]; any unit
+ *  @param n_lanes      [in]   1 to MOR_LANES
+ *  @param n_components [in]   numbers per lane
+ *  @param factor       [in]   what they are multiplied by, any unit
+ *  @param to           [out]  shape [n_components, MOR_LANES]; product of both units */
 static MOR_LANES_INLINE void mor_rate_load_part(const double *from, int64_t n_lanes, int n_components, double factor,
                                                 double (*to)[MOR_LANES])
 {
@@ -40,6 +46,12 @@ static MOR_LANES_INLINE void mor_rate_load_part(const double *from, int64_t n_la
     }
 }
 
+/** Reads a block.
+ *  @param batch     [in]   one object
+ *  @param first     [in]   first particle
+ *  @param n_lanes   [in]   1 to MOR_LANES
+ *  @param has_state [in]   whether the law has a state variable
+ *  @param b         [out]  one object */
 static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
                                            mor_rate_block *b)
 {
@@ -53,6 +65,12 @@ static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first
     }
 }
 
+/** Writes what a law changed.
+ *  @param batch     [in,out]  one object
+ *  @param first     [in]      first particle
+ *  @param n_lanes   [in]      1 to MOR_LANES
+ *  @param has_state [in]      whether the law has a state variable
+ *  @param b         [in]      one object */
 static MOR_LANES_INLINE void mor_rate_store(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
                                             const mor_rate_block *b)
 {
@@ -109,7 +127,11 @@ static MOR_LANES_INLINE void mor_rate_write(mor_rate_block *b, int lane, mor_sym
     b->stress[5][lane] = stress.zx;
 }
 
-/** Finds the first lane that may not pass, and why; a sum over the lanes is zero when none does. */
+/** Finds the first lane that may not pass, and why.
+ *  @param b           [in]   one object
+ *  @param n_lanes     [in]   1 to MOR_LANES
+ *  @param failed_lane [out]  one number; worthless when all may pass
+ *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small; MOR_ERROR_NUMERIC. */
 static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t n_lanes, int64_t *failed_lane)
 {
     for (int64_t lane = 0; lane < n_lanes; ++lane) {
@@ -127,7 +149,7 @@ static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t 
     return MOR_OK;
 }
 
-/* Sets what tells whether the lanes may pass, and tells it. */
+/** Sets what tells whether the lanes may pass, and tells it; b is one object. Returns: 0 or 1. */
 static MOR_LANES_INLINE int mor_rate_judge(mor_rate_block *b, int has_state)
 {
     double worst = 0.0;

@@ -178,11 +178,16 @@ static void leave_out_bodies(mor_context *context, const mor_case *the_case, con
 {
     int64_t n_kept = points->n_points;
     for (int b = 0; b < the_case->n_bodies; ++b) {
+        const mor_shape *shape = the_case->bodies[b].shape;
         const int64_t n = n_kept;
+        double turn[9];
+        double move[3];
+        mor_simulation_body_frame(the_case, &the_case->bodies[b], turn, move);
         n_kept = 0;
         for (int64_t i = 0; i < n; ++i) {
-            if (!mor_simulation_body_holds(the_case, &the_case->bodies[b], points->positions + 3 * i)) {
-                memmove(points->positions + 3 * n_kept++, points->positions + 3 * i, 3 * sizeof(double));
+            const double *point = points->positions + 3 * i;
+            if (mor_simulation_placed_distance(shape, turn, move, point) >= 0.0) {
+                memmove(points->positions + 3 * n_kept++, point, 3 * sizeof *point);
             }
         }
     }

@@ -35,8 +35,8 @@ void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *bo
     }
 }
 
-/* Signed distance of a point of the run to a shape given in a frame of its own, m. */
-static double placed_distance(const mor_shape *shape, const double *turn, const double *move, const double *point)
+double mor_simulation_placed_distance(const mor_shape *shape, const double *turn, const double *move,
+                                      const double *point)
 {
     double moved[3];
     double local[3];
@@ -45,14 +45,6 @@ static double placed_distance(const mor_shape *shape, const double *turn, const 
     }
     mor_matrix_apply_transposed(turn, moved, local);
     return shape->operations->distance(shape, local);
-}
-
-bool mor_simulation_body_holds(const mor_case *the_case, const mor_case_body *body, const double *point)
-{
-    double turn[9];
-    double move[3];
-    mor_simulation_body_frame(the_case, body, turn, move);
-    return placed_distance(body->shape, turn, move, point) < 0.0;
 }
 
 /* Fills a body's shape with whole cells, as many as fit best along each axis of its own frame. */
@@ -304,7 +296,7 @@ static const mor_case_body *case_body(const mor_simulation_bodies *bodies, const
 static mor_status check_walls(mor_context *context, const mor_case *c, const mor_case_body *it, const double *point)
 {
     for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
-        const double depth = -placed_distance(c->walls[w].shape, c->turn, c->move, point);
+        const double depth = -mor_simulation_placed_distance(c->walls[w].shape, c->turn, c->move, point);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' overlapping wall '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
                   "move the body or the wall",
@@ -327,7 +319,8 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
     for (int b = 0; b < c->n_bodies; ++b) {
         const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
         const double depth =
-            other == body ? 0.0 : -placed_distance(other->shape, other->shape_turn, other->shape_move, node);
+            other == body ? 0.0
+                          : -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, node);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' overlapping body '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
                   "move one of them",

@@ -83,11 +83,13 @@ mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodie
  *  @param move     [out]  shape [3], unit m */
 void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *turn, double *move);
 
-/** Whether a point of the frame of the run lies inside a body of the case, at the start.
- *  @param the_case [in]  one object
- *  @param body     [in]  one object
- *  @param point    [in]  shape [3], unit m */
-bool mor_simulation_body_holds(const mor_case *the_case, const mor_case_body *body, const double *point);
+/** Signed distance of a point of the run to a shape given in a frame of its own, X = turn * x + move; unit m.
+ *  @param shape [in]  one object
+ *  @param turn  [in]  shape [3,3], rotation matrix, unit 1
+ *  @param move  [in]  shape [3], unit m
+ *  @param point [in]  shape [3], unit m */
+double mor_simulation_placed_distance(const mor_shape *shape, const double *turn, const double *move,
+                                      const double *point);
 
 /** Energies of all bodies, unit J (J/m).
  *  @param bodies    [in]   one object
