@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Which particles share a cluster. On a lattice: those of a block of 2 x 2 x 2 (4 x 2) places, always in the same order,
- * so that clusters see as few neighbors as can be and all see the same ones. What the surface cuts off from blocks, and
- * particles that are no lattice, go by a tree. */
+/* Which particles share a cluster. On a lattice: those of a block of 2 x 2 x 2 (4 x 2) places, always in the same
+ * order, so that clusters see as few neighbors as can be and all see the same ones. What the surface cuts off from
+ * blocks, and particles that are no lattice, go by a tree. */
 #include "bodies/body_internal.h"
 
 #include "core/base/memory.h"

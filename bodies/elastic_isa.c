@@ -218,8 +218,9 @@ INLINE void rate_part(const mor_elastic_job *job, const part *p, const int d)
     }
 }
 
-/* Adds F S_D to P, eqs. 46 and 47, where S_D = Pi sym(F^T dF/dt) / J is objective: it takes F at the time of dF/dt, half
- * a sub-step ago, so that a steady spin makes no stress. Returns S_D : sym(F^T dF/dt), power per reference volume. */
+/* Adds F S_D to P, eqs. 46 and 47, where S_D = Pi sym(F^T dF/dt) / J is objective: it takes F at the time of dF/dt,
+ * half a sub-step ago, so that a steady spin makes no stress. Returns S_D : sym(F^T dF/dt), power per reference
+ * volume. */
 INLINE vec add_damping(const vec *f, const vec *rate, vec viscosity, double half_step, vec *piola, const int d)
 {
     vec s[9];
