@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define TANGENTIAL_RATIO 0.8 /* stiffness of the friction spring over that of the normal spring, 1 */
@@ -435,21 +436,37 @@ static void release_slot(mor_contact *contact, int64_t slot, int own)
     memset(spring, 0, 3 * sizeof *spring);
 }
 
-/* Forgets springs and impact speeds of contacts that ended; those of other members' bodies stay. */
+static int compare_slots(const void *a, const void *b)
+{
+    const int64_t first = *(const int64_t *)a;
+    const int64_t second = *(const int64_t *)b;
+    return (first > second) - (first < second);
+}
+
+/* Forgets springs of contacts that ended; those of other members' bodies stay. Energies add up by rising slot: a resume
+ * knows nothing of the order in which slots came to be held. */
 static void forget(mor_contact *contact, uint64_t members)
 {
     mor_contact_work *work = contact->work;
+    int64_t n_ended = 0; /* at the front of held_slots */
     for (int64_t k = 0; k < work->n_held; ++k) {
         const int64_t slot = work->held_slots[k];
-        const int own = body_of_entry(contact, slot / MOR_CONTACT_SLOTS);
         if (work->slot_mark[slot] != 0) {
             continue;
         }
+        const int own = body_of_entry(contact, slot / MOR_CONTACT_SLOTS);
         if ((contact->stepper_bits[work->bodies[own].group_index] & members) != 0) {
-            release_slot(contact, slot, own);
+            work->held_slots[n_ended++] = slot;
         } else {
             work->kept_slots[work->n_kept++] = slot;
         }
+    }
+    if (n_ended > 1) {
+        qsort(work->held_slots, (size_t)n_ended, sizeof *work->held_slots, compare_slots);
+    }
+    for (int64_t k = 0; k < n_ended; ++k) {
+        const int64_t slot = work->held_slots[k];
+        release_slot(contact, slot, body_of_entry(contact, slot / MOR_CONTACT_SLOTS));
     }
     for (int64_t k = 0; k < work->n_kept; ++k) {
         work->slot_mark[work->kept_slots[k]] = 0;

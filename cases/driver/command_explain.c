@@ -183,7 +183,9 @@ mor_status mor_command_print_explanation(mor_command *command, mor_simulation *s
     const int64_t n = s->has_soil ? s->soil.set.n_particles : mor_simulation_particles(s);
     fprintf(out, "\n  speed now            %.2f M particle-steps/s with %d threads (%s)\n", 1e-6 * (double)n / seconds,
             command->context->n_threads, mor_pair_select(NULL)->instruction_set);
-    fprintf(out, "  expected time        %.1f min\n", ceil(s->the_case->end / length) * seconds / 60.0);
+    const double expected = ceil(s->the_case->end / length) * seconds;
+    fprintf(out, "  expected time        %.1f %s\n", expected < 60.0 ? expected : expected / 60.0,
+            expected < 60.0 ? "s" : "min");
     print_warnings(out, s);
     for (int k = 0; k < s->schedule.n_steppers; ++k) {
         print_stages(out, &s->schedule.steppers[k], set_of(s, k));

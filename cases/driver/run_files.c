@@ -215,7 +215,7 @@ mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files
 }
 
 /* Everything a checkpoint holds, as a view of the simulation. */
-enum { VALUES_MAX = 24 + 6 * MOR_BODY_GROUPS_MAX, VALUE_NAME_BYTES = 64 };
+enum { VALUES_MAX = 24 + 6 * MOR_BODY_GROUPS_MAX, VALUE_NAME_BYTES = 80 };
 typedef struct saved_state {
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     mor_checkpoint_value values[VALUES_MAX];
@@ -227,12 +227,13 @@ typedef struct saved_state {
 static void add_value(saved_state *state, const char *owner, const char *name, int64_t n, double *data)
 {
     char *full = state->names[state->n_values];
-    snprintf(full, VALUE_NAME_BYTES, "%.30s_%s", owner, name);
+    snprintf(full, VALUE_NAME_BYTES, "%.47s_%s", owner, name);
     state->values[state->n_values++] = (mor_checkpoint_value){full, MOR_HDF5_DOUBLE, n, data};
 }
 
-static void add_group_values(mor_simulation_bodies *bodies, int g, saved_state *state)
+static void add_group_values(mor_simulation *s, int g, saved_state *state)
 {
+    mor_simulation_bodies *bodies = &s->bodies;
     mor_body_group *group = bodies->groups[g];
     const char *name = group->set.name;
     if (g < bodies->n_elastics) {
@@ -243,6 +244,10 @@ static void add_group_values(mor_simulation_bodies *bodies, int g, saved_state *
     } else {
         add_value(state, name, "states", group->n_bodies * (int64_t)(sizeof(mor_rigid_state) / sizeof(double)),
                   bodies->rigid.states->center);
+    }
+    /* The soil's next step depends on it. Boundaries stand in the order of groups. */
+    if (s->has_soil) {
+        add_value(state, name, "barrier_step", 1, &s->soil.boundaries[g].longest_step);
     }
 }
 
@@ -272,7 +277,7 @@ static void list_state(mor_simulation *s, saved_state *state)
     memcpy(state->values, list, sizeof list);
     state->n_values = (int)(sizeof list / sizeof *list);
     for (int g = 0; g < s->bodies.n_groups; ++g) {
-        add_group_values(&s->bodies, g, state);
+        add_group_values(s, g, state);
     }
     const int n_sets = mor_simulation_sets(s, true, state->sets);
     state->checkpoint = (mor_checkpoint){state->sets, n_sets, state->values, state->n_values};

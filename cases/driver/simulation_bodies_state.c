@@ -224,6 +224,16 @@ static void show_velocities(mor_body_group *group)
     group->boundary.largest_speed = fastest;
 }
 
+static bool is_locked_wholly(const mor_case *c, const mor_case_body *it)
+{
+    bool is_locked = true;
+    for (int k = 0; k < 6; ++k) {
+        const bool is_free_to_move = c->dimension == 3 || k < 2 || k == 5;
+        is_locked = is_locked && (it->is_locked[k] || !is_free_to_move);
+    }
+    return is_locked;
+}
+
 mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
                                         double damping)
 {
@@ -245,6 +255,8 @@ mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bod
         } else {
             set_rigid(the_case, it, body, is_resting, is_held);
         }
+        /* A rock that waits counts as infinitely heavy in contact, as one that moves as prescribed. */
+        own->is_held = is_held || it->is_prescribed || is_locked_wholly(the_case, it);
         memset(own->rotation_angle, 0, sizeof own->rotation_angle);
         memset(own->soil_impulse, 0, sizeof own->soil_impulse);
         memset(own->contact_impulse, 0, sizeof own->contact_impulse);
@@ -252,6 +264,7 @@ mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bod
     }
     for (int g = 0; g < bodies->n_groups; ++g) {
         bodies->groups[g]->damping = is_resting ? damping : the_case->numerics.damping;
+        bodies->groups[g]->gravity_ramp = is_resting ? 0.0 : the_case->numerics.gravity_ramp; /* as the soil's */
         if (g < bodies->n_elastics) {
             bodies->elastics[g].damped_energy = 0.0;
             MOR_TRY(context, mor_elastic_prepare(context, &bodies->elastics[g]));
@@ -259,6 +272,10 @@ mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bod
             mor_rigid_prepare(context, &bodies->rigid);
         }
         show_velocities(bodies->groups[g]);
+    }
+    /* Springs of rocks at rest stay, speeds of impacts while they came to rest do not. */
+    for (int64_t k = 0; k < bodies->contact.n_impacts; ++k) {
+        bodies->contact.impacts[k] = 0.0;
     }
     bodies->contact.friction_energy = 0.0;
     bodies->contact.damping_energy = 0.0;

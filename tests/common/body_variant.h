@@ -74,7 +74,7 @@ static const char body_space[] =
     "numerics = { density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
-enum { BODY_VARIANTS = 11 };
+enum { BODY_VARIANTS = 12 };
 
 static const scene_variant body_variants[BODY_VARIANTS] = {
     {"as it comes", {NULL}},
@@ -84,6 +84,7 @@ static const scene_variant body_variants[BODY_VARIANTS] = {
     {"uniform body stress", {"numerics.body_stress=uniform", NULL}},
     {"body stress along", {"numerics.body_stress=along", NULL}},
     {"barrier", {"numerics.barrier_stiffness=20", NULL}},
+    {"barrier that limits the step", {"numerics.barrier_stiffness=1e6", NULL}},
     {"angular momentum", {"numerics.angular_momentum=true", NULL}},
     {"rough contact", {"contact.friction_coefficient=5", "contact.restitution=1", NULL}},
     {"damping and ramp", {"numerics.damping=20 1/s", "numerics.gravity_ramp=10 ms", NULL}},
