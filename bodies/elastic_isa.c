@@ -3,51 +3,15 @@
 /* Compiled once per instruction set; MOR_ISA is its name. */
 #include "bodies/elastic_internal.h"
 
-#ifndef MOR_ISA
-#define MOR_ISA baseline
-#endif
-#define MOR_JOIN_(a, b) a##b
-#define MOR_JOIN(a, b) MOR_JOIN_(a, b)
-#define MOR_TEXT_(a) #a
-#define MOR_TEXT(a) MOR_TEXT_(a)
+#include "core/particle/lanes.h"
 
-/* Numbers in one register. A cluster is served in 8 / LANES parts, each with the arithmetic of the others. */
-#if defined(__AVX512F__)
-#define LANES 8
-#elif defined(__AVX__)
-#define LANES 4
-#else
-#define LANES 2
-#endif
-enum { PARTS = MOR_CLUSTER / LANES };
-
-typedef double vec __attribute__((vector_size(LANES * sizeof(double))));
 typedef double unaligned_vec __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
 
 typedef float single __attribute__((vector_size(LANES * sizeof(float)), aligned(4), may_alias));
 
-#define INLINE static inline __attribute__((always_inline))
-
 INLINE vec zero(void)
 {
     return (vec){0.0};
-}
-
-/* One component of consecutive records. */
-INLINE vec load(const double *records, int stride, int component)
-{
-    vec a;
-    for (int lane = 0; lane < LANES; ++lane) {
-        a[lane] = records[lane * stride + component];
-    }
-    return a;
-}
-
-INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
-{
-    for (int lane = 0; lane < n_lanes; ++lane) {
-        out[lane * stride + component] = a[lane];
-    }
 }
 
 /* LANES numbers one after another. */

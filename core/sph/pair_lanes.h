@@ -4,40 +4,18 @@
 #define MOR_CORE_SPH_PAIR_LANES_H
 
 #include "core/base/math.h"
+#include "core/particle/lanes.h"
 #include "core/sph/pair.h"
 
 #include <math.h>
 #include <string.h>
 
 /** @file
- *  What the files of the pair loops share among themselves: numbers in lanes and the separation of a pair. Not for
- *  others. Files that include it are compiled once per instruction set; MOR_ISA is its name. */
+ *  What the files of the pair loops share among themselves: choices between lanes and the separation of a pair. Not for
+ *  others. */
 
-#ifndef MOR_ISA
-#define MOR_ISA baseline
-#endif
-#define MOR_JOIN_(a, b) a##b
-#define MOR_JOIN(a, b) MOR_JOIN_(a, b)
-#define MOR_TEXT_(a) #a
-#define MOR_TEXT(a) MOR_TEXT_(a)
-
-/* Numbers in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others, so
- * that a particle's sums do not depend on the width. */
-#if defined(__AVX512F__)
-#define LANES 8
-#elif defined(__AVX__)
-#define LANES 4
-#else
-#define LANES 2
-#endif
-enum { PARTS = MOR_CLUSTER / LANES };
-
-/** One number for each of LANES particles. */
-typedef double vec __attribute__((vector_size(LANES * sizeof(double))));
 /** A mask for each of LANES particles: all bits or none. */
 typedef int64_t mask __attribute__((vector_size(LANES * sizeof(int64_t))));
-
-#define INLINE static inline __attribute__((always_inline))
 
 /** Returns one number, any unit, in all lanes. */
 INLINE vec spread(double a)
@@ -77,24 +55,6 @@ INLINE vec square_root(vec a)
         root[lane] = sqrt(a[lane]);
     }
     return root;
-}
-
-/** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
-INLINE vec load(const double *records, int stride, int component)
-{
-    vec a;
-    for (int lane = 0; lane < LANES; ++lane) {
-        a[lane] = records[lane * stride + component];
-    }
-    return a;
-}
-
-/** Writes the first n_lanes lanes to one component of records, shape [n_lanes, stride]; any unit. */
-INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
-{
-    for (int lane = 0; lane < n_lanes; ++lane) {
-        out[lane * stride + component] = a[lane];
-    }
 }
 
 /** Returns the number of lanes from a first particle on that hold particles of the set, 1. */

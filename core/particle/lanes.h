@@ -1,0 +1,54 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_PARTICLE_LANES_H
+#define MOR_CORE_PARTICLE_LANES_H
+
+#include "core/particle/tree.h"
+
+/** @file
+ *  Numbers in lanes, for loops over clusters of eight particles that are compiled once per instruction set. Only files
+ *  named *_isa.c include it; MOR_ISA is the name of the set. Not for others: the names are short. */
+
+#ifndef MOR_ISA
+#define MOR_ISA baseline
+#endif
+#define MOR_JOIN_(a, b) a##b
+#define MOR_JOIN(a, b) MOR_JOIN_(a, b)
+#define MOR_TEXT_(a) #a
+#define MOR_TEXT(a) MOR_TEXT_(a)
+
+/* Numbers in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others, so
+ * that a particle's sums do not depend on the width. */
+#if defined(__AVX512F__)
+#define LANES 8
+#elif defined(__AVX__)
+#define LANES 4
+#else
+#define LANES 2
+#endif
+enum { PARTS = MOR_CLUSTER / LANES };
+
+/** One number for each of LANES particles. */
+typedef double vec __attribute__((vector_size(LANES * sizeof(double))));
+
+#define INLINE static inline __attribute__((always_inline))
+
+/** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
+INLINE vec load(const double *records, int stride, int component)
+{
+    vec a;
+    for (int lane = 0; lane < LANES; ++lane) {
+        a[lane] = records[lane * stride + component];
+    }
+    return a;
+}
+
+/** Writes the first n_lanes lanes to one component of records, shape [n_lanes, stride]; any unit. */
+INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
+{
+    for (int lane = 0; lane < n_lanes; ++lane) {
+        out[lane * stride + component] = a[lane];
+    }
+}
+
+#endif
