@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "materials/drucker_prager.h"
 
+#include "materials/hooke.h"
 #include "materials/invariants.h"
 #include "materials/rate_lanes.h"
 
@@ -206,25 +207,8 @@ static void drucker_prager_destroy(const mor_services *services, mor_material_in
 }
 
 static const mor_schema PARAMETERS[] = {
-    [MOR_DRUCKER_PRAGER_YOUNGS_MODULUS] = {.key = "youngs_modulus",
-                                           .kind = MOR_SCHEMA_REAL,
-                                           .n_components = 1,
-                                           .unit = "Pa",
-                                           .is_required = 1,
-                                           .minimum = 0.0,
-                                           .maximum = INFINITY,
-                                           .excludes_minimum = 1,
-                                           .text = "Young's modulus E"},
-    [MOR_DRUCKER_PRAGER_POISSONS_RATIO] = {.key = "poissons_ratio",
-                                           .kind = MOR_SCHEMA_REAL,
-                                           .n_components = 1,
-                                           .unit = "1",
-                                           .is_required = 1,
-                                           .minimum = -1.0,
-                                           .maximum = 0.5,
-                                           .excludes_minimum = 1,
-                                           .excludes_maximum = 1,
-                                           .text = "Poisson's ratio"},
+    [MOR_DRUCKER_PRAGER_YOUNGS_MODULUS] = MOR_HOOKE_YOUNGS_MODULUS_SCHEMA,
+    [MOR_DRUCKER_PRAGER_POISSONS_RATIO] = MOR_HOOKE_POISSONS_RATIO_SCHEMA,
     [MOR_DRUCKER_PRAGER_FRICTION_ANGLE] = {.key = "friction_angle",
                                            .kind = MOR_SCHEMA_REAL,
                                            .n_components = 1,

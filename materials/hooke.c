@@ -2,29 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "materials/hooke.h"
 
-#include <math.h>
 #include <stddef.h>
 
 const mor_schema mor_hooke_parameters[] = {
-    [MOR_HOOKE_YOUNGS_MODULUS] = {.key = "youngs_modulus",
-                                  .kind = MOR_SCHEMA_REAL,
-                                  .n_components = 1,
-                                  .unit = "Pa",
-                                  .is_required = 1,
-                                  .minimum = 0.0,
-                                  .maximum = INFINITY,
-                                  .excludes_minimum = 1,
-                                  .text = "Young's modulus E"},
-    [MOR_HOOKE_POISSONS_RATIO] = {.key = "poissons_ratio",
-                                  .kind = MOR_SCHEMA_REAL,
-                                  .n_components = 1,
-                                  .unit = "1",
-                                  .is_required = 1,
-                                  .minimum = -1.0,
-                                  .maximum = 0.5,
-                                  .excludes_minimum = 1,
-                                  .excludes_maximum = 1,
-                                  .text = "Poisson's ratio"},
+    [MOR_HOOKE_YOUNGS_MODULUS] = MOR_HOOKE_YOUNGS_MODULUS_SCHEMA,
+    [MOR_HOOKE_POISSONS_RATIO] = MOR_HOOKE_POISSONS_RATIO_SCHEMA,
     [MOR_HOOKE_COUNT] = {.key = NULL},
 };
 

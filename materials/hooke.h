@@ -5,6 +5,8 @@
 
 #include "core/material/material.h"
 
+#include <math.h>
+
 /** @file
  *  What isotropic elastic laws share: the two parameters, the constants made of them, and the operations that need
  *  nothing else. */
@@ -26,6 +28,18 @@ struct mor_hooke {
     double wave_speed; /* m/s, see mor_hooke_wave_speed */
     mor_hooke_run run;
 };
+
+/** Schema entries of the two parameters, for laws that have more. */
+#define MOR_HOOKE_YOUNGS_MODULUS_SCHEMA                                                                                \
+    {                                                                                                                  \
+        .key = "youngs_modulus", .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "Pa", .is_required = 1,           \
+        .minimum = 0.0, .maximum = INFINITY, .excludes_minimum = 1, .text = "Young's modulus E"                        \
+    }
+#define MOR_HOOKE_POISSONS_RATIO_SCHEMA                                                                                \
+    {                                                                                                                  \
+        .key = "poissons_ratio", .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "1", .is_required = 1,            \
+        .minimum = -1.0, .maximum = 0.5, .excludes_minimum = 1, .excludes_maximum = 1, .text = "Poisson's ratio"       \
+    }
 
 /** Parameter schema: youngs_modulus, poissons_ratio; shape [MOR_HOOKE_COUNT + 1], ended by key NULL. */
 extern const mor_schema mor_hooke_parameters[];
