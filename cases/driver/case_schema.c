@@ -2,28 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case_schema.h"
 
+#include "cases/driver/case_schema_words.h"
 #include "core/particle/field.h"
 
 #include <math.h>
 #include <string.h>
 
 /* Entries follow mor_schema: key, kind, components, unit, required, default, range, choices, text. */
-#define ANY -INFINITY, INFINITY, 0, 0
-#define POSITIVE 0.0, INFINITY, 1, 0
-#define NOT_NEGATIVE 0.0, INFINITY, 0, 0
-#define REQUIRED 1, 0.0
-#define DEFAULT(value) 0, (value)
-#define SCALAR MOR_SCHEMA_REAL, 1
-#define VECTOR MOR_SCHEMA_VECTOR, 3
-#define WHOLE MOR_SCHEMA_INTEGER, 1
-#define SWITCH MOR_SCHEMA_BOOLEAN, 1
-#define WORDS MOR_SCHEMA_TEXT, 1
-#define CHOICE MOR_SCHEMA_CHOICE, 1
-#define AT(record, member) .offset = offsetof(record, member), .size = sizeof(((record *)0)->member)
-#define END                                                                                                            \
-    {                                                                                                                  \
-        .schema = {.key = NULL }                                                                                       \
-    }
 
 /* ---- The top level and the groups that set one thing each -------------------------------------------------------- */
 

@@ -152,9 +152,14 @@ const char *mor_case_body_condition(const mor_case_body *body, const char *name)
  *  Returns: NULL when it has an effect, else words that say with what it would. */
 const char *mor_case_start_condition(mor_case_motion motion, const char *name);
 
-/** Contact modulus of a body: the one given, else density * (30 v)^2, with v the largest of the speeds at the start of
- *  bodies, walls and soil and of a fall through the domain (where there is none: what crosses the domain before the
- *  end). A block of height H that hits at v with all of its face then goes sqrt(H * spacing) / 30 deep.
+/** Largest of the speeds at the start of bodies, walls and soil and of a fall through the domain; where there is none,
+ *  what crosses the domain before the end.
+ *  @param the_case [in]  one object, whole
+ *  Returns: unit m/s; > 0. */
+double mor_case_largest_speed(const mor_case *the_case);
+
+/** Contact modulus of a body: the one given, else density * (30 v)^2, with v the largest speed of the case. A block of
+ *  height H that hits at v with all of its face then goes sqrt(H * spacing) / 30 deep.
  *  @param the_case [in]  one object, whole
  *  @param body     [in]  one object; of the case
  *  Returns: unit Pa; > 0. */

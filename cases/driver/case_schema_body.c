@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case_schema.h"
 
+#include "cases/driver/case_schema_words.h"
 #include "core/base/math.h"
 #include "core/particle/field.h"
 #include "core/particle/shape_analytic.h"
@@ -11,21 +12,7 @@
 
 /* Bodies and their contact: the tables, and what depends on the kind of a body. Entries follow mor_schema as in
  * case_schema.c. */
-#define ANY -INFINITY, INFINITY, 0, 0
-#define POSITIVE 0.0, INFINITY, 1, 0
-#define NOT_NEGATIVE 0.0, INFINITY, 0, 0
-#define REQUIRED 1, 0.0
-#define DEFAULT(value) 0, (value)
-#define SCALAR MOR_SCHEMA_REAL, 1
-#define VECTOR MOR_SCHEMA_VECTOR, 3
-#define WORDS MOR_SCHEMA_TEXT, 1
-#define CHOICE MOR_SCHEMA_CHOICE, 1
-#define AT(record, member) .offset = offsetof(record, member), .size = sizeof(((record *)0)->member)
 #define BODY(member) AT(mor_case_body, member)
-#define END                                                                                                            \
-    {                                                                                                                  \
-        .schema = {.key = NULL }                                                                                       \
-    }
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
@@ -270,11 +257,9 @@ static double find_body_speed(const mor_case_body *body, int dimension)
     return fmax(fmax(mor_vector_dot(body->velocity, body->velocity), is_twisted ? 0.0 : own), edge);
 }
 
-double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body)
+/* Square of the largest speed of a case, m2/s2. */
+static double find_squared_speed(const mor_case *the_case)
 {
-    if (!isnan(body->contact_modulus)) {
-        return body->contact_modulus;
-    }
     double squared_speed = 0.0; /* of a fall: 2 |g| times the extent of the domain along g */
     double squared_diagonal = 0.0;
     for (int a = 0; a < the_case->dimension; ++a) {
@@ -296,5 +281,15 @@ double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *b
     if (squared_speed == 0.0) { /* what crosses the domain before the end */
         squared_speed = squared_diagonal / (the_case->end * the_case->end);
     }
-    return 900.0 * squared_speed * body->density;
+    return squared_speed;
+}
+
+double mor_case_largest_speed(const mor_case *the_case)
+{
+    return sqrt(find_squared_speed(the_case));
+}
+
+double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body)
+{
+    return isnan(body->contact_modulus) ? 900.0 * find_squared_speed(the_case) * body->density : body->contact_modulus;
 }

@@ -2,17 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case_schema.h"
 
+#include "cases/driver/case_schema_words.h"
+
 #include <math.h>
 #include <string.h>
 
 /* Probes and expectations: the tables. Entries follow mor_schema as in case_schema.c. */
-#define ANY -INFINITY, INFINITY, 0, 0
-#define NOT_NEGATIVE 0.0, INFINITY, 0, 0
-#define AT(record, member) .offset = offsetof(record, member), .size = sizeof(((record *)0)->member)
-#define END                                                                                                            \
-    {                                                                                                                  \
-        .schema = {.key = NULL }                                                                                       \
-    }
 
 static const mor_case_key probe_keys[] = {
     {{"name", MOR_SCHEMA_TEXT, 1, "1", 0, NAN, ANY, NULL, "name of the result"},

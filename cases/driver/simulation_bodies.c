@@ -85,24 +85,6 @@ static mor_status fill_body(mor_context *context, const mor_case *c, const mor_c
     return MOR_OK;
 }
 
-/* Speed that things in the case may reach: falling through the domain, or moving as they start. */
-static double find_speed(const mor_case *c)
-{
-    double height = 0.0;
-    double diagonal = 0.0;
-    double squared = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double extent = a < c->dimension ? c->domain_maximum[a] - c->domain_minimum[a] : 0.0;
-        height += extent * fabs(c->gravity[a]);
-        diagonal += extent * extent;
-    }
-    for (int b = 0; b < c->n_bodies; ++b) {
-        squared = fmax(squared, mor_vector_dot(c->bodies[b].velocity, c->bodies[b].velocity));
-    }
-    squared = fmax(squared, 2.0 * height);
-    return squared > 0.0 ? sqrt(squared) : sqrt(diagonal) / c->end;
-}
-
 static mor_status make_request(mor_context *context, const mor_case *c, const mor_case_body *it,
                                mor_lattice_points *points, mor_body_request *request)
 {
@@ -355,7 +337,7 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
     mor_contact_wall walls[MOR_CASE_WALLS_MAX];
     uint64_t bits[MOR_BODY_GROUPS_MAX];
     const double strength = mor_vector_length(frame->gravity);
-    const double slowest = strength > 0.0 ? 0.1 * sqrt(strength * c->spacing) : 1.0e-3 * find_speed(c);
+    const double slowest = strength > 0.0 ? 0.1 * sqrt(strength * c->spacing) : 1.0e-3 * mor_case_largest_speed(c);
     memset(walls, 0, sizeof walls);
     for (int w = 0; w < c->n_walls; ++w) {
         snprintf(walls[w].name, sizeof walls[w].name, "%s", c->walls[w].name);
