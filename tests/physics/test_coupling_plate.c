@@ -91,7 +91,7 @@ static void drag_over_load_is_the_friction_of_the_pair(void **state)
     static const double coefficients[2] = {0.1, 0.2};
     for (int k = 0; k < 2; ++k) {
         const double ratio = run_bed(MOR_WALL_COULOMB, coefficients[k]);
-        /* The law of the plan; 1.0 and 1.5 % less were measured, from particles that do not slide all the time. */
+        /* Within a twentieth; 1.0 and 1.5 % less were measured, from particles that do not slide all the time. */
         assert_true(fabs(ratio - coefficients[k]) <= 0.05 * coefficients[k]);
     }
 }

@@ -83,7 +83,7 @@ static void continued_stress_gives_the_integral_over_the_surface(void **state)
     (void)state;
     for (int friction = 0; friction < 3; ++friction) {
         const ratios found = measure_at_once((mor_wall_friction)friction, MOR_WALL_STRESS_LINEAR);
-        /* The law of the plan. Measured: 1e-5 and 4e-4 rough; 2.4 % and 0.9 % smooth, whose corners are rounded. */
+        /* Kernel sums, 3 %. Measured: 1e-5 and 4e-4 rough; 2.4 % and 0.9 % smooth, whose corners are rounded. */
         assert_true(fabs(found.box - 1.0) < 0.03);
         assert_true(fabs(found.plate - 1.0) < 0.03); /* likewise */
     }
@@ -97,7 +97,7 @@ static void mirrored_stress_is_that_of_the_soil_before_the_face(void **state)
         /* The faces feel the stress that stands 0.5 to 0.8 spacings off them, where the kernel has the particles. */
         const double off = 0.5 * BOX_Y * (found.box - 1.0);
         assert_true(off > 0.4 && off < 0.8);
-        assert_true(fabs(found.plate - 1.0) < 0.03); /* the law of the plan: 2 to 3 % less were measured */
+        assert_true(fabs(found.plate - 1.0) < 0.03); /* kernel sums at a flat face: 2 to 3 % less were measured */
     }
 }
 
@@ -115,8 +115,8 @@ static void soil_around_a_body_stays_at_rest(void **state)
             mean.box += it->schedule.step_length * now.box;
             mean.plate += it->schedule.step_length * now.plate;
         }
-        assert_true(fabs(mean.box / time - 1.0) < 0.03);   /* the law of the plan; 1e-4 was measured */
-        assert_true(fabs(mean.plate / time - 1.0) < 0.03); /* the law of the plan; 1e-3 was measured */
+        assert_true(fabs(mean.box / time - 1.0) < 0.03);   /* kernel sums at flat faces; 1e-4 was measured */
+        assert_true(fabs(mean.plate / time - 1.0) < 0.03); /* kernel sums at flat faces; 1e-3 was measured */
         assert_true(it->soil.largest_speed <
                     1e-3 * sqrt(GRAVITY * DEPTH * SPACING)); /* the plan's limit for a column */
         rock_scene_close(it);

@@ -7,7 +7,9 @@ static const double SPACING = 0.05;
 static const double WEIGHT = 2400.0 * 0.4 * 0.3 * 9.81; /* of the rock, N/m */
 
 /* A bed of dry sand between smooth walls; the rock of 0.4 m by 0.3 m lies in the middle and loads the sand to about a
- * fifteenth of what a strip of its width may carry there. */
+ * fifteenth of what a strip of its width may carry there. The sand is stiff on purpose: stress diffusion lets it creep
+ * under the load, the more the softer it is, and at 10 MPa the rock sinks by 0.14 spacings in the two seconds, which is
+ * not rest. For the same reason it settles to 0.004 only. See docs/validation/rock-at-rest.md. */
 static const char bed[] =
     "title = 'Rock at rest on soil'; dimension = 2; spacing = '50 mm'; end = '3 s';"
     "gravity = ('0 m/s2', '-9.81 m/s2', '0 m/s2');"
@@ -75,8 +77,8 @@ static rest watch(const char *const *settings)
 
 static void expect_rest(const rest *found)
 {
-    scene_expect_near("sinking in spacings", found->sinking, 0.0, 0.1);       /* the law of the plan */
-    scene_expect_near("mean force / weight", found->force, 1.0, 0.02);        /* the law of the plan */
+    scene_expect_near("sinking in spacings", found->sinking, 0.0, 0.1);       /* a tenth of a spacing in 2 s is rest */
+    scene_expect_near("mean force / weight", found->force, 1.0, 0.02);        /* kernel sums at a face */
     scene_expect_near("last force / weight", found->force_last, 1.0, 0.02);   /* likewise: nothing swings */
     scene_expect_near("way sideways in spacings", found->sideways, 0.0, 0.1); /* as sinking */
     scene_expect_near("turn", found->turn, 0.0, 0.1 * SPACING / 0.2);         /* a corner by as much as it may sink */
