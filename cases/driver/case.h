@@ -175,7 +175,9 @@ typedef struct mor_case_numerics {
     int wall_stress;                   /* 0 uniform, 1 along, 2 linear */
     double dissipation_factor;         /* eta; default 20 * dimension */
     bool density_pressure_term;        /* pressure part of U* in the density rate */
+    int reconstruction;                /* of velocities at the middle of a pair: 0 none, 1 linear */
     double stress_diffusion;           /* zeta; 0: off */
+    int stress_diffusion_limiter;      /* 0 none, 1 motion */
     bool artificial_stress;            /* Z(27)-Z(31) */
     double artificial_stress_exponent; /* n */
     double artificial_stress_factor;   /* epsilon */

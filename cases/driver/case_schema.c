@@ -114,6 +114,11 @@ static const mor_case_key numerics_keys[] = {
      MOR_CASE_STORE_REALS,
      NUMERICS(dissipation_factor),
      .computed = "20 * dimension"},
+    {{"reconstruction", CHOICE, "1", DEFAULT(0.0), ANY, "none|linear",
+      "velocities between which the Riemann solver damps: of the soil particles, or continued linearly to the middle "
+      "of the pair, so that smooth motion is not damped"},
+     MOR_CASE_STORE_CHOICE,
+     NUMERICS(reconstruction)},
     {{"density_pressure_term", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
       "pressure part of the Riemann velocity in the "
       "rate of density"},
@@ -122,6 +127,11 @@ static const mor_case_key numerics_keys[] = {
     {{"stress_diffusion", SCALAR, "1", DEFAULT(0.1), 0.0, 0.5, 0, 0, NULL, "factor of the stress diffusion; 0: off"},
      MOR_CASE_STORE_REALS,
      NUMERICS(stress_diffusion)},
+    {{"stress_diffusion_limiter", CHOICE, "1", DEFAULT(0.0), ANY, "none|motion",
+      "where stress diffuses: everywhere, or only as far as particles move against each other, so that soil at rest "
+      "under a load does not creep"},
+     MOR_CASE_STORE_CHOICE,
+     NUMERICS(stress_diffusion_limiter)},
     {{"artificial_stress", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
       "artificial stress against clumping in tension, for "
       "cohesive soil"},

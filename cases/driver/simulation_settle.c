@@ -158,6 +158,9 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         const int64_t n = soil->set.n_particles;
         memset(soil->set.data[MOR_FIELD_VELOCITY], 0, (size_t)(3 * n) * sizeof(double));
         memset(soil->set.data[MOR_FIELD_DENSITY_RATE], 0, (size_t)n * sizeof(double));
+        if (soil->set.data[MOR_FIELD_STRAIN_RATE] != NULL) {
+            memset(soil->set.data[MOR_FIELD_STRAIN_RATE], 0, (size_t)n * 6 * sizeof(double));
+        }
         memset(soil->wall_impulse, 0, sizeof soil->wall_impulse);
         memset(soil->wall_force, 0, sizeof soil->wall_force);
         soil->largest_speed = 0.0;

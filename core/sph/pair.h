@@ -39,6 +39,7 @@ typedef struct mor_pair_constants {
     int dimension;               /* 2 or 3 */
     mor_dissipation dissipation; /* between soil particles */
     bool has_artificial_stress;  /* artificial_stress is read */
+    bool has_limited_diffusion;  /* stress diffuses as far as a pair moves, by the limiter of the dissipation */
     bool has_pressure_term;      /* pressure part of U* in the density rate */
     double smoothing_length;     /* h, m */
     double gradient_factor;      /* mor_kernel_gradient_factor, unit 1/m^(d+2) */
@@ -64,6 +65,7 @@ typedef struct mor_pair_arrays {
     double *density_rate;            /* shape [n], kg/m3/s */
     double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
     const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
+    const double *strain_rate;       /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
 } mor_pair_arrays;
 
 /** A sum over the clusters [first, last); writes its own particles only. */

@@ -9,6 +9,9 @@
 
 #include <math.h>
 #include <string.h>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 /** @file
  *  What the files of the pair loops share among themselves: choices between lanes and the separation of a pair. Not for
@@ -29,16 +32,63 @@ INLINE vec pick(mask where, vec a, vec b)
     return (vec)(((mask)a & where) | ((mask)b & ~where));
 }
 
+/** Returns the larger of two lanes, the second when one is no number; any unit. */
+INLINE vec larger(vec a, vec b)
+{
+#if defined(__AVX512F__)
+    return (vec)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif defined(__AVX__)
+    return (vec)_mm256_max_pd((__m256d)a, (__m256d)b);
+#else
+    return pick(a > b, a, b);
+#endif
+}
+
+/** Returns the smaller of two lanes, the second when one is no number; any unit. */
+INLINE vec smaller(vec a, vec b)
+{
+#if defined(__AVX512F__)
+    return (vec)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif defined(__AVX__)
+    return (vec)_mm256_min_pd((__m256d)a, (__m256d)b);
+#else
+    return pick(a < b, a, b);
+#endif
+}
+
+/** Returns a b + c with one rounding where the processor has it; any unit. Written out wherever a sum has two products,
+ *  for a compiler may fuse either, and not the same one for every instruction set. */
+INLINE vec fused(vec a, vec b, vec c)
+{
+#if defined(__AVX512F__)
+    return (vec)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#elif defined(__FMA__)
+    return (vec)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#else
+    return a * b + c;
+#endif
+}
+
 /** Returns the larger of each lane and zero; any unit. */
 INLINE vec positive_part(vec a)
 {
-    return (vec)((mask)a & (a > 0.0));
+    return larger(a, spread(0.0));
 }
 
-/** Returns the smaller of two lanes; any unit. */
-INLINE vec smaller(vec a, vec b)
+/** Returns 1 when any lane of a is less than b, else 0; any unit. */
+INLINE int any_less(vec a, double b)
 {
-    return pick(a < b, a, b);
+#if defined(__AVX512F__)
+    return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ) != 0;
+#elif defined(__AVX__)
+    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, _mm256_set1_pd(b), _CMP_LT_OQ)) != 0;
+#else
+    int any = 0;
+    for (int lane = 0; lane < LANES; ++lane) {
+        any |= a[lane] < b;
+    }
+    return any;
+#endif
 }
 
 /** Returns the absolute values; any unit. */
@@ -87,19 +137,73 @@ typedef struct pair {
     vec reach; /* 1 - q/2 inside the support, 0 outside */
 } pair;
 
+/* Targets that are dealt with at a time. The arithmetic of a pair is a long chain of dependent operations. Cut into
+ * passes over a chunk, with what goes from one to the next kept in the nearest cache, each chain is short, and many
+ * pairs are under way at once. */
+enum { CHUNK = 32 };
+
+/** Targets of which at least one lane is in reach, and the geometry of the pairs. */
+typedef struct chunk {
+    const double *target[CHUNK]; /* shape [CHUNK] of [stride]; records, units of MOR_RECORD_... */
+    int64_t index[CHUNK];        /* of the targets */
+    int n;                       /* how many */
+    vec distance2[CHUNK];        /* m2 */
+    vec distance[CHUNK];         /* m */
+    vec k[CHUNK];                /* (1 - q/2)^3 V, m3 (m2) */
+} chunk;
+
+/** Returns the vector from a target, shape [3], unit m, to the particles of a frame, one object. */
+INLINE void separate(vec *r, const frame *f, const double *target, const int dimension)
+{
+    r[0] = f->x[0] - target[0];
+    r[1] = f->x[1] - target[1];
+    r[2] = dimension == 3 ? f->x[2] - target[2] : spread(0.0);
+}
+
+/** Returns its squared length, padded so that nothing divides by zero, unit m2. */
+INLINE vec squared(const vec *r, const frame *f, const int dimension)
+{
+    const vec plane = fused(r[0], r[0], r[1] * r[1]);
+    const vec sum = dimension == 3 ? fused(r[2], r[2], plane) : plane;
+    return sum + f->tiny;
+}
+
+/** Takes the next targets in reach of a frame, one object, from a list, shape [count], from an entry on. Records: shape
+ *  [n, MOR_RECORD_SIZE], units of MOR_RECORD_.... Returns the entry to go on from. */
+INLINE int32_t take_chunk(chunk *c, const frame *f, const double *records, const int32_t *list, int32_t entry,
+                          int32_t count, const int dimension)
+{
+    const double reach2 = 1.0 / (f->half_inverse_h * f->half_inverse_h);
+    int n = 0;
+    for (; entry < count && n < CHUNK; ++entry) {
+        const int64_t j = list[entry];
+        vec r[3];
+        separate(r, f, records + j * MOR_RECORD_SIZE, dimension);
+        c->index[n] = j;
+        n += any_less(squared(r, f, dimension), reach2);
+    }
+    c->n = n;
+    for (int q = 0; q < n; ++q) {
+        const double *target = records + c->index[q] * MOR_RECORD_SIZE;
+        c->target[q] = target;
+        vec r[3];
+        separate(r, f, target, dimension);
+        const vec d2 = squared(r, f, dimension);
+        const vec d = square_root(d2);
+        const vec reach = positive_part(1.0 - d * f->half_inverse_h);
+        c->distance2[q] = d2;
+        c->distance[q] = d;
+        c->k[q] = reach * reach * reach * target[MOR_RECORD_VOLUME];
+    }
+    return entry;
+}
+
 /** Returns the separation from a target, shape [3], unit m, as seen from a frame, one object. */
 INLINE pair pair_of(const frame *f, const double *target, const int dimension)
 {
     pair p;
-    p.r[0] = f->x[0] - target[0];
-    p.r[1] = f->x[1] - target[1];
-    p.distance2 = p.r[0] * p.r[0] + p.r[1] * p.r[1];
-    p.r[2] = spread(0.0);
-    if (dimension == 3) {
-        p.r[2] = f->x[2] - target[2];
-        p.distance2 += p.r[2] * p.r[2];
-    }
-    p.distance2 += f->tiny;
+    separate(p.r, f, target, dimension);
+    p.distance2 = squared(p.r, f, dimension);
     p.distance = square_root(p.distance2);
     p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
     return p;
@@ -108,8 +212,8 @@ INLINE pair pair_of(const frame *f, const double *target, const int dimension)
 /** Returns the inner product of a vector, by components, with the separation, one object; unit: its own times m. */
 INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
 {
-    const vec sum = a * p->r[0] + b * p->r[1];
-    return dimension == 3 ? sum + c * p->r[2] : sum;
+    const vec sum = fused(a, p->r[0], b * p->r[1]);
+    return dimension == 3 ? fused(c, p->r[2], sum) : sum;
 }
 
 /** Finds kernel sums over a range of a job, one object; constants: one object. See mor_pair_table. */

@@ -32,7 +32,7 @@ static const mor_stage soil_stages[] = {
      BIT(DENSITY) | BIT(DENSITY_RATE) | RECORDS, "density by summation at an interval"},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on"},
-    {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS),
+    {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION), 0, "acceleration and stress diffusion by the neighbors"},
     {"angular momentum", mor_soil_keep_angular_momentum, RECORDS | LISTS, 0, BIT(ACCELERATION),
      "takes out what turns the soil by itself, when switched on"},
@@ -45,6 +45,8 @@ static const mor_stage soil_stages[] = {
      "the part of walls and rocks in both"},
     {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS | WALL_SUMS, 0,
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on"},
+    {"strain rate", mor_soil_keep_strain_rate, BIT(VELOCITY_GRADIENT), 0, BIT(STRAIN_RATE),
+     "kept for the next step's reconstruction, when switched on"},
     {"regularization", mor_soil_regularize, RECORDS | LISTS | BIT(VELOCITY_GRADIENT), 0, BIT(POSITION) | BIT(VELOCITY),
      "XSPH and shifting, when switched on"},
     {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
@@ -54,7 +56,7 @@ static const mor_stage soil_stages[] = {
 };
 
 static const uint64_t evolving_fields =
-    BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS);
+    BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE);
 
 /* Sums over the lattice the soil starts from: of V W, and of V (r_j - r_i) (x) grad_i W, one diagonal entry. */
 static void sum_lattice(const mor_soil_settings *settings, double smoothing_length, double *value, double *moment)
@@ -96,6 +98,7 @@ static void set_constants(mor_soil *soil)
         .gradient_factor = mor_kernel_gradient_factor(h, s->dimension) / (s->has_lattice_normalization ? moment : 1.0),
         .limiter_rate = s->dissipation_factor / soil->sound_speed,
         .diffusion_rate = 2.0 * s->stress_diffusion * h * soil->sound_speed,
+        .has_limited_diffusion = s->has_limited_diffusion,
         .artificial_exponent = s->artificial_stress_exponent,
         .shift_diameter = s->spacing * (s->dimension == 3 ? SPHERE_DIAMETER : DISC_DIAMETER),
         .spacing_kernel = mor_kernel_value(s->spacing, h, s->dimension),
@@ -189,6 +192,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
     fields &= settings->has_artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
     fields &= settings->stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
+    fields &= settings->has_reconstruction ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
         status = add_state_fields(context, soil);

@@ -26,7 +26,9 @@ typedef struct mor_soil_settings {
     mor_dissipation wall_dissipation; /* against walls */
     double dissipation_factor;        /* eta, 1 */
     bool has_density_pressure_term;   /* pressure part of U* in the density rate */
+    bool has_reconstruction;          /* the limiter sees what is left of a jump after linear reconstruction */
     double stress_diffusion;          /* zeta, 1; 0: off */
+    bool has_limited_diffusion;       /* stress diffuses as far as pairs move, by the limiter of the dissipation */
     double lateral_ratio;             /* K0 of the stress-diffusion operator, 1 */
     bool has_artificial_stress;
     double artificial_stress_exponent; /* n, 1 */

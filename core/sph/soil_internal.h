@@ -22,6 +22,7 @@ mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_drag_walls(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_keep_strain_rate(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step);

@@ -24,7 +24,8 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil)
                              data[MOR_FIELD_VELOCITY_GRADIENT],
                              data[MOR_FIELD_DENSITY_RATE],
                              soil->regularization,
-                             soil->spin_stress};
+                             soil->spin_stress,
+                             data[MOR_FIELD_STRAIN_RATE]};
 }
 
 /* Positions and densities over half a step, eqs. 54 and 56. */

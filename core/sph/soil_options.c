@@ -156,6 +156,28 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mo
     return MOR_OK;
 }
 
+mor_status mor_soil_keep_strain_rate(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    double *kept = soil->set.data[MOR_FIELD_STRAIN_RATE];
+    const double *gradient = soil->set.data[MOR_FIELD_VELOCITY_GRADIENT];
+    if (kept == NULL) {
+        return MOR_OK;
+    }
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        const double *l = gradient + 9 * i;
+        double *d = kept + 6 * i;
+        for (int a = 0; a < 3; ++a) {
+            const int b = (a + 1) % 3;
+            /* A zero's sign may tell whether a wall is listed; adding zero takes it away. */
+            d[a] = l[4 * a] + 0.0;
+            d[3 + a] = 0.5 * (l[3 * a + b] + l[3 * b + a]) + 0.0;
+        }
+    }
+    return MOR_OK;
+}
+
 /* The pair forces sigma_i . grad W of particle i exert the moment of the skew part of M sigma_i about it, M being the
  * kernel's moment over the soil. A skew stress A beside sigma_i takes that away: M A + A M = M sigma - sigma M, which
  * for the axial vector a of A reads (tr M - M) a = axial vector of the right side. In the frame of M its components

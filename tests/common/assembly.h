@@ -8,10 +8,15 @@
 #include "core/sph/pair.h"
 #include "tests/common/cloud.h"
 
+#include <math.h>
+
 /** @file
  *  A few dozen soil particles in random states, everything the pair loops read of them, and everything they write. */
 
 enum { ASSEMBLY_MAX = 128, ASSEMBLY_SIDE_MAX = 16, ASSEMBLY_RECORDS = ASSEMBLY_MAX * MOR_RECORD_SIZE };
+
+/** Ways to damp and to diffuse: modes of dissipation, with and without reconstruction and limited diffusion. */
+enum { ASSEMBLY_FORMS = 3 * 2 * 2 };
 
 #define ASSEMBLY_SPACING 0.01
 #define ASSEMBLY_SOUND 50.0
@@ -27,8 +32,10 @@ typedef struct assembly {
     mor_pair_constants constants;
     mor_tree tree;
     mor_relation relation;
-    double records[ASSEMBLY_RECORDS];    /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    double artificial[6 * ASSEMBLY_MAX]; /* shape [n padded to 8, 6], Pa */
+    double records[ASSEMBLY_RECORDS];     /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    double artificial[6 * ASSEMBLY_MAX];  /* shape [n padded to 8, 6], Pa */
+    double strain_rate[6 * ASSEMBLY_MAX]; /* shape [n padded to 8, 6], 1/s */
+    bool has_reconstruction;              /* strain_rate is handed to the loops */
 } assembly;
 
 /** What the loops write; behind the last particle stands ASSEMBLY_CANARY. */
@@ -67,6 +74,7 @@ static inline mor_pair_constants assembly_constants(int dimension)
     mor_pair_constants c = {.dimension = dimension,
                             .dissipation = MOR_DISSIPATION_BOTH,
                             .has_artificial_stress = true,
+                            .has_limited_diffusion = true,
                             .has_pressure_term = true,
                             .smoothing_length = h,
                             .gradient_factor = mor_kernel_gradient_factor(h, dimension),
@@ -93,6 +101,7 @@ static inline void assembly_fill(assembly *a, int i, uint64_t id)
 {
     double *record = a->records + i * MOR_RECORD_SIZE;
     double *artificial = a->artificial + 6 * i;
+    double *strain_rate = a->strain_rate + 6 * i;
     const int dimension = a->constants.dimension;
     const double cell =
         dimension == 2 ? ASSEMBLY_SPACING * ASSEMBLY_SPACING : ASSEMBLY_SPACING * ASSEMBLY_SPACING * ASSEMBLY_SPACING;
@@ -103,6 +112,8 @@ static inline void assembly_fill(assembly *a, int i, uint64_t id)
         const bool is_out_of_plane = dimension == 2 && (k == MOR_YZ || k == MOR_ZX);
         record[MOR_RECORD_STRESS + k] = is_out_of_plane ? 0.0 : cloud_number(id, 20 + (uint64_t)k, -2e4, 1e4);
         artificial[k] = is_out_of_plane ? 0.0 : cloud_number(id, 30 + (uint64_t)k, -4e3, 4e3);
+        /* Over a spacing these explain about as much as the velocities below differ: less, more, and its opposite. */
+        strain_rate[k] = is_out_of_plane ? 0.0 : cloud_number(id, 60 + (uint64_t)k, -100.0, 100.0);
     }
     for (int k = 0; k < dimension; ++k) {
         record[MOR_RECORD_VELOCITY + k] = cloud_number(id, 40 + (uint64_t)k, -1.0, 1.0);
@@ -134,6 +145,7 @@ static inline void assembly_open(assembly *a, int dimension, const double *point
     mor_context_init(&a->context);
     a->n = n;
     a->constants = assembly_constants(dimension);
+    a->has_reconstruction = true;
     mor_tree_order(points, 3, n, order);
     for (int i = 0; i < n; ++i) {
         memcpy(a->records + i * MOR_RECORD_SIZE, points + 3 * order[i], 3 * sizeof *points);
@@ -173,6 +185,40 @@ static inline void assembly_close(assembly *a)
     assert_int_equal(a->context.memory_bytes, 0);
 }
 
+/** Sets what damps and diffuses by one of ASSEMBLY_FORMS numbers: dissipation, reconstruction, limited diffusion. */
+static inline void assembly_choose(assembly *a, int form)
+{
+    a->constants.dissipation = (mor_dissipation)(form % 3);
+    a->has_reconstruction = form / 3 % 2;
+    a->constants.has_limited_diffusion = form / 6 % 2;
+}
+
+/** Calls check(assembly, table) for mixed assemblies in two and three dimensions, each form and each table. */
+static inline void assembly_for_mixed(void (*check)(assembly *a, const mor_pair_table *table))
+{
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    for (int option = 0; option < 2 * ASSEMBLY_FORMS * n_tables; ++option) {
+        assembly *a = malloc(sizeof *a);
+        assert_non_null(a);
+        assembly_open_mixed(a, 2 + option % 2);
+        assembly_choose(a, option / 2);
+        check(a, tables[option / (2 * ASSEMBLY_FORMS)]);
+        assembly_close(a);
+        free(a);
+    }
+}
+
+/** Largest magnitude of n numbers, any unit. */
+static inline double assembly_largest(const double *values, int n)
+{
+    double most = 0.0;
+    for (int k = 0; k < n; ++k) {
+        most = fmax(most, fabs(values[k]));
+    }
+    return most;
+}
+
 /** Runs every loop of a table over the clusters, so many at a time. */
 static inline void assembly_run(const assembly *a, const mor_pair_table *table, int clusters, assembly_sums *sums)
 {
@@ -189,7 +235,8 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
                                     .stress_diffusion = diffuses ? sums->stress_diffusion : NULL,
                                     .velocity_gradient = sums->velocity_gradient,
                                     .density_rate = sums->density_rate,
-                                    .regularization = sums->regularization};
+                                    .regularization = sums->regularization,
+                                    .strain_rate = a->has_reconstruction ? a->strain_rate : NULL};
     const int n_clusters = (int)a->tree.n_clusters;
     const int plane = a->constants.dimension - 2;
     for (int first = 0; first < n_clusters; first += clusters) {

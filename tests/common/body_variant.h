@@ -74,7 +74,7 @@ static const char body_space[] =
     "numerics = { density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
-enum { BODY_VARIANTS = 12 };
+enum { BODY_VARIANTS = 13 };
 
 static const scene_variant body_variants[BODY_VARIANTS] = {
     {"as it comes", {NULL}},
@@ -86,6 +86,8 @@ static const scene_variant body_variants[BODY_VARIANTS] = {
     {"barrier", {"numerics.barrier_stiffness=20", NULL}},
     {"barrier that limits the step", {"numerics.barrier_stiffness=1e6", NULL}},
     {"angular momentum", {"numerics.angular_momentum=true", NULL}},
+    {"reconstruction and limited diffusion",
+     {"numerics.reconstruction=linear", "numerics.stress_diffusion_limiter=motion", NULL}},
     {"rough contact", {"contact.friction_coefficient=5", "contact.restitution=1", NULL}},
     {"damping and ramp", {"numerics.damping=20 1/s", "numerics.gravity_ramp=10 ms", NULL}},
     {"settled stress",

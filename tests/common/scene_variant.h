@@ -42,7 +42,7 @@ static const char scene_space[] =
     "numerics = { density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
-enum { SCENE_VARIANT_SETTINGS = 4, SCENE_VARIANTS = 25 };
+enum { SCENE_VARIANT_SETTINGS = 4, SCENE_VARIANTS = 28 };
 
 /** One way to run the scenes. */
 typedef struct scene_variant {
@@ -59,6 +59,11 @@ static const scene_variant scene_variants[SCENE_VARIANTS] = {
     {"xsph and shifting", {"numerics.xsph=0.3", "numerics.shifting=true", NULL}},
     {"no density summation", {"numerics.density_reinitialization=0", NULL}},
     {"no stress diffusion", {"numerics.stress_diffusion=0", NULL}},
+    {"linear reconstruction", {"numerics.reconstruction=linear", NULL}},
+    {"diffusion limited by motion", {"numerics.stress_diffusion_limiter=motion", NULL}},
+    {"reconstruction of corrected gradients",
+     {"numerics.reconstruction=linear", "numerics.stress_diffusion_limiter=motion", "numerics.dissipation=both",
+      "numerics.gradient_correction=true", NULL}},
     {"lattice normalization", {"numerics.lattice_normalization=true", NULL}},
     {"wall stress along", {"numerics.wall_stress=along", NULL}},
     {"wall stress linear", {"numerics.wall_stress=linear", NULL}},

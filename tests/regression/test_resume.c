@@ -29,6 +29,7 @@ static const variant variants[] = {
      {"numerics.xsph=0.2", "numerics.shifting=true", "numerics.gradient_correction=true",
       "numerics.artificial_stress=true", "numerics.gravity_ramp=40 ms"},
      5},
+    {"reconstructed", {"numerics.reconstruction=linear", "numerics.stress_diffusion_limiter=motion"}, 2},
     {"no_skin", {"numerics.skin_ratio=0", "lattice.jitter=0.2", "numerics.damping=5"}, 3},
 };
 
