@@ -8,8 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-/* STACK: pending nodes of a descent. SLACK: spare room against regrowth, 1/n. */
-enum { STACK = 64, SLACK = 4, FIRST_CAPACITY = 4096 };
+/* STACK: pending nodes of a descent. SLACK: spare room against regrowth, 1/n. GROUP: source clusters that share a
+ * descent. CANDIDATES: target clusters that are looked at together. */
+enum { STACK = 64, SLACK = 4, FIRST_CAPACITY = 4096, GROUP = 8, CANDIDATES = 512 };
 
 mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
                              int64_t n_clusters)
@@ -67,6 +68,7 @@ static double box_gap(const double *p, const double *q)
 /* One number for each of the eight. */
 typedef double vec __attribute__((vector_size(MOR_CLUSTER * sizeof(double))));
 typedef int64_t mask __attribute__((vector_size(MOR_CLUSTER * sizeof(int64_t))));
+typedef int8_t bytes __attribute__((vector_size(MOR_CLUSTER)));
 
 /* The eight source positions by component, and their box. */
 typedef struct lanes {
@@ -96,95 +98,197 @@ static void load_lanes(const mor_relation_points *source, int64_t cluster, lanes
     }
 }
 
-/* Whether one of the eight is nearer to a point than the square root of reach2. The sign bits of the differences are
- * joined by halves: fewer steps than one comparison after another. */
-static inline bool is_seen(const lanes *eight, const double *point, double reach2)
+/* One when one of the eight is nearer to a point than the square root of reach2, else zero. */
+static inline int64_t is_seen(const lanes *eight, const double *point, double reach2)
 {
     const vec dx = eight->x - point[0];
     const vec dy = eight->y - point[1];
     const vec dz = eight->z - point[2];
     const mask seen = dx * dx + dy * dy + dz * dz < reach2;
-    return (seen[0] | seen[1] | seen[2] | seen[3] | seen[4] | seen[5] | seen[6] | seen[7]) != 0;
+    /* Eight bytes of all bits or none: one number to ask. */
+    const bytes narrow = __builtin_convertvector(seen, bytes);
+    uint64_t all = 0;
+    memcpy(&all, &narrow, sizeof all);
+    return all != 0;
 }
 
-/* Appends the points of one target cluster that one of the eight sees; returns the new count. */
+/* Appends the points of one target cluster that one of the eight sees; returns their number. Entries are written
+ * before it is known whether they count, which spares a branch that nobody could predict. */
 static inline int64_t append_cluster(const lanes *eight, const mor_relation_points *target, int64_t cluster,
                                      double reach2, int32_t *out, int64_t room)
 {
     const int64_t begin = cluster * MOR_CLUSTER;
     const int64_t end = begin + MOR_CLUSTER < target->tree->n_points ? begin + MOR_CLUSTER : target->tree->n_points;
+    int32_t spare[MOR_CLUSTER];
+    int32_t *place = room >= MOR_CLUSTER ? out : spare;
     int64_t count = 0;
     for (int64_t j = begin; j < end; ++j) {
-        const double *record = target->records + j * target->stride;
-        if (is_seen(eight, record, reach2)) {
-            if (count < room) {
-                out[count] = (int32_t)j;
+        place[count] = (int32_t)j;
+        count += is_seen(eight, target->records + j * target->stride, reach2);
+    }
+    if (place == spare && room > 0) {
+        memcpy(out, spare, (size_t)(count < room ? count : room) * sizeof *out);
+    }
+    return count;
+}
+
+/* Target clusters near a group of source clusters. */
+typedef struct candidates {
+    double box[6][CANDIDATES]; /* by component, so that one source cluster asks many at once */
+    double gap[CANDIDATES];
+    int32_t cluster[CANDIDATES];
+    int n;
+} candidates;
+
+/* A descent of the target's tree that can be interrupted. */
+typedef struct descent {
+    struct {
+        int64_t node, begin, end;
+    } stack[STACK];
+    int depth; /* 0: done */
+} descent;
+
+static inline void push_node(descent *it, int64_t node, int64_t begin, int64_t end)
+{
+    it->stack[it->depth].node = node;
+    it->stack[it->depth].begin = begin;
+    it->stack[it->depth++].end = end;
+}
+
+/* Goes on to the next clusters in reach of a box, in ascending order, as many as there is room for. */
+static inline void find_candidates(descent *it, const double *box, const mor_tree *tree, double reach2,
+                                   candidates *found)
+{
+    found->n = 0;
+    while (it->depth > 0 && found->n < CANDIDATES) {
+        --it->depth;
+        const int64_t node = it->stack[it->depth].node;
+        const int64_t begin = it->stack[it->depth].begin;
+        const int64_t end = it->stack[it->depth].end;
+        const double *node_box = tree->boxes + 6 * node;
+        if (!(box_gap(box, node_box) < reach2)) {
+            continue;
+        }
+        if (end - begin == 1) {
+            for (int a = 0; a < 6; ++a) {
+                found->box[a][found->n] = node_box[a];
             }
-            ++count;
+            found->cluster[found->n++] = (int32_t)begin;
+            continue;
+        }
+        /* The left half is pushed last and so visited first: lists ascend. */
+        const int64_t left = mor_tree_left(end - begin);
+        push_node(it, node + 2 * left, begin + left, end);
+        push_node(it, node + 1, begin, begin + left);
+    }
+}
+
+/* Squared distances of the candidates' boxes from one. */
+static inline void find_gaps(const double *box, candidates *found)
+{
+    for (int k = 0; k < found->n; ++k) {
+        found->gap[k] = 0.0;
+    }
+    for (int a = 0; a < 3; ++a) {
+        const double low = box[a];
+        const double high = box[3 + a];
+        for (int k = 0; k < found->n; ++k) {
+            const double above = low - found->box[3 + a][k];
+            const double below = found->box[a][k] - high;
+            const double larger = above > below ? above : below;
+            const double gap = larger + fabs(larger);
+            found->gap[k] += gap * gap;
+        }
+    }
+}
+
+/* Appends what a cluster sees of the candidates; returns the entries found, of which at most room were written. */
+static inline int64_t append_candidates(const lanes *eight, const mor_relation_points *target, candidates *found,
+                                        double reach2, int32_t *out, int64_t room)
+{
+    int64_t count = 0;
+    find_gaps(eight->box, found);
+    for (int k = 0; k < found->n; ++k) {
+        if (0.25 * found->gap[k] < reach2) {
+            const int64_t written = count < room ? count : room;
+            count += append_cluster(eight, target, found->cluster[k], reach2, room > 0 ? out + written : out,
+                                    room - written);
         }
     }
     return count;
 }
 
-/* Lists one source cluster; returns the number of entries, of which at most room were written. */
-MOR_TARGET_CLONES
-static int64_t list_cluster(const mor_relation_points *source, const mor_relation_points *target, int64_t cluster,
-                            double reach2, int32_t *out, int64_t room)
+/* The box of a group of source clusters, at least one. */
+static inline void bound_group(const mor_relation_points *source, int64_t first, int64_t last, double *box)
 {
     lanes eight;
-    load_lanes(source, cluster, &eight);
-    struct { int64_t node, begin, end; } stack[STACK];
-    int depth = 0;
-    int64_t count = 0;
-    stack[0].node = 0;
-    stack[0].begin = 0;
-    stack[depth++].end = target->tree->n_clusters;
-    while (depth > 0) {
-        --depth;
-        const int64_t node = stack[depth].node;
-        const int64_t begin = stack[depth].begin;
-        const int64_t end = stack[depth].end;
-        if (!(box_gap(eight.box, target->tree->boxes + 6 * node) < reach2)) {
-            continue;
+    load_lanes(source, first, &eight);
+    memcpy(box, eight.box, sizeof eight.box);
+    for (int64_t cluster = first + 1; cluster < last; ++cluster) {
+        load_lanes(source, cluster, &eight);
+        for (int a = 0; a < 3; ++a) {
+            box[a] = eight.box[a] < box[a] ? eight.box[a] : box[a];
+            box[3 + a] = eight.box[3 + a] > box[3 + a] ? eight.box[3 + a] : box[3 + a];
         }
-        if (end - begin == 1) {
-            const int64_t written = count < room ? count : room;
-            count += append_cluster(&eight, target, begin, reach2, room > 0 ? out + written : out, room - written);
-            continue;
-        }
-        /* The left half is pushed last and so visited first: lists ascend. */
-        const int64_t left = mor_tree_left(end - begin);
-        stack[depth].node = node + 2 * left;
-        stack[depth].begin = begin + left;
-        stack[depth++].end = end;
-        stack[depth].node = node + 1;
-        stack[depth].begin = begin;
-        stack[depth++].end = begin + left;
     }
-    return count;
+}
+
+/* Lists the clusters [first, last) into one buffer; returns the entries it needs, whether or not they fit. Neighboring
+ * clusters see much the same, so the tree is descended once for a group of them. A group that sees more than there is
+ * room for is spread far; its clusters then descend for themselves. */
+MOR_TARGET_CLONES
+static int64_t list_range(mor_relation *relation, const mor_relation_points *source, const mor_relation_points *target,
+                          int buffer, int64_t first, int64_t last)
+{
+    const double reach2 = relation->reach * relation->reach;
+    candidates found;
+    int64_t total = 0;
+    int64_t shared_end = first;
+    for (int64_t cluster = first; cluster < last; ++cluster) {
+        descent it = {.depth = 0};
+        if (cluster == shared_end) {
+            double box[6];
+            shared_end = cluster + GROUP < last ? cluster + GROUP : last;
+            bound_group(source, cluster, shared_end, box);
+            push_node(&it, 0, 0, target->tree->n_clusters);
+            find_candidates(&it, box, target->tree, reach2, &found);
+            shared_end = it.depth > 0 ? cluster : shared_end;
+        }
+        lanes eight;
+        load_lanes(source, cluster, &eight);
+        const bool is_alone = cluster == shared_end;
+        if (is_alone) {
+            it.depth = 0;
+            push_node(&it, 0, 0, target->tree->n_clusters);
+            find_candidates(&it, eight.box, target->tree, reach2, &found);
+            shared_end = cluster + 1;
+        }
+        const int64_t left = relation->capacities[buffer] - total;
+        const int64_t room = left > 0 ? left : 0;
+        /* Without room nothing is written, and there may be no buffer yet. */
+        int32_t *out = room > 0 ? relation->buffers[buffer] + total : relation->buffers[buffer];
+        int64_t count = append_candidates(&eight, target, &found, reach2, out, room);
+        while (is_alone && it.depth > 0) {
+            const int64_t written = count < room ? count : room;
+            find_candidates(&it, eight.box, target->tree, reach2, &found);
+            count += append_candidates(&eight, target, &found, reach2, room > 0 ? out + written : out, room - written);
+        }
+        relation->lists[cluster] = out;
+        relation->counts[cluster] = (int32_t)count;
+        total += count;
+    }
+    return total;
 }
 
 /* One attempt; used[b] becomes the entries buffer b needs, whether or not they fit. */
 static void list_all(mor_context *context, mor_relation *relation, const mor_relation_points *source,
                      const mor_relation_points *target, int64_t *used)
 {
-    const double reach2 = relation->reach * relation->reach;
     const int64_t share = (relation->n_clusters + relation->n_buffers - 1) / relation->n_buffers;
     MOR_PARALLEL_FOR (context, buffer, relation->n_buffers, 1) {
         const int64_t first = buffer * share;
         const int64_t last = first + share < relation->n_clusters ? first + share : relation->n_clusters;
-        int64_t total = 0;
-        for (int64_t cluster = first; cluster < last; ++cluster) {
-            const int64_t left = relation->capacities[buffer] - total;
-            const int64_t room = left > 0 ? left : 0;
-            /* Without room nothing is written, and there may be no buffer yet. */
-            int32_t *out = room > 0 ? relation->buffers[buffer] + total : relation->buffers[buffer];
-            const int64_t count = list_cluster(source, target, cluster, reach2, out, room);
-            relation->lists[cluster] = out;
-            relation->counts[cluster] = (int32_t)count;
-            total += count;
-        }
-        used[buffer] = total;
+        used[buffer] = first < last ? list_range(relation, source, target, (int)buffer, first, last) : 0;
     }
 }
 
