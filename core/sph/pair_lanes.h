@@ -140,7 +140,7 @@ typedef struct pair {
 /* Targets that are dealt with at a time. The arithmetic of a pair is a long chain of dependent operations. Cut into
  * passes over a chunk, with what goes from one to the next kept in the nearest cache, each chain is short, and many
  * pairs are under way at once. */
-enum { CHUNK = 32 };
+enum { CHUNK = 32, AHEAD = 32 };
 
 /** Targets of which at least one lane is in reach, and the geometry of the pairs. */
 typedef struct chunk {
@@ -173,10 +173,14 @@ INLINE vec squared(const vec *r, const frame *f, const int dimension)
 INLINE int32_t take_chunk(chunk *c, const frame *f, const double *records, const int32_t *list, int32_t entry,
                           int32_t count, const int dimension)
 {
-    const double reach2 = 1.0 / (f->half_inverse_h * f->half_inverse_h);
+    /* A little wide, so that rounding leaves out no pair that counts. */
+    const double reach2 = (1.0 + 0x1p-40) / (f->half_inverse_h * f->half_inverse_h);
     int n = 0;
     for (; entry < count && n < CHUNK; ++entry) {
         const int64_t j = list[entry];
+        const double *ahead = records + (int64_t)list[entry + AHEAD < count ? entry + AHEAD : entry] * MOR_RECORD_SIZE;
+        __builtin_prefetch(ahead);
+        __builtin_prefetch(ahead + MOR_RECORD_STRESS);
         vec r[3];
         separate(r, f, records + j * MOR_RECORD_SIZE, dimension);
         c->index[n] = j;
