@@ -129,7 +129,7 @@ static const mor_case_key numerics_keys[] = {
      NUMERICS(stress_diffusion)},
     {{"stress_diffusion_limiter", CHOICE, "1", DEFAULT(0.0), ANY, "none|motion",
       "where stress diffuses: everywhere, or only as far as particles move against each other, so that soil at rest "
-      "under a load does not creep"},
+      "under a load does not creep (nowhere with dissipation_factor = 0)"},
      MOR_CASE_STORE_CHOICE,
      NUMERICS(stress_diffusion_limiter)},
     {{"artificial_stress", SWITCH, "1", DEFAULT(0.0), ANY, NULL,

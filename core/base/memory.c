@@ -9,17 +9,15 @@
 /* One alignment unit in front of each block remembers its size. */
 enum { HEADER_BYTES = MOR_MEMORY_ALIGNMENT_BYTES, LARGE_PAGE_BYTES = 1 << 21 };
 
-/* Neighbors of a cluster lie scattered over a large array, on more small pages than the processor can look up quickly. So
- * what fills several large pages gets them, where the system has them. */
+/* Neighbors of a cluster lie scattered over a large array, on more small pages than the processor can look up quickly.
+ * So what fills several large pages gets them, where the system has them. */
 static void *allocate(size_t bytes)
 {
 #if defined(MADV_HUGEPAGE)
-    if (bytes >= 2 * (size_t)LARGE_PAGE_BYTES) {
-        const size_t rounded = (bytes + LARGE_PAGE_BYTES - 1) / LARGE_PAGE_BYTES * LARGE_PAGE_BYTES;
-        void *raw = aligned_alloc(LARGE_PAGE_BYTES, rounded);
-        if (raw != NULL) {
-            (void)madvise(raw, rounded, MADV_HUGEPAGE); /* a wish: without it all is slower, but well */
-        }
+    void *raw = NULL;
+    if (bytes >= 2 * (size_t)LARGE_PAGE_BYTES && posix_memalign(&raw, LARGE_PAGE_BYTES, bytes) == 0) {
+        (void)madvise(raw, bytes / LARGE_PAGE_BYTES * LARGE_PAGE_BYTES,
+                      MADV_HUGEPAGE); /* refused, it costs time only */
         return raw;
     }
 #endif

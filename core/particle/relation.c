@@ -68,7 +68,7 @@ static double box_gap(const double *p, const double *q)
 /* One number for each of the eight. */
 typedef double vec __attribute__((vector_size(MOR_CLUSTER * sizeof(double))));
 typedef int64_t mask __attribute__((vector_size(MOR_CLUSTER * sizeof(int64_t))));
-typedef int8_t bytes __attribute__((vector_size(MOR_CLUSTER)));
+typedef int8_t narrow_mask __attribute__((vector_size(MOR_CLUSTER)));
 
 /* The eight source positions by component, and their box. */
 typedef struct lanes {
@@ -106,7 +106,7 @@ static inline int64_t is_seen(const lanes *eight, const double *point, double re
     const vec dz = eight->z - point[2];
     const mask seen = dx * dx + dy * dy + dz * dz < reach2;
     /* Eight bytes of all bits or none: one number to ask. */
-    const bytes narrow = __builtin_convertvector(seen, bytes);
+    const narrow_mask narrow = __builtin_convertvector(seen, narrow_mask);
     uint64_t all = 0;
     memcpy(&all, &narrow, sizeof all);
     return all != 0;
@@ -153,6 +153,12 @@ static inline void push_node(descent *it, int64_t node, int64_t begin, int64_t e
     it->stack[it->depth].node = node;
     it->stack[it->depth].begin = begin;
     it->stack[it->depth++].end = end;
+}
+
+static inline void start_descent(descent *it, const mor_tree *tree)
+{
+    it->depth = 0;
+    push_node(it, 0, 0, tree->n_clusters);
 }
 
 /* Goes on to the next clusters in reach of a box, in ascending order, as many as there is room for. */
@@ -242,26 +248,24 @@ static int64_t list_range(mor_relation *relation, const mor_relation_points *sou
 {
     const double reach2 = relation->reach * relation->reach;
     candidates found;
+    descent it;
     int64_t total = 0;
-    int64_t shared_end = first;
+    int64_t group_end = first;
+    bool is_alone = false;
     for (int64_t cluster = first; cluster < last; ++cluster) {
-        descent it = {.depth = 0};
-        if (cluster == shared_end) {
+        if (cluster == group_end) {
             double box[6];
-            shared_end = cluster + GROUP < last ? cluster + GROUP : last;
-            bound_group(source, cluster, shared_end, box);
-            push_node(&it, 0, 0, target->tree->n_clusters);
+            group_end = cluster + GROUP < last ? cluster + GROUP : last;
+            bound_group(source, cluster, group_end, box);
+            start_descent(&it, target->tree);
             find_candidates(&it, box, target->tree, reach2, &found);
-            shared_end = it.depth > 0 ? cluster : shared_end;
+            is_alone = it.depth > 0;
         }
         lanes eight;
         load_lanes(source, cluster, &eight);
-        const bool is_alone = cluster == shared_end;
         if (is_alone) {
-            it.depth = 0;
-            push_node(&it, 0, 0, target->tree->n_clusters);
+            start_descent(&it, target->tree);
             find_candidates(&it, eight.box, target->tree, reach2, &found);
-            shared_end = cluster + 1;
         }
         const int64_t left = relation->capacities[buffer] - total;
         const int64_t room = left > 0 ? left : 0;

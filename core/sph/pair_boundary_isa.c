@@ -82,7 +82,7 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
     for (int a = 0; a < 3; ++a) {
         n[a] = load(gradients, MOR_KERNEL_SUMS, a);
     }
-    const vec length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    const vec length2 = fused(n[2], n[2], fused(n[1], n[1], n[0] * n[0]));
     /* No normal where the wall is out of reach: everything is then tangential, and the caller's factor is zero. */
     const vec inverse = pick(length2 > 0.0, 1.0 / length2, spread(0.0));
     vec s[6];
@@ -167,8 +167,9 @@ INLINE void share_part(const mor_pair_constants *c, const mor_pair_share_job *jo
         double *force = job->force + (int64_t)slot->list[entry] * 3;
         const pair p = pair_of(&f, target, 3);
         const vec cube = p.reach * p.reach * p.reach * target[MOR_BOUNDARY_VOLUME];
-        const vec along = p.r[0] * d[0] + p.r[1] * d[1] + p.r[2] * d[2];
-        const vec weight = cube * (by_value * p.reach * (5.0 - 4.0 * p.reach) - c->gradient_factor * along);
+        const vec along = dot_r(&p, d[0], d[1], d[2], 3);
+        const vec by_gradient = c->gradient_factor * along;
+        const vec weight = cube * fused(by_value * p.reach, 5.0 - 4.0 * p.reach, -by_gradient);
         for (int a = 0; a < 3; ++a) {
             const vec part = weight * g[MOR_SHARE_FORCE + a];
             for (int lane = 0; lane < LANES; ++lane) {

@@ -22,7 +22,7 @@ INLINE limiter_slopes slopes_of(const mor_pair_constants *c)
                             c->dissipation == MOR_DISSIPATION_APPROACH ? 0.0 : -c->limiter_rate};
 }
 
-/* Twice the share of an approach that smooth motion explains, e . (D_i + D_j) e r, with D the strain rates. */
+/* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
 INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
 {
     vec d[6];
@@ -52,7 +52,7 @@ typedef struct momentum {
     limiter_slopes slopes;
     vec v[3], impedance, pressure; /* own state */
     vec strain_rate[6];            /* own, with reconstruction */
-    vec force[3];                  /* sum k (stress_j + 2 extra) r */
+    vec force[3];                  /* sum k (stress_j + extra) r */
     vec repulsion[3];              /* sum k f^n (R_i + R_j) r; apart, for chunks differ with the width of registers */
     vec weight[3];                 /* sum k r */
     vec spread_stress[6];          /* sum kd stress_j */
@@ -399,7 +399,7 @@ INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays
         for (int a = 0; a < 3; ++a) {
             const int b = (a + 1) % 3;
             const int d = (a + 2) % 3;
-            sum[a] += k * ((s[b] + other[b]) * p.r[d] - (s[d] + other[d]) * p.r[b]);
+            sum[a] += k * fused(s[b] + other[b], p.r[d], -(s[d] + other[d]) * p.r[b]);
         }
     }
     const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);

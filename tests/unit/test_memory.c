@@ -40,6 +40,26 @@ static void memory_is_aligned_zeroed_and_all_usable(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+static void large_blocks_are_aligned_zeroed_and_all_usable(void **state)
+{
+    (void)state;
+    /* Around the size from which on large pages are asked for, two of 2 MiB, and past a whole number of them. */
+    static const int64_t sizes[] = {(4 << 20) - 128, (4 << 20) - 64, 4 << 20, (5 << 20) + 1};
+    mor_context context;
+    mor_context_init(&context);
+    for (int k = 0; k < 4; ++k) {
+        char *bytes = NULL;
+        assert_int_equal(MOR_NEW(&context, &bytes, sizes[k], "bytes"), MOR_OK);
+        assert_int_equal((uintptr_t)bytes % MOR_MEMORY_ALIGNMENT_BYTES, 0);
+        for (int64_t b = 0; b < sizes[k]; ++b) {
+            assert_int_equal(bytes[b], 0);
+        }
+        memset(bytes, 1, (size_t)sizes[k]);
+        MOR_FREE(&context, &bytes);
+    }
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void blocks_do_not_overlap(void **state)
 {
     (void)state;
@@ -251,6 +271,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_is_aligned_zeroed_and_all_usable),
+        cmocka_unit_test(large_blocks_are_aligned_zeroed_and_all_usable),
         cmocka_unit_test(blocks_do_not_overlap),
         cmocka_unit_test(counters_follow_what_is_held),
         cmocka_unit_test(nothing_is_allocated_for_no_items),

@@ -244,6 +244,66 @@ static void contact_lists_hold_what_brute_force_finds(void **state)
     }
 }
 
+/* Random points in the unit cube in tree order, shape [n, 3], freed by the caller; fits the tree to them. */
+static double *scatter(mor_context *context, mor_tree *tree, int n)
+{
+    double *points = calloc((size_t)n, 3 * sizeof *points);
+    double *sorted = calloc((size_t)n + MOR_CLUSTER, 3 * sizeof *sorted);
+    int32_t *order = calloc((size_t)n, sizeof *order);
+    assert_true(points != NULL && sorted != NULL && order != NULL);
+    for (int i = 0; i < 3 * n; ++i) {
+        points[i] = cloud_number((uint64_t)i, 77, 0.0, 1.0);
+    }
+    mor_tree_order(points, 3, n, order);
+    for (int i = 0; i < n; ++i) {
+        memcpy(sorted + 3 * i, points + 3 * order[i], 3 * sizeof *sorted);
+    }
+    assert_int_equal(mor_tree_init(context, tree, n), MOR_OK);
+    mor_tree_fit(context, tree, sorted, 3);
+    free(points);
+    free(order);
+    return sorted;
+}
+
+/* Targets are looked at 512 clusters at a time, for eight source clusters together if those see no more. */
+static void lists_are_whole_however_many_clusters_are_in_reach(void **state)
+{
+    (void)state;
+    enum { MANY = 5000 };                                 /* 625 clusters */
+    static const double reaches[] = {0.1, 0.5, 0.7, 3.0}; /* groups see few, more and more too many, all everything */
+    mor_context context;
+    mor_context_init(&context);
+    mor_tree tree;
+    double *records = scatter(&context, &tree, MANY);
+    const mor_relation_points points = {&tree, records, 3};
+    mor_relation relation;
+    assert_int_equal(mor_relation_init(&context, &relation, MOR_CONFIGURATION_CURRENT, tree.n_clusters), MOR_OK);
+    for (int r = 0; r < 4; ++r) {
+        assert_int_equal(mor_relation_build(&context, &relation, &points, &points, reaches[r]), MOR_OK);
+        for (int64_t cluster = 0; cluster < tree.n_clusters; cluster += cluster < 20 ? 1 : 37) {
+            int64_t entry = 0;
+            for (int64_t j = 0; j < MANY; ++j) {
+                bool is_seen = false;
+                for (int64_t i = cluster * MOR_CLUSTER; i < (cluster + 1) * MOR_CLUSTER; ++i) {
+                    const double *p = records + 3 * i;
+                    const double *q = records + 3 * j;
+                    const double d[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+                    is_seen = is_seen || d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reaches[r] * reaches[r];
+                }
+                if (is_seen) {
+                    assert_true(entry < relation.counts[cluster]);
+                    assert_int_equal(relation.lists[cluster][entry++], j);
+                }
+            }
+            assert_int_equal(relation.counts[cluster], entry);
+        }
+    }
+    mor_relation_clear(&context, &relation);
+    mor_tree_clear(&context, &tree);
+    free(records);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void nothing_is_seen_of_an_empty_set_or_beyond_reach(void **state)
 {
     (void)state;
@@ -305,6 +365,7 @@ int main(void)
         cmocka_unit_test(rebuilding_allocates_only_when_lists_have_grown),
         cmocka_unit_test(list_that_outgrows_its_buffer_by_one_is_whole),
         cmocka_unit_test(contact_lists_hold_what_brute_force_finds),
+        cmocka_unit_test(lists_are_whole_however_many_clusters_are_in_reach),
         cmocka_unit_test(nothing_is_seen_of_an_empty_set_or_beyond_reach),
         cmocka_unit_test(relation_made_for_another_set_is_refused),
     };
