@@ -97,7 +97,8 @@ static int64_t check_snapshots(run_folder *folder)
         assert_int_equal(list.items[k].step, k);
         assert_int_equal(mor_snapshot_open(&folder->context, &snapshot, folder->path, k), MOR_OK);
         assert_int_equal(mor_snapshot_read_field(&folder->context, &snapshot, &snapshot.sets[0],
-                                                 &snapshot.sets[0].fields[0], position), MOR_OK);
+                                                 &snapshot.sets[0].fields[0], position),
+                         MOR_OK);
         assert_true(is_of_step(position, k));
         mor_snapshot_close(&folder->context, &snapshot);
     }
@@ -114,13 +115,16 @@ static void a_writer_killed_at_any_moment_loses_nothing_finished(void **state)
     assert_int_equal(write_steps(folder, &current, -1, 2), MOR_OK);
     folder->n_logged = 0; /* the series was new */
     int64_t last_step = 1;
+    double longest = KILL_AFTER_MICROSECONDS_MAX;
     for (uint64_t k = 0; k < N_KILLS; ++k) {
         const double share = mor_random_uniform(1, k, 0);
-        write_until_killed(folder, &current, last_step, (useconds_t)(share * KILL_AFTER_MICROSECONDS_MAX));
+        write_until_killed(folder, &current, last_step, (useconds_t)(share * longest));
         assert_int_equal(mor_checkpoint_read_latest(&folder->context, folder->path, &current.view), MOR_OK);
         assert_true(is_of_step(current.set.data[MOR_FIELD_POSITION], current.step));
         assert_true(current.step >= last_step);
         assert_true(check_snapshots(folder) >= current.step);
+        /* On a busy machine a writer that got nothing done is given more time: no clock decides this test. */
+        longest *= current.step == last_step && longest < 1.0e6 ? 2.0 : 1.0;
         last_step = current.step;
     }
     assert_true(last_step > 1); /* some of the writers got something done */
