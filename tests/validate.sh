@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Runs the validations of tests/validations.txt, or those whose name holds one of the words given, and tells which met
-# their references. Called by ./dev validate, from the top folder, after the program is built. Takes about half an hour.
+# their references. Called by ./dev validate, from the top folder, after the program is built. Takes hours, most of
+# them for the craters at 2 mm.
 set -eu
 program=build/release/moraine
 [ -x "$program" ] || { echo "validate: there is no $program; run ./dev build first" >&2; exit 1; }
