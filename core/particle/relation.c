@@ -51,15 +51,21 @@ void mor_relation_clear(mor_context *context, mor_relation *relation)
     memset(relation, 0, sizeof *relation);
 }
 
+/* Twice the distance between two intervals, zero where they meet, without a branch. */
+static inline double twice_gap(double low, double high, double other_low, double other_high)
+{
+    const double above = low - other_high;
+    const double below = other_low - high;
+    const double larger = above > below ? above : below;
+    return larger + fabs(larger);
+}
+
 /* Squared distance between two boxes. */
 static double box_gap(const double *p, const double *q)
 {
     double sum = 0.0;
     for (int a = 0; a < 3; ++a) {
-        const double above = p[a] - q[3 + a];
-        const double below = q[a] - p[3 + a];
-        const double larger = above > below ? above : below;
-        const double gap = larger + fabs(larger); /* twice the positive part, without a branch */
+        const double gap = twice_gap(p[a], p[3 + a], q[a], q[3 + a]);
         sum += gap * gap;
     }
     return 0.25 * sum;
@@ -199,10 +205,7 @@ static inline void find_gaps(const double *box, candidates *found)
         const double low = box[a];
         const double high = box[3 + a];
         for (int k = 0; k < found->n; ++k) {
-            const double above = low - found->box[3 + a][k];
-            const double below = found->box[a][k] - high;
-            const double larger = above > below ? above : below;
-            const double gap = larger + fabs(larger);
+            const double gap = twice_gap(low, high, found->box[a][k], found->box[3 + a][k]);
             found->gap[k] += gap * gap;
         }
     }
@@ -248,7 +251,7 @@ static int64_t list_range(mor_relation *relation, const mor_relation_points *sou
 {
     const double reach2 = relation->reach * relation->reach;
     candidates found;
-    descent it;
+    descent it = {.depth = 0};
     int64_t total = 0;
     int64_t group_end = first;
     bool is_alone = false;
@@ -263,20 +266,21 @@ static int64_t list_range(mor_relation *relation, const mor_relation_points *sou
         }
         lanes eight;
         load_lanes(source, cluster, &eight);
-        if (is_alone) {
-            start_descent(&it, target->tree);
-            find_candidates(&it, eight.box, target->tree, reach2, &found);
-        }
         const int64_t left = relation->capacities[buffer] - total;
         const int64_t room = left > 0 ? left : 0;
         /* Without room nothing is written, and there may be no buffer yet. */
         int32_t *out = room > 0 ? relation->buffers[buffer] + total : relation->buffers[buffer];
-        int64_t count = append_candidates(&eight, target, &found, reach2, out, room);
-        while (is_alone && it.depth > 0) {
-            const int64_t written = count < room ? count : room;
-            find_candidates(&it, eight.box, target->tree, reach2, &found);
-            count += append_candidates(&eight, target, &found, reach2, room > 0 ? out + written : out, room - written);
+        int64_t count = 0;
+        if (is_alone) {
+            start_descent(&it, target->tree);
         }
+        do {
+            if (is_alone) {
+                find_candidates(&it, eight.box, target->tree, reach2, &found);
+            }
+            const int64_t written = count < room ? count : room;
+            count += append_candidates(&eight, target, &found, reach2, room > 0 ? out + written : out, room - written);
+        } while (it.depth > 0);
         relation->lists[cluster] = out;
         relation->counts[cluster] = (int32_t)count;
         total += count;

@@ -32,13 +32,20 @@ INLINE vec pick(mask where, vec a, vec b)
     return (vec)(((mask)a & where) | ((mask)b & ~where));
 }
 
+/* The names of the instructions that fill a register, where there are any. */
+#if defined(__AVX512F__)
+#define WIDE(operation) _mm512_##operation
+typedef __m512d wide;
+#elif defined(__AVX__) && defined(__FMA__)
+#define WIDE(operation) _mm256_##operation
+typedef __m256d wide;
+#endif
+
 /** Returns the larger of two lanes, the second when one is no number; any unit. */
 INLINE vec larger(vec a, vec b)
 {
-#if defined(__AVX512F__)
-    return (vec)_mm512_max_pd((__m512d)a, (__m512d)b);
-#elif defined(__AVX__)
-    return (vec)_mm256_max_pd((__m256d)a, (__m256d)b);
+#if defined(WIDE)
+    return (vec)WIDE(max_pd)((wide)a, (wide)b);
 #else
     return pick(a > b, a, b);
 #endif
@@ -47,23 +54,19 @@ INLINE vec larger(vec a, vec b)
 /** Returns the smaller of two lanes, the second when one is no number; any unit. */
 INLINE vec smaller(vec a, vec b)
 {
-#if defined(__AVX512F__)
-    return (vec)_mm512_min_pd((__m512d)a, (__m512d)b);
-#elif defined(__AVX__)
-    return (vec)_mm256_min_pd((__m256d)a, (__m256d)b);
+#if defined(WIDE)
+    return (vec)WIDE(min_pd)((wide)a, (wide)b);
 #else
     return pick(a < b, a, b);
 #endif
 }
 
-/** Returns a b + c with one rounding where the processor has it; any unit. Written out wherever a sum has two products,
+/** Returns a b + c with one rounding where the processor has it; any unit. Written out where a sum has two products,
  *  for a compiler may fuse either, and not the same one for every instruction set. */
 INLINE vec fused(vec a, vec b, vec c)
 {
-#if defined(__AVX512F__)
-    return (vec)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
-#elif defined(__FMA__)
-    return (vec)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#if defined(WIDE)
+    return (vec)WIDE(fmadd_pd)((wide)a, (wide)b, (wide)c);
 #else
     return a * b + c;
 #endif
@@ -139,7 +142,7 @@ typedef struct pair {
 
 /* Targets that are dealt with at a time. The arithmetic of a pair is a long chain of dependent operations. Cut into
  * passes over a chunk, with what goes from one to the next kept in the nearest cache, each chain is short, and many
- * pairs are under way at once. */
+ * pairs are under way at once. AHEAD: entries of the list whose records are asked for before their turn. */
 enum { CHUNK = 32, AHEAD = 32 };
 
 /** Targets of which at least one lane is in reach, and the geometry of the pairs. */
@@ -168,6 +171,17 @@ INLINE vec squared(const vec *r, const frame *f, const int dimension)
     return sum + f->tiny;
 }
 
+/** Returns the separation from a target, shape [3], unit m, as seen from a frame, one object. */
+INLINE pair pair_of(const frame *f, const double *target, const int dimension)
+{
+    pair p;
+    separate(p.r, f, target, dimension);
+    p.distance2 = squared(p.r, f, dimension);
+    p.distance = square_root(p.distance2);
+    p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
+    return p;
+}
+
 /** Takes the next targets in reach of a frame, one object, from a list, shape [count], from an entry on. Records: shape
  *  [n, MOR_RECORD_SIZE], units of MOR_RECORD_.... Returns the entry to go on from. */
 INLINE int32_t take_chunk(chunk *c, const frame *f, const double *records, const int32_t *list, int32_t entry,
@@ -190,27 +204,12 @@ INLINE int32_t take_chunk(chunk *c, const frame *f, const double *records, const
     for (int q = 0; q < n; ++q) {
         const double *target = records + c->index[q] * MOR_RECORD_SIZE;
         c->target[q] = target;
-        vec r[3];
-        separate(r, f, target, dimension);
-        const vec d2 = squared(r, f, dimension);
-        const vec d = square_root(d2);
-        const vec reach = positive_part(1.0 - d * f->half_inverse_h);
-        c->distance2[q] = d2;
-        c->distance[q] = d;
-        c->k[q] = reach * reach * reach * target[MOR_RECORD_VOLUME];
+        const pair p = pair_of(f, target, dimension);
+        c->distance2[q] = p.distance2;
+        c->distance[q] = p.distance;
+        c->k[q] = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
     }
     return entry;
-}
-
-/** Returns the separation from a target, shape [3], unit m, as seen from a frame, one object. */
-INLINE pair pair_of(const frame *f, const double *target, const int dimension)
-{
-    pair p;
-    separate(p.r, f, target, dimension);
-    p.distance2 = squared(p.r, f, dimension);
-    p.distance = square_root(p.distance2);
-    p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
-    return p;
 }
 
 /** Returns the inner product of a vector, by components, with the separation, one object; unit: its own times m. */
