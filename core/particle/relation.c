@@ -24,6 +24,9 @@ mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_c
         status = MOR_NEW(context, &relation->counts, n_clusters, "neighbor list lengths");
     }
     if (status == MOR_OK) {
+        status = MOR_NEW(context, &relation->near_counts, n_clusters, "short neighbor list lengths");
+    }
+    if (status == MOR_OK) {
         status = MOR_NEW(context, &relation->occupied, n_clusters, "clusters with neighbors");
     }
     if (status == MOR_OK) {
@@ -46,6 +49,7 @@ void mor_relation_clear(mor_context *context, mor_relation *relation)
     MOR_FREE(context, &relation->buffers);
     MOR_FREE(context, &relation->capacities);
     MOR_FREE(context, &relation->occupied);
+    MOR_FREE(context, &relation->near_counts);
     MOR_FREE(context, &relation->counts);
     MOR_FREE(context, &relation->lists);
     memset(relation, 0, sizeof *relation);
@@ -283,7 +287,11 @@ static int64_t list_range(mor_relation *relation, const mor_relation_points *sou
         } while (it.depth > 0);
         relation->lists[cluster] = out;
         relation->counts[cluster] = (int32_t)count;
-        total += count;
+        relation->near_counts[cluster] = (int32_t)count;
+        if (2 * count <= room) {
+            memcpy(out + count, out, (size_t)count * sizeof *out);
+        }
+        total += 2 * count;
     }
     return total;
 }

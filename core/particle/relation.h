@@ -22,18 +22,29 @@ typedef enum mor_configuration {
 /** One edge of the graph source set -> target set. Owner: the stepper that uses it. */
 typedef struct mor_relation {
     mor_configuration configuration;
-    double reach;             /* targets nearer than this to one of the eight are listed, m */
-    int64_t n_clusters;       /* source clusters */
-    const int32_t **lists;    /* shape [n_clusters]; start of each cluster's list in one of the buffers */
-    int32_t *counts;          /* shape [n_clusters]; entries in each list */
-    int n_buffers;            /* one per thread */
-    int32_t **buffers;        /* shape [n_buffers] of [capacities] */
-    int64_t *capacities;      /* shape [n_buffers]; entries */
-    int64_t n_entries;        /* entries in all lists */
-    int64_t n_occupied;       /* clusters with a list that is not empty */
-    int32_t *occupied;        /* shape [n_clusters]; those clusters, ascending */
-    uint64_t n_builds;        /* how often it was built */
+    double reach;         /* targets nearer than this to one of the eight are listed, m */
+    int64_t n_clusters;   /* source clusters */
+    int32_t **lists;      /* shape [n_clusters]; start of each cluster's list in one of the buffers */
+    int32_t *counts;      /* shape [n_clusters]; entries in each list */
+    int32_t *near_counts; /* shape [n_clusters]; entries in each short list, see mor_relation_near */
+    int n_buffers;        /* one per thread */
+    int32_t **buffers;    /* shape [n_buffers] of [capacities] */
+    int64_t *capacities;  /* shape [n_buffers]; entries */
+    int64_t n_entries;    /* entries in all lists */
+    int64_t n_occupied;   /* clusters with a list that is not empty */
+    int32_t *occupied;    /* shape [n_clusters]; those clusters, ascending */
+    uint64_t n_builds;    /* how often it was built */
 } mor_relation;
+
+/** Returns the short list of a cluster, shape [near_counts[cluster]], with room for all of its list, which it follows.
+ *  The build copies the list. Who finds entries out of reach of all eight may leave them out, and set the count, for
+ *  those who come later and see the particles at the same places.
+ *  @param relation [in]  one object, built
+ *  @param cluster  [in]  0 .. n_clusters - 1 */
+static inline int32_t *mor_relation_near(const mor_relation *relation, int64_t cluster)
+{
+    return relation->lists[cluster] + relation->counts[cluster];
+}
 
 /** Makes an empty relation for a number of source clusters.
  *  @param context       [in,out]  one object; the number of threads is taken now

@@ -57,7 +57,7 @@ typedef struct mor_pair_constants {
 typedef struct mor_pair_arrays {
     int64_t n_particles;
     const double *records;           /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    const mor_relation *inner;       /* one object, current */
+    const mor_relation *inner;       /* one object, current; momentum shortens its lists for the others */
     const double *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
     double *acceleration;            /* shape [n, 3], m/s2 */
     double *stress_diffusion;        /* shape [n, 6], Pa/s; NULL without */

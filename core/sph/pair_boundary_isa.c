@@ -43,31 +43,27 @@ void MOR_JOIN(mor_pair_kernel_, MOR_ISA)(const mor_pair_constants *c, const mor_
     }
 }
 
-/* Adds V_j (stress_j - stress_i) . grad_i W over a chunk, the parts of grad_i W along and across a wall apart. */
-INLINE void add_divergence(vec *sum, const chunk *pairs, const frame *f, const vec *stress, const vec *normal,
-                           vec inverse)
+/* Adds V_j (stress_j - stress_i) . grad_i W of a pair, the parts of grad_i W along and across a wall apart. */
+INLINE void add_divergence(vec *sum, const geometry *g, const double *target, const frame *f, const vec *stress,
+                           const vec *normal, vec inverse)
 {
-    for (int q = 0; q < pairs->n; ++q) {
-        const double *target = pairs->target[q];
-        pair p;
-        separate(p.r, f, target, 3);
-        const vec k = pairs->k[q];
-        const vec across = k * dot_r(&p, normal[0], normal[1], normal[2], 3) * inverse;
-        vec d[6];
-        for (int a = 0; a < 6; ++a) {
-            d[a] = target[MOR_RECORD_STRESS + a] - stress[a];
+    pair p;
+    separate(p.r, f, target, 3);
+    const vec across = g->k * dot_r(&p, normal[0], normal[1], normal[2], 3) * inverse;
+    vec d[6];
+    for (int a = 0; a < 6; ++a) {
+        d[a] = target[MOR_RECORD_STRESS + a] - stress[a];
+    }
+    for (int part = 0; part < 2; ++part) {
+        vec t[3];
+        for (int a = 0; a < 3; ++a) {
+            const vec both = across * normal[a];
+            t[a] = part == 0 ? fused(g->k, p.r[a], -both) : both;
         }
-        for (int part = 0; part < 2; ++part) {
-            vec t[3];
-            for (int a = 0; a < 3; ++a) {
-                const vec both = across * normal[a];
-                t[a] = part == 0 ? fused(k, p.r[a], -both) : both;
-            }
-            vec *out = sum + 3 * part;
-            out[0] = fused(d[MOR_ZX], t[2], fused(d[MOR_XY], t[1], fused(d[MOR_XX], t[0], out[0])));
-            out[1] = fused(d[MOR_YZ], t[2], fused(d[MOR_YY], t[1], fused(d[MOR_XY], t[0], out[1])));
-            out[2] = fused(d[MOR_ZZ], t[2], fused(d[MOR_YZ], t[1], fused(d[MOR_ZX], t[0], out[2])));
-        }
+        vec *out = sum + 3 * part;
+        out[0] = fused(d[MOR_ZX], t[2], fused(d[MOR_XY], t[1], fused(d[MOR_XX], t[0], out[0])));
+        out[1] = fused(d[MOR_YZ], t[2], fused(d[MOR_YY], t[1], fused(d[MOR_XY], t[0], out[1])));
+        out[2] = fused(d[MOR_ZZ], t[2], fused(d[MOR_YZ], t[1], fused(d[MOR_ZX], t[0], out[2])));
     }
 }
 
@@ -91,12 +87,16 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
     }
     vec sum[6];
     memset(sum, 0, sizeof sum);
-    const int32_t *list = job->inner->lists[first / MOR_CLUSTER];
-    const int32_t count = job->inner->counts[first / MOR_CLUSTER];
-    chunk pairs;
-    for (int32_t entry = 0; entry < count;) {
-        entry = take_chunk(&pairs, &f, job->records, list, entry, count, 3);
-        add_divergence(sum, &pairs, &f, s, n, inverse);
+    const int32_t *near = mor_relation_near(job->inner, first / MOR_CLUSTER);
+    const int32_t count = job->inner->near_counts[first / MOR_CLUSTER];
+    geometry geometries[CHUNK];
+    for (int32_t entry = 0; entry < count; entry += CHUNK) {
+        const int size = count - entry < CHUNK ? count - entry : CHUNK;
+        find_geometry(geometries, job->records, near + entry, size, &f, 3);
+        for (int q = 0; q < size; ++q) {
+            const double *target = job->records + (int64_t)near[entry + q] * MOR_RECORD_SIZE;
+            add_divergence(sum, geometries + q, target, &f, s, n, inverse);
+        }
     }
     for (int a = 0; a < 6; ++a) {
         store(job->out + slot * 6, 6, a, LANES, -c->gradient_factor * sum[a]);

@@ -3,6 +3,11 @@
 /* Compiled once per instruction set; MOR_ISA is its name. */
 #include "core/sph/pair_lanes.h"
 
+INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
+{
+    return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
+}
+
 /* What a copy of the momentum loop does; constant in each copy, so that no pair asks. */
 typedef struct momentum_form {
     int dimension;
@@ -10,17 +15,6 @@ typedef struct momentum_form {
     int artificial; /* artificial stress */
     int linear;     /* velocities reconstructed at the middle of a pair */
 } momentum_form;
-
-/* Slopes of the limiter for a pair that closes and for one that opens; zero where it does not count. */
-typedef struct limiter_slopes {
-    double closing, opening; /* s/m */
-} limiter_slopes;
-
-INLINE limiter_slopes slopes_of(const mor_pair_constants *c)
-{
-    return (limiter_slopes){c->dissipation == MOR_DISSIPATION_SEPARATION ? 0.0 : c->limiter_rate,
-                            c->dissipation == MOR_DISSIPATION_APPROACH ? 0.0 : -c->limiter_rate};
-}
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
 INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
@@ -47,47 +41,55 @@ INLINE vec limited_jump(vec jump, vec reconstructed)
     return pick(reconstructed < least, least, smaller(reconstructed, most));
 }
 
-/* What the momentum loop keeps of its own eight particles, and its sums. */
+/* What the momentum loop keeps of its own eight particles. */
 typedef struct momentum {
-    limiter_slopes slopes;
-    vec v[3], impedance, pressure; /* own state */
-    vec strain_rate[6];            /* own, with reconstruction */
-    vec force[3];                  /* sum k (stress_j + extra) r */
-    vec repulsion[3];              /* sum k f^n (R_i + R_j) r; apart, for chunks differ with the width of registers */
-    vec weight[3];                 /* sum k r */
-    vec spread_stress[6];          /* sum kd stress_j */
-    vec spread_weight;             /* sum kd */
-    vec spread_height;             /* sum kd (g . r) */
+    mask counts_closing, counts_opening; /* all bits where the dissipation acts on a pair that closes, opens */
+    vec v[3], impedance, pressure;       /* own state */
+    vec minus_twice_impedance;
+    vec strain_rate[6]; /* own, with reconstruction */
 } momentum;
 
-INLINE void add_stress(momentum *m, const pair *p, vec k, vec extra, const double *s, const int dimension)
+/* Its sums. */
+typedef struct momentum_sums {
+    vec force[3];         /* sum k (stress_j + extra + f^n (R_i + R_j)) r */
+    vec weight[3];        /* sum k r */
+    vec spread_stress[6]; /* sum kd stress_j */
+    vec spread_weight;    /* sum kd */
+    vec spread_way[3];    /* sum kd r */
+} momentum_sums;
+
+INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const double *s, const int dimension)
 {
     const vec kr[3] = {k * p->r[0], k * p->r[1], k * p->r[2]};
     m->weight[0] += kr[0];
     m->weight[1] += kr[1];
-    m->force[0] = fused(kr[1], spread(s[MOR_XY]), fused(kr[0], s[MOR_XX] + extra, m->force[0]));
-    m->force[1] = fused(kr[0], spread(s[MOR_XY]), fused(kr[1], s[MOR_YY] + extra, m->force[1]));
+    /* Each is summed before it is added: only the last addition waits for that of the pair before. */
+    vec x = fused(kr[0], s[MOR_XX] + extra, kr[1] * s[MOR_XY]);
+    vec y = fused(kr[0], spread(s[MOR_XY]), kr[1] * (s[MOR_YY] + extra));
     if (dimension == 3) {
         m->weight[2] += kr[2];
-        m->force[0] += kr[2] * s[MOR_ZX];
-        m->force[1] += kr[2] * s[MOR_YZ];
-        m->force[2] = fused(kr[0], spread(s[MOR_ZX]), fused(kr[1], spread(s[MOR_YZ]), m->force[2]));
-        m->force[2] += kr[2] * (s[MOR_ZZ] + extra);
+        x = fused(kr[2], spread(s[MOR_ZX]), x);
+        y = fused(kr[2], spread(s[MOR_YZ]), y);
+        const vec z = fused(kr[0], spread(s[MOR_ZX]), kr[1] * s[MOR_YZ]);
+        m->force[2] += fused(kr[2], s[MOR_ZZ] + extra, z);
     }
+    m->force[0] += x;
+    m->force[1] += y;
 }
 
-INLINE void add_diffusion(momentum *m, const pair *p, const mor_pair_constants *c, vec kd, const double *s)
+INLINE void add_diffusion(momentum_sums *m, const pair *p, vec kd, const double *s, const int dimension)
 {
     for (int a = 0; a < 6; ++a) {
         m->spread_stress[a] += kd * s[a];
     }
     m->spread_weight += kd;
-    const double *g = c->gravity_direction;
-    m->spread_height += kd * dot_r(p, spread(g[0]), spread(g[1]), spread(g[2]), 3);
+    for (int a = 0; a < dimension; ++a) {
+        m->spread_way[a] += kd * p->r[a];
+    }
 }
 
 /* f^n (R_i + R_j) r, eq. 27. The power is taken lane by lane and only where the pair is under tension. */
-INLINE void add_artificial(momentum *m, const pair *p, const mor_pair_constants *c, vec k, const double *own,
+INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const double *own,
                            const double *other, const int dimension)
 {
     vec ratio = p->reach * p->reach;
@@ -100,107 +102,185 @@ INLINE void add_artificial(momentum *m, const pair *p, const mor_pair_constants 
     for (int a = 0; a < 6; ++a) {
         s[a] = (load(own, 6, a) + other[a]) * power;
     }
-    m->repulsion[0] += k * dot_r(p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], dimension);
-    m->repulsion[1] += k * dot_r(p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], dimension);
+    m->force[0] += k * dot_r(p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], dimension);
+    m->force[1] += k * dot_r(p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], dimension);
     if (dimension == 3) {
-        m->repulsion[2] += k * dot_r(p, s[MOR_ZX], s[MOR_YZ], s[MOR_ZZ], dimension);
+        m->force[2] += k * dot_r(p, s[MOR_ZX], s[MOR_YZ], s[MOR_ZZ], dimension);
     }
 }
 
-/* What the middle pass over a chunk finds for the last. */
-typedef struct momentum_chunk {
-    chunk pairs;
-    vec extra[CHUNK]; /* isotropic part beside the stresses, Pa */
-    vec kd[CHUNK];    /* weight of stress diffusion */
-} momentum_chunk;
+/* What is found of a pair before it is added. */
+typedef struct momentum_pair {
+    vec kd;    /* weight of stress diffusion */
+    vec extra; /* isotropic part beside the stresses, Pa */
+} momentum_pair;
 
-INLINE void find_extra(momentum_chunk *all, const momentum *m, const frame *f, const mor_pair_constants *c,
-                       const mor_pair_arrays *arrays, const momentum_form form)
+INLINE void find_extra(momentum_pair *it, const geometry *g, const double *target, const momentum *m, const frame *f,
+                       const mor_pair_constants *c, const double *strain_rate, const momentum_form form)
 {
-    const chunk *pairs = &all->pairs;
+    const vec *v = m->v;
+    pair p;
+    separate(p.r, f, target, form.dimension);
     const double h = c->smoothing_length;
-    for (int q = 0; q < pairs->n; ++q) {
-        const double *target = pairs->target[q];
-        pair p;
-        separate(p.r, f, target, form.dimension);
-        const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
-        const vec regular = pairs->distance2[q] + 0.01 * h * h;
-        /* Division is slow: one serves all three quotients. */
-        const vec product = pairs->distance[q] * impedance_sum;
-        const vec inverse = 1.0 / (product * regular);
-        const vec inverse_sum = inverse * pairs->distance[q] * regular;
-        const vec inverse_distance = inverse * impedance_sum * regular;
-        const vec *v = m->v;
-        const vec speed =
-            dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension) * inverse_distance;
-        vec closing = speed;
-        if (form.linear) {
-            const vec smooth =
-                smooth_closing(&p, m->strain_rate, arrays->strain_rate + pairs->index[q] * 6, form.dimension);
-            closing = limited_jump(speed, speed + 0.5 * smooth * inverse_distance);
-        }
-        /* Closing speed on which the limiter acts, eq. 23. */
-        const vec counted = larger(m->slopes.closing * closing, m->slopes.opening * closing);
-        const vec limiter = smaller(counted, spread(1.0));
-        /* Twice (mean pressure - P*), eq. 20. */
-        const vec pressure_part =
-            (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]) * inverse_sum;
-        const vec reduced = m->impedance * target[MOR_RECORD_IMPEDANCE] * inverse_sum;
-        all->extra[q] = fused(-2.0 * limiter * reduced, closing, pressure_part);
-        if (form.diffuses) {
-            const vec kd = pairs->k[q] * pairs->distance2[q] * (inverse * product);
-            all->kd[q] = form.diffuses == 2 ? kd * smaller(magnitude(speed) * c->limiter_rate, spread(1.0)) : kd;
-        }
+    const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
+    /* Division is slow: one serves both quotients. */
+    const vec inverse = 1.0 / (g->distance * impedance_sum);
+    const vec inverse_distance = inverse * impedance_sum;
+    const vec speed =
+        dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension) * inverse_distance;
+    vec closing = speed;
+    if (form.linear) {
+        const vec smooth = smooth_closing(&p, m->strain_rate, strain_rate, form.dimension);
+        closing = limited_jump(speed, speed + 0.5 * smooth * inverse_distance);
+    }
+    /* Closing speed on which the limiter acts, eq. 23. */
+    const vec slope = closing * c->limiter_rate;
+    const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
+    const vec limited = smaller(counted, spread(1.0)) * closing;
+    /* Twice (mean pressure - P*), eq. 20. */
+    const vec pressures = (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]);
+    const vec dissipation = m->minus_twice_impedance * target[MOR_RECORD_IMPEDANCE];
+    it->extra = fused(dissipation, limited, pressures) * (inverse * g->distance);
+    if (form.diffuses) {
+        it->kd = g->k * g->distance2 / (g->distance2 + 0.01 * h * h);
+    }
+    if (form.diffuses == 2) {
+        it->kd *= smaller(magnitude(speed) * c->limiter_rate, spread(1.0));
     }
 }
 
-INLINE void add_chunk(momentum *m, const momentum_chunk *all, const frame *f, const mor_pair_constants *c,
-                      const momentum_form form)
+INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const double *target, const frame *f,
+                     const momentum_form form)
 {
-    for (int q = 0; q < all->pairs.n; ++q) {
-        const double *target = all->pairs.target[q];
-        pair p;
-        separate(p.r, f, target, form.dimension);
-        add_stress(m, &p, all->pairs.k[q], all->extra[q], target + MOR_RECORD_STRESS, form.dimension);
-        if (form.diffuses) {
-            add_diffusion(m, &p, c, all->kd[q], target + MOR_RECORD_STRESS);
-        }
+    pair p;
+    separate(p.r, f, target, form.dimension);
+    add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, form.dimension);
+    if (form.diffuses) {
+        add_diffusion(m, &p, it->kd, target + MOR_RECORD_STRESS, form.dimension);
     }
 }
 
-INLINE void add_artificial_chunk(momentum *m, const momentum_chunk *all, const frame *f, const mor_pair_constants *c,
-                                 const double *artificial, int64_t first, const momentum_form form)
+INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const double *target, const frame *f,
+                                const mor_pair_constants *c, const double *own, const double *other,
+                                const momentum_form form)
 {
-    const double *own = artificial + first * 6;
-    for (int q = 0; q < all->pairs.n; ++q) {
-        const double *other = artificial + all->pairs.index[q] * 6;
-        vec size = spread(0.0);
-        for (int a = 0; a < 6; ++a) {
-            size -= magnitude(load(own, 6, a) + other[a]);
-        }
-        /* The power is dear, and few pairs are under tension. */
-        if (!any_less(size, 0.0)) {
-            continue;
-        }
-        pair p;
-        separate(p.r, f, all->pairs.target[q], form.dimension);
-        p.reach = positive_part(1.0 - all->pairs.distance[q] * f->half_inverse_h);
-        add_artificial(m, &p, c, all->pairs.k[q], own, other, form.dimension);
+    vec size = spread(0.0);
+    for (int a = 0; a < 6; ++a) {
+        size -= magnitude(load(own, 6, a) + other[a]);
     }
+    /* The power is dear, and few pairs are under tension. */
+    if (any_less(size, 0.0)) {
+        pair p;
+        separate(p.r, f, target, form.dimension);
+        p.reach = positive_part(1.0 - g->distance * f->half_inverse_h);
+        add_artificial(m, &p, c, g->k, own, other, form.dimension);
+    }
+}
+
+/* A part of a cluster, as the momentum loop sees it. */
+typedef struct momentum_part {
+    frame frame;
+    momentum own;
+    momentum_sums sums;
+} momentum_part;
+
+INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                           int64_t first, const momentum_form form)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    momentum *m = &part->own;
+    memset(part, 0, sizeof *part);
+    part->frame = frame_of(c, own, MOR_RECORD_SIZE);
+    m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
+    m->counts_opening -= c->dissipation != MOR_DISSIPATION_APPROACH;
+    for (int a = 0; a < 3; ++a) {
+        m->v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
+    }
+    m->impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
+    m->minus_twice_impedance = -2.0 * m->impedance;
+    m->pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
+    for (int a = 0; a < 6 && form.linear; ++a) {
+        m->strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
+    }
+}
+
+/* Keeps a part in memory between two passes, so that each has the registers for itself. */
+INLINE void lay_down(momentum_part *part)
+{
+    __asm__ volatile("" : "+m"(*part));
+}
+
+INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor_pair_constants *c,
+                      const mor_pair_arrays *arrays, int64_t first, const momentum_form form)
+{
+    const frame *f = &part->frame;
+    const double *records = arrays->records;
+    const double *artificial = arrays->artificial_stress;
+    geometry geometries[CHUNK];
+    momentum_pair pairs[CHUNK];
+    lay_down(part);
+    find_geometry(geometries, records, near, n, f, form.dimension);
+    lay_down(part);
+    for (int q = 0; q < n; ++q) {
+        const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
+        find_extra(pairs + q, geometries + q, records + (int64_t)near[q] * MOR_RECORD_SIZE, &part->own, f, c,
+                   strain_rate, form);
+    }
+    lay_down(part);
+    momentum_sums sums = part->sums;
+    for (int q = 0; q < n; ++q) {
+        add_pair(&sums, pairs + q, geometries + q, records + (int64_t)near[q] * MOR_RECORD_SIZE, f, form);
+    }
+    part->sums = sums;
+    lay_down(part);
+    for (int q = 0; q < n && form.artificial; ++q) {
+        add_artificial_pair(&part->sums, geometries + q, records + (int64_t)near[q] * MOR_RECORD_SIZE, f, c,
+                            artificial + first * 6, artificial + (int64_t)near[q] * 6, form);
+    }
+}
+
+/* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
+INLINE int find_near(const momentum_part *parts, const double *records, const int32_t *list, int32_t count,
+                     int32_t *entry, int32_t *near, const int dimension)
+{
+    /* A little wide, so that rounding leaves out no pair that counts. */
+    const double half = parts[0].frame.half_inverse_h;
+    const double reach2 = (1.0 + 0x1p-40) / (half * half);
+    int32_t k = *entry;
+    int n = 0;
+    for (; k < count && n < CHUNK; ++k) {
+        const double *ahead = records + (int64_t)list[k + AHEAD < count ? k + AHEAD : k] * MOR_RECORD_SIZE;
+        __builtin_prefetch(ahead);
+        __builtin_prefetch(ahead + MOR_RECORD_STRESS);
+        int any = 0;
+        for (int part = 0; part < PARTS; ++part) {
+            vec r[3];
+            separate(r, &parts[part].frame, records + (int64_t)list[k] * MOR_RECORD_SIZE, dimension);
+            any |= any_less(squared(r, &parts[part].frame, dimension), reach2);
+        }
+        near[n] = list[k];
+        n += any != 0;
+    }
+    *entry = k;
+    return n;
 }
 
 /* Eq. 25 with the operator of eq. 26 for any direction of gravity: what departs from the line of rest spreads. */
-INLINE void finish_diffusion(const momentum *m, const mor_pair_constants *c, const vec *s, double *out, int n_lanes)
+INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const vec *s, double *out,
+                             int n_lanes)
 {
     const double rate = -c->gradient_factor * c->diffusion_rate;
+    const double *g = c->gravity_direction;
+    const vec *way = m->spread_way;
+    const vec height = fused(spread(g[2]), way[2], fused(spread(g[0]), way[0], g[1] * way[1]));
     for (int a = 0; a < 6; ++a) {
         /* Height is -g . r, hence the plus. */
-        const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * m->spread_height;
+        const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * height;
         store(out, 6, a, n_lanes, rate * sum);
     }
 }
 
-INLINE void momentum_finish(const momentum *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
+INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                             int64_t first, const momentum_form form)
 {
     const double *own = arrays->records + first * MOR_RECORD_SIZE;
@@ -224,37 +304,28 @@ INLINE void momentum_finish(const momentum *m, const mor_pair_constants *c, cons
     }
 }
 
-INLINE void momentum_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
-                          const momentum_form form)
+INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t cluster,
+                             const momentum_form form)
 {
-    const double *own = arrays->records + first * MOR_RECORD_SIZE;
-    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    momentum m;
-    memset(&m, 0, sizeof m);
-    m.slopes = slopes_of(c);
-    for (int a = 0; a < 3; ++a) {
-        m.v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
+    momentum_part parts[PARTS];
+    for (int part = 0; part < PARTS; ++part) {
+        start_momentum(parts + part, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
     }
-    m.impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
-    m.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
-    for (int a = 0; a < 6 && form.linear; ++a) {
-        m.strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
-    }
-    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
-    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
-    momentum_chunk all;
+    const int32_t *list = arrays->inner->lists[cluster];
+    const int32_t count = arrays->inner->counts[cluster];
+    int32_t *near = mor_relation_near(arrays->inner, cluster);
+    int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
-        entry = take_chunk(&all.pairs, &f, arrays->records, list, entry, count, form.dimension);
-        find_extra(&all, &m, &f, c, arrays, form);
-        add_chunk(&m, &all, &f, c, form);
-        if (form.artificial) {
-            add_artificial_chunk(&m, &all, &f, c, arrays->artificial_stress, first, form);
+        const int n = find_near(parts, arrays->records, list, count, &entry, near + n_near, form.dimension);
+        for (int part = 0; part < PARTS; ++part) {
+            add_chunk(parts + part, near + n_near, n, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
         }
+        n_near += n;
     }
-    for (int a = 0; a < 3 && form.artificial; ++a) {
-        m.force[a] += m.repulsion[a];
+    arrays->inner->near_counts[cluster] = n_near;
+    for (int part = 0; part < PARTS; ++part) {
+        momentum_finish(&parts[part].sums, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
     }
-    momentum_finish(&m, c, arrays, first, form);
 }
 
 /* The choices are hoisted out of the loops: each combination is its own copy of the inlined body. */
@@ -266,8 +337,8 @@ INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *a
     const int linear = arrays->strain_rate != NULL;
 #define MOR_MOMENTUM_CASE(d, a, l)                                                                                     \
     if (diffuses == (d) && artificial == (a) && linear == (l)) {                                                       \
-        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
-            momentum_part(c, arrays, part *LANES, (momentum_form){dimension, d, a, l});                                \
+        for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \
+            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, a, l});                                 \
         }                                                                                                              \
     }
 #define MOR_MOMENTUM_CASES(d)                                                                                          \
@@ -293,35 +364,52 @@ static void momentum_3d(const mor_pair_constants *c, const mor_pair_arrays *arra
 /* What the gradient loop keeps of its own eight particles, and its sums. */
 typedef struct gradient {
     vec v[3], impedance, pressure; /* own state */
-    vec moment[9];                 /* sum k v_j (x) r */
-    vec weight[3];                 /* sum k r */
+    vec moment[9];                 /* sum k (v_i - v_j) (x) r */
     vec rate;                      /* sum k t (v_i - v_j) . r */
 } gradient;
 
-INLINE void gradient_chunk(gradient *g, const chunk *pairs, const frame *f, const int dimension, const int pressure)
+/* What is found of a pair before it is added. */
+typedef struct gradient_pair {
+    vec distance; /* m */
+    vec reach;    /* 1 - q/2 inside the support, 0 outside */
+    vec share;    /* of the closing speed that v_i - v* takes, halved, eqs. 15 and 19 */
+} gradient_pair;
+
+INLINE void find_share(gradient_pair *it, const double *target, const gradient *g, const frame *f, const int dimension)
 {
-    for (int q = 0; q < pairs->n; ++q) {
-        const double *target = pairs->target[q];
-        const vec k = pairs->k[q];
-        pair p;
-        separate(p.r, f, target, dimension);
-        /* Share of the closing speed that v_i - v* takes, doubled, eqs. 15 and 19. */
-        const vec inverse_sum = 1.0 / (g->impedance + target[MOR_RECORD_IMPEDANCE]);
-        const vec share = 2.0 * target[MOR_RECORD_IMPEDANCE] * inverse_sum;
-        for (int b = 0; b < dimension; ++b) {
-            const vec kr = k * p.r[b];
-            g->weight[b] += kr;
-            for (int a = 0; a < dimension; ++a) {
-                g->moment[3 * a + b] += kr * target[MOR_RECORD_VELOCITY + a];
-            }
-        }
-        const vec *v = g->v;
-        g->rate += k * share * dot_r(&p, v[0] - target[4], v[1] - target[5], v[2] - target[6], dimension);
-        if (pressure) {
-            g->rate += k * 2.0 * inverse_sum * (g->pressure - target[MOR_RECORD_PRESSURE]) * pairs->distance[q];
+    const pair p = pair_of(f, target, dimension);
+    it->distance = p.distance;
+    it->reach = p.reach;
+    it->share = target[MOR_RECORD_IMPEDANCE] / (g->impedance + target[MOR_RECORD_IMPEDANCE]);
+}
+
+INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *target, const frame *f,
+                         const int dimension, const int pressure)
+{
+    const vec k = it->reach * it->reach * it->reach * target[MOR_RECORD_VOLUME];
+    vec r[3];
+    vec jump[3];
+    vec kr[3];
+    separate(r, f, target, dimension);
+    for (int a = 0; a < dimension; ++a) {
+        jump[a] = g->v[a] - target[MOR_RECORD_VELOCITY + a];
+    }
+    for (int b = 0; b < dimension; ++b) {
+        kr[b] = k * r[b];
+        for (int a = 0; a < dimension; ++a) {
+            g->moment[3 * a + b] += kr[b] * jump[a];
         }
     }
+    const vec plane = fused(kr[0], jump[0], kr[1] * jump[1]);
+    g->rate += it->share * (dimension == 3 ? fused(kr[2], jump[2], plane) : plane);
+    if (pressure) {
+        const vec impedances = g->impedance + target[MOR_RECORD_IMPEDANCE];
+        g->rate += k / impedances * (g->pressure - target[MOR_RECORD_PRESSURE]) * it->distance;
+    }
 }
+
+/* RING: pairs in a ring, more than STEP_AHEAD. */
+enum { RING = 8 };
 
 INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
                           const int dimension, const int pressure)
@@ -335,23 +423,29 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     }
     g.impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
     g.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
-    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
-    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
-    chunk pairs;
-    for (int32_t entry = 0; entry < count;) {
-        entry = take_chunk(&pairs, &f, arrays->records, list, entry, count, dimension);
-        gradient_chunk(&g, &pairs, &f, dimension, pressure);
+    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
+    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
+    gradient_pair ring[RING];
+    for (int32_t q = 0; q < count && q < STEP_AHEAD; ++q) {
+        find_share(ring + q % RING, target_of(arrays, near[q]), &g, &f, dimension);
+    }
+    int32_t q = 0;
+    for (; q + STEP_AHEAD < count; ++q) {
+        const int32_t later = q + STEP_AHEAD;
+        __builtin_prefetch(target_of(arrays, near[q + AHEAD < count ? q + AHEAD : q]));
+        find_share(ring + later % RING, target_of(arrays, near[later]), &g, &f, dimension);
+        add_gradient(&g, ring + q % RING, target_of(arrays, near[q]), &f, dimension, pressure);
+    }
+    for (; q < count; ++q) {
+        add_gradient(&g, ring + q % RING, target_of(arrays, near[q]), &f, dimension, pressure);
     }
     const int n_lanes = lanes_of(first, arrays->n_particles);
-    for (int a = 0; a < 3; ++a) {
-        for (int b = 0; b < 3; ++b) {
-            /* Exactly zero out of the plane, where both sums are zero. */
-            const vec sum = -c->gradient_factor * (g.moment[3 * a + b] - g.v[a] * g.weight[b]);
-            store(arrays->velocity_gradient + first * 9, 9, 3 * a + b, n_lanes, sum);
-        }
+    for (int a = 0; a < 9; ++a) {
+        /* Exactly zero out of the plane, where the sum is zero. */
+        store(arrays->velocity_gradient + first * 9, 9, a, n_lanes, c->gradient_factor * g.moment[a]);
     }
     const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-    store(arrays->density_rate + first, 1, 0, n_lanes, -c->gradient_factor * density * g.rate);
+    store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
 }
 
 INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,

@@ -78,13 +78,13 @@ INLINE vec positive_part(vec a)
     return larger(a, spread(0.0));
 }
 
-/** Returns 1 when any lane of a is less than b, else 0; any unit. */
+/** Returns a number other than zero when any lane of a is less than b, else zero; any unit. */
 INLINE int any_less(vec a, double b)
 {
 #if defined(__AVX512F__)
-    return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ) != 0;
+    return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ);
 #elif defined(__AVX__)
-    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, _mm256_set1_pd(b), _CMP_LT_OQ)) != 0;
+    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, _mm256_set1_pd(b), _CMP_LT_OQ));
 #else
     int any = 0;
     for (int lane = 0; lane < LANES; ++lane) {
@@ -140,20 +140,18 @@ typedef struct pair {
     vec reach; /* 1 - q/2 inside the support, 0 outside */
 } pair;
 
-/* Targets that are dealt with at a time. The arithmetic of a pair is a long chain of dependent operations. Cut into
- * passes over a chunk, with what goes from one to the next kept in the nearest cache, each chain is short, and many
- * pairs are under way at once. AHEAD: entries of the list whose records are asked for before their turn. */
-enum { CHUNK = 32, AHEAD = 32 };
+/* The arithmetic of a pair is a long chain of dependent operations, and a processor looks no more than some hundred
+ * operations ahead. Cut into passes over a chunk of targets, each chain is short, and many pairs are under way at once.
+ * CHUNK: targets in a chunk. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD: entries of a
+ * list whose records are asked for before their turn. */
+enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32 };
 
-/** Targets of which at least one lane is in reach, and the geometry of the pairs. */
-typedef struct chunk {
-    const double *target[CHUNK]; /* shape [CHUNK] of [stride]; records, units of MOR_RECORD_... */
-    int64_t index[CHUNK];        /* of the targets */
-    int n;                       /* how many */
-    vec distance2[CHUNK];        /* m2 */
-    vec distance[CHUNK];         /* m */
-    vec k[CHUNK];                /* (1 - q/2)^3 V, m3 (m2) */
-} chunk;
+/** The geometry of a target and the lanes of a cluster. */
+typedef struct geometry {
+    vec distance2; /* m2 */
+    vec distance;  /* m */
+    vec k;         /* (1 - q/2)^3 V, m3 (m2) */
+} geometry;
 
 /** Returns the vector from a target, shape [3], unit m, to the particles of a frame, one object. */
 INLINE void separate(vec *r, const frame *f, const double *target, const int dimension)
@@ -182,34 +180,18 @@ INLINE pair pair_of(const frame *f, const double *target, const int dimension)
     return p;
 }
 
-/** Takes the next targets in reach of a frame, one object, from a list, shape [count], from an entry on. Records: shape
- *  [n, MOR_RECORD_SIZE], units of MOR_RECORD_.... Returns the entry to go on from. */
-INLINE int32_t take_chunk(chunk *c, const frame *f, const double *records, const int32_t *list, int32_t entry,
-                          int32_t count, const int dimension)
+/** Finds the geometry of n targets, shape [n], and the lanes of a frame, one object; records: shape [n_records,
+ *  MOR_RECORD_SIZE], units of MOR_RECORD_.... */
+INLINE void find_geometry(geometry *g, const double *records, const int32_t *targets, int n, const frame *f,
+                          const int dimension)
 {
-    /* A little wide, so that rounding leaves out no pair that counts. */
-    const double reach2 = (1.0 + 0x1p-40) / (f->half_inverse_h * f->half_inverse_h);
-    int n = 0;
-    for (; entry < count && n < CHUNK; ++entry) {
-        const int64_t j = list[entry];
-        const double *ahead = records + (int64_t)list[entry + AHEAD < count ? entry + AHEAD : entry] * MOR_RECORD_SIZE;
-        __builtin_prefetch(ahead);
-        __builtin_prefetch(ahead + MOR_RECORD_STRESS);
-        vec r[3];
-        separate(r, f, records + j * MOR_RECORD_SIZE, dimension);
-        c->index[n] = j;
-        n += any_less(squared(r, f, dimension), reach2);
-    }
-    c->n = n;
     for (int q = 0; q < n; ++q) {
-        const double *target = records + c->index[q] * MOR_RECORD_SIZE;
-        c->target[q] = target;
+        const double *target = records + (int64_t)targets[q] * MOR_RECORD_SIZE;
         const pair p = pair_of(f, target, dimension);
-        c->distance2[q] = p.distance2;
-        c->distance[q] = p.distance;
-        c->k[q] = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+        g[q].distance2 = p.distance2;
+        g[q].distance = p.distance;
+        g[q].k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
     }
-    return entry;
 }
 
 /** Returns the inner product of a vector, by components, with the separation, one object; unit: its own times m. */

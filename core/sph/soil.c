@@ -360,7 +360,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->spin_stress != NULL ? padded * 3.0 * sizeof(double) : 0.0;
     bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);
-    bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 2 * sizeof(int32_t));
+    bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 3 * sizeof(int32_t));
     for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {
         bytes += (double)soil->inner.capacities[buffer] * sizeof(int32_t);
     }
