@@ -157,7 +157,7 @@ static const mor_case_key numerics_keys[] = {
       "steps between summations of the density; 0: off"},
      MOR_CASE_STORE_INT,
      NUMERICS(density_reinitialization)},
-    {{"skin_ratio", SCALAR, "1", DEFAULT(0.3), 0.0, 4.0, 0, 0, NULL, "extra reach of neighbor lists / spacing"},
+    {{"skin_ratio", SCALAR, "1", DEFAULT(0.45), 0.0, 4.0, 0, 0, NULL, "extra reach of neighbor lists / spacing"},
      MOR_CASE_STORE_REALS,
      NUMERICS(skin_ratio)},
     {{"sort_interval", WHOLE, "1", DEFAULT(100.0), 1.0, 1.0e9, 0, 0, NULL, "steps between sorts of the particles"},
