@@ -3,6 +3,9 @@
 /* Compiled once per instruction set; MOR_ISA is its name. */
 #include "core/sph/pair_lanes.h"
 
+/* FIRST_BYTES: of the next cluster's list, which are asked for before its turn. */
+enum { FIRST_BYTES = 512 };
+
 INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
 {
     return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
@@ -425,6 +428,11 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     g.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
     const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
     const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
+    const int64_t next = first / MOR_CLUSTER + 1;
+    if (next < arrays->inner->n_clusters) {
+        ask_for(mor_relation_near(arrays->inner, next), FIRST_BYTES, 0);
+        ask_for(arrays->velocity_gradient + next * MOR_CLUSTER * 9, MOR_CLUSTER * 9 * sizeof(double), 1);
+    }
     gradient_pair ring[RING];
     for (int32_t q = 0; q < count && q < STEP_AHEAD; ++q) {
         find_share(ring + q % RING, target_of(arrays, near[q]), &g, &f, dimension);

@@ -194,6 +194,15 @@ INLINE void find_geometry(geometry *g, const double *records, const int32_t *tar
     }
 }
 
+/** Asks for memory, shape [bytes], before it is read (0) or written (1). */
+INLINE void ask_for(const void *memory, int64_t bytes, const int writes)
+{
+    enum { LINE = 64 };
+    for (int64_t byte = 0; byte < bytes; byte += LINE) {
+        __builtin_prefetch((const char *)memory + byte, writes);
+    }
+}
+
 /** Returns the inner product of a vector, by components, with the separation, one object; unit: its own times m. */
 INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
 {

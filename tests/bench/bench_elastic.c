@@ -1,27 +1,28 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/clock.h"
-#include "core/base/parallel.h"
+#include "tests/bench/bench.h"
 #include "tests/common/elastic_bodies.h"
 
-/* The speed of elastic bodies: whole sub-steps of one spinning ball (disc, box), no soil, no contact. A sub-step of one
- * particle counts one. Without arguments all sizes are timed; with arguments those that are named. */
+/* The speed of an elastic body alone: sub-steps of one spinning ball (disc, box), no soil, no contact, nothing that is
+ * done once in a common step. A sub-step of one particle counts one. */
 
 enum { STAGES_MAX = 8, REPETITIONS = 9 };
 
 /* One row of the table. */
-typedef struct size {
+typedef struct elastic_row {
     const char *name;
     int dimension;
     bool is_ball;
     double across; /* spacings */
     int n_steps;   /* per repetition */
-} size;
+} elastic_row;
 
-static const size sizes[] = {
-    {"2d-230", 2, false, 15.0, 2000}, {"2d-4k", 2, true, 71.0, 200}, {"2d-70k", 2, true, 299.0, 20},
-    {"3d-500", 3, true, 10.0, 1000},  {"3d-4k", 3, true, 20.0, 100}, {"3d-50k", 3, true, 46.0, 10},
-    {"3d-310k", 3, true, 84.0, 3},
+static const elastic_row rows[] = {
+    {"elastic-2d-230", 2, false, 15.0, 2000}, {"elastic-2d-4k", 2, true, 71.0, 200},
+    {"elastic-2d-70k", 2, true, 299.0, 20},   {"elastic-3d-500", 3, true, 10.0, 1000},
+    {"elastic-3d-4k", 3, true, 20.0, 100},    {"elastic-3d-50k", 3, true, 46.0, 10},
+    {"elastic-3d-310k", 3, true, 84.0, 3},
 };
 
 static double run_steps(elastic_bodies *it, int n_steps, double *stage_seconds)
@@ -32,6 +33,7 @@ static double run_steps(elastic_bodies *it, int n_steps, double *stage_seconds)
     const char *limit = "";
     for (int n = 0; n < n_steps; ++n) {
         elastic_require(it, stepper->operations->propose(&it->context, stepper->owner, &length, &limit));
+        /* The first of two sub-steps: only the last one has to find the stress for the output. */
         const mor_step step = {.length = length, .number = (uint64_t)n, .n_parts = 2};
         double before = mor_clock_now();
         for (int k = 0; k < stepper->n_stages; ++k) {
@@ -44,36 +46,33 @@ static double run_steps(elastic_bodies *it, int n_steps, double *stage_seconds)
     return mor_clock_now() - start;
 }
 
-static int compare_seconds(const void *a, const void *b)
-{
-    const double difference = *(const double *)a - *(const double *)b;
-    return (difference > 0.0) - (difference < 0.0);
-}
-
-static void time_threads(elastic_bodies *it, const size *row, int n_threads)
+/* Returns million particle-steps per second. */
+static double time_threads(elastic_bodies *it, const elastic_row *row, int n_threads)
 {
     double seconds[REPETITIONS];
     double stages[STAGES_MAX] = {0.0};
     double sum = 0.0;
     it->context.n_threads = n_threads;
+    assert_true(it->stepper.n_stages <= STAGES_MAX);
     for (int k = 0; k < REPETITIONS; ++k) {
         seconds[k] = run_steps(it, row->n_steps, stages);
     }
-    qsort(seconds, REPETITIONS, sizeof *seconds, compare_seconds);
-    const double millions = 1e-6 * (double)it->elastic.group.set.n_particles * row->n_steps;
-    printf("  %d threads: %.2f million particle-steps/s (lowest %.2f, highest %.2f)\n   ", n_threads,
-           millions / seconds[REPETITIONS / 2], millions / seconds[REPETITIONS - 1], millions / seconds[0]);
+    const double n_particle_steps = (double)it->elastic.group.set.n_particles * row->n_steps;
+    const double speed = bench_print_speed(n_threads, n_particle_steps, seconds, REPETITIONS);
     for (int k = 0; k < it->stepper.n_stages; ++k) {
         sum += stages[k];
     }
+    printf("   ");
     for (int k = 0; k < it->stepper.n_stages; ++k) {
-        printf(" %s %.0f %%,", it->stepper.stages[k].name, 100.0 * stages[k] / sum);
+        printf(" %s %.0f %%%s", it->stepper.stages[k].name, 100.0 * stages[k] / sum,
+               k + 1 < it->stepper.n_stages ? "," : "\n");
     }
-    printf("\n");
+    return speed;
 }
 
-static void bench(const size *row)
+static void run_row(bench *all, const void *chosen)
 {
+    const elastic_row *row = chosen;
     const double across = row->across;
     const elastic_piece piece = {.is_ball = row->is_ball,
                                  .side = {across, across, across},
@@ -92,24 +91,20 @@ static void bench(const size *row)
     elastic_bodies it;
     elastic_open(&it, &request);
     elastic_steps(&it, 2);
-    printf("%s: %lld particles in %s\n", row->name, (long long)it.elastic.group.set.n_particles,
-           row->dimension == 2 ? "plane strain" : "space");
-    time_threads(&it, row, mor_parallel_cores());
-    time_threads(&it, row, 1);
+    bench_result result = {.n_particles = it.elastic.group.set.n_particles, .rate_ratio = NAN, .gain = NAN};
+    result.bytes = (double)it.context.memory_bytes / (double)result.n_particles;
+    snprintf(result.name, sizeof result.name, "%s", row->name);
+    printf("%s: %lld particles in %s, %.0f bytes per particle\n", row->name, (long long)result.n_particles,
+           row->dimension == 2 ? "plane strain" : "space", result.bytes);
+    result.speed = time_threads(&it, row, mor_parallel_cores());
+    if (mor_parallel_cores() > 1) {
+        time_threads(&it, row, 1);
+    }
+    bench_report(all, &result);
     elastic_close(&it);
-    fflush(stdout);
 }
 
 int main(int argc, char **argv)
 {
-    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; ++k) {
-        bool is_wanted = argc == 1;
-        for (int a = 1; a < argc; ++a) {
-            is_wanted = is_wanted || strcmp(argv[a], sizes[k].name) == 0;
-        }
-        if (is_wanted) {
-            bench(&sizes[k]);
-        }
-    }
-    return 0;
+    return bench_main(argc, argv, &(bench_program){rows, sizeof *rows, sizeof rows / sizeof *rows, run_row});
 }

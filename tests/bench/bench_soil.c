@@ -1,182 +1,160 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/clock.h"
-#include "core/base/parallel.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/meter.h"
 #include "tests/common/scene.h"
 
-#include <stdio.h>
-#include <unistd.h>
-
 /* The speed of soil: whole steps, neighbor search included, output excluded. The columns of cases/ are made soft, so
- * that few steps deform them, and start from a disturbed lattice. A repetition is as long as the time between two
- * sorts, so that each holds one. Without arguments all sizes are timed; with arguments those that are named. */
-
-enum { STAGES_MAX = 32, REPETITIONS_MAX = 9 };
+ * that few steps deform them, and start from a disturbed lattice. A repetition holds one sort.
+ *
+ * The small rows take as many steps in a repetition as there are between two sorts of a run. The large rows take fewer
+ * and sort as often as that; of the time by which finding neighbors in the sorting step exceeds the mean of the
+ * others, they count the part that falls to so many steps. They have too few steps to get into motion, so their
+ * soil starts with a speed at which lists are built as often as in the small rows: see "steps between lists". */
 
 /* One row of the table. */
-typedef struct size {
+typedef struct soil_row {
     const char *name;
     const char *case_path;
-    const char *settings[4];
+    const char *settings[5];
     int n_first_steps; /* before the clock starts */
+    int n_steps;       /* of a repetition, a multiple of the steps between summations of density; 0: between sorts */
     int n_repetitions;
-} size;
+    bool has_one_thread; /* whether one thread is timed too */
+} soil_row;
 
 #define CASES MOR_SOURCE_DIR "/cases/"
 #define SOFT "soil[0].material.youngs_modulus=0.24 MPa"
 #define UNEVEN "lattice.jitter=0.2"
+#define MOVING "soil[0].velocity=('0.5 m/s', '0 m/s', '0 m/s')"
 
-static const size sizes[] = {
-    {"2d-16k", CASES "column-2d/case.cfg", {"spacing=1.118 mm", SOFT, UNEVEN, NULL}, 1000, 7},
-    {"3d-25k", CASES "column-3d/case.cfg", {"spacing=5 mm", SOFT, UNEVEN, NULL}, 300, 7},
-    {"3d-200k", CASES "column-3d/case.cfg", {"spacing=2.505 mm", SOFT, UNEVEN, NULL}, 150, 3},
-    {"3d-1m", CASES "column-3d/case.cfg", {"spacing=1.465 mm", SOFT, UNEVEN, NULL}, 30, 1},
+static const soil_row rows[] = {
+    {"soil-2d-16k", CASES "column-2d/case.cfg", {"spacing=1.118 mm", SOFT, UNEVEN, NULL}, 1000, 0, 7, true},
+    {"soil-3d-25k", CASES "column-3d/case.cfg", {"spacing=5 mm", SOFT, UNEVEN, NULL}, 300, 0, 7, true},
+    {"soil-3d-200k", CASES "column-3d/case.cfg", {"spacing=2.505 mm", SOFT, UNEVEN, NULL}, 150, 0, 3, true},
+    {"soil-3d-1m", CASES "column-3d/case.cfg", {"spacing=1.465 mm", SOFT, UNEVEN, MOVING, NULL}, 20, 20, 3, false},
+    {"soil-3d-2m", CASES "column-3d/case.cfg", {"spacing=1.163 mm", SOFT, UNEVEN, MOVING, NULL}, 20, 20, 3, false},
 };
 
-enum { N_SIZES = sizeof sizes / sizeof *sizes };
-
 /* What was measured with one number of threads. */
-typedef struct timing {
+typedef struct soil_timing {
     int n_threads;
-    double seconds[REPETITIONS_MAX];  /* of each repetition, s */
-    double stage_seconds[STAGES_MAX]; /* of all repetitions, s */
-} timing;
+    double seconds[BENCH_REPETITIONS_MAX];  /* of each repetition, s */
+    double stage_seconds[METER_STAGES_MAX]; /* of all repetitions, s */
+    int n_lists;                            /* lists built in all repetitions */
+} soil_timing;
 
-/* One step of the only stepper, as the schedule takes it, with a clock between the stages. */
-static void time_step(scene *it, timing *t)
+/* A run with its clocks. */
+typedef struct soil_bench {
+    scene *scene;
+    meter meter;
+    int neighbors;     /* number of the stage that finds neighbors */
+    int sort_interval; /* of a run, steps */
+    int n_steps;       /* of a repetition */
+    soil_timing timings[2];
+    int n_timings;
+} soil_bench;
+
+static void find_neighbor_stage(soil_bench *it)
 {
-    mor_schedule *schedule = &it->simulation.schedule;
-    const mor_stepper *stepper = &schedule->steppers[0];
-    double length = 0.0;
-    const char *limit = "";
-    scene_require(it, stepper->operations->propose(&it->context, stepper->owner, &length, &limit));
-    const int64_t ticks = mor_schedule_ticks(schedule, length);
-    const mor_step step = {(double)ticks * schedule->tick, mor_schedule_time(schedule), schedule->n_steps, 0, 1};
-    double before = mor_clock_now();
+    const mor_stepper *stepper = &it->meter.steppers[0].plain;
+    for (it->neighbors = 0; strcmp(stepper->stages[it->neighbors].name, "neighbors") != 0; ++it->neighbors) {
+        assert_true(it->neighbors + 1 < stepper->n_stages);
+    }
+}
+
+/* Returns the time of a repetition, in s, with its fair share of a sort. */
+static double time_repetition(soil_bench *it, soil_timing *timing)
+{
+    const mor_schedule *schedule = &it->scene->simulation.schedule;
+    const mor_soil *soil = &it->scene->simulation.soil;
+    meter_stepper *stepper = &it->meter.steppers[0];
+    double sorting = 0.0;
+    double others = 0.0;
+    const double start = mor_clock_now();
+    for (int n = 0; n < it->n_steps; ++n) {
+        const bool is_sorting = schedule->n_steps % (uint64_t)it->n_steps == 0;
+        const double drift = soil->drift;
+        scene_step(it->scene, 1);
+        *(is_sorting ? &sorting : &others) += stepper->last_seconds[it->neighbors];
+        timing->n_lists += soil->drift < drift; /* new lists start from rest */
+    }
+    const double excess = sorting - others / (it->n_steps - 1);
+    const double surplus = excess * (1.0 - (double)it->n_steps / it->sort_interval);
+    stepper->stage_seconds[it->neighbors] -= surplus;
+    return mor_clock_now() - start - surplus;
+}
+
+static void print_stages(const mor_stepper *stepper, const double *stage_seconds)
+{
+    double sum = 0.0;
     for (int k = 0; k < stepper->n_stages; ++k) {
-        scene_require(it, stepper->stages[k].run(&it->context, stepper->owner, &step));
-        const double now = mor_clock_now();
-        t->stage_seconds[k] += now - before;
-        before = now;
+        sum += stage_seconds[k];
     }
-    schedule->now += ticks;
-    schedule->n_steps += 1;
-    schedule->step_length = step.length;
-}
-
-static void time_repetitions(scene *it, int n_repetitions, timing *t)
-{
-    it->context.n_threads = t->n_threads;
-    for (int k = 0; k < n_repetitions; ++k) {
-        const double before = mor_clock_now();
-        for (int n = 0; n < it->the_case.numerics.sort_interval; ++n) {
-            time_step(it, t);
+    printf("   ");
+    for (int k = 0; k < stepper->n_stages; ++k) {
+        const double share = 100.0 * stage_seconds[k] / sum;
+        if (share >= 0.05) {
+            printf(" %s %.1f %%%s", stepper->stages[k].name, share, k + 1 < stepper->n_stages ? "," : "");
         }
-        t->seconds[k] = mor_clock_now() - before;
-    }
-}
-
-static int compare_seconds(const void *a, const void *b)
-{
-    const double difference = *(const double *)a - *(const double *)b;
-    return (difference > 0.0) - (difference < 0.0);
-}
-
-static void print_speed(const scene *it, int n_repetitions, timing *t)
-{
-    const int n_steps = it->the_case.numerics.sort_interval;
-    const double millions = 1e-6 * (double)it->simulation.soil.set.n_particles * n_steps;
-    qsort(t->seconds, (size_t)n_repetitions, sizeof *t->seconds, compare_seconds);
-    printf("  %7d %13d x %d %20.3f %10.3f %10.3f\n", t->n_threads, n_repetitions, n_steps,
-           millions / t->seconds[n_repetitions / 2], millions / t->seconds[n_repetitions - 1],
-           millions / t->seconds[0]);
-}
-
-static void print_stages(const scene *it, const timing *timings, int n_timings)
-{
-    const mor_stepper *stepper = &it->simulation.schedule.steppers[0];
-    printf("  %-22s", "share of the time, %");
-    for (int k = 0; k < n_timings; ++k) {
-        printf(" %3d thread%s", timings[k].n_threads, timings[k].n_threads == 1 ? " " : "s");
     }
     printf("\n");
-    for (int stage = 0; stage < stepper->n_stages; ++stage) {
-        printf("  %-22s", stepper->stages[stage].name);
-        for (int k = 0; k < n_timings; ++k) {
-            double sum = 0.0;
-            for (int other = 0; other < stepper->n_stages; ++other) {
-                sum += timings[k].stage_seconds[other];
-            }
-            printf(" %11.1f", 100.0 * timings[k].stage_seconds[stage] / sum);
+}
+
+/* Repetitions with all threads and with one take turns, so that both meet the soil in the same motion. */
+static void time_repetitions(soil_bench *it, int n_repetitions)
+{
+    for (int k = 0; k < n_repetitions * it->n_timings; ++k) {
+        soil_timing *timing = &it->timings[k % it->n_timings];
+        it->scene->context.n_threads = timing->n_threads;
+        meter_reset(&it->meter);
+        timing->seconds[k / it->n_timings] = time_repetition(it, timing);
+        for (int stage = 0; stage < METER_STAGES_MAX; ++stage) {
+            timing->stage_seconds[stage] += it->meter.steppers[0].stage_seconds[stage];
         }
-        printf("\n");
     }
 }
 
-static void bench(const size *row)
+/* Returns million particle-steps per second. */
+static double print_timing(const soil_bench *it, soil_timing *timing, int n_repetitions)
 {
+    const double n_particle_steps = (double)it->scene->simulation.soil.set.n_particles * it->n_steps;
+    const double speed = bench_print_speed(timing->n_threads, n_particle_steps, timing->seconds, n_repetitions);
+    printf("    %d steps each, %.1f steps between lists\n", it->n_steps,
+           (double)it->n_steps * n_repetitions / (timing->n_lists > 0 ? timing->n_lists : 1));
+    print_stages(&it->meter.steppers[0].plain, timing->stage_seconds);
+    return speed;
+}
+
+static void run_row(bench *all, const void *chosen)
+{
+    const soil_row *row = chosen;
     const scene_request request = {row->case_path, (const char *const *[]){row->settings}, 1, mor_parallel_cores()};
-    scene *it = scene_new(&request);
-    const mor_stepper *stepper = &it->simulation.schedule.steppers[0];
-    timing timings[2] = {{.n_threads = mor_parallel_cores()}, {.n_threads = 1}};
-    const int n_timings = mor_parallel_cores() > 1 ? 2 : 1;
-    assert_true(stepper->n_stages <= STAGES_MAX);
-    assert_true(row->n_repetitions <= REPETITIONS_MAX);
-    scene_step(it, row->n_first_steps);
-    for (int k = 0; k < n_timings; ++k) {
-        time_repetitions(it, row->n_repetitions, &timings[k]);
+    soil_bench it = {.scene = scene_new(&request), .timings = {{mor_parallel_cores()}, {1}}};
+    mor_soil *soil = &it.scene->simulation.soil;
+    it.n_timings = row->has_one_thread && mor_parallel_cores() > 1 ? 2 : 1;
+    it.sort_interval = soil->settings.sort_interval;
+    it.n_steps = row->n_steps > 0 ? row->n_steps : it.sort_interval;
+    soil->settings.sort_interval = it.n_steps;
+    meter_attach(&it.meter, &it.scene->simulation.schedule);
+    find_neighbor_stage(&it);
+    assert_true(row->n_repetitions <= BENCH_REPETITIONS_MAX);
+    scene_step(it.scene, row->n_first_steps);
+    bench_result result = {.n_particles = soil->set.n_particles, .rate_ratio = NAN, .gain = NAN};
+    result.bytes = mor_soil_bytes_per_particle(soil);
+    snprintf(result.name, sizeof result.name, "%s", row->name);
+    printf("%s: %lld particles in %s, %s, %.0f bytes per particle\n", row->name, (long long)result.n_particles,
+           soil->settings.dimension == 2 ? "plane strain" : "space", soil->table->instruction_set, result.bytes);
+    time_repetitions(&it, row->n_repetitions);
+    result.speed = print_timing(&it, &it.timings[0], row->n_repetitions);
+    if (it.n_timings > 1) {
+        print_timing(&it, &it.timings[1], row->n_repetitions);
     }
-    printf("%s: %lld particles in %s, %s, %.0f bytes per particle\n", row->name,
-           (long long)it->simulation.soil.set.n_particles, it->the_case.dimension == 2 ? "plane strain" : "space",
-           it->simulation.soil.table->instruction_set, mor_soil_bytes_per_particle(&it->simulation.soil));
-    printf("  %7s %13s x %s %20s %10s %10s\n", "threads", "repetitions", "steps", "M particle-steps/s", "lowest",
-           "highest");
-    for (int k = 0; k < n_timings; ++k) {
-        print_speed(it, row->n_repetitions, &timings[k]);
-    }
-    print_stages(it, timings, n_timings);
-    printf("\n");
-    fflush(stdout);
-    scene_free(it);
-}
-
-/* Whether a size was asked for; all are when none is named. */
-static bool is_wanted(const size *row, int argc, char **argv)
-{
-    for (int k = 1; k < argc; ++k) {
-        if (strcmp(argv[k], row->name) == 0) {
-            return true;
-        }
-    }
-    return argc == 1;
-}
-
-/* Threads wait as they do in the program; OpenMP looks at this once, before main. */
-static void wait_as_the_program_does(char **argv)
-{
-    if (getenv("GOMP_SPINCOUNT") == NULL && getenv("OMP_WAIT_POLICY") == NULL &&
-        setenv("GOMP_SPINCOUNT", "1000", 1) == 0) {
-        execv("/proc/self/exe", argv);
-    }
+    bench_report(all, &result);
+    scene_free(it.scene);
 }
 
 int main(int argc, char **argv)
 {
-    int n_done = 0;
-    wait_as_the_program_does(argv);
-    for (int k = 0; k < N_SIZES; ++k) {
-        if (is_wanted(&sizes[k], argc, argv)) {
-            bench(&sizes[k]);
-            n_done += 1;
-        }
-    }
-    if (n_done < argc - 1) {
-        fprintf(stderr, "bench_soil: some of these sizes are not known; allowed are");
-        for (int k = 0; k < N_SIZES; ++k) {
-            fprintf(stderr, " %s", sizes[k].name);
-        }
-        fprintf(stderr, "\n");
-        return 2;
-    }
-    return 0;
+    return bench_main(argc, argv, &(bench_program){rows, sizeof *rows, sizeof rows / sizeof *rows, run_row});
 }
