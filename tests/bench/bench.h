@@ -33,6 +33,7 @@ typedef struct bench_program {
     size_t row_bytes;
     int n_rows;
     void (*run)(bench *it, const void *row); /* times one row and reports it with bench_report */
+    const char *reference_path;              /* zero-terminated; BENCH_REFERENCE_PATH */
 } bench_program;
 
 static inline int bench_compare_numbers(const void *a, const void *b)
@@ -167,12 +168,12 @@ static inline int bench_main(int argc, char **argv, const bench_program *program
             continue;
         }
         if (it.measured.n_rows == 0) {
-            it.has_reference = bench_reference_read(BENCH_REFERENCE_PATH, &it.reference);
+            it.has_reference = bench_reference_read(program->reference_path, &it.reference);
         }
         program->run(&it, row);
     }
-    return it.is_writing && it.measured.n_rows > 0 && !bench_reference_write(BENCH_REFERENCE_PATH, &it.measured) ? 1
-                                                                                                                 : 0;
+    const bool has_news = it.is_writing && it.measured.n_rows > 0;
+    return has_news && !bench_reference_write(program->reference_path, &it.measured) ? 1 : 0;
 }
 
 #endif

@@ -106,5 +106,6 @@ static void run_row(bench *all, const void *chosen)
 
 int main(int argc, char **argv)
 {
-    return bench_main(argc, argv, &(bench_program){rows, sizeof *rows, sizeof rows / sizeof *rows, run_row});
+    const bench_program program = {rows, sizeof *rows, sizeof rows / sizeof *rows, run_row, BENCH_REFERENCE_PATH};
+    return bench_main(argc, argv, &program);
 }

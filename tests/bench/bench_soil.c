@@ -26,7 +26,7 @@ typedef struct soil_row {
 #define CASES MOR_SOURCE_DIR "/cases/"
 #define SOFT "soil[0].material.youngs_modulus=0.24 MPa"
 #define UNEVEN "lattice.jitter=0.2"
-#define MOVING "soil[0].velocity=('0.5 m/s', '0 m/s', '0 m/s')"
+#define MOVING "soil[0].velocity=('0.4 m/s', '0 m/s', '0 m/s')"
 
 static const soil_row rows[] = {
     {"soil-2d-16k", CASES "column-2d/case.cfg", {"spacing=1.118 mm", SOFT, UNEVEN, NULL}, 1000, 0, 7, true},
@@ -156,5 +156,6 @@ static void run_row(bench *all, const void *chosen)
 
 int main(int argc, char **argv)
 {
-    return bench_main(argc, argv, &(bench_program){rows, sizeof *rows, sizeof rows / sizeof *rows, run_row});
+    const bench_program program = {rows, sizeof *rows, sizeof rows / sizeof *rows, run_row, BENCH_REFERENCE_PATH};
+    return bench_main(argc, argv, &program);
 }

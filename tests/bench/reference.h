@@ -17,6 +17,7 @@
  *  The reference file of the speed benches: speeds that were measured once, to compare with. Lines that begin with #
  *  tell on what machine and when; every other line is a row of five words, see reference.txt. */
 
+/** Where the reference file is; only where MOR_SOURCE_DIR is defined. */
 #define BENCH_REFERENCE_PATH MOR_SOURCE_DIR "/tests/bench/reference.txt"
 
 enum { BENCH_ROWS_MAX = 64, BENCH_NAME = 32, BENCH_CELL = 24, BENCH_LINE = 256 };
