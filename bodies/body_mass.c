@@ -329,7 +329,9 @@ static double fit_plane(const mass_search *search, const double *distances, doub
         for (int a = 0; a < 3; ++a) {
             fitted += 0.5 * (place[a] - 1) * change[a];
         }
-        missed = fmax(missed, fabs(distances[k] - fitted));
+        /* Compared: GCC 12 for ARM fails on fmax in this loop. */
+        const double miss = fabs(distances[k] - fitted);
+        missed = miss > missed ? miss : missed;
     }
     for (int a = 0; a < 3; ++a) {
         slope[a] = a < search->dimension ? change[a] / search->size[a] : 0.0;
