@@ -23,10 +23,11 @@ static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *s
             for (int bit = 0; bit < 64; ++bit) {
                 if (bits[verb] >> bit & 1u) {
                     fprintf(out, " %s",
-                            bit < set->n_fields           ? set->fields[bit].name
-                            : bit == MOR_RESOURCE_RECORDS ? "(records)"
-                            : bit == MOR_RESOURCE_LISTS   ? "(lists)"
-                                                          : "(wall sums)");
+                            bit < set->n_fields               ? set->fields[bit].name
+                            : bit == MOR_RESOURCE_RECORDS     ? "(records)"
+                            : bit == MOR_RESOURCE_LISTS       ? "(lists)"
+                            : bit == MOR_RESOURCE_SHORT_LISTS ? "(short lists)"
+                                                              : "(wall sums)");
                 }
             }
             fprintf(out, "\n");

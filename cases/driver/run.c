@@ -18,6 +18,7 @@
 typedef struct pace {
     double loop_seconds;   /* wall time spent in steps, s */
     uint64_t n_loop_steps; /* steps behind loop_seconds */
+    uint64_t n_sub_steps;  /* of the bodies in these steps */
     double last_save;      /* wall time of the last checkpoint, s */
     double last_progress;  /* wall time of the last line of progress, s */
     int64_t next_row;      /* number of the next row of the series */
@@ -108,6 +109,7 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
         p->loop_seconds += mor_clock_now() - before;
         p->n_loop_steps += 1;
+        p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
         MOR_TRY(context, mor_probe_follow(context, s));
         MOR_TRY(context, write_outputs(context, files, p));
         show_progress(files->options, s, p);
@@ -160,8 +162,9 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     }
     fprintf(options->output, "%s\n%lld particles, %llu steps, %.3g M particle-steps/s", s->the_case->title,
             (long long)mor_simulation_particles(s), (unsigned long long)s->schedule.n_steps, 1e-6 * speed);
-    if (s->bodies.n_groups > 0) {
-        fprintf(options->output, ", %d sub-steps of bodies per step", mor_schedule_rate_ratio(&s->schedule));
+    if (s->bodies.n_groups > 0 && p->n_loop_steps > 0) {
+        fprintf(options->output, ", %.3g sub-steps of bodies per step in the mean",
+                (double)p->n_sub_steps / (double)p->n_loop_steps);
     }
     if (s->has_soil) {
         fprintf(options->output, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));

@@ -288,7 +288,7 @@ static int64_t list_range(mor_relation *relation, const mor_relation_points *sou
         relation->lists[cluster] = out;
         relation->counts[cluster] = (int32_t)count;
         relation->near_counts[cluster] = (int32_t)count;
-        if (2 * count <= room) {
+        if (count > 0 && 2 * count <= room) {
             memcpy(out + count, out, (size_t)count * sizeof *out);
         }
         total += 2 * count;
@@ -355,6 +355,7 @@ mor_status mor_relation_build(mor_context *context, mor_relation *relation, cons
     relation->n_builds += 1;
     if (target->tree->n_clusters == 0) {
         memset(relation->counts, 0, (size_t)relation->n_clusters * sizeof *relation->counts);
+        memset(relation->near_counts, 0, (size_t)relation->n_clusters * sizeof *relation->near_counts);
     } else if (relation->n_clusters > 0) {
         bool has_grown = true;
         while (has_grown) {

@@ -28,9 +28,9 @@ typedef struct mor_relation {
     int32_t *counts;      /* shape [n_clusters]; entries in each list */
     int32_t *near_counts; /* shape [n_clusters]; entries in each short list, see mor_relation_near */
     int n_buffers;        /* one per thread */
-    int32_t **buffers;    /* shape [n_buffers] of [capacities] */
+    int32_t **buffers;    /* shape [n_buffers] of [capacities]; each list with its short list */
     int64_t *capacities;  /* shape [n_buffers]; entries */
-    int64_t n_entries;    /* entries in all lists */
+    int64_t n_entries;    /* entries in all lists, without the short ones */
     int64_t n_occupied;   /* clusters with a list that is not empty */
     int32_t *occupied;    /* shape [n_clusters]; those clusters, ascending */
     uint64_t n_builds;    /* how often it was built */

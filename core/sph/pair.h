@@ -68,7 +68,9 @@ typedef struct mor_pair_arrays {
     const double *strain_rate;       /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
 } mor_pair_arrays;
 
-/** A sum over the clusters [first, last); writes its own particles only. */
+/** A sum over the clusters [first, last); writes its own particles only, and momentum the short lists of its clusters,
+ *  see mor_relation_near. The other loops read those: they come after momentum with the particles at the same places,
+ *  or after a build. */
 typedef void (*mor_pair_loop)(const mor_pair_constants *constants, const mor_pair_arrays *arrays, int64_t first,
                               int64_t last);
 
@@ -105,7 +107,7 @@ typedef void (*mor_pair_kernel_loop)(const mor_pair_constants *constants, const 
 /** The stress divergence by soil neighbors, along and across a wall apart, for the particles that see it. */
 typedef struct mor_pair_tangent_job {
     const double *records;      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    const mor_relation *inner;  /* one object, current */
+    const mor_relation *inner;  /* one object, current, with short lists */
     const mor_pair_slot *slots; /* shape [n_slots]; who sees what of the boundary */
     const double *sums;         /* shape [n_slots * 8, MOR_KERNEL_SUMS]; over the slots; units of the enum */
     double *out;                /* shape [n_slots * 8, 2, 3], Pa/m; along, then across the boundary */

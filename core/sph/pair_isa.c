@@ -3,7 +3,7 @@
 /* Compiled once per instruction set; MOR_ISA is its name. */
 #include "core/sph/pair_lanes.h"
 
-/* FIRST_BYTES: of the next cluster's list, which are asked for before its turn. */
+/* FIRST_BYTES: of the next cluster's short list, which are asked for before its turn. */
 enum { FIRST_BYTES = 512 };
 
 INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
@@ -44,7 +44,7 @@ INLINE vec limited_jump(vec jump, vec reconstructed)
     return pick(reconstructed < least, least, smaller(reconstructed, most));
 }
 
-/* What the momentum loop keeps of its own eight particles. */
+/* What the momentum loop keeps of its own particles. */
 typedef struct momentum {
     mask counts_closing, counts_opening; /* all bits where the dissipation acts on a pair that closes, opens */
     vec v[3], impedance, pressure;       /* own state */
@@ -364,7 +364,7 @@ static void momentum_3d(const mor_pair_constants *c, const mor_pair_arrays *arra
     momentum_range(c, arrays, first, last, 3);
 }
 
-/* What the gradient loop keeps of its own eight particles, and its sums. */
+/* What the gradient loop keeps of its own particles, and its sums. */
 typedef struct gradient {
     vec v[3], impedance, pressure; /* own state */
     vec moment[9];                 /* sum k (v_i - v_j) (x) r */
@@ -429,8 +429,9 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
     const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
     const int64_t next = first / MOR_CLUSTER + 1;
-    if (next < arrays->inner->n_clusters) {
-        ask_for(mor_relation_near(arrays->inner, next), FIRST_BYTES, 0);
+    if (first % MOR_CLUSTER == 0 && (next + 1) * MOR_CLUSTER <= arrays->n_particles) {
+        const int64_t size_bytes = arrays->inner->near_counts[next] * (int64_t)sizeof *near;
+        ask_for(mor_relation_near(arrays->inner, next), size_bytes < FIRST_BYTES ? size_bytes : FIRST_BYTES, 0);
         ask_for(arrays->velocity_gradient + next * MOR_CLUSTER * 9, MOR_CLUSTER * 9 * sizeof(double), 1);
     }
     gradient_pair ring[RING];
@@ -491,11 +492,11 @@ INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays
     for (int a = 0; a < 3; ++a) {
         s[a] = load(arrays->spin_stress + first * 3, 3, a);
     }
-    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
-    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
+    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
+    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
     for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = arrays->records + (int64_t)list[entry] * MOR_RECORD_SIZE;
-        const double *other = arrays->spin_stress + (int64_t)list[entry] * 3;
+        const double *target = arrays->records + (int64_t)near[entry] * MOR_RECORD_SIZE;
+        const double *other = arrays->spin_stress + (int64_t)near[entry] * 3;
         const pair p = pair_of(&f, target, 3);
         const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
         for (int a = 0; a < 3; ++a) {
@@ -528,10 +529,10 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
     const vec v[3] = {load(own, MOR_RECORD_SIZE, 4), load(own, MOR_RECORD_SIZE, 5), load(own, MOR_RECORD_SIZE, 6)};
     vec sums[6];
     memset(sums, 0, sizeof sums);
-    const int32_t *list = arrays->inner->lists[first / MOR_CLUSTER];
-    const int32_t count = arrays->inner->counts[first / MOR_CLUSTER];
+    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
+    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
     for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = arrays->records + (int64_t)list[entry] * MOR_RECORD_SIZE;
+        const double *target = arrays->records + (int64_t)near[entry] * MOR_RECORD_SIZE;
         const pair p = pair_of(&f, target, 3);
         const vec square = p.reach * p.reach;
         const vec weight =

@@ -194,12 +194,16 @@ INLINE void find_geometry(geometry *g, const double *records, const int32_t *tar
     }
 }
 
-/** Asks for memory, shape [bytes], before it is read (0) or written (1). */
-INLINE void ask_for(const void *memory, int64_t bytes, const int writes)
+/** Asks for memory, shape [size_bytes], before it is read (0) or written (1). */
+INLINE void ask_for(const void *memory, int64_t size_bytes, const int writes)
 {
     enum { LINE = 64 };
-    for (int64_t byte = 0; byte < bytes; byte += LINE) {
-        __builtin_prefetch((const char *)memory + byte, writes);
+    for (int64_t byte = 0; byte < size_bytes; byte += LINE) {
+        if (writes) {
+            __builtin_prefetch((const char *)memory + byte, 1);
+        } else {
+            __builtin_prefetch((const char *)memory + byte, 0);
+        }
     }
 }
 

@@ -14,6 +14,7 @@
 #define RECORDS MOR_BIT(MOR_RESOURCE_RECORDS)
 #define LISTS MOR_BIT(MOR_RESOURCE_LISTS)
 #define WALL_SUMS MOR_BIT(MOR_RESOURCE_WALL_SUMS)
+#define SHORT_LISTS MOR_BIT(MOR_RESOURCE_SHORT_LISTS)
 
 /* Diameters of the sphere and of the disc whose volume is one: (6 / pi)^(1/3) and 2 / sqrt(pi). */
 #define SPHERE_DIAMETER 1.2407009817988
@@ -33,13 +34,13 @@ static const mor_stage soil_stages[] = {
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on"},
     {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
-     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION), 0, "acceleration and stress diffusion by the neighbors"},
-    {"angular momentum", mor_soil_keep_angular_momentum, RECORDS | LISTS, 0, BIT(ACCELERATION),
+     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHORT_LISTS, 0, "acceleration and stress diffusion by the neighbors"},
+    {"angular momentum", mor_soil_keep_angular_momentum, RECORDS | LISTS | SHORT_LISTS, 0, BIT(ACCELERATION),
      "takes out what turns the soil by itself, when switched on"},
-    {"wall push", mor_soil_push_walls, RECORDS | LISTS | WALL_SUMS, 0, BIT(ACCELERATION),
+    {"wall push", mor_soil_push_walls, RECORDS | SHORT_LISTS | WALL_SUMS, 0, BIT(ACCELERATION),
      "acceleration by walls and rocks, and the forces on them"},
     {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step"},
-    {"velocity gradient", mor_soil_sum_gradient, RECORDS | LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
+    {"velocity gradient", mor_soil_sum_gradient, RECORDS | SHORT_LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
      "velocity gradient and density rate by the neighbors"},
     {"wall drag", mor_soil_drag_walls, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "the part of walls and rocks in both"},
@@ -47,8 +48,8 @@ static const mor_stage soil_stages[] = {
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on"},
     {"strain rate", mor_soil_keep_strain_rate, BIT(VELOCITY_GRADIENT), 0, BIT(STRAIN_RATE),
      "kept for the next step's reconstruction, when switched on"},
-    {"regularization", mor_soil_regularize, RECORDS | LISTS | BIT(VELOCITY_GRADIENT), 0, BIT(POSITION) | BIT(VELOCITY),
-     "XSPH and shifting, when switched on"},
+    {"regularization", mor_soil_regularize, RECORDS | SHORT_LISTS | BIT(VELOCITY_GRADIENT), 0,
+     BIT(POSITION) | BIT(VELOCITY), "XSPH and shifting, when switched on"},
     {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
      "positions and densities to the end of the step"},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0, BIT(STRESS),

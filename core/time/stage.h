@@ -17,9 +17,10 @@
 
 /** Data that stages hand on beside the particle fields. */
 enum {
-    MOR_RESOURCE_RECORDS = 60,  /* packed neighbor records */
-    MOR_RESOURCE_LISTS = 61,    /* neighbor lists */
-    MOR_RESOURCE_WALL_SUMS = 62 /* kernel sums over walls */
+    MOR_RESOURCE_RECORDS = 60,    /* packed neighbor records */
+    MOR_RESOURCE_LISTS = 61,      /* neighbor lists */
+    MOR_RESOURCE_WALL_SUMS = 62,  /* kernel sums over walls */
+    MOR_RESOURCE_SHORT_LISTS = 63 /* what of the lists is in reach in this step */
 };
 
 /** The bit of a field or a resource. */

@@ -34,7 +34,7 @@ for program in "$programs"/bench_*; do
     [ "$code" = 0 ] || bad="$bad ${program##*/} (code $code)"
 done
 printf '==> Speeds on all cores; the reference was measured on\n'
-sed -n 's/^# \(Machine\|Date\): /    /p' "$reference" 2>/dev/null || true
+sed -n 's/^# \(Machine\|Date of the last row\): /    /p' "$reference" 2>/dev/null || true
 printf '%-16s %10s %15s %17s %12s %8s %8s\n' row particles 'M part.-steps/s' 'of the reference' 'bytes/part.' kappa \
     'I_CE %'
 cat "$table"

@@ -201,7 +201,7 @@ static inline void bench_print_rows(FILE *file, const char *machine, const bench
     strftime(date, sizeof date, "%Y-%m-%d", localtime(&now));
     fprintf(file,
             "# Speeds to compare with, median of several repetitions on all cores; written by ./dev bench "
-            "--write [NAME]...\n%s\n# Date: %s\n",
+            "--write [NAME]...\n%s\n# Date of the last row: %s\n",
             machine, date);
     fprintf(file, "# row             M particle-steps/s  bytes per particle    kappa   I_CE %%\n");
     for (int k = 0; k < table->n_rows; ++k) {

@@ -172,10 +172,10 @@ static inline void assembly_open_lattice(assembly *a, int dimension, int side, i
     assembly_open(a, dimension, points, n);
 }
 
-/** 61 particles, not a whole number of clusters, well mixed. */
+/** 118 or 122 particles, not a whole number of clusters and more than a chunk of a list, well mixed. */
 static inline void assembly_open_mixed(assembly *a, int dimension)
 {
-    assembly_open_lattice(a, dimension, dimension == 2 ? 8 : 4, 3, 0.3);
+    assembly_open_lattice(a, dimension, dimension == 2 ? 11 : 5, 3, 0.3);
 }
 
 static inline void assembly_close(assembly *a)

@@ -82,7 +82,8 @@ static void shared_data_is_checked_like_fields(void **state)
 {
     (void)state;
     mor_context context;
-    static const int resources[] = {MOR_RESOURCE_RECORDS, MOR_RESOURCE_LISTS, MOR_RESOURCE_WALL_SUMS};
+    static const int resources[] = {MOR_RESOURCE_RECORDS, MOR_RESOURCE_LISTS, MOR_RESOURCE_WALL_SUMS,
+                                    MOR_RESOURCE_SHORT_LISTS};
     for (size_t k = 0; k < sizeof resources / sizeof *resources; ++k) {
         const mor_stage stages[] = {{"make", NULL, 0, MOR_BIT(resources[k]), 0, "makes it"},
                                     {"use", NULL, MOR_BIT(resources[k]), 0, 0, "uses it"}};

@@ -131,7 +131,7 @@ static void linear_stress_is_felt_in_full_at_the_wall(void **state)
 /* Random soil near the floor. */
 static void open_layer(floor_case *f, int dimension, mor_wall_friction friction, mor_wall_stress stress)
 {
-    assembly_open_lattice(&f->soil, dimension, dimension == 2 ? 9 : 4, 3, 0.3);
+    assembly_open_lattice(&f->soil, dimension, dimension == 2 ? 11 : 5, 3, 0.3);
     for (int i = 0; i < f->soil.n; ++i) {
         f->soil.records[i * MOR_RECORD_SIZE + dimension - 1] += 0.9 * ASSEMBLY_SPACING;
         f->soil.records[i * MOR_RECORD_SIZE] -= 1.5 * ASSEMBLY_SPACING;
