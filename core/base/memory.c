@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/memory.h"
 
+#include "core/base/parallel.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -24,6 +26,21 @@ static void *allocate(size_t bytes)
     return aligned_alloc(MOR_MEMORY_ALIGNMENT_BYTES, bytes);
 }
 
+/* A page lies beside the processor that writes it first. Loops hand out work as threads get free, so what is large is
+ * spread over the memory of all of them. */
+static void clear(mor_context *context, char *raw, size_t bytes)
+{
+    if (bytes < 2 * (size_t)LARGE_PAGE_BYTES) {
+        memset(raw, 0, bytes);
+        return;
+    }
+    const int64_t n_pages = (int64_t)(bytes / LARGE_PAGE_BYTES);
+    MOR_PARALLEL_FOR (context, page, n_pages, 1) {
+        const size_t first = (size_t)page * LARGE_PAGE_BYTES;
+        memset(raw + first, 0, page == n_pages - 1 ? bytes - first : LARGE_PAGE_BYTES);
+    }
+}
+
 mor_status mor_memory_new(mor_context *context, void **block, int64_t n_items, size_t item_bytes, const char *label)
 {
     *block = NULL;
@@ -40,7 +57,7 @@ mor_status mor_memory_new(mor_context *context, void **block, int64_t n_items, s
     MOR_CHECK(context, raw != NULL, MOR_ERROR_MEMORY,
               "cannot allocate %.1f MiB for %s: not enough memory; use a larger spacing or a smaller domain",
               (double)bytes / 1048576.0, label);
-    memset(raw, 0, bytes + HEADER_BYTES);
+    clear(context, raw, bytes + HEADER_BYTES);
     memcpy(raw, &bytes, sizeof bytes);
     context->memory_bytes += bytes;
     context->n_allocations += 1;
