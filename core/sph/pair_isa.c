@@ -217,33 +217,31 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
                       const mor_pair_arrays *arrays, int64_t first, const momentum_form form)
 {
     const frame *f = &part->frame;
-    const double *records = arrays->records;
     const double *artificial = arrays->artificial_stress;
     geometry geometries[CHUNK];
     momentum_pair pairs[CHUNK];
     lay_down(part);
-    find_geometry(geometries, records, near, n, f, form.dimension);
+    find_geometry(geometries, arrays->records, near, n, f, form.dimension);
     lay_down(part);
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
-        find_extra(pairs + q, geometries + q, records + (int64_t)near[q] * MOR_RECORD_SIZE, &part->own, f, c,
-                   strain_rate, form);
+        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, form);
     }
     lay_down(part);
     momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
-        add_pair(&sums, pairs + q, geometries + q, records + (int64_t)near[q] * MOR_RECORD_SIZE, f, form);
+        add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), f, form);
     }
     part->sums = sums;
     lay_down(part);
     for (int q = 0; q < n && form.artificial; ++q) {
-        add_artificial_pair(&part->sums, geometries + q, records + (int64_t)near[q] * MOR_RECORD_SIZE, f, c,
-                            artificial + first * 6, artificial + (int64_t)near[q] * 6, form);
+        add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), f, c, artificial + first * 6,
+                            artificial + (int64_t)near[q] * 6, form);
     }
 }
 
 /* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
-INLINE int find_near(const momentum_part *parts, const double *records, const int32_t *list, int32_t count,
+INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, const int32_t *list, int32_t count,
                      int32_t *entry, int32_t *near, const int dimension)
 {
     /* A little wide, so that rounding leaves out no pair that counts. */
@@ -252,13 +250,13 @@ INLINE int find_near(const momentum_part *parts, const double *records, const in
     int32_t k = *entry;
     int n = 0;
     for (; k < count && n < CHUNK; ++k) {
-        const double *ahead = records + (int64_t)list[k + AHEAD < count ? k + AHEAD : k] * MOR_RECORD_SIZE;
+        const double *ahead = target_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]);
         __builtin_prefetch(ahead);
         __builtin_prefetch(ahead + MOR_RECORD_STRESS);
         int any = 0;
         for (int part = 0; part < PARTS; ++part) {
             vec r[3];
-            separate(r, &parts[part].frame, records + (int64_t)list[k] * MOR_RECORD_SIZE, dimension);
+            separate(r, &parts[part].frame, target_of(arrays, list[k]), dimension);
             any |= any_less(squared(r, &parts[part].frame, dimension), reach2);
         }
         near[n] = list[k];
@@ -319,7 +317,7 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     int32_t *near = mor_relation_near(arrays->inner, cluster);
     int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
-        const int n = find_near(parts, arrays->records, list, count, &entry, near + n_near, form.dimension);
+        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form.dimension);
         for (int part = 0; part < PARTS; ++part) {
             add_chunk(parts + part, near + n_near, n, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
         }
@@ -495,7 +493,7 @@ INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays
     const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
     const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
     for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = arrays->records + (int64_t)near[entry] * MOR_RECORD_SIZE;
+        const double *target = target_of(arrays, near[entry]);
         const double *other = arrays->spin_stress + (int64_t)near[entry] * 3;
         const pair p = pair_of(&f, target, 3);
         const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
@@ -532,7 +530,7 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
     const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
     const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
     for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = arrays->records + (int64_t)near[entry] * MOR_RECORD_SIZE;
+        const double *target = target_of(arrays, near[entry]);
         const pair p = pair_of(&f, target, 3);
         const vec square = p.reach * p.reach;
         const vec weight =
