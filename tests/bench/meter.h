@@ -57,22 +57,26 @@ static inline mor_status meter_propose(mor_context *context, void *owner, double
     return status;
 }
 
+/* Runs what a stepper does once in a common step. */
+static inline mor_status meter_run_once(meter_stepper *it, mor_context *context, const mor_step *step,
+                                        mor_status (*run)(mor_context *context, void *owner, const mor_step *step))
+{
+    const double start = mor_clock_now();
+    const mor_status status = run(context, it->plain.owner, step);
+    it->begin_seconds += mor_clock_now() - start;
+    return status;
+}
+
 static inline mor_status meter_begin(mor_context *context, void *owner, const mor_step *step)
 {
     meter_stepper *it = owner;
-    const double start = mor_clock_now();
-    const mor_status status = it->plain.operations->begin(context, it->plain.owner, step);
-    it->begin_seconds += mor_clock_now() - start;
-    return status;
+    return meter_run_once(it, context, step, it->plain.operations->begin);
 }
 
 static inline mor_status meter_finish(mor_context *context, void *owner, const mor_step *step)
 {
     meter_stepper *it = owner;
-    const double start = mor_clock_now();
-    const mor_status status = it->plain.operations->finish(context, it->plain.owner, step);
-    it->begin_seconds += mor_clock_now() - start;
-    return status;
+    return meter_run_once(it, context, step, it->plain.operations->finish);
 }
 
 static inline mor_status meter_find_partners(mor_context *context, void *owner, double length, uint64_t *partners,

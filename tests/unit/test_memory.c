@@ -47,14 +47,15 @@ static void large_blocks_are_aligned_zeroed_and_all_usable(void **state)
     static const int64_t sizes[] = {(4 << 20) - 128, (4 << 20) - 64, 4 << 20, (5 << 20) + 1};
     mor_context context;
     mor_context_init(&context);
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 8; ++k) {
         char *bytes = NULL;
-        assert_int_equal(MOR_NEW(&context, &bytes, sizes[k], "bytes"), MOR_OK);
+        context.n_threads = 1 + k % 2;
+        assert_int_equal(MOR_NEW(&context, &bytes, sizes[k / 2], "bytes"), MOR_OK);
         assert_int_equal((uintptr_t)bytes % MOR_MEMORY_ALIGNMENT_BYTES, 0);
-        for (int64_t b = 0; b < sizes[k]; ++b) {
+        for (int64_t b = 0; b < sizes[k / 2]; ++b) {
             assert_int_equal(bytes[b], 0);
         }
-        memset(bytes, 1, (size_t)sizes[k]);
+        memset(bytes, 1, (size_t)sizes[k / 2]);
         MOR_FREE(&context, &bytes);
     }
     assert_int_equal(context.memory_bytes, 0);
