@@ -26,12 +26,8 @@ typedef enum mor_body_kind {
     MOR_BODY_RIGID    /* six degrees of freedom */
 } mor_body_kind;
 
-/** Mass properties of the true shape, not of its particles. Per meter of thickness in plane strain. */
-typedef struct mor_body_mass {
-    double volume;     /* m3 (m2) */
-    double center[3];  /* of mass, m */
-    double inertia[6]; /* about the center, per unit of density: integral of (r2 I - r r), symmetric tensor, m5 (m4) */
-} mor_body_mass;
+/** Mass properties of the true shape, not of its particles. */
+typedef mor_shape_moments mor_body_mass;
 
 /** One body. */
 typedef struct mor_body {
@@ -180,7 +176,7 @@ double mor_body_group_momentum(const mor_body_group *group, int body, double *mo
  *  @param dimension [in]      2 or 3
  *  @param mass      [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an empty or unbounded shape. Accuracy: 1e-5 relative or better; exact for
- *  axis-aligned boxes. Cost: adaptive cells, milliseconds. */
+ *  axis-aligned boxes and shapes that know their moments. Cost: adaptive cells, milliseconds. */
 mor_status mor_body_mass_find(mor_context *context, const mor_shape *shape, int dimension, mor_body_mass *mass);
 
 /** Places mass properties: X = turn * x + move.

@@ -486,6 +486,9 @@ mor_status mor_body_mass_find(mor_context *context, const mor_shape *shape, int 
     memset(mass, 0, sizeof *mass);
     mor_shape_bounds(shape, &bounds);
     MOR_TRY(context, check_bounds(context, shape, &bounds, dimension));
+    if (mor_shape_moments_known(shape, dimension, mass)) {
+        return MOR_OK;
+    }
     mor_status status = MOR_NEW(context, &search.cells, CELLS_MAX, "cells of mass properties");
     if (status == MOR_OK) {
         status = MOR_NEW(context, &search.next, CELLS_MAX, "cells of mass properties");

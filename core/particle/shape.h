@@ -19,6 +19,13 @@ typedef struct mor_bounds {
     double maximum[3]; /* shape [3], unit m */
 } mor_bounds;
 
+/** Volume, center and inertia of the inside of a shape. Per meter of thickness in plane strain. */
+typedef struct mor_shape_moments {
+    double volume;     /* m3 (m2) */
+    double center[3];  /* m */
+    double inertia[6]; /* about the center, per unit of density: integral of (r2 I - r r), symmetric tensor, m5 (m4) */
+} mor_shape_moments;
+
 /** What a shape can do. One constant table per kind. */
 typedef struct mor_shape_operations {
     const char *kind; /* word used in messages */
@@ -29,6 +36,9 @@ typedef struct mor_shape_operations {
     void (*bounds)(const mor_shape *shape, mor_bounds *bounds);
     /** Frees what the shape owns, children included, and the shape itself. */
     void (*free)(mor_context *context, mor_shape *shape);
+    /** Writes the exact moments of the inside, of plane strain when dimension is 2. Returns false when the shape does
+     *  not know them; they are then to be found by integration. NULL: never known. Safe to call concurrently. */
+    bool (*moments)(const mor_shape *shape, int dimension, mor_shape_moments *moments);
 } mor_shape_operations;
 
 /** Base of every shape; a concrete shape has it as first member. */

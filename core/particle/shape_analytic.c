@@ -171,12 +171,13 @@ static void half_space_bounds(const mor_shape *shape, mor_bounds *bounds)
     }
 }
 
-static const mor_shape_operations box_operations = {"box", box_distance, box_bounds, free_plain};
-static const mor_shape_operations cylinder_operations = {"cylinder", cylinder_distance, cylinder_bounds, free_plain};
-static const mor_shape_operations cone_operations = {"cone", cone_distance, cone_bounds, free_plain};
-static const mor_shape_operations sphere_operations = {"sphere", sphere_distance, sphere_bounds, free_plain};
+static const mor_shape_operations box_operations = {"box", box_distance, box_bounds, free_plain, NULL};
+static const mor_shape_operations cylinder_operations = {"cylinder", cylinder_distance, cylinder_bounds, free_plain,
+                                                         NULL};
+static const mor_shape_operations cone_operations = {"cone", cone_distance, cone_bounds, free_plain, NULL};
+static const mor_shape_operations sphere_operations = {"sphere", sphere_distance, sphere_bounds, free_plain, NULL};
 static const mor_shape_operations half_space_operations = {"half_space", half_space_distance, half_space_bounds,
-                                                           free_plain};
+                                                           free_plain, NULL};
 
 mor_status mor_shape_new_box(mor_context *context, const double *minimum, const double *maximum, mor_shape **shape)
 {
@@ -272,6 +273,11 @@ mor_status mor_shape_new_half_space(mor_context *context, const double *point, c
     memcpy(half->normal, unit, sizeof half->normal);
     *shape = &half->base;
     return MOR_OK;
+}
+
+bool mor_shape_moments_known(const mor_shape *shape, int dimension, mor_shape_moments *moments)
+{
+    return shape->operations->moments != NULL && shape->operations->moments(shape, dimension, moments);
 }
 
 double mor_shape_distance(const mor_shape *shape, const double *point)

@@ -65,8 +65,7 @@ mor_status mor_shape_new_sphere(mor_context *context, const double *center, doub
  *  Gives: infinite bounds, except on the free side of a normal along an axis.
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
  *  Cost: O(1), allocates. */
-mor_status mor_shape_new_half_space(mor_context *context, const double *point, const double *normal,
-                                    mor_shape **shape);
+mor_status mor_shape_new_half_space(mor_context *context, const double *point, const double *normal, mor_shape **shape);
 
 /** Makes the inside of a simple polygon in the x-y plane, without end in z.
  *  @param context  [in,out]  one object
@@ -129,6 +128,30 @@ mor_status mor_shape_new_rotate(mor_context *context, const double *axis, double
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_placed(mor_context *context, const double *turn, const double *move, mor_shape **child,
                                 mor_shape **shape);
+
+/** Makes the child scaled about the origin: x -> factor * x.
+ *  @param context [in,out]  one object
+ *  @param factor  [in]      unit 1; > 0
+ *  @param child   [in,out]  one pointer; taken: becomes NULL
+ *  @param shape   [out]     one pointer; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
+ *  Cost: O(1), allocates. */
+mor_status mor_shape_new_scaled(mor_context *context, double factor, mor_shape **child, mor_shape **shape);
+
+/** Makes a shape that is another one, without owning it: many bodies may share one form.
+ *  @param context [in,out]  one object
+ *  @param other   [in]      one object; borrowed for the life of the view
+ *  @param shape   [out]     one pointer; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
+ *  Cost: O(1), allocates. */
+mor_status mor_shape_new_view(mor_context *context, const mor_shape *other, mor_shape **shape);
+
+/** Writes the exact moments of the inside where the shape knows them.
+ *  @param shape     [in]   one object
+ *  @param dimension [in]   2 or 3
+ *  @param moments   [out]  one object; without meaning when the shape does not know them
+ *  Returns: whether it does. Threads: safe to call concurrently. */
+bool mor_shape_moments_known(const mor_shape *shape, int dimension, mor_shape_moments *moments);
 
 /** Returns the signed distance of a point, unit m, negative inside.
  *  @param shape [in]  one object

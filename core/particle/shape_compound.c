@@ -21,6 +21,17 @@ typedef struct difference_shape {
     mor_shape *minus; /* owned */
 } difference_shape;
 
+typedef struct scaled_shape {
+    mor_shape base;
+    mor_shape *child; /* owned */
+    double factor;
+} scaled_shape;
+
+typedef struct view_shape {
+    mor_shape base;
+    const mor_shape *other; /* borrowed */
+} view_shape;
+
 typedef struct placed_shape {
     mor_shape base;
     mor_shape *child; /* owned */
@@ -116,10 +127,76 @@ static void placed_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &placed);
 }
 
-static const mor_shape_operations union_operations = {"union", union_distance, union_bounds, union_free};
+static double scaled_distance(const mor_shape *shape, const double *point)
+{
+    const scaled_shape *scaled = (const scaled_shape *)shape;
+    const double local[3] = {point[0] / scaled->factor, point[1] / scaled->factor, point[2] / scaled->factor};
+    return scaled->factor * mor_shape_distance(scaled->child, local);
+}
+
+static void scaled_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    const scaled_shape *scaled = (const scaled_shape *)shape;
+    mor_shape_bounds(scaled->child, bounds);
+    for (int a = 0; a < 3; ++a) {
+        bounds->minimum[a] *= scaled->factor;
+        bounds->maximum[a] *= scaled->factor;
+    }
+}
+
+static bool scaled_moments(const mor_shape *shape, int dimension, mor_shape_moments *moments)
+{
+    const scaled_shape *scaled = (const scaled_shape *)shape;
+    const double area = scaled->factor * scaled->factor;
+    const double volume = dimension == 3 ? area * scaled->factor : area;
+    if (!mor_shape_moments_known(scaled->child, dimension, moments)) {
+        return false;
+    }
+    moments->volume *= volume;
+    for (int a = 0; a < 3; ++a) {
+        moments->center[a] *= scaled->factor;
+    }
+    for (int k = 0; k < 6; ++k) {
+        moments->inertia[k] *= volume * area;
+    }
+    return true;
+}
+
+static void scaled_free(mor_context *context, mor_shape *shape)
+{
+    scaled_shape *scaled = (scaled_shape *)shape;
+    mor_shape_free(context, &scaled->child);
+    MOR_FREE(context, &scaled);
+}
+
+static double view_distance(const mor_shape *shape, const double *point)
+{
+    return mor_shape_distance(((const view_shape *)shape)->other, point);
+}
+
+static void view_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    mor_shape_bounds(((const view_shape *)shape)->other, bounds);
+}
+
+static bool view_moments(const mor_shape *shape, int dimension, mor_shape_moments *moments)
+{
+    return mor_shape_moments_known(((const view_shape *)shape)->other, dimension, moments);
+}
+
+static void view_free(mor_context *context, mor_shape *shape)
+{
+    view_shape *view = (view_shape *)shape;
+    MOR_FREE(context, &view);
+}
+
+static const mor_shape_operations union_operations = {"union", union_distance, union_bounds, union_free, NULL};
 static const mor_shape_operations difference_operations = {"difference", difference_distance, difference_bounds,
-                                                           difference_free};
-static const mor_shape_operations placed_operations = {"placed", placed_distance, placed_bounds, placed_free};
+                                                           difference_free, NULL};
+static const mor_shape_operations placed_operations = {"placed", placed_distance, placed_bounds, placed_free, NULL};
+static const mor_shape_operations scaled_operations = {"scaled", scaled_distance, scaled_bounds, scaled_free,
+                                                       scaled_moments};
+static const mor_shape_operations view_operations = {"view", view_distance, view_bounds, view_free, view_moments};
 
 mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_parts, mor_shape **shape)
 {
@@ -166,6 +243,34 @@ mor_status mor_shape_new_difference(mor_context *context, mor_shape **from, mor_
     *from = NULL;
     *minus = NULL;
     *shape = &rest->base;
+    return MOR_OK;
+}
+
+mor_status mor_shape_new_scaled(mor_context *context, double factor, mor_shape **child, mor_shape **shape)
+{
+    *shape = NULL;
+    MOR_CHECK(context, child != NULL && *child != NULL, MOR_ERROR_ARGUMENT, "there is nothing to scale: give a shape");
+    MOR_CHECK(context, isfinite(factor) && factor > 0.0, MOR_ERROR_ARGUMENT,
+              "the factor of a scaled shape is %g: give one above zero", factor);
+    scaled_shape *scaled = NULL;
+    MOR_TRY(context, MOR_NEW(context, &scaled, 1, "scaled shape"));
+    scaled->base.operations = &scaled_operations;
+    scaled->factor = factor;
+    scaled->child = *child;
+    *child = NULL;
+    *shape = &scaled->base;
+    return MOR_OK;
+}
+
+mor_status mor_shape_new_view(mor_context *context, const mor_shape *other, mor_shape **shape)
+{
+    *shape = NULL;
+    MOR_CHECK(context, other != NULL, MOR_ERROR_ARGUMENT, "there is nothing to view: give a shape");
+    view_shape *view = NULL;
+    MOR_TRY(context, MOR_NEW(context, &view, 1, "view of a shape"));
+    view->base.operations = &view_operations;
+    view->other = other;
+    *shape = &view->base;
     return MOR_OK;
 }
 

@@ -57,7 +57,7 @@ static void polygon_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &polygon);
 }
 
-static const mor_shape_operations polygon_operations = {"polygon", polygon_distance, polygon_bounds, polygon_free};
+static const mor_shape_operations polygon_operations = {"polygon", polygon_distance, polygon_bounds, polygon_free, NULL};
 
 /* Twice the signed area of a triangle. */
 static double orient(const double *a, const double *b, const double *c)
