@@ -8,10 +8,12 @@
 #include <stdbool.h>
 
 /** @file
- *  Ground from elevation rasters. The ground is the solid under a surface of triangles: each square of four raster nodes
- *  is cut along the diagonal that leaves the smaller fold. Heights are along z. The door of GDAL is terrain_read.c. */
+ *  Ground from elevation rasters. The ground is the solid under a surface of triangles: each square of four raster
+ *  nodes is cut along the diagonal that leaves the smaller fold. Heights are along z. The door of GDAL is
+ *  terrain_read.c. */
 
-/** Elevations on a grid of nodes (the centers of raster cells). Owner: the caller, who ends it with mor_terrain_clear. */
+/** Elevations on a grid of nodes (the centers of raster cells). Owner: the caller, who ends it with
+ *  mor_terrain_clear. */
 typedef struct mor_terrain {
     double *heights;  /* shape [n_y, n_x], unit m; row 0 is the one with the least y; NaN: no data */
     int n_x, n_y;     /* nodes along x and y; >= 2 */
@@ -56,8 +58,8 @@ void mor_terrain_clear(mor_context *context, mor_terrain *terrain);
  *  Threads: safe to call concurrently. */
 double mor_terrain_height(const mor_terrain *terrain, double x, double y);
 
-/** Makes the ground as a shape: solid below the surface, down to `thickness` under its lowest point, with vertical sides
- *  at the raster's edge. Distances are exact within `reach` of the surface, beyond it a lower bound.
+/** Makes the ground as a shape: solid below the surface, down to `thickness` under its lowest point, with vertical
+ *  sides at the raster's edge. Distances are exact within `reach` of the surface, beyond it a lower bound.
  *  @param context   [in,out]  one object
  *  @param terrain   [in]      one object; copied
  *  @param thickness [in]      unit m; > 0
@@ -69,9 +71,10 @@ mor_status mor_shape_new_terrain(mor_context *context, const mor_terrain *terrai
 
 /** Makes a layer on the ground as a shape: between the surface and `thickness` (measured vertically) above it, inside a
  *  polygon seen from above. The rim may be sloped: within `rim` of the polygon's edge the thickness falls to zero.
+ *  Distances are those of the parts the layer is cut from: exact near its two faces, a lower bound near rims and edges.
  *  @param context   [in,out]  one object
  *  @param terrain   [in]      one object; copied
- *  @param points    [in]      shape [n_points, 2]; unit m; corners seen from above, either orientation
+ *  @param points    [in]      shape [n_points, 2]; unit m; corners seen from above, either orientation, over the raster
  *  @param n_points  [in]      >= 3
  *  @param thickness [in]      unit m; > 0
  *  @param rim       [in]      unit m; >= 0
@@ -89,11 +92,29 @@ mor_status mor_shape_new_release(mor_context *context, const mor_terrain *terrai
  *  @param spacing  [in]      unit m; > 0
  *  @param origin   [in]      shape [2]; a corner of a lattice cell, unit m
  *  @param layers   [in]      spacings; >= 1
- *  @param bounds   [in]      one object; columns outside its x and y are left out, unit m
+ *  @param bounds   [in]      one object; columns outside its x and y, or beside the raster, are left out, unit m
  *  @param points   [out]     the address of one array [n_points, 3], unit m; from MOR_NEW; owned by the caller
  *  @param n_points [out]     one number
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_fill(mor_context *context, const mor_terrain *terrain, double spacing, const double *origin,
                             int layers, const mor_bounds *bounds, double **points, int64_t *n_points);
+
+/** Soil particles of a release that follow the surface: columns over the same square lattice, the first layer half a
+ *  spacing above the surface, as many layers as the thickness holds at that place. With mor_terrain_fill below, the two
+ *  mirror each other at the surface on any slope.
+ *  @param context  [in,out]  one object
+ *  @param release  [in]      one object, from mor_shape_new_release
+ *  @param spacing  [in]      unit m; > 0
+ *  @param origin   [in]      shape [2]; a corner of a lattice cell, unit m
+ *  @param points   [out]     the address of one array [n_points, 3], unit m; from MOR_NEW; owned by the caller
+ *  @param n_points [out]     one number
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
+mor_status mor_terrain_fill_release(mor_context *context, const mor_shape *release, double spacing,
+                                    const double *origin, double **points, int64_t *n_points);
+
+/** The terrain that a ground or a release follows; NULL for any other shape.
+ *  @param shape [in]  one object
+ *  Returns: borrowed, for the life of the shape. Threads: safe to call concurrently. */
+const mor_terrain *mor_terrain_view(const mor_shape *shape);
 
 #endif

@@ -21,15 +21,15 @@ typedef struct mor_mesh {
 
 /** What was found in a mesh and what was mended. */
 typedef struct mor_mesh_report {
-    int64_t n_vertices_read, n_triangles_read; /* as the file has them */
+    int64_t n_vertices_read, n_triangles_read; /* of some formats, corners come once for every triangle */
     int64_t n_vertices_welded;                 /* corners that became one with another */
-    int64_t n_degenerate;                      /* triangles without area, removed */
+    int64_t n_degenerate;                      /* triangles with two corners in one place, removed */
     int64_t n_duplicate;                       /* triangles given twice, removed */
     int64_t n_flipped;                         /* triangles turned round to agree with their neighbors */
     int64_t n_open_edges;                      /* edges with one triangle; of a mesh that is accepted: 0 */
     int64_t n_holes_filled;                    /* holes closed by triangles */
     int64_t n_crowded_edges;                   /* edges with more than two triangles */
-    int64_t n_crossings;                       /* pairs of triangles that cross each other */
+    int64_t n_crossings;                       /* pairs of triangles that cross each other, at least so many */
     int n_shells;                              /* connected parts */
 } mor_mesh_report;
 
@@ -43,14 +43,16 @@ typedef enum mor_mesh_size {
 
 /** Reads STL (text and binary), OBJ, PLY or glTF, welds equal corners, orients the triangles, fills holes of up to
  *  16 edges, and refuses what has no inside: what is still open, has no volume, crosses itself, has more than one
- *  part, or is no mesh. Lengths are those of the file.
+ *  part, or is no mesh. Lengths are those of the file. Corners nearer together than 1e-6 of the diagonal of the box
+ *  around all are equal. Assimp runs in a child process, which may break down or hang over a damaged file.
  *  @param context [in,out]  one object; what was mended is logged as a warning
  *  @param path    [in]      zero-terminated; the kind is told by the ending .stl, .obj, .ply, .gltf or .glb
  *  @param mesh    [out]     one object; empty after a failure
  *  @param report  [out]     one object; filled in as far as it got, also after a failure; may be NULL
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that cannot be read or is no mesh; MOR_ERROR_ARGUMENT for a mesh without
  *  an inside, with what was found, where, and what to do; MOR_ERROR_MEMORY.
- *  Cost: O(n log n); about a second for a million triangles. Threads: neither. */
+ *  Cost: O(n log n) for triangles of ordinary form; two seconds of processor time for a million triangles. Threads:
+ *  uses the context's; the result does not depend on them. */
 mor_status mor_mesh_read(mor_context *context, const char *path, mor_mesh *mesh, mor_mesh_report *report);
 
 /** Makes a mesh from arrays and checks and mends it as mor_mesh_read does.

@@ -16,7 +16,8 @@ typedef struct mor_mesh_distance mor_mesh_distance;
  *  @param context  [in,out]  one object
  *  @param mesh     [in]      one object; copied
  *  @param distance [out]     one pointer; owned by the caller; NULL after a failure
- *  Returns: MOR_OK; MOR_ERROR_MEMORY; MOR_ERROR_INTERNAL when Embree refuses.
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a mesh without triangles or with corners that are not finite;
+ *  MOR_ERROR_MEMORY; MOR_ERROR_INTERNAL when Embree refuses.
  *  Cost: O(n log n). */
 mor_status mor_mesh_distance_new(mor_context *context, const mor_mesh *mesh, mor_mesh_distance **distance);
 

@@ -9,6 +9,9 @@
  *  Outlines in the plane, such as profiles of photographed rocks: text files with one corner "x y" per line; blanks,
  *  tabs, commas and semicolons separate; '#' starts a comment. The last corner may repeat the first. */
 
+/** Most corners of an outline: each distance visits them all. */
+enum { MOR_OUTLINE_CORNERS_MAX = 10000 };
+
 /** A closed line. Owner: the caller, who ends it with mor_outline_clear. */
 typedef struct mor_outline {
     double *points; /* shape [n_points, 2], unit m; counterclockwise; the first is not repeated */
@@ -20,7 +23,8 @@ typedef struct mor_outline {
  *  @param path    [in]      zero-terminated
  *  @param outline [out]     one object; empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that cannot be read or a line that is no corner, with file and line;
- *  MOR_ERROR_ARGUMENT for fewer than 3 corners, edges that cross (with their lines), no area; MOR_ERROR_MEMORY. */
+ *  MOR_ERROR_ARGUMENT for fewer than 3 corners, more than MOR_OUTLINE_CORNERS_MAX, edges that cross (with their lines),
+ *  no area; MOR_ERROR_MEMORY. */
 mor_status mor_outline_read(mor_context *context, const char *path, mor_outline *outline);
 
 /** Makes an outline from corners in either orientation; checked as by mor_outline_read.

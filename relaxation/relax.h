@@ -8,7 +8,8 @@
 /** @file
  *  An even, surface-fitted set of particles in a shape: a lattice fill, then relaxation under a constant background
  *  pressure with the missing part of the kernel beyond the surface made up for, until the spacing is even and the
- *  outer layer lies half a spacing inside the surface. After Zhu et al. (2021); theory: docs/theory/relaxation.md. */
+ *  outer layer lies half a layer, 0.46 spacings, inside the surface. After Zhu et al. (2021); theory:
+ *  docs/theory/relaxation.md. */
 
 /** What to fill and when to stop. Made ready by mor_relax_request_init. */
 typedef struct mor_relax_request {
@@ -31,13 +32,13 @@ typedef struct mor_relax_points {
     bool is_converged; /* whether the residual asked for was reached */
 } mor_relax_points;
 
-/** How even a set of particles is. */
+/** How even a set of particles is. W: Wendland C2 with a smoothing length of 1.5 spacings, a support of 3. */
 typedef struct mor_relax_quality {
     double spacing_deviation; /* standard deviation of the distance to the nearest neighbor over its mean, 1 */
     double nearest_mean;      /* that mean over (volume of a particle)^(1/dimension), 1 */
-    double kernel_sum_error;  /* largest |sum W V - 1| of particles deeper than the kernel's support, 1 */
-    double kernel_sum_mean;   /* mean of sum W V of those, 1; NaN: there are none */
-    double surface_depth;     /* mean depth of the outer layer over the spacing, 1; 0.5 is right */
+    double kernel_sum_error;  /* largest |sum W V - 1| of particles deeper than the kernel's support, 1; NaN: none */
+    double kernel_sum_mean;   /* mean of sum W V of those, 1; NaN: none; a perfect lattice has 1.003 */
+    double surface_depth;     /* mean depth of the outer layer (depth < 1 spacing) over the spacing, 1 */
     double surface_deviation; /* standard deviation of that depth over the spacing, 1 */
 } mor_relax_quality;
 

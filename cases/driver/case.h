@@ -23,7 +23,11 @@ enum {
     MOR_CASE_PARAMETERS_MAX = 32,
     MOR_CASE_SOILS_MAX = 8,
     MOR_CASE_WALLS_MAX = 64,
-    MOR_CASE_BODIES_MAX = 256,
+    MOR_CASE_BODIES_MAX = 4096,
+    MOR_CASE_ROCKS_MAX = 8,
+    MOR_CASE_ROCK_FORMS_MAX = 16,
+    MOR_CASE_ROCK_SHAPES_MAX = 256,
+    MOR_CASE_ROCK_SIZES_MAX = 32,
     MOR_CASE_PAIRS_MAX = 64,
     MOR_CASE_PROBES_MAX = 64,
     MOR_CASE_EXPECTATIONS_MAX = 32
@@ -47,8 +51,43 @@ typedef enum mor_case_shape_kind {
     MOR_CASE_SHAPE_DIFFERENCE,
     MOR_CASE_SHAPE_TRANSLATE,
     MOR_CASE_SHAPE_ROTATE,
+    MOR_CASE_SHAPE_TERRAIN,
+    MOR_CASE_SHAPE_RELEASE,
+    MOR_CASE_SHAPE_POSTS,
+    MOR_CASE_SHAPE_MESH,
+    MOR_CASE_SHAPE_OUTLINE,
+    MOR_CASE_SHAPE_ROCK,
     MOR_CASE_SHAPE_COUNT
 } mor_case_shape_kind;
+
+/** Ground from an elevation raster, and what lies or stands on it. Lengths of the raster are those of its file, which
+ *  the scale of the case does not touch. */
+typedef struct mor_case_ground {
+    char file[MOR_CASE_TEXT_BYTES]; /* path; as given, or absolute where it exists */
+    char wall[MOR_CASE_NAME_BYTES]; /* of a release and of posts: the wall that is their ground */
+    double crop_minimum[2];         /* m, in the raster's coordinates; -INFINITY: all */
+    double crop_maximum[2];         /* likewise; INFINITY: all */
+    double cell;                    /* m; NaN: as in the raster */
+    double offset[3];               /* subtracted from the raster's coordinates and heights, m; NaN: chosen */
+    bool fills_no_data;
+    double thickness; /* of the ground below its lowest point, or of a release, m */
+    double rim;       /* of a release, m */
+    double size[2];   /* of a post along x and y, m */
+    double height;    /* of posts above the ground at their middle, m; NaN: top is given */
+    double top;       /* height of the tops of all posts, m; NaN: height is given */
+} mor_case_ground;
+
+/** A rock from a file, or drawn at random. At most one of the sizes is given; the others are NaN. */
+typedef struct mor_case_form {
+    char file[MOR_CASE_TEXT_BYTES]; /* path; as given, or absolute where it exists */
+    double scale;                   /* of the lengths of the file, 1 */
+    double length;                  /* longest side of the box around it, m */
+    double volume;                  /* m3 */
+    double diameter;                /* of the ball (disc) of the same volume (area), m */
+    double elongation, flatness;    /* of a rock drawn at random, 1 */
+    double angularity, roughness;   /* likewise, 1 */
+    uint64_t seed;
+} mor_case_form;
 
 /** A shape as the case describes it, kept so that the case can be written back; mor_shape is what it builds. */
 typedef struct mor_case_shape {
@@ -59,8 +98,11 @@ typedef struct mor_case_shape {
     double radius;                   /* m */
     double height;                   /* m */
     double angle;                    /* rad */
-    double *points;                  /* shape [n_points,2], m; owned; corners of a polygon */
+    double *points;                  /* shape [n_points,2], m; owned; corners of a polygon, places of posts */
     int n_points;                    /* number of corners */
+    mor_case_ground ground;          /* of terrain, release and posts */
+    mor_case_form form;              /* of mesh, outline and rock */
+    uint64_t file_hash;              /* of the content of its file; 0: it has none */
     struct mor_case_shape *children; /* shape [n_children]; owned; of a difference: from, then what is taken away */
     int n_children;                  /* number of children */
     uint64_t written;                /* see above */
@@ -111,6 +153,13 @@ typedef enum mor_case_motion {
     MOR_CASE_MOTION_TWIST       /* turn about an axis that grows along it, sin(pi x / (2 length)) */
 } mor_case_motion;
 
+/** How a body is filled with particles. */
+typedef enum mor_case_particles {
+    MOR_CASE_PARTICLES_BY_SHAPE, /* relaxed for a mesh, an outline or a procedural rock, a lattice for others */
+    MOR_CASE_PARTICLES_LATTICE,
+    MOR_CASE_PARTICLES_RELAXED
+} mor_case_particles;
+
 /** One rock. */
 typedef struct mor_case_body {
     char name[MOR_CASE_NAME_BYTES];
@@ -129,23 +178,57 @@ typedef struct mor_case_body {
     mor_case_friction soil_friction;
     double soil_friction_coefficient; /* Coulomb only, 1 */
     bool is_prescribed;               /* rigid: moves with its velocities whatever pushes it */
-    bool is_locked[6];                /* rigid: no motion along x, y, z; no turn about x, y, z */
-    bool has_spring;                  /* rigid: spring and damper to a fixed point */
-    double spring_point[3];           /* of the body's own frame, m */
-    double spring_anchor[3];          /* fixed, frame of the case, m */
-    double spring_length;             /* at rest, m; NaN: the distance at the start */
-    double spring_stiffness;          /* N/m (N/m2) */
-    double spring_damping;            /* N s/m (N s/m2) */
-    mor_shape *clamp;                 /* elastic: particles inside do not move; frame of the case; NULL: none; owned */
-    mor_case_shape clamp_outline;     /* what clamp was built from; owned by the case */
+    mor_case_particles particles;
+    bool is_locked[6];            /* rigid: no motion along x, y, z; no turn about x, y, z */
+    bool has_spring;              /* rigid: spring and damper to a fixed point */
+    double spring_point[3];       /* of the body's own frame, m */
+    double spring_anchor[3];      /* fixed, frame of the case, m */
+    double spring_length;         /* at rest, m; NaN: the distance at the start */
+    double spring_stiffness;      /* N/m (N/m2) */
+    double spring_damping;        /* N s/m (N s/m2) */
+    mor_shape *clamp;             /* elastic: particles inside do not move; frame of the case; NULL: none; owned */
+    mor_case_shape clamp_outline; /* what clamp was built from; owned by the case */
     mor_case_motion motion;
     double motion_axis[3];      /* along the bar, 1 */
     double motion_direction[3]; /* of bending, 1 */
     double motion_origin[3];    /* clamped end, frame of the case, m */
     double motion_length;       /* of the bar, m */
     double motion_speed;        /* cantilever: of the free end, m/s; twist: rate of turn of the free end, rad/s */
+    double packed_diameter;     /* of a packed rock: of the ball (disc) of the same volume (area), m */
     uint64_t written, written_material, written_parameters, written_spring, written_motion;
 } mor_case_body;
+
+/** A point of a curve of sizes. */
+typedef struct mor_case_size {
+    double diameter; /* of the ball (disc) of the same volume (area), m */
+    double passing;  /* share of the rocks' volume of rocks up to this diameter, 1 */
+    uint64_t written;
+} mor_case_size;
+
+/** Rocks packed into a region. Each becomes a body of its own, named name_1, name_2, ... */
+typedef struct mor_case_rocks {
+    mor_case_body body;                              /* what they have in common; has no shape */
+    mor_shape *region;                               /* owned by the case */
+    mor_case_shape region_outline;                   /* what region was built from; owned by the case */
+    mor_case_shape forms[MOR_CASE_ROCK_FORMS_MAX];   /* as written; owned by the case; of diameter 1 m */
+    int n_forms;                                     /* number of forms */
+    mor_shape *shapes[MOR_CASE_ROCK_SHAPES_MAX];     /* of diameter 1 m whatever the scale; owned; bodies view them */
+    int form_of[MOR_CASE_ROCK_SHAPES_MAX];           /* shape [n_shapes]; form that a shape was made from */
+    int n_shapes;                                    /* number of shapes */
+    mor_case_size sizes[MOR_CASE_ROCK_SIZES_MAX];    /* rising */
+    int n_sizes;                                     /* number of sizes */
+    double content;                                  /* rocks' volume over the region's, 1 */
+    double gap;                                      /* least distance between two, m; default the spacing */
+    double margin;                                   /* least depth under the region's surface, m; likewise */
+    int n_variants;                                  /* rocks drawn of each form of type rock */
+    uint64_t seed;                                   /* of places and turns */
+    int n_rocks;                                     /* placed */
+    int n_given_up;                                  /* found no place */
+    double content_reached;                          /* 1 */
+    double smallest_gap;                             /* between two of them, m; INFINITY for one */
+    double passing_reached[MOR_CASE_ROCK_SIZES_MAX]; /* 1 */
+    uint64_t written;
+} mor_case_rocks;
 
 /** Contact of two bodies, or of a body and a wall, by name. */
 typedef struct mor_case_contact_pair {
@@ -265,8 +348,11 @@ typedef struct mor_case {
     int n_soils;
     mor_case_wall walls[MOR_CASE_WALLS_MAX];
     int n_walls;
-    mor_case_body bodies[MOR_CASE_BODIES_MAX];
+    mor_case_body *bodies; /* shape [n_bodies]; owned; those of the list bodies, then packed rocks */
     int n_bodies;
+    int n_listed_bodies; /* those of the list bodies */
+    mor_case_rocks rocks[MOR_CASE_ROCKS_MAX];
+    int n_rocks;
     mor_case_contact contact;
     mor_case_numerics numerics;
     mor_case_probe probes[MOR_CASE_PROBES_MAX];

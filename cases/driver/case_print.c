@@ -166,6 +166,11 @@ mor_status mor_case_schema_print(mor_context *context, const mor_registry *regis
     print_group(stream, 3, &mor_case_body_material_group, NULL);
     print_group(stream, 3, &mor_case_spring_group, NULL);
     print_group(stream, 3, &mor_case_start_group, NULL);
+    print_group(stream, 2, &mor_case_rocks_group, NULL);
+    print_group(stream, 3, &mor_case_size_group, NULL);
+    for (int k = 0; k < MOR_CASE_ROCK_FORM_COUNT; ++k) {
+        print_group(stream, 3, &mor_case_rock_form_groups[k], mor_case_rock_form_groups[k].name);
+    }
     print_group(stream, 2, &mor_case_contact_group, NULL);
     print_group(stream, 3, &mor_case_pair_group, NULL);
     fprintf(stream, "\n## Shapes\n");

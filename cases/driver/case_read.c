@@ -4,6 +4,7 @@
 
 #include "cases/driver/case_reader.h"
 #include "core/base/math.h"
+#include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
 
 #include <math.h>
@@ -164,6 +165,7 @@ static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, 
     MOR_TRY(reader->context, mor_case_reader_names(reader, root, &mor_case_root_group, NULL, NULL));
     MOR_TRY(reader->context, read_scale(reader, root, the_case));
     MOR_TRY(reader->context, mor_case_reader_group(reader, root, &mor_case_root_group, the_case));
+    reader->spacing = the_case->spacing;
     for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
         if (strcmp(group->name, "scale") != 0) {
             MOR_TRY(reader->context, read_settings_group(reader, root, group, the_case));
@@ -194,6 +196,10 @@ void mor_case_clear(mor_context *context, mor_case *the_case)
         mor_shape_free(context, &body->clamp);
         mor_case_shape_clear(context, &body->outline);
         mor_case_shape_clear(context, &body->clamp_outline);
+    }
+    MOR_FREE(context, &the_case->bodies);
+    for (int k = 0; k < the_case->n_rocks; ++k) {
+        mor_case_rocks_clear(context, &the_case->rocks[k]); /* after the bodies, which view their shapes */
     }
     memset(the_case, 0, sizeof *the_case);
 }

@@ -50,6 +50,24 @@ mor_status mor_case_read_text(mor_context *context, const mor_case_text *text, m
  *  @param the_case [in,out]  one object, read or zeroed */
 void mor_case_clear(mor_context *context, mor_case *the_case);
 
+/** A file that a case refers to. */
+typedef struct mor_case_input {
+    const char *path; /* zero-terminated; borrowed from the case */
+    uint64_t hash;    /* of its content when it was read */
+} mor_case_input;
+
+/** Lists the files that the shapes of a case were made from, each once.
+ *  @param the_case [in]   one object, from mor_case_read
+ *  @param inputs   [out]  shape [room]
+ *  @param room     [in]   most files listed
+ *  Returns: the number of files. */
+int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room);
+
+/** The file that a shape was made from; without meaning when its file_hash is 0.
+ *  @param outline [in]  one object
+ *  Returns: zero-terminated path; borrowed from the outline. */
+const char *mor_case_shape_file(const mor_case_shape *outline);
+
 /** Frees what an outline owns, children included.
  *  @param context [in,out]  one object
  *  @param outline [in,out]  one object, read or zeroed */

@@ -3,6 +3,7 @@
 #include "cases/driver/case_reader.h"
 
 #include "core/base/math.h"
+#include "core/base/memory.h"
 #include "core/material/params.h"
 #include "core/particle/shape_analytic.h"
 
@@ -242,7 +243,7 @@ static mor_status check_shape(const mor_case_reader *reader, const mor_case_node
 /* An elastic body is as stiff in contact as it is inside; what is chosen for a rigid one depends on the whole case. */
 static mor_status complete_modulus(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body)
 {
-    if (mor_case_reader_has(&mor_case_body_group, body->written, "contact_modulus") || mor_case_body_is_rigid(body)) {
+    if (!isnan(body->contact_modulus) || mor_case_body_is_rigid(body)) {
         return MOR_OK;
     }
     const mor_schema *schemas = mor_registry_find(reader->registry, body->model)->parameters;
@@ -257,8 +258,8 @@ static mor_status complete_modulus(const mor_case_reader *reader, const mor_case
     return MOR_OK;
 }
 
-static mor_status check_name(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
-                             const mor_case_body *body)
+mor_status mor_case_reader_body_name(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                     const mor_case_body *body)
 {
     for (int k = 0; k < the_case->n_walls; ++k) {
         if (strcmp(the_case->walls[k].name, body->name) == 0) {
@@ -273,6 +274,14 @@ static mor_status check_name(const mor_case_reader *reader, const mor_case_node 
     return MOR_OK;
 }
 
+mor_status mor_case_reader_body_material(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body)
+{
+    MOR_TRY(reader->context, read_material(reader, node, body));
+    MOR_TRY(reader->context, check_conditions(reader, node, body));
+    MOR_TRY(reader->context, mor_case_reader_friction(reader, node, body->soil_friction));
+    return complete_modulus(reader, node, body);
+}
+
 static mor_status read_body(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body)
 {
     const mor_case_node *shape = NULL;
@@ -282,11 +291,8 @@ static mor_status read_body(const mor_case_reader *reader, const mor_case_node *
     if (!mor_case_reader_has(&mor_case_body_group, body->written, "axis")) {
         memcpy(body->axis, (double[]){0.0, 0.0, 1.0}, sizeof body->axis);
     }
-    MOR_TRY(reader->context, read_material(reader, node, body));
-    MOR_TRY(reader->context, check_conditions(reader, node, body));
+    MOR_TRY(reader->context, mor_case_reader_body_material(reader, node, body));
     MOR_TRY(reader->context, check_plane(reader, node, body));
-    MOR_TRY(reader->context, mor_case_reader_friction(reader, node, body->soil_friction));
-    MOR_TRY(reader->context, complete_modulus(reader, node, body));
     MOR_TRY(reader->context, read_locks(reader, node, body));
     MOR_TRY(reader->context, read_spring(reader, node, body));
     MOR_TRY(reader->context, read_start(reader, node, body));
@@ -406,12 +412,16 @@ mor_status mor_case_reader_bodies(const mor_case_reader *reader, const mor_case_
 {
     const mor_case_node *list = NULL;
     MOR_TRY(reader->context, mor_case_reader_list(reader, root, "bodies", MOR_CASE_BODIES_MAX, &list));
+    MOR_TRY(reader->context,
+            MOR_NEW(reader->context, &the_case->bodies, list == NULL ? 0 : list->n_children, "bodies of a case"));
     for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
         /* Counted before it is read, so that a half-read one is freed, too. */
         mor_case_body *body = &the_case->bodies[the_case->n_bodies++];
         MOR_TRY(reader->context, read_body(reader, node, body));
-        MOR_TRY(reader->context, check_name(reader, node, the_case, body));
+        MOR_TRY(reader->context, mor_case_reader_body_name(reader, node, the_case, body));
         MOR_TRY(reader->context, check_locks(reader, node, the_case, body));
     }
+    the_case->n_listed_bodies = the_case->n_bodies;
+    MOR_TRY(reader->context, mor_case_reader_rocks(reader, root, the_case));
     return read_contact(reader, root, the_case);
 }

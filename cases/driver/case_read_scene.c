@@ -104,7 +104,8 @@ static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *
 mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)
 {
     const mor_case_node *list = NULL;
-    if (mor_case_node_find(root, "soil") == NULL && mor_case_node_find(root, "bodies") == NULL) {
+    if (mor_case_node_find(root, "soil") == NULL && mor_case_node_find(root, "bodies") == NULL &&
+        mor_case_node_find(root, "rocks") == NULL) {
         return MOR_CASE_NODE_FAIL(reader->context, root,
                                   "found neither 'soil' nor 'bodies' in the file; allowed: at least one soil region or "
                                   "one body; add soil = ( { ... } ) or bodies = ( { ... } )");

@@ -56,15 +56,20 @@ static mor_status read_kind(const mor_case_reader *reader, const mor_case_node *
     return mor_case_reader_refuse(reader, type, "type of shape", words, MOR_CASE_SHAPE_COUNT);
 }
 
-static mor_status read_corners(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline)
+/* Corners of a polygon or places of posts. */
+static mor_status read_points(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline)
 {
+    const bool is_polygon = outline->kind != MOR_CASE_SHAPE_POSTS;
+    const int n_least = is_polygon ? 3 : 1;
+    const int n_most = is_polygon ? MOR_CASE_POLYGON_POINTS_MAX : MOR_CASE_SHAPE_PARTS_MAX;
     const mor_case_node *points = NULL;
-    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "points", MOR_CASE_NODE_LIST, &points));
-    if (points->n_children < 3 || points->n_children > MOR_CASE_POLYGON_POINTS_MAX) {
+    MOR_TRY(reader->context,
+            mor_case_reader_member(reader, node, is_polygon ? "points" : "at", MOR_CASE_NODE_LIST, &points));
+    if (points->n_children < n_least || points->n_children > n_most) {
         return MOR_CASE_NODE_FAIL(reader->context, points,
-                                  "found a polygon of %d corners; allowed: 3 to %d; correct the "
-                                  "list",
-                                  points->n_children, MOR_CASE_POLYGON_POINTS_MAX);
+                                  "found %s of %d %s; allowed: %d to %d; correct the list",
+                                  is_polygon ? "a polygon" : "a list", points->n_children,
+                                  is_polygon ? "corners" : "posts", n_least, n_most);
     }
     MOR_TRY(reader->context, MOR_NEW(reader->context, &outline->points, 2 * (int64_t)points->n_children, "polygon"));
     for (const mor_case_node *corner = points->first_child; corner != NULL; corner = corner->next) {
@@ -147,7 +152,9 @@ static mor_status read_own_keys(const mor_case_reader *reader, const mor_case_no
     if (outline->kind == MOR_CASE_SHAPE_BOX) {
         return flatten_box(reader, node, outline);
     }
-    return outline->kind == MOR_CASE_SHAPE_POLYGON ? read_corners(reader, node, outline) : MOR_OK;
+    const bool has_points = outline->kind == MOR_CASE_SHAPE_POLYGON || outline->kind == MOR_CASE_SHAPE_RELEASE ||
+                            outline->kind == MOR_CASE_SHAPE_POSTS;
+    return has_points ? read_points(reader, node, outline) : MOR_OK;
 }
 
 /* ---- From the outline to the shape ------------------------------------------------------------------------------- */
@@ -186,6 +193,12 @@ static mor_status construct(mor_context *context, const mor_case_shape *outline,
         return mor_shape_new_translate(context, outline->first, &parts[0], shape);
     case MOR_CASE_SHAPE_ROTATE:
         return mor_shape_new_rotate(context, outline->second, outline->angle, outline->first, &parts[0], shape);
+    case MOR_CASE_SHAPE_TERRAIN:
+    case MOR_CASE_SHAPE_RELEASE:
+    case MOR_CASE_SHAPE_POSTS: /* read with their raster, not from parts */
+    case MOR_CASE_SHAPE_MESH:
+    case MOR_CASE_SHAPE_OUTLINE:
+    case MOR_CASE_SHAPE_ROCK: /* read or drawn */
     case MOR_CASE_SHAPE_COUNT:
         break;
     }
@@ -213,6 +226,16 @@ static mor_status build_from_parts(const mor_case_reader *reader, const mor_case
 {
     for (int k = 0; k < outline->n_children; ++k) {
         MOR_TRY(reader->context, mor_case_reader_shape(reader, nodes[k], &outline->children[k], &parts[k]));
+    }
+    if (outline->kind == MOR_CASE_SHAPE_TERRAIN || outline->kind == MOR_CASE_SHAPE_RELEASE ||
+        outline->kind == MOR_CASE_SHAPE_POSTS) {
+        MOR_TRY(reader->context, mor_case_reader_ground(reader, node, outline, shape));
+        return MOR_OK;
+    }
+    if (outline->kind == MOR_CASE_SHAPE_MESH || outline->kind == MOR_CASE_SHAPE_OUTLINE ||
+        outline->kind == MOR_CASE_SHAPE_ROCK) {
+        MOR_TRY(reader->context, mor_case_reader_form(reader, node, outline, shape));
+        return MOR_OK;
     }
     const mor_status status = construct(reader->context, outline, parts, shape);
     return status == MOR_OK ? MOR_OK : report_refusal(reader, node, outline->kind, status);

@@ -17,6 +17,8 @@ typedef struct mor_case_reader {
     const mor_units *units;
     const mor_registry *registry;
     int dimension;    /* 2 or 3 */
+    double spacing;   /* m; 0 before it is read */
+    double spread;    /* largest over smallest size of what a shape is used for, 1; 0: of one size */
     int length_power; /* the scale of the case as powers of two */
     int time_power;
     int mass_power;
@@ -111,6 +113,35 @@ bool mor_case_reader_has(const mor_case_group *group, uint64_t written, const ch
 mor_status mor_case_reader_shape(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
                                  mor_shape **shape);
 
+/** Builds a terrain, a release or posts: reads the raster they lie on.
+ *  @param reader  [in]      one object
+ *  @param node    [in]      one object; the shape's group
+ *  @param outline [in,out]  one object; its keys and points are read; file and thickness are completed
+ *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
+                                  mor_shape **shape);
+
+/** Finds a file by its path from the folder of the case file.
+ *  @param reader [in]      one object
+ *  @param node   [in]      one object; the group that names the file
+ *  @param what   [in]      zero-terminated; what the file is, for messages: "a mesh"
+ *  @param file   [in,out]  shape [MOR_CASE_TEXT_BYTES]; zero-terminated; becomes absolute, so that a copy of the case
+ *                          elsewhere finds it
+ *  @param hash   [out]     one number; of the content
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_node *node, const char *what,
+                                  char *file, uint64_t *hash);
+
+/** Builds a mesh, an outline or a rock: reads its file or draws it.
+ *  @param reader  [in]      one object
+ *  @param node    [in]      one object; the shape's group
+ *  @param outline [in,out]  one object; its keys are read; file is completed
+ *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
+                                mor_shape **shape);
+
 /** Where the group material of a soil or a body goes. */
 typedef struct mor_case_material_slot {
     const mor_case_group *group; /* one object; its keys are model and density */
@@ -172,6 +203,34 @@ mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_cas
  *  @param the_case [in,out]  one object; walls are known
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_bodies(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
+/** Reads the model, the density and the parameters of a body, and checks what depends on them.
+ *  @param reader [in]      one object
+ *  @param node   [in]      one object; the body's group
+ *  @param body   [in,out]  one object; its own keys are read
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_body_material(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body);
+
+/** Refuses the name of a body that a wall or a body before it has.
+ *  @param reader   [in]  one object
+ *  @param node     [in]  one object; the body's group
+ *  @param the_case [in]  one object
+ *  @param body     [in]  one object; of the case's bodies
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_body_name(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                     const mor_case_body *body);
+
+/** Reads the list rocks, packs them, and adds them to the bodies of the case.
+ *  @param reader   [in]      one object
+ *  @param root     [in]      one object
+ *  @param the_case [in,out]  one object; walls and the list bodies are known
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
+/** Frees what an item of the list rocks owns.
+ *  @param context [in,out]  one object
+ *  @param rocks   [in,out]  one object, read or zeroed */
+void mor_case_rocks_clear(mor_context *context, mor_case_rocks *rocks);
 
 /** Reads the lists soil, walls and bodies, and the group contact.
  *  @param reader   [in]      one object

@@ -39,6 +39,7 @@ static const mor_case_part root_parts[] = {
     {"soil", false, "list of groups", "soil regions; a case has soil, or bodies, or both"},
     {"walls", false, "list of groups", "solid walls"},
     {"bodies", false, "list of groups", "rocks, elastic or rigid"},
+    {"rocks", false, "list of groups", "rocks packed at random into a region; each becomes a body"},
     {"contact", false, "group", "contact of bodies with bodies and walls"},
     {"numerics", false, "group", "settings of the method"},
     {"probes", false, "list of groups", "results to measure"},
@@ -323,8 +324,6 @@ const mor_case_group mor_case_wall_group = {"walls", "Walls (list)", wall_keys, 
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------------ */
 
-#define SHAPE(member) MOR_CASE_STORE_REALS, AT(mor_case_shape, member)
-
 static const mor_case_key box_keys[] = {
     {{"min", VECTOR, "m", REQUIRED, ANY, NULL, "lowest corner; two numbers in plane strain"}, SHAPE(first)},
     {{"max", VECTOR, "m", REQUIRED, ANY, NULL, "highest corner; two numbers in plane strain"}, SHAPE(second)},
@@ -384,6 +383,18 @@ const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
     [MOR_CASE_SHAPE_DIFFERENCE] = {"difference", "One shape without others", no_keys, difference_parts, WRITTEN},
     [MOR_CASE_SHAPE_TRANSLATE] = {"translate", "A shape moved", translate_keys, moved_parts, WRITTEN},
     [MOR_CASE_SHAPE_ROTATE] = {"rotate", "A shape turned about an axis", rotate_keys, moved_parts, WRITTEN},
+    [MOR_CASE_SHAPE_TERRAIN] = {"terrain", "Ground from an elevation raster; a wall of it follows the surface",
+                                mor_case_terrain_keys, NULL, WRITTEN},
+    [MOR_CASE_SHAPE_RELEASE] = {"release", "Layer on the ground inside a polygon; soil of it follows the surface",
+                                mor_case_release_keys, mor_case_release_parts, WRITTEN},
+    [MOR_CASE_SHAPE_POSTS] = {"posts", "Boxes that stand in the ground", mor_case_posts_keys, mor_case_posts_parts,
+                              WRITTEN},
+    [MOR_CASE_SHAPE_MESH] = {"mesh", "Solid of a mesh from a file; its center of volume is the origin",
+                             mor_case_mesh_keys, NULL, WRITTEN},
+    [MOR_CASE_SHAPE_OUTLINE] = {"outline", "Solid of an outline from a file; its center of area is the origin",
+                                mor_case_outline_keys, NULL, WRITTEN},
+    [MOR_CASE_SHAPE_ROCK] = {"rock", "Rock drawn at random; its center of volume is the origin", mor_case_rock_keys,
+                             NULL, WRITTEN},
 };
 
 /* ---- Look-up ----------------------------------------------------------------------------------------------------- */

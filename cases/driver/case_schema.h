@@ -85,6 +85,26 @@ extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_ca
 /** One group per kind of shape, in the order of mor_case_shape_kind; record mor_case_shape. */
 extern const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT];
 
+/** Keys and parts of the shapes of the ground, which mor_case_shape_groups lists; record mor_case_shape. */
+extern const mor_case_key mor_case_terrain_keys[], mor_case_release_keys[], mor_case_posts_keys[];
+extern const mor_case_part mor_case_release_parts[], mor_case_posts_parts[];
+
+/** Keys of the shapes of rocks, likewise. */
+extern const mor_case_key mor_case_mesh_keys[], mor_case_outline_keys[], mor_case_rock_keys[];
+
+/** Members of the list rocks, and of its list sizes; records mor_case_rocks and mor_case_size. */
+extern const mor_case_group mor_case_rocks_group, mor_case_size_group;
+
+enum { MOR_CASE_ROCK_FORM_COUNT = 3 };
+
+/** Members of the list forms of rocks, one group per type, and the kinds of shape they make; record mor_case_shape. */
+extern const mor_case_group mor_case_rock_form_groups[MOR_CASE_ROCK_FORM_COUNT];
+extern const mor_case_shape_kind mor_case_rock_form_kinds[MOR_CASE_ROCK_FORM_COUNT];
+
+/** Returns the group of the form that makes a kind of shape.
+ *  @param kind [in]  one of mor_case_rock_form_kinds */
+const mor_case_group *mor_case_rock_form_group(mor_case_shape_kind kind);
+
 /** Keys of a probe that only some types take. */
 enum {
     MOR_CASE_PROBE_WALL = 1,
@@ -101,7 +121,8 @@ enum {
 enum {
     MOR_CASE_PROBE_OF_SOIL = 1,   /* makes sense in a case with soil only */
     MOR_CASE_PROBE_OF_BODIES = 2, /* makes sense in a case with bodies only */
-    MOR_CASE_PROBE_OF_TURN = 4    /* direction is an axis, in plane strain always z */
+    MOR_CASE_PROBE_OF_TURN = 4,   /* direction is an axis, in plane strain always z */
+    MOR_CASE_PROBE_OF_AUDIT = 8   /* needs the audit of the soil's energy */
 };
 
 /** What a type of probe measures. */

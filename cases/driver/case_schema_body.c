@@ -60,6 +60,11 @@ static const mor_case_key body_keys[] = {
       "of a rigid body; free: as it is pushed; prescribed: with velocity and angular_velocity whatever pushes it"},
      MOR_CASE_STORE_BOOL,
      BODY(is_prescribed)},
+    {{"particles", CHOICE, "1", DEFAULT(0.0), ANY, "by_shape|lattice|relaxed",
+      "lattice: nodes of a lattice in the shape; relaxed: evenly up to its surface; by_shape: relaxed for a mesh, an "
+      "outline or a rock, a lattice for others"},
+     MOR_CASE_STORE_CHOICE,
+     BODY(particles)},
     END};
 
 static const mor_case_part body_parts[] = {

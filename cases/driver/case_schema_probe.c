@@ -95,6 +95,7 @@ const mor_case_group mor_case_expectation_group = {"expect", "Reference values (
 #define OF_BODIES MOR_CASE_PROBE_OF_BODIES
 #define OF_BOTH (OF_SOIL | OF_BODIES)
 #define OF_TURN MOR_CASE_PROBE_OF_TURN
+#define AUDIT MOR_CASE_PROBE_OF_AUDIT
 
 /* Name, unit, unit in plane strain, keys allowed, keys required, traits, percentile, text. */
 const mor_case_probe_type mor_case_probe_types[] = {
@@ -107,6 +108,24 @@ const mor_case_probe_type mor_case_probe_types[] = {
     {"energy_left", "1", "1", ORIGIN, 0, 0, 100.0, "total energy / total energy at the start, of soil and bodies"},
     {"dissipated_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
      "total energy at the start less total energy, of soil and bodies"},
+    {"plastic_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0, "energy lost to plastic strain since the start"},
+    {"boundary_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+     "energy the soil lost to friction and impact at walls and rocks since the start"},
+    {"friction_strain_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+     "of boundary_dissipation: what Coulomb friction passed on to the stress of the soil, where it is lost again"},
+    {"numerical_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+     "energy lost to what the method adds to the soil since the start: Riemann dissipation, artificial stress, stress "
+     "diffusion, damping, XSPH, shifting, gradient correction, angular momentum"},
+    {"riemann_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0, "of numerical_dissipation: Riemann dissipation"},
+    {"artificial_stress_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+     "of numerical_dissipation: artificial stress"},
+    {"stress_diffusion_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0, "of numerical_dissipation: stress diffusion"},
+    {"soil_work_on_bodies", "J", "J/m", 0, 0, OF_BOTH | AUDIT, 100.0,
+     "work of the soil on bodies that move freely since the start"},
+    {"external_work", "J", "J/m", 0, 0, AUDIT, 100.0,
+     "work of moving walls, driven bodies and the gravity ramp since the start"},
+    {"energy_balance", "1", "1", 0, 0, AUDIT, 100.0,
+     "1 + change of the sum of all energies and losses, less external work / energy that changed hands so far"},
     {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0, "momentum of soil and bodies along direction"},
     {"angular_momentum", "kg m2/s", "kg m/s", ORIGIN | DIRECTION, DIRECTION, OF_TURN, 100.0,
      "angular momentum of soil and bodies about the axis through origin along direction"},
@@ -131,6 +150,8 @@ const mor_case_probe_type mor_case_probe_types[] = {
      "force of the soil on a wall along direction"},
     {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
      "impulse of the soil on a wall since the start along direction"},
+    {"wall_gap", "m", "m", WALL, WALL, OF_SOIL, 100.0,
+     "least distance of a soil particle from the surface of a wall; below zero: inside"},
     {"wall_contact_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_BODIES, 100.0,
      "force of the bodies on a wall along direction"},
     /* One body. */

@@ -18,6 +18,7 @@
 #define SWITCH MOR_SCHEMA_BOOLEAN, 1
 #define WORDS MOR_SCHEMA_TEXT, 1
 #define CHOICE MOR_SCHEMA_CHOICE, 1
+#define SHAPE(member) MOR_CASE_STORE_REALS, AT(mor_case_shape, member)
 #define AT(record, member) .offset = offsetof(record, member), .size = sizeof(((record *)0)->member)
 #define END                                                                                                            \
     {                                                                                                                  \

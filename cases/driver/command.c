@@ -5,6 +5,7 @@
 #include "core/base/nearest.h"
 #include "core/base/parallel.h"
 #include "moraine_build.h"
+#include "relaxation/mesh.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -20,6 +21,8 @@ static const struct {
     {"run", "CASE", "run a case; results go into a folder", mor_command_run},
     {"check", "CASE", "read and build a case without running it", mor_command_check},
     {"explain", "CASE", "say what a run would do: particles, steps, memory, time, stages", mor_command_explain},
+    {"preview", "CASE", "draw what a run would start from", mor_command_preview},
+    {"relax", "MESH", "fill a mesh, or an outline in a text file, with evenly spaced particles", mor_command_relax},
     {"render", "RUN", "draw the snapshots and the series of a run's folder", mor_command_render},
     {"list", "WHAT", "list materials, probes, fields, stages, shapes or keys", mor_command_list},
     {"check-material", "FILE", "try the laws of mechanics on a material: the name of a model or a plug-in file.so",
@@ -27,6 +30,9 @@ static const struct {
 };
 
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
+
+/* Options without a letter. */
+enum { OPTION_SPACING = 256, OPTION_SIZES };
 
 static const char options_text[] =
     "Options\n"
@@ -36,6 +42,9 @@ static const char options_text[] =
     "'soil[0].material.cohesion=1 kPa'\n"
     "      --resume          go on from the last good checkpoint of the folder\n"
     "      --stop-at T       stop with a checkpoint once the simulated time reaches T seconds\n"
+    "      --spacing L       relax: spacing of the particles, such as 0.05 or '5 cm'\n"
+    "      --diameter L, --length L, --volume V\n"
+    "                        relax: equivalent diameter, longest side or volume to scale the mesh to\n"
     "  -h, --help            this text\n"
     "      --version         version and commit\n"
     "Exit codes: 0 ok, 1 run failed, 2 bad input, 3 an expectation was missed, 130 interrupted.\n";
@@ -94,6 +103,14 @@ static mor_status take_option(mor_command *command, int option, const char *valu
     case 'r':
         command->is_resume = true;
         return MOR_OK;
+    case OPTION_SPACING:
+        command->spacing = value;
+        return MOR_OK;
+    case OPTION_SIZES + MOR_MESH_LENGTH:
+    case OPTION_SIZES + MOR_MESH_VOLUME:
+    case OPTION_SIZES + MOR_MESH_DIAMETER:
+        command->sizes[option - OPTION_SIZES] = value;
+        return MOR_OK;
     case 'T':
         return set_stop(command, value);
     default:
@@ -105,11 +122,18 @@ static mor_status take_option(mor_command *command, int option, const char *valu
 /* Reads the options; *is_done is set when help or version was all that was asked for. */
 static mor_status read_options(mor_command *command, int argc, char **argv, bool *is_done)
 {
-    static const struct option options[] = {
-        {"output", required_argument, NULL, 'o'},  {"threads", required_argument, NULL, 't'},
-        {"set", required_argument, NULL, 's'},     {"resume", no_argument, NULL, 'r'},
-        {"stop-at", required_argument, NULL, 'T'}, {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'V'},       {NULL, 0, NULL, 0}};
+    static const struct option options[] = {{"output", required_argument, NULL, 'o'},
+                                            {"threads", required_argument, NULL, 't'},
+                                            {"set", required_argument, NULL, 's'},
+                                            {"resume", no_argument, NULL, 'r'},
+                                            {"stop-at", required_argument, NULL, 'T'},
+                                            {"spacing", required_argument, NULL, OPTION_SPACING},
+                                            {"length", required_argument, NULL, OPTION_SIZES + MOR_MESH_LENGTH},
+                                            {"volume", required_argument, NULL, OPTION_SIZES + MOR_MESH_VOLUME},
+                                            {"diameter", required_argument, NULL, OPTION_SIZES + MOR_MESH_DIAMETER},
+                                            {"help", no_argument, NULL, 'h'},
+                                            {"version", no_argument, NULL, 'V'},
+                                            {NULL, 0, NULL, 0}};
     int option = 0;
     while ((option = getopt_long(argc, argv, "o:t:s:h", options, NULL)) != -1) {
         if (option == 'h') {
@@ -156,6 +180,19 @@ static void join_words(mor_command *command, int argc, char **argv)
     }
 }
 
+/* Refuses options that a command would not look at. */
+static mor_status check_options(const mor_command *command, command_function run)
+{
+    bool has_size = command->spacing != NULL;
+    for (int k = 0; k < 4; ++k) {
+        has_size = has_size || command->sizes[k] != NULL;
+    }
+    MOR_CHECK(command->context, run == mor_command_relax || !has_size, MOR_ERROR_CONFIG,
+              "found --spacing, --length, --volume or --diameter, which belong to moraine relax; the values of a case "
+              "are changed by --set KEY=VALUE");
+    return MOR_OK;
+}
+
 static mor_status run_command(mor_command *command, int argc, char **argv, int *exit_code)
 {
     bool is_done = false;
@@ -176,6 +213,7 @@ static mor_status run_command(mor_command *command, int argc, char **argv, int *
               commands[found].subject);
     MOR_CHECK(command->context, command->subject != NULL, MOR_ERROR_CONFIG, "moraine %s needs a %s; see moraine --help",
               commands[found].name, commands[found].subject);
+    MOR_TRY(command->context, check_options(command, commands[found].run));
     return commands[found].run(command, exit_code);
 }
 

@@ -32,6 +32,8 @@ typedef struct mor_command {
     int n_settings;
     bool is_resume;
     double stop_at;                    /* s; NaN: not asked */
+    const char *spacing;               /* of relax, as written; NULL: not asked */
+    const char *sizes[4];              /* shape [4] by mor_mesh_size, of relax, as written; NULL: not asked */
     char line[MOR_COMMAND_TEXT_BYTES]; /* the whole command line */
     const volatile sig_atomic_t *stop; /* non-zero when the user wants to stop */
     FILE *output;                      /* results */
@@ -51,6 +53,8 @@ int mor_command_main(int argc, char **argv, const volatile sig_atomic_t *stop);
 mor_status mor_command_run(mor_command *command, int *exit_code);
 mor_status mor_command_check(mor_command *command, int *exit_code);
 mor_status mor_command_explain(mor_command *command, int *exit_code);
+mor_status mor_command_preview(mor_command *command, int *exit_code);
+mor_status mor_command_relax(mor_command *command, int *exit_code);
 mor_status mor_command_render(mor_command *command, int *exit_code);
 mor_status mor_command_list(mor_command *command, int *exit_code);
 mor_status mor_command_check_material(mor_command *command, int *exit_code);

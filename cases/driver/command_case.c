@@ -1,13 +1,15 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Commands that work on a case or a run's folder: run, check, explain, render. */
+/* Commands that work on a case or a run's folder: run, check, explain, preview, render. */
 #include "cases/driver/command.h"
 
 #include "cases/driver/case_read.h"
 #include "cases/driver/clock.h"
 #include "cases/driver/pictures.h"
 #include "cases/driver/run.h"
+#include "cases/driver/run_files.h"
 #include "core/io/durable_file.h"
+#include "core/io/snapshot.h"
 #include "materials/builtin.h"
 #include "moraine_build.h"
 
@@ -138,6 +140,37 @@ static mor_status name_folder(mor_context *context, const char *case_path, char 
     MOR_CHECK(context, n > 0 && (size_t)n < room, MOR_ERROR_CONFIG,
               "the name of the run's folder is too long; give one with -o");
     return MOR_OK;
+}
+
+/* Writes the state a run would start from as a snapshot into a folder, and draws it. */
+static mor_status draw_preview(mor_command *command, scene *it)
+{
+    mor_context *context = command->context;
+    char images[MOR_PATH_BYTES];
+    const mor_snapshot_fact facts[] = {{"version", MOR_VERSION}, {"commit", MOR_COMMIT}, {"command", command->line}};
+    const mor_snapshot_options options = {.facts = facts, .n_facts = 3};
+    mor_snapshot_writer writer;
+    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+    const int n_sets = mor_simulation_sets(&it->simulation, false, sets);
+    MOR_TRY(context, mor_run_files_refuse_run(context, command->folder));
+    MOR_TRY(context, mor_durable_file_join(context, images, command->folder, "images"));
+    MOR_TRY(context, mor_run_files_make_folders(context, images));
+    MOR_TRY(context, mor_snapshot_writer_init(context, &writer, command->folder, &options, -1));
+    const mor_status status = mor_snapshot_writer_add(context, &writer, sets, n_sets, 0, 0.0);
+    mor_snapshot_writer_clear(context, &writer);
+    MOR_TRY(context, status);
+    return mor_pictures_render(context, &it->the_case, command->folder, MOR_PICTURES_FIRST, command->output);
+}
+
+mor_status mor_command_preview(mor_command *command, int *exit_code)
+{
+    char folder[MOR_PATH_BYTES - sizeof "-preview"];
+    char own_folder[MOR_PATH_BYTES];
+    (void)exit_code;
+    MOR_TRY(command->context, name_folder(command->context, command->subject, folder, sizeof folder));
+    snprintf(own_folder, sizeof own_folder, "%s-preview", folder);
+    command->folder = command->folder != NULL ? command->folder : own_folder;
+    return with_scene(command, true, draw_preview);
 }
 
 mor_status mor_command_run(mor_command *command, int *exit_code)

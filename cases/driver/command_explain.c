@@ -4,6 +4,7 @@
 #include "cases/driver/command.h"
 
 #include "cases/driver/clock.h"
+#include "cases/driver/rocks_report.h"
 #include "cases/driver/simulation.h"
 #include "core/base/math.h"
 
@@ -141,6 +142,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
         fprintf(out, "\n");
     }
     fprintf(out, "  walls                %d, %lld particles\n", c->n_walls, (long long)n_walls);
+    mor_rocks_report_print(c, out);
 }
 
 /* The longest step of each stepper, and how often it moves in a common step. */

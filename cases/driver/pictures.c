@@ -6,7 +6,9 @@
 #include "cases/driver/picture_color.h"
 #include "cases/driver/render/camera.h"
 #include "cases/driver/render/picture.h"
+#include "cases/driver/rocks_report.h"
 #include "cases/driver/simulation.h"
+#include "cases/driver/simulation_terrain.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/io/snapshot.h"
@@ -20,6 +22,10 @@
 /* Walls are shown this far around the particles, in spacings; in space one layer shows where they are. */
 #define WALL_MARGIN_PLANE 3.0
 #define WALL_MARGIN_SPACE 1.0
+/* Terrain is shown so many times the width of the particles around them, whatever its height. */
+#define TERRAIN_MARGIN 1.0
+/* Its particles are drawn with this radius, in spacings, so that steep slopes have no gaps, and as much lower. */
+#define TERRAIN_RADIUS 0.8
 /* Name of the soil's set; all others are bodies. */
 #define SOIL_SET "soil"
 
@@ -30,6 +36,7 @@ enum { LAYERS_MAX = 24, TONES = 4 };
 static const double stone_tones[TONES][3] = {
     {0.63, 0.56, 0.48}, {0.45, 0.42, 0.40}, {0.70, 0.64, 0.52}, {0.52, 0.47, 0.50}};
 static const double wall_gray[3] = {0.80, 0.82, 0.84};
+static const double post_gray[3] = {0.55, 0.58, 0.62};
 
 /* What is colored: soil, or everything where there is none. */
 static bool is_colored(const char *name, bool has_soil)
@@ -79,6 +86,7 @@ typedef struct gallery {
     double up[3];
     mor_bounds frame;
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
+    double *light[MOR_CASE_WALLS_MAX]; /* shape [its points]; of terrain, NULL for others */
     bool is_ground[MOR_CASE_WALLS_MAX];
     bool is_veil[MOR_CASE_WALLS_MAX]; /* between viewer and scene */
     double wall_time;                 /* s; moving walls stand where they are at this time */
@@ -206,6 +214,43 @@ static void trim_wall(const gallery *g, mor_lattice_points *wall)
     wall->n_points = n;
 }
 
+static bool is_terrain(const gallery *g, int w)
+{
+    return g->the_case->walls[w].outline.kind == MOR_CASE_SHAPE_TERRAIN;
+}
+
+/* The uppermost layer of ground, around the particles as seen from above. */
+static mor_status fill_terrain(mor_context *context, gallery *g, int w)
+{
+    mor_lattice_points *wall = &g->walls[w];
+    double width = 0.0;
+    int64_t n = 0;
+    MOR_TRY(context, mor_simulation_fill_terrain(context, g->the_case, w, 1, wall));
+    for (int a = 0; a < 3; ++a) {
+        width = fmax(width, g->frame.maximum[a] - g->frame.minimum[a]);
+    }
+    for (int64_t i = 0; i < wall->n_points; ++i) {
+        const double *x = wall->positions + 3 * i;
+        const double place[3] = {x[0] - g->frame.minimum[0], x[1] - g->frame.minimum[1], x[2] - g->frame.minimum[2]};
+        const double height = mor_vector_dot(place, g->up);
+        bool is_near = true;
+        for (int a = 0; a < 3; ++a) {
+            const double level = place[a] - height * g->up[a];
+            const double extent = g->frame.maximum[a] - g->frame.minimum[a];
+            is_near = is_near && level >= -TERRAIN_MARGIN * width && level <= extent + TERRAIN_MARGIN * width;
+        }
+        if (is_near) {
+            memmove(wall->positions + 3 * n++, x, 3 * sizeof *x);
+        }
+    }
+    wall->n_points = n;
+    MOR_TRY(context, mor_simulation_light_terrain(context, g->the_case, w, wall, &g->light[w]));
+    for (int64_t k = 0; k < 3 * n; ++k) {
+        wall->positions[k] -= (TERRAIN_RADIUS - 0.5) * g->the_case->spacing * g->up[k % 3];
+    }
+    return MOR_OK;
+}
+
 /* What a wall is to the viewer: the ground, a veil to be left out, or neither. */
 static void sort_wall(gallery *g, int w)
 {
@@ -223,6 +268,10 @@ static mor_status fill_walls(mor_context *context, gallery *g)
 {
     const mor_case *c = g->the_case;
     for (int w = 0; w < c->n_walls; ++w) {
+        if (is_terrain(g, w)) {
+            MOR_TRY(context, fill_terrain(context, g, w));
+            continue;
+        }
         MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
         /* A moving wall is kept whole: it may come into view later. */
         if (mor_vector_length(c->walls[w].velocity) == 0.0) {
@@ -266,15 +315,17 @@ static mor_picture_group show_layer(const gallery *g, const layer *l, int tone)
 static mor_picture_group show_wall(const gallery *g, int w, bool is_first)
 {
     const bool is_plane = g->the_case->dimension == 2;
+    const bool is_post = g->the_case->walls[w].outline.kind == MOR_CASE_SHAPE_POSTS;
     mor_picture_group group = {.name = is_plane && is_first ? "walls" : NULL,
                                .position = g->walls[w].positions,
                                .n_particles = g->walls[w].n_points,
-                               .radius = 0.5 * g->the_case->spacing,
-                               .style = g->is_ground[w] ? MOR_PICTURE_GROUND
-                                        : is_plane      ? MOR_PICTURE_SOLID
-                                                        : MOR_PICTURE_GHOST,
+                               .radius = (is_terrain(g, w) ? TERRAIN_RADIUS : 0.5) * g->the_case->spacing,
+                               .light = g->light[w],
+                               .style = g->is_ground[w]                           ? MOR_PICTURE_GROUND
+                                        : is_plane || is_post || is_terrain(g, w) ? MOR_PICTURE_SOLID
+                                                                                  : MOR_PICTURE_GHOST,
                                .is_whole = true};
-    memcpy(group.color, wall_gray, sizeof group.color);
+    memcpy(group.color, is_post ? post_gray : wall_gray, sizeof group.color);
     return group;
 }
 
@@ -321,6 +372,9 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     picture.value_unit = g->unit;
     picture.groups = groups;
     picture.n_groups = list_groups(g, groups);
+    for (int w = 0; w < c->n_walls; ++w) {
+        picture.hides_ground = picture.hides_ground || is_terrain(g, w);
+    }
     picture.cut = c->output.has_cut ? MOR_PICTURE_CUT_QUADRANT : MOR_PICTURE_CUT_NONE;
     for (int a = 0; a < 3; ++a) {
         picture.gravity[a] = -g->up[a];
@@ -374,7 +428,7 @@ static mor_status visit_snapshot(mor_context *context, gallery *g, int64_t step,
 
 static bool is_chosen(mor_pictures_choice choice, int64_t k, int64_t n)
 {
-    return choice == MOR_PICTURES_ALL || k == 0 || k == n / 2 || k == n - 1;
+    return choice == MOR_PICTURES_ALL || k == 0 || (choice == MOR_PICTURES_KEY && (k == n / 2 || k == n - 1));
 }
 
 static mor_status render_list(mor_context *context, gallery *g, const mor_snapshot_list *list,
@@ -395,7 +449,8 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
             MOR_TRY(context, visit_snapshot(context, g, list->items[k].step, output));
         }
     }
-    return mor_charts_render(context, g->folder, output);
+    MOR_TRY(context, mor_rocks_report_draw(context, g->the_case, g->folder, output));
+    return choice == MOR_PICTURES_FIRST ? MOR_OK : mor_charts_render(context, g->folder, output);
 }
 
 mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, const char *folder,
@@ -408,6 +463,7 @@ mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, c
     const mor_status status = render_list(context, &g, &list, choice, output);
     for (int w = 0; w < the_case->n_walls; ++w) {
         mor_lattice_clear(context, &g.walls[w]);
+        MOR_FREE(context, &g.light[w]);
     }
     mor_snapshot_list_clear(context, &list);
     return status;

@@ -15,7 +15,8 @@
 /** Which snapshots become pictures. */
 typedef enum mor_pictures_choice {
     MOR_PICTURES_KEY, /* first, middle and last */
-    MOR_PICTURES_ALL
+    MOR_PICTURES_ALL,
+    MOR_PICTURES_FIRST /* the first, and no charts */
 } mor_pictures_choice;
 
 /** Checks before a run that its pictures can be colored as the case asks: by a field of the soil, or of some group of

@@ -238,6 +238,32 @@ static mor_status wall_impulse(mor_context *context, const view *v, double *valu
     return of_wall(context, v, v->simulation->soil.wall_impulse, value);
 }
 
+/* Least distance of a soil particle from the shape of a wall, which moves with its velocity. */
+static mor_status wall_gap(mor_context *context, const view *v, double *value)
+{
+    const mor_case *c = v->simulation->the_case;
+    const double *position = field(v, MOR_FIELD_POSITION);
+    const double time = mor_schedule_time(&v->simulation->schedule);
+    for (int w = 0; w < c->n_walls; ++w) {
+        if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
+            double velocity[3];
+            double move[3];
+            mor_matrix_apply(c->turn, c->walls[w].velocity, velocity);
+            for (int a = 0; a < 3; ++a) {
+                move[a] = c->move[a] + time * velocity[a];
+            }
+            *value = INFINITY;
+            for (int64_t i = 0; i < v->points.n_points; ++i) {
+                *value =
+                    fmin(*value, mor_simulation_placed_distance(c->walls[w].shape, c->turn, move, position + 3 * i));
+            }
+            return MOR_OK;
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+}
+
 static mor_status largest_speed(mor_context *context, const view *v, double *value)
 {
     return mor_measure_speed(context, &v->points, field(v, MOR_FIELD_VELOCITY), v->probe->percentile, value);
@@ -309,6 +335,7 @@ static const mor_probe_measure measures[] = {{"run_out", run_out},
                                              {"center_of_mass", center_of_mass},
                                              {"wall_force", wall_force},
                                              {"wall_impulse", wall_impulse},
+                                             {"wall_gap", wall_gap},
                                              {"largest_speed", largest_speed},
                                              {"density_drift", density_drift},
                                              {"stress_error", stress_error},
@@ -319,7 +346,7 @@ static const mor_probe_measure measures[] = {{"run_out", run_out},
 
 static const mor_probe_measure *find_measure(const char *type)
 {
-    static const mor_probe_measure *const tables[] = {measures, mor_probe_body_measures};
+    static const mor_probe_measure *const tables[] = {measures, mor_probe_body_measures, mor_probe_energy_measures};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
         for (const mor_probe_measure *it = tables[t]; it->type != NULL; ++it) {
             if (strcmp(it->type, type) == 0) {
@@ -362,15 +389,26 @@ mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simula
                                        it->name, context->message);
 }
 
+/* Probes that are followed, by what and how often. */
+static const struct {
+    const char *type;
+    mor_status (*find)(mor_context *context, const view *v, double *value);
+    int interval; /* steps */
+} followed[] = {{MOR_PROBE_LARGEST_DEPTH, mor_probe_depth, 1},
+                {MOR_PROBE_ENERGY_BALANCE, mor_probe_turned_energy, MOR_SOIL_ENERGY_INTERVAL}};
+
 mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation)
 {
     for (int k = 0; k < simulation->the_case->n_probes; ++k) {
-        if (strcmp(simulation->the_case->probes[k].type, MOR_PROBE_LARGEST_DEPTH) == 0) {
-            view v;
-            double depth = 0.0;
-            set_view(simulation, k, &v);
-            MOR_TRY(context, mor_probe_depth(context, &v, &depth));
-            simulation->extremes[k] = fmax(simulation->extremes[k], depth);
+        for (size_t f = 0; f < sizeof followed / sizeof *followed; ++f) {
+            if (strcmp(simulation->the_case->probes[k].type, followed[f].type) == 0 &&
+                simulation->schedule.n_steps % (uint64_t)followed[f].interval == 0) {
+                view v;
+                double value = 0.0;
+                set_view(simulation, k, &v);
+                MOR_TRY(context, followed[f].find(context, &v, &value));
+                simulation->extremes[k] = fmax(simulation->extremes[k], value);
+            }
         }
     }
     return MOR_OK;

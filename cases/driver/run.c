@@ -6,6 +6,7 @@
 #include "cases/driver/clock.h"
 #include "cases/driver/pictures.h"
 #include "cases/driver/probe.h"
+#include "cases/driver/rocks_report.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -182,12 +183,16 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
 {
     pace p = {.last_progress = mor_clock_now(), .next_snapshot = 1};
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
+    for (int k = 0; k < files->the_case->n_rocks; ++k) { /* packed when the case was read, before there was a log */
+        mor_rocks_report_log(context, &files->the_case->rocks[k]);
+    }
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
     if (status == MOR_OK) {
         mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
         const int n_sets = mor_simulation_sets(files->simulation, false, sets);
         status = mor_pictures_check(context, files->the_case, sets, n_sets);
     }
+    const bool is_refused = status != MOR_OK;
     if (status == MOR_OK) {
         status = start_run(context, files, &p);
     }
@@ -202,6 +207,9 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     }
     if (status != MOR_OK) {
         fprintf(files->log, "stopped: %s\n", context->message);
+    }
+    if (is_refused) {
+        mor_run_files_discard(context, files);
     }
     return status;
 }

@@ -17,6 +17,7 @@
 
 #define CASE_FILE "case.resolved.cfg"
 #define LOG_FILE "log.txt"
+#define IMAGES_FOLDER "images"
 
 /* Everything goes into log.txt; warnings and errors reach the terminal as well. */
 static void log_line(void *user, mor_log_level level, const char *text)
@@ -36,8 +37,7 @@ static bool is_present(mor_context *context, const char *folder, const char *nam
     return mor_durable_file_join(context, path, folder, name) == MOR_OK && access(path, F_OK) == 0;
 }
 
-/* Makes a folder and the folders it lies in. */
-static mor_status make_folders(mor_context *context, const char *path)
+mor_status mor_run_files_make_folders(mor_context *context, const char *path)
 {
     char part[MOR_PATH_BYTES];
     MOR_CHECK(context, strlen(path) < sizeof part, MOR_ERROR_CONFIG, "the name of the run's folder is too long: %s",
@@ -51,6 +51,17 @@ static mor_status make_folders(mor_context *context, const char *path)
     return mor_durable_file_make_folder(context, part);
 }
 
+mor_status mor_run_files_refuse_run(mor_context *context, const char *folder)
+{
+    const bool holds_run = is_present(context, folder, MOR_CHECKPOINT_FILE) ||
+                           is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
+                           is_present(context, folder, MOR_SUMMARY_FILE);
+    MOR_CHECK(context, !holds_run, MOR_ERROR_CONFIG,
+              "the folder '%s' already holds a run; add --resume to go on with it, or choose another folder with -o",
+              folder);
+    return MOR_OK;
+}
+
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options)
 {
     char path[MOR_PATH_BYTES];
@@ -58,14 +69,12 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     files->options = options;
     files->previous_sink = context->log_sink;
     files->previous_user = context->log_user;
-    const bool holds_run = is_present(context, options->folder, MOR_CHECKPOINT_FILE) ||
-                           is_present(context, options->folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
-                           is_present(context, options->folder, MOR_SUMMARY_FILE);
-    MOR_CHECK(context, options->is_resume || !holds_run, MOR_ERROR_CONFIG,
-              "the folder '%s' already holds a run; add --resume to go on with it, or choose another folder with -o",
-              options->folder);
-    MOR_TRY(context, make_folders(context, options->folder));
-    MOR_TRY(context, mor_durable_file_join(context, path, options->folder, "images"));
+    if (!options->is_resume) {
+        MOR_TRY(context, mor_run_files_refuse_run(context, options->folder));
+    }
+    files->is_folder_new = access(options->folder, F_OK) != 0;
+    MOR_TRY(context, mor_run_files_make_folders(context, options->folder));
+    MOR_TRY(context, mor_durable_file_join(context, path, options->folder, IMAGES_FOLDER));
     MOR_TRY(context, mor_durable_file_make_folder(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
     files->log = fopen(path, "a");
@@ -177,6 +186,20 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
                      : mor_table_create(context, &files->series, path, files->columns, files->n_columns);
 }
 
+void mor_run_files_discard(mor_context *context, mor_run_files *files)
+{
+    static const char *const names[] = {LOG_FILE, CASE_FILE, IMAGES_FOLDER};
+    char path[MOR_PATH_BYTES];
+    for (size_t k = 0; k < sizeof names / sizeof *names && files->is_folder_new; ++k) {
+        if (mor_durable_file_join(context, path, files->options->folder, names[k]) == MOR_OK) {
+            remove(path);
+        }
+    }
+    if (files->is_folder_new) {
+        remove(files->options->folder); /* fails, as it should, when anything is left in it */
+    }
+}
+
 void mor_run_files_close(mor_context *context, mor_run_files *files)
 {
     if (files->series.stream != NULL) {
@@ -265,6 +288,7 @@ static void list_state(mor_simulation *s, saved_state *state)
         {"soil_wall_force", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_force},
         {"soil_wall_impulse", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_impulse},
         {"initial_energy", MOR_HDF5_DOUBLE, 1, &s->initial_energy},
+        {"initial_energies", MOR_HDF5_DOUBLE, 3, s->initial_energies},
         {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},
         {"probe_extremes", MOR_HDF5_DOUBLE, MOR_CASE_PROBES_MAX, s->extremes},
         {"bodies", MOR_HDF5_DOUBLE, s->bodies.n_packed, s->bodies.packed},
@@ -278,6 +302,9 @@ static void list_state(mor_simulation *s, saved_state *state)
     state->n_values = (int)(sizeof list / sizeof *list);
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         add_group_values(s, g, state);
+    }
+    if (s->soil.energy != NULL) {
+        add_value(state, "soil", "energy_audit", MOR_SOIL_ENERGY_STATE, s->soil.energy->state);
     }
     const int n_sets = mor_simulation_sets(s, true, state->sets);
     state->checkpoint = (mor_checkpoint){state->sets, n_sets, state->values, state->n_values};

@@ -22,6 +22,7 @@ typedef struct mor_run_files {
     FILE *log;                      /* log.txt */
     mor_log_sink previous_sink;     /* where warnings and errors go as well */
     void *previous_user;            /* its argument */
+    bool is_folder_new;             /* there was no such folder before */
     mor_snapshot_writer snapshots;
     mor_snapshot_fact facts[MOR_RUN_FACTS_MAX]; /* provenance, shape [n_facts] */
     int n_facts;
@@ -54,6 +55,24 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
  *  @param is_resume [in]      whether the state was restored from a checkpoint
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool is_resume);
+
+/** Makes a folder and the folders it lies in.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for a path that is too long; MOR_ERROR_IO. */
+mor_status mor_run_files_make_folders(mor_context *context, const char *path);
+
+/** Refuses a folder that holds a run.
+ *  @param context [in,out]  one object
+ *  @param folder  [in]      zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_run_files_refuse_run(mor_context *context, const char *folder);
+
+/** Takes away a folder that was made by mor_run_files_open, with its log and the case, so that a case that is refused
+ *  leaves nothing behind. A folder that was there before, or holds anything else, stays.
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object; still to be closed */
+void mor_run_files_discard(mor_context *context, mor_run_files *files);
 
 /** Closes everything and gives the context its sink back; accepts a zeroed object.
  *  @param context [in,out]  one object

@@ -3,12 +3,15 @@
 /* The end of a run: measured against reference, on the terminal and in summary.json. */
 #include "cases/driver/run_files.h"
 
+#include "cases/driver/case_read.h"
 #include "cases/driver/probe.h"
 #include "core/base/hash.h"
 #include "core/io/summary.h"
 
 #include <math.h>
 #include <string.h>
+
+enum { INPUTS_MAX = 512 }; /* files that shapes were made from */
 
 /* Index of the probe an expectation is about; the reader made sure that there is one. */
 static int find_probe(const mor_case *the_case, const char *name)
@@ -87,15 +90,20 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     char path[MOR_PATH_BYTES];
     mor_summary_result results[MOR_CASE_PROBES_MAX];
     mor_summary_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];
-    const mor_summary_input input = {c->path, files->case_hash};
+    mor_summary_input inputs[1 + INPUTS_MAX] = {{c->path, files->case_hash}};
+    mor_case_input shapes[INPUTS_MAX];
+    const int n_shapes = mor_case_inputs(c, shapes, INPUTS_MAX);
+    for (int k = 0; k < n_shapes; ++k) {
+        inputs[1 + k] = (mor_summary_input){shapes[k].path, shapes[k].hash};
+    }
     mor_summary summary = {.results = results,
                            .n_results = c->n_probes,
                            .expectations = expectations,
                            .n_expectations = c->n_expectations,
                            .particle_steps_per_second = particle_steps_per_second,
                            .n_threads = context->n_threads,
-                           .inputs = &input,
-                           .n_inputs = 1};
+                           .inputs = inputs,
+                           .n_inputs = 1 + n_shapes};
     *n_missed = 0;
     for (int k = 0; k < c->n_probes; ++k) {
         results[k] = (mor_summary_result){c->probes[k].name, NAN, mor_probe_unit(c, k)};

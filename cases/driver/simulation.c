@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/simulation.h"
 
+#include "cases/driver/case_schema.h"
+#include "cases/driver/simulation_terrain.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/material/params.h"
@@ -47,7 +49,6 @@ static void set_request(const mor_case *the_case, const mor_shape *shape, mor_la
 /* More lattice nodes than this along an axis are a slip of the pen, and counting them would take minutes. */
 #define NODES_ALONG 1.0e5
 
-/* A shape that cannot be filled is an error of the case, told with its place. */
 static mor_status fill_shape(mor_context *context, const mor_case_place *place, const char *name,
                              const mor_lattice_request *request, mor_lattice_points *points)
 {
@@ -62,7 +63,12 @@ static mor_status fill_shape(mor_context *context, const mor_case_place *place, 
             "a larger spacing",
             place->file, place->line, name, extent, "xyz"[a], request -> spacing, NODES_ALONG);
     }
-    const mor_status status = mor_lattice_fill(context, request, points);
+    return mor_lattice_fill(context, request, points);
+}
+
+/* A shape that cannot be filled is an error of the case, told with its place. */
+static mor_status tell_place(mor_context *context, mor_status status, const mor_case_place *place, const char *name)
+{
     return status != MOR_ERROR_ARGUMENT ? status
                                         : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", place->file,
                                                    place->line, name, context->message);
@@ -87,7 +93,11 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
         request.domain.minimum[a] -= depth;
         request.domain.maximum[a] += depth;
     }
-    MOR_TRY(context, fill_shape(context, &it->place, it->name, &request, points));
+    const mor_status status =
+        it->outline.kind == MOR_CASE_SHAPE_TERRAIN
+            ? mor_simulation_fill_terrain(context, the_case, wall, MOR_SIMULATION_WALL_LAYERS, points)
+            : fill_shape(context, &it->place, it->name, &request, points);
+    MOR_TRY(context, tell_place(context, status, &it->place, it->name));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
               "inside the domain and outside earlier walls; make the wall thicker or move it",
@@ -182,11 +192,14 @@ static void leave_out_bodies(mor_context *context, const mor_case *the_case, con
         const int64_t n = n_kept;
         double turn[9];
         double move[3];
+        mor_bounds box;
         mor_simulation_body_frame(the_case, &the_case->bodies[b], turn, move);
+        mor_simulation_body_box(the_case, &the_case->bodies[b], &box);
         n_kept = 0;
         for (int64_t i = 0; i < n; ++i) {
             const double *point = points->positions + 3 * i;
-            if (mor_simulation_placed_distance(shape, turn, move, point) >= 0.0) {
+            if (!mor_simulation_body_may_hold(&box, point) ||
+                mor_simulation_placed_distance(shape, turn, move, point) >= 0.0) {
                 memmove(points->positions + 3 * n_kept++, point, 3 * sizeof *point);
             }
         }
@@ -205,7 +218,10 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     set_request(the_case, it->shape, &request);
     request.jitter_ratio = the_case->jitter_ratio;
     const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
-    MOR_TRY(context, fill_shape(context, &it->place, it->name, &request, points));
+    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
+                                  ? mor_simulation_fill_release(context, the_case, soil, points)
+                                  : fill_shape(context, &it->place, it->name, &request, points);
+    MOR_TRY(context, tell_place(context, status, &it->place, it->name));
     leave_out_bodies(context, the_case, it->name, points);
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
@@ -410,6 +426,12 @@ static mor_status build_schedule(mor_context *context, mor_simulation *simulatio
     if (simulation->has_soil) {
         mor_soil_stepper(&simulation->soil, &stepper, &evolving);
         MOR_TRY(context, mor_schedule_add(context, &simulation->schedule, &stepper, evolving));
+    }
+    for (int k = 0; k < simulation->the_case->n_probes && simulation->has_soil; ++k) {
+        const mor_case_probe_type *type = mor_case_probe_type_find(simulation->the_case->probes[k].type);
+        if (type != NULL && (type->traits & MOR_CASE_PROBE_OF_AUDIT) != 0) {
+            MOR_TRY(context, mor_soil_watch_energy(context, &simulation->soil));
+        }
     }
     return mor_simulation_bodies_join(context, &simulation->bodies, simulation->the_case,
                                       simulation->has_soil ? &simulation->soil : NULL, &simulation->schedule);

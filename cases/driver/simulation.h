@@ -32,6 +32,7 @@ typedef struct mor_simulation {
     double up[3];                         /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
     double surface_height;                /* of the initial soil along up over the placed origin, m */
     double initial_energy;                /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    double initial_energies[3];           /* these by themselves, J (J/m in 2D) */
     double extremes[MOR_CASE_PROBES_MAX]; /* largest value so far of probes that ask for it, unit of the probe */
 } mor_simulation;
 
@@ -112,5 +113,10 @@ int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **
  *  @param elastic    [out]  one number, unit J; NULL: not asked
  *  Returns: the total, unit J. */
 double mor_simulation_energy(const mor_simulation *simulation, double *elastic);
+
+/** The same by themselves: kinetic, potential, elastic.
+ *  @param simulation [in]   one object
+ *  @param energies   [out]  shape [3], unit J (J/m in 2D) */
+void mor_simulation_energies(const mor_simulation *simulation, double *energies);
 
 #endif

@@ -4,15 +4,13 @@
 #include "cases/driver/simulation_bodies.h"
 
 #include "cases/driver/case_schema.h"
+#include "cases/driver/simulation_fill.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "relaxation/lattice.h"
+#include "core/particle/shape_analytic.h"
 
 #include <stdio.h>
 #include <string.h>
-
-/* Particles that a body must have along each axis. */
-enum { ACROSS = 4 };
 
 /* Overlap below this part of the spacing is touching. */
 #define TOUCHING 0.05
@@ -47,48 +45,10 @@ double mor_simulation_placed_distance(const mor_shape *shape, const double *turn
     return shape->operations->distance(shape, local);
 }
 
-/* Fills a body's shape with whole cells, as many as fit best along each axis of its own frame. */
-static mor_status fill_body(mor_context *context, const mor_case *c, const mor_case_body *it,
-                            mor_lattice_points *points)
-{
-    mor_lattice_request request;
-    mor_bounds bounds;
-    mor_lattice_request_init(&request);
-    request.shape = it->shape;
-    request.dimension = c->dimension;
-    request.spacing = c->spacing;
-    it->shape->operations->bounds(it->shape, &bounds);
-    for (int a = 0; a < c->dimension; ++a) {
-        const double extent = bounds.maximum[a] - bounds.minimum[a];
-        const double n = floor(extent / c->spacing + 0.5);
-        MOR_CHECK(context, isfinite(extent) && extent > 0.0, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' without end along its own %c; allowed are bounded shapes; use a box, "
-                  "sphere, cylinder, or cut the shape off",
-                  it->place.file, it->place.line, it->name, "xyz"[a]);
-        MOR_CHECK(context, n >= ACROSS, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' %g m long along its own %c, which is %g particles at a spacing of %g m; "
-                  "allowed are at least %d particles across; use a smaller spacing or a larger body",
-                  it->place.file, it->place.line, it->name, extent, "xyz"[a], n, c -> spacing, ACROSS);
-        request.origin[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]) - 0.5 * n * c->spacing;
-    }
-    mor_simulation_body_frame(c, it, request.turn, request.move);
-    const mor_status status = mor_lattice_fill(context, &request, points);
-    if (status == MOR_ERROR_ARGUMENT) {
-        return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", it->place.file, it->place.line, it->name,
-                        context->message);
-    }
-    MOR_TRY(context, status);
-    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
-              "%s:%d: found body '%s' without a single particle at a spacing of %g m; allowed are shapes at least %d "
-              "spacings thick; use a smaller spacing or a thicker body",
-              it->place.file, it->place.line, it->name, c->spacing, ACROSS);
-    return MOR_OK;
-}
-
-static mor_status make_request(mor_context *context, const mor_case *c, const mor_case_body *it,
+static mor_status make_request(mor_context *context, const mor_case *c, const mor_case_body *it, mor_point_cache *cache,
                                mor_lattice_points *points, mor_body_request *request)
 {
-    MOR_TRY(context, fill_body(context, c, it, points));
+    MOR_TRY(context, mor_simulation_fill_body(context, c, it, cache, points));
     *request = (mor_body_request){.name = it->name,
                                   .positions = points->positions,
                                   .n_particles = points->n_points,
@@ -145,6 +105,7 @@ typedef struct recipe {
     mor_lattice_points points[MOR_CASE_BODIES_MAX];
     mor_body_request requests[MOR_CASE_BODIES_MAX];
     mor_rigid_motion motions[MOR_CASE_BODIES_MAX];
+    mor_point_cache *cache; /* borrowed; of all groups */
 } recipe;
 
 static void name_group(const mor_simulation_bodies *bodies, const char *model, char *name, size_t room)
@@ -218,6 +179,7 @@ static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies
     const mor_case_body *first = &c->bodies[leader];
     const mor_material *material = NULL;
     mor_status status = MOR_OK;
+    mor_point_cache *const cache = r->cache;
     MOR_CHECK(context, bodies->n_groups < MOR_BODY_GROUPS_MAX, MOR_ERROR_CONFIG,
               "%s:%d: found body '%s' of one more material; allowed are %d materials of bodies, all rigid bodies "
               "counting as one; give some bodies the same material",
@@ -226,13 +188,14 @@ static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies
         MOR_TRY(context, mor_registry_require(context, registry, first->model, &material));
     }
     memset(r, 0, sizeof *r);
+    r->cache = cache;
     for (int b = leader; b < c->n_bodies && status == MOR_OK; ++b) {
         const mor_case_body *it = &c->bodies[b];
         if (b == leader ||
             (mor_case_body_is_rigid(first) ? mor_case_body_is_rigid(it) : has_same_material(first, it))) {
             const int m = r->n_members++;
             r->members[m] = b;
-            status = make_request(context, c, it, &r->points[m], &r->requests[m]);
+            status = make_request(context, c, it, cache, &r->points[m], &r->requests[m]);
         }
     }
     if (status == MOR_OK) {
@@ -263,15 +226,50 @@ static mor_status add_body_field(mor_context *context, mor_body_group *group)
     return MOR_OK;
 }
 
-/* The name of a body by its group and place there. */
-static const mor_case_body *case_body(const mor_simulation_bodies *bodies, const mor_case *c, const mor_body *body)
+/* The number of a body in the case by its group and place there. */
+static int case_number(const mor_simulation_bodies *bodies, const mor_case *c, const mor_body *body)
 {
-    for (int b = 0; b < c->n_bodies; ++b) {
-        if (&bodies->of[b].group->bodies[bodies->of[b].index] == body) {
-            return &c->bodies[b];
+    int b = 0;
+    while (b + 1 < c->n_bodies && &bodies->of[b].group->bodies[bodies->of[b].index] != body) {
+        ++b;
+    }
+    return b;
+}
+
+/* A box around a shape placed in the run, wider by `more`. */
+static void find_box(const mor_shape *shape, const double *turn, const double *move, double more, mor_bounds *box)
+{
+    mor_bounds own;
+    mor_shape_bounds(shape, &own);
+    *box = (mor_bounds){{-more, -more, -more}, {more, more, more}};
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            const double low = turn[3 * a + b] == 0.0 ? 0.0 : turn[3 * a + b] * own.minimum[b];
+            const double high = turn[3 * a + b] == 0.0 ? 0.0 : turn[3 * a + b] * own.maximum[b];
+            box->minimum[a] += fmin(low, high);
+            box->maximum[a] += fmax(low, high);
+        }
+        box->minimum[a] += move[a];
+        box->maximum[a] += move[a];
+    }
+}
+
+bool mor_simulation_body_may_hold(const mor_bounds *box, const double *point)
+{
+    for (int a = 0; a < 3; ++a) {
+        if (point[a] < box->minimum[a] || point[a] > box->maximum[a]) {
+            return false;
         }
     }
-    return &c->bodies[0];
+    return true;
+}
+
+void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body, mor_bounds *box)
+{
+    double turn[9];
+    double move[3];
+    mor_simulation_body_frame(the_case, body, turn, move);
+    find_box(body->shape, turn, move, TOUCHING * the_case->spacing, box);
 }
 
 /* What is moved as prescribed or clamped may stand in a wall. */
@@ -289,9 +287,9 @@ static mor_status check_walls(mor_context *context, const mor_case *c, const mor
 }
 
 static mor_status check_node(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
-                             const mor_simulation_frame *frame, const mor_body *body, const double *node)
+                             const mor_simulation_frame *frame, const mor_bounds *boxes, int number, const double *node)
 {
-    const mor_case_body *it = case_body(bodies, c, body);
+    const mor_case_body *it = &c->bodies[number];
     for (int a = 0; a < c->dimension; ++a) {
         MOR_CHECK(context, node[a] >= frame->domain_minimum[a] && node[a] <= frame->domain_maximum[a], MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; allowed are bodies inside it; "
@@ -299,10 +297,11 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
                   it->place.file, it->place.line, it->name, node[0], node[1], node[2]);
     }
     for (int b = 0; b < c->n_bodies; ++b) {
+        if (b == number || !mor_simulation_body_may_hold(&boxes[b], node)) {
+            continue;
+        }
         const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
-        const double depth =
-            other == body ? 0.0
-                          : -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, node);
+        const double depth = -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, node);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' overlapping body '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
                   "move one of them",
@@ -313,22 +312,36 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
 }
 
 /* Surfaces tell overlaps exactly, particles only to half a spacing; but a wall may stand inside a body. */
-static mor_status check_places(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
-                               const mor_simulation_frame *frame)
+static mor_status check_groups(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_simulation_frame *frame, const mor_bounds *boxes)
 {
     for (int g = 0; g < bodies->n_groups; ++g) {
         const mor_body_group *group = bodies->groups[g];
         for (int b = 0; b < group->n_bodies; ++b) {
             const mor_body *body = &group->bodies[b];
+            const int number = case_number(bodies, c, body);
             for (int64_t s = body->first_node; s < body->first_node + body->n_nodes; ++s) {
-                MOR_TRY(context, check_node(context, bodies, c, frame, body, group->node_reference + 3 * s));
+                MOR_TRY(context, check_node(context, bodies, c, frame, boxes, number, group->node_reference + 3 * s));
             }
             for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
-                MOR_TRY(context, check_walls(context, c, case_body(bodies, c, body), group->reference + 3 * i));
+                MOR_TRY(context, check_walls(context, c, &c->bodies[number], group->reference + 3 * i));
             }
         }
     }
     return MOR_OK;
+}
+
+static mor_status check_places(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_simulation_frame *frame)
+{
+    mor_bounds *boxes = NULL;
+    MOR_TRY(context, MOR_NEW(context, &boxes, c->n_bodies, "boxes around bodies"));
+    for (int b = 0; b < c->n_bodies; ++b) {
+        mor_simulation_body_box(c, &c->bodies[b], &boxes[b]);
+    }
+    const mor_status status = check_groups(context, bodies, c, frame, boxes);
+    MOR_FREE(context, &boxes);
+    return status;
 }
 
 static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
@@ -368,8 +381,13 @@ static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodie
                               const mor_registry *registry)
 {
     recipe *r = NULL;
-    MOR_TRY(context, MOR_NEW(context, &r, 1, "groups of bodies"));
-    mor_status status = MOR_OK;
+    mor_point_cache *cache = NULL;
+    MOR_TRY(context, MOR_NEW(context, &cache, 1, "cache of particles"));
+    mor_status status = MOR_NEW(context, &r, 1, "groups of bodies");
+    mor_point_cache_init(cache, NULL);
+    if (status == MOR_OK) {
+        r->cache = cache;
+    }
     /* Elastic groups first, so that the rigid one is the last. */
     for (int pass = 0; pass < 2; ++pass) {
         for (int b = 0; b < c->n_bodies && status == MOR_OK; ++b) {
@@ -378,6 +396,8 @@ static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodie
             }
         }
     }
+    mor_point_cache_clear(context, cache);
+    MOR_FREE(context, &cache);
     MOR_FREE(context, &r);
     return status;
 }

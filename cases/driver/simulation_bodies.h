@@ -83,6 +83,17 @@ mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodie
  *  @param move     [out]  shape [3], unit m */
 void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *turn, double *move);
 
+/** Writes a box around a body at its place in the run, a little wider.
+ *  @param the_case [in]   one object
+ *  @param body     [in]   one object
+ *  @param box      [out]  one object; unit m */
+void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body, mor_bounds *box);
+
+/** Whether a point lies in a box; if not, it lies not in its body either.
+ *  @param box   [in]  one object, from mor_simulation_body_box
+ *  @param point [in]  shape [3], unit m */
+bool mor_simulation_body_may_hold(const mor_bounds *box, const double *point);
+
 /** Signed distance of a point of the run to a shape given in a frame of its own, X = turn * x + move; unit m.
  *  @param shape [in]  one object
  *  @param turn  [in]  shape [3,3], rotation matrix, unit 1

@@ -195,6 +195,7 @@ static void set_rigid(const mor_case *c, const mor_case_body *it, const mor_simu
     mor_matrix_apply(c->turn, it->velocity, state->velocity);
     mor_matrix_apply(c->turn, it->angular_velocity, spin);
     motion->is_prescribed = it->is_prescribed || is_held;
+    body->group->boundary.patches[body->index].is_driven = it->is_prescribed;
     if (is_resting) {
         memset(state->velocity, 0, sizeof state->velocity);
         memset(spin, 0, sizeof spin);

@@ -52,24 +52,27 @@ static double sum_elastic(const mor_simulation *simulation)
     return sum;
 }
 
-double mor_simulation_energy(const mor_simulation *simulation, double *elastic)
+void mor_simulation_energies(const mor_simulation *simulation, double *energies)
 {
     double datum[3];
-    double kinetic = 0.0;
-    double potential = 0.0;
-    double stored = 0.0;
     mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, datum);
-    mor_simulation_bodies_energy(&simulation->bodies, datum, &kinetic, &potential, &stored);
+    mor_simulation_bodies_energy(&simulation->bodies, datum, &energies[0], &energies[1], &energies[2]);
     if (simulation->has_soil) {
         const mor_measure_points points = points_of(simulation);
-        kinetic += mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]);
-        potential += mor_measure_potential_energy(&points, simulation->soil.settings.gravity, datum);
-        stored += sum_elastic(simulation);
+        energies[0] += mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]);
+        energies[1] += mor_measure_potential_energy(&points, simulation->soil.settings.gravity, datum);
+        energies[2] += sum_elastic(simulation);
     }
+}
+
+double mor_simulation_energy(const mor_simulation *simulation, double *elastic)
+{
+    double energies[3];
+    mor_simulation_energies(simulation, energies);
     if (elastic != NULL) {
-        *elastic = stored;
+        *elastic = energies[2];
     }
-    return kinetic + potential + stored;
+    return energies[0] + energies[1] + energies[2];
 }
 
 /* The strictest settling that a region asks for; false when none does. */
@@ -170,6 +173,8 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         simulation->schedule.step_length = 0.0;
         simulation->schedule.n_particle_steps = 0;
     }
+    mor_soil_restart_energy(soil);
     simulation->initial_energy = mor_simulation_energy(simulation, NULL);
+    mor_simulation_energies(simulation, simulation->initial_energies);
     return MOR_OK;
 }

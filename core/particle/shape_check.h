@@ -5,6 +5,8 @@
 
 #include "core/base/context.h"
 
+#include <stdbool.h>
+
 /** @file
  *  Checks of numbers that describe places and directions, shared by the shape constructors and the lattice. */
 
@@ -35,5 +37,14 @@ mor_status mor_shape_check_direction(mor_context *context, const double *directi
  *  @param turn    [in]      shape [3,3]; unit 1
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_shape_check_turn(mor_context *context, const double *turn);
+
+/** Finds two edges of a closed line that cross or touch, other than neighbors at their common corner.
+ *  @param points   [in]   shape [n_points,2]; unit m; edge i joins points i and i + 1, the last one n_points - 1 and 0
+ *  @param n_points [in]   >= 3
+ *  @param first    [out]  one number; the lower edge; untouched when there are none
+ *  @param second   [out]  one number; the other edge
+ *  Returns: whether there are such edges.
+ *  Cost: O(n_points^2). Threads: safe to call concurrently. */
+bool mor_shape_find_crossing(const double *points, int n_points, int *first, int *second);
 
 #endif

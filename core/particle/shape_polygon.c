@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
+#include "core/particle/shape_check.h"
 
 #include <string.h>
 
@@ -57,7 +58,8 @@ static void polygon_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &polygon);
 }
 
-static const mor_shape_operations polygon_operations = {"polygon", polygon_distance, polygon_bounds, polygon_free, NULL};
+static const mor_shape_operations polygon_operations = {"polygon", polygon_distance, polygon_bounds, polygon_free,
+                                                        NULL};
 
 /* Twice the signed area of a triangle. */
 static double orient(const double *a, const double *b, const double *c)
@@ -67,8 +69,7 @@ static double orient(const double *a, const double *b, const double *c)
 
 static bool is_between(const double *a, const double *b, const double *c)
 {
-    return fmin(a[0], b[0]) <= c[0] && c[0] <= fmax(a[0], b[0]) && fmin(a[1], b[1]) <= c[1] &&
-           c[1] <= fmax(a[1], b[1]);
+    return fmin(a[0], b[0]) <= c[0] && c[0] <= fmax(a[0], b[0]) && fmin(a[1], b[1]) <= c[1] && c[1] <= fmax(a[1], b[1]);
 }
 
 /* Whether edges ab and cd share a point. */
@@ -101,7 +102,14 @@ static mor_status check_points(mor_context *context, const double *points, int n
     return MOR_OK;
 }
 
-static mor_status check_crossings(mor_context *context, const double *points, int n_points)
+/* Whether the boxes around edges ab and cd are apart: quicker to see than that the edges are. */
+static bool are_boxes_apart(const double *a, const double *b, const double *c, const double *d)
+{
+    return fmax(a[0], b[0]) < fmin(c[0], d[0]) || fmax(c[0], d[0]) < fmin(a[0], b[0]) ||
+           fmax(a[1], b[1]) < fmin(c[1], d[1]) || fmax(c[1], d[1]) < fmin(a[1], b[1]);
+}
+
+bool mor_shape_find_crossing(const double *points, int n_points, int *first, int *second)
 {
     for (int i = 0; i < n_points; ++i) {
         /* Edge i joins points i and i + 1. The edges next to it share a corner; where one folds back onto it, the one
@@ -111,13 +119,31 @@ static mor_status check_crossings(mor_context *context, const double *points, in
             const double *b = points + 2 * (i + 1);
             const double *c = points + 2 * j;
             const double *d = points + 2 * ((j + 1) % n_points);
-            MOR_CHECK(context, !edges_meet(a, b, c, d), MOR_ERROR_ARGUMENT,
-                      "the polygon meets itself: the edge from point %d (%g, %g) to point %d (%g, %g) and the edge "
-                      "from point %d (%g, %g) to point %d (%g, %g) cross or touch; give a simple polygon",
-                      i + 1, a[0], a[1], i + 2, b[0], b[1], j + 1, c[0], c[1], (j + 1) % n_points + 1, d[0], d[1]);
+            if (!are_boxes_apart(a, b, c, d) && edges_meet(a, b, c, d)) {
+                *first = i;
+                *second = j;
+                return true;
+            }
         }
     }
-    return MOR_OK;
+    return false;
+}
+
+static mor_status check_crossings(mor_context *context, const double *points, int n_points)
+{
+    int i;
+    int j;
+    if (!mor_shape_find_crossing(points, n_points, &i, &j)) {
+        return MOR_OK;
+    }
+    const double *a = points + 2 * i;
+    const double *b = points + 2 * (i + 1);
+    const double *c = points + 2 * j;
+    const double *d = points + 2 * ((j + 1) % n_points);
+    return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
+                    "the polygon meets itself: the edge from point %d (%g, %g) to point %d (%g, %g) and the edge from "
+                    "point %d (%g, %g) to point %d (%g, %g) cross or touch; give a simple polygon",
+                    i + 1, a[0], a[1], i + 2, b[0], b[1], j + 1, c[0], c[1], (j + 1) % n_points + 1, d[0], d[1]);
 }
 
 static mor_status check_area(mor_context *context, const double *points, int n_points, const mor_bounds *limits)

@@ -32,6 +32,7 @@ enum {
 /** One patch: a rock, or a wall. */
 typedef struct mor_boundary_patch {
     int64_t first, n_points;     /* range of points */
+    bool is_driven;              /* moves as prescribed, whatever pushes it; for the audit of energy alone */
     mor_wall_friction friction;  /* of the pair soil - patch */
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
     double force[3];             /* [written by the soil] of the soil on the patch in the last step, N (N/m) */

@@ -44,6 +44,10 @@ static const mor_stage soil_stages[] = {
      "velocity gradient and density rate by the neighbors"},
     {"wall drag", mor_soil_drag_walls, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "the part of walls and rocks in both"},
+    {"energy of forces", mor_soil_audit_forces,
+     RECORDS | LISTS | WALL_SUMS | BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) |
+         BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS),
+     0, 0, "what forces take beside what stress gets, at an interval, when a probe asks"},
     {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS | WALL_SUMS, 0,
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on"},
     {"strain rate", mor_soil_keep_strain_rate, BIT(VELOCITY_GRADIENT), 0, BIT(STRAIN_RATE),
@@ -54,6 +58,9 @@ static const mor_stage soil_stages[] = {
      "positions and densities to the end of the step"},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0, BIT(STRESS),
      "the material's update"},
+    {"energy of stress", mor_soil_audit_stress,
+     RECORDS | BIT(VELOCITY) | BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS), 0, 0,
+     "what the stress update takes, likewise"},
 };
 
 static const uint64_t evolving_fields =
@@ -218,6 +225,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact_clear(context, mor_soil_contact_at(soil, k));
     }
+    mor_soil_clear_energy(context, soil);
     mor_relation_clear(context, &soil->inner);
     mor_tree_clear(context, &soil->tree);
     MOR_FREE(context, &soil->block_values);
@@ -359,6 +367,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     }
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;
     bytes += soil->spin_stress != NULL ? padded * 3.0 * sizeof(double) : 0.0;
     bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);
     bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 3 * sizeof(int32_t));

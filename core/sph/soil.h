@@ -6,6 +6,7 @@
 #include "core/material/material.h"
 #include "core/particle/set.h"
 #include "core/sph/soil_contact.h"
+#include "core/sph/soil_energy.h"
 #include "core/time/stepper.h"
 
 /** @file
@@ -56,12 +57,13 @@ typedef struct mor_soil {
     int state_fields[MOR_MATERIAL_STATES_MAX]; /* indices of the material's state variables in the set */
     const mor_pair_table *table;
     mor_pair_constants constants;
-    double *records;        /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
-    double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
-    double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
-    double *spin_stress;    /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
-    double *block_values;   /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
-    int32_t *order;         /* shape [n_particles]; scratch of the sort */
+    double *records;         /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+    double *regularization;  /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
+    double *moments;         /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
+    double *spin_stress;     /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
+    double *block_values;    /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
+    int32_t *order;          /* shape [n_particles]; scratch of the sort */
+    mor_soil_energy *energy; /* one object, the audit; NULL: none */
     mor_tree tree;
     mor_relation inner;
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];

@@ -12,14 +12,20 @@
  * HALVINGS: how often a batch may ask for a smaller step before the run stops. */
 enum { CLUSTERS = 32, BATCH = 128, HALVINGS = 8 };
 
+void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
+                        mor_pair_loop loop)
+{
+    const int64_t n = arrays->inner->n_clusters;
+    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
+        const int64_t last = (chunk + 1) * CLUSTERS;
+        loop(constants, arrays, chunk * CLUSTERS, last < n ? last : n);
+    }
+}
+
 static void run_loop(mor_context *context, const mor_soil *soil, mor_pair_loop loop)
 {
     const mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
-    const int64_t n = soil->tree.n_clusters;
-    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
-        const int64_t last = (chunk + 1) * CLUSTERS;
-        loop(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
-    }
+    mor_soil_run_pairs(context, &soil->constants, &arrays, loop);
 }
 
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step *step)

@@ -26,6 +26,8 @@ mor_status mor_soil_keep_strain_rate(mor_context *context, void *owner, const mo
 mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_audit_forces(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_step *step);
 
 /** Part of gravity that acts in a step, 1: that of the ramp at the middle of the step. */
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
@@ -44,5 +46,36 @@ static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
 
 /** Arrays of the soil as the pair loops want them; borrowed until the next resize or permute. */
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil);
+
+/** Runs a pair loop over all clusters.
+ *  @param context   [in,out]  one object
+ *  @param constants [in]      one object
+ *  @param arrays    [in]      one object
+ *  @param loop      [in]      which */
+void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
+                        mor_pair_loop loop);
+
+/** Adds the powers of the particles [first, last) to sums, shape [MOR_SOIL_ENERGY_PARTS], unit W (W/m). */
+typedef void (*mor_soil_energy_block)(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums);
+
+/** Adds the powers of all particles, block by block, to those of the present sample of the audit.
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object; with an audit
+ *  @param block   [in]      finds those of a block
+ *  @param step    [in]      one object */
+void mor_soil_energy_add(mor_context *context, mor_soil *soil, mor_soil_energy_block block, const mor_step *step);
+
+/** Whether there is an audit and a step is one of its samples. */
+bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step);
+
+/** Frees the audit of a soil; accepts a soil without.
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object */
+void mor_soil_clear_energy(mor_context *context, mor_soil *soil);
+
+/** Returns stress : velocity gradient, unit W/m3.
+ *  @param stress   [in]  shape [6], unit Pa
+ *  @param gradient [in]  shape [3,3], unit 1/s */
+double mor_soil_stress_power(const double *stress, const double *gradient);
 
 #endif

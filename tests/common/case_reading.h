@@ -173,6 +173,7 @@ static inline void case_reading_scaled_cases(case_reading *f)
     for (int k = 0; k < plain->n_walls; ++k) {
         case_reading_scaled_group(f, &mor_case_wall_group, &plain->walls[k], &scaled->walls[k]);
     }
+    assert_int_equal(plain->n_bodies, scaled->n_bodies);
     for (int k = 0; k < plain->n_bodies; ++k) {
         case_reading_scaled_body(f, &plain->bodies[k], &scaled->bodies[k]);
     }
@@ -205,6 +206,9 @@ static inline void case_reading_outlines(const mor_case_shape *a, const mor_case
     assert_memory_equal(a->first, b->first, sizeof a->first);
     assert_memory_equal(a->second, b->second, sizeof a->second);
     assert_true(a->radius == b->radius && a->height == b->height && a->angle == b->angle); /* exact: the same bits */
+    assert_memory_equal(&a->form, &b->form, sizeof a->form); /* exact: the same bits, NaN included */
+    assert_memory_equal(&a->ground, &b->ground, sizeof a->ground); /* exact: likewise */
+    assert_true(a->file_hash == b->file_hash);               /* exact: of the same file */
     assert_int_equal(a->n_points, b->n_points);
     for (int k = 0; k < 2 * a->n_points; ++k) {
         assert_true(a->points[k] == b->points[k]); /* exact: the same bits */
@@ -216,6 +220,31 @@ static inline void case_reading_outlines(const mor_case_shape *a, const mor_case
 }
 
 /* Takes away what may differ: pointers, places, and what was written. */
+static inline void case_reading_strip_body(mor_case_body *body)
+{
+    memset(&body->place, 0, sizeof body->place);
+    memset(&body->outline, 0, sizeof body->outline);
+    memset(&body->clamp_outline, 0, sizeof body->clamp_outline);
+    body->shape = body->clamp = NULL;
+    body->written = body->written_material = body->written_parameters = 0;
+    body->written_spring = body->written_motion = 0;
+}
+
+static inline void case_reading_strip_rocks(mor_case_rocks *rocks)
+{
+    case_reading_strip_body(&rocks->body);
+    memset(&rocks->region_outline, 0, sizeof rocks->region_outline);
+    memset(rocks->shapes, 0, sizeof rocks->shapes);
+    rocks->region = NULL;
+    rocks->written = 0;
+    for (int k = 0; k < rocks->n_forms; ++k) {
+        rocks->forms[k].written = 0;
+    }
+    for (int k = 0; k < rocks->n_sizes; ++k) {
+        rocks->sizes[k].written = 0;
+    }
+}
+
 static inline mor_case *case_reading_strip(const mor_case *the_case)
 {
     mor_case *copy = malloc(sizeof *copy);
@@ -237,14 +266,9 @@ static inline mor_case *case_reading_strip(const mor_case *the_case)
         copy->walls[k].shape = NULL;
         copy->walls[k].written = 0;
     }
-    for (int k = 0; k < copy->n_bodies; ++k) {
-        mor_case_body *body = &copy->bodies[k];
-        memset(&body->place, 0, sizeof body->place);
-        memset(&body->outline, 0, sizeof body->outline);
-        memset(&body->clamp_outline, 0, sizeof body->clamp_outline);
-        body->shape = body->clamp = NULL;
-        body->written = body->written_material = body->written_parameters = 0;
-        body->written_spring = body->written_motion = 0;
+    copy->bodies = NULL; /* compared one by one */
+    for (int k = 0; k < copy->n_rocks; ++k) {
+        case_reading_strip_rocks(&copy->rocks[k]);
     }
     copy->contact.written = 0;
     for (int k = 0; k < copy->contact.n_pairs; ++k) {
@@ -282,6 +306,10 @@ static inline void case_reading_round_trip(case_reading *f, const char *text, co
     }
     for (int k = 0; k < f->first.n_bodies; ++k) {
         const mor_case_body *body = &f->first.bodies[k];
+        mor_case_body bodies[2] = {*body, f->second.bodies[k]};
+        case_reading_strip_body(&bodies[0]);
+        case_reading_strip_body(&bodies[1]);
+        assert_memory_equal(&bodies[0], &bodies[1], sizeof bodies[0]); /* exact: the same bits */
         case_reading_outlines(&body->outline, &f->second.bodies[k].outline);
         case_reading_outlines(&body->clamp_outline, &f->second.bodies[k].clamp_outline);
         assert_int_equal(body->clamp == NULL, f->second.bodies[k].clamp == NULL);

@@ -19,10 +19,32 @@ typedef struct outcome {
     double before[3], after[3];                 /* total momentum, kg m/s */
     double turning_before[3], turning_after[3]; /* total angular momentum about the origin, kg m2/s */
     double velocity[2][3], spin[2][3];
+    double rebound; /* along the mean line of centers while they touch, over the approach, 1 */
     double energy_before, energy_after;
     double mass, inertia;
     double highest_energy;
 } outcome;
+
+/* Speed of parting along the mean of the lines of centers before and after, over that of approach: balls that slide
+ * past one another turn their line while they touch. */
+static double find_rebound(contact_scene *scene, const double *first_line)
+{
+    double centers[2][3], velocity[2][3], line[3], parting[3];
+    for (int k = 0; k < 2; ++k) {
+        contact_scene_center(scene, k, centers[k]);
+        contact_scene_velocity(scene, k, velocity[k]);
+    }
+    for (int a = 0; a < 3; ++a) {
+        line[a] = centers[1][a] - centers[0][a];
+        parting[a] = velocity[1][a] - velocity[0][a];
+    }
+    const double length = mor_vector_length(line);
+    const double first_length = mor_vector_length(first_line);
+    for (int a = 0; a < 3; ++a) {
+        line[a] = line[a] / length + first_line[a] / first_length;
+    }
+    return mor_vector_dot(parting, line) / (2.0 * SPEED * line[0]);
+}
 
 static outcome meet(const meeting *it)
 {
@@ -65,6 +87,7 @@ static outcome meet(const meeting *it)
         contact_scene_velocity(&scene, k, o.velocity[k]);
         memcpy(o.spin[k], contact_scene_of(&scene, k)->angular_velocity, sizeof o.spin[k]);
     }
+    o.rebound = find_rebound(&scene, (const double[3]){run, rise, 0.0});
     o.mass = contact_scene_of(&scene, 0)->mass;
     o.inertia = contact_scene_of(&scene, 0)->geometry.inertia[MOR_ZZ] * request.density;
     contact_scene_close(&scene);
@@ -98,20 +121,49 @@ static void rigid_balls_give_back_half_the_speed(void **state)
     contact_scene_expect("speed after", o.velocity[1][0], 0.5 * SPEED, 0.03 * SPEED); /* as above */
 }
 
-static void elastic_discs_give_back_most_of_the_speed(void **state)
+/* Waves that stay in the bodies are lost for the rebound: 1.5 and 2.1 % of the speed of discs, 0.4 and 0.3 % of that
+ * of balls. */
+static void elastic_bodies_give_back_what_restitution_says(void **state)
 {
     (void)state;
-    const outcome o = meet(&(meeting){MOR_BODY_ELASTIC, 2, 1.0, 0.0, 0.0, 1.0e7});
-    expect_momenta_kept(&o);
-    contact_scene_expect("speed after", o.velocity[1][0], SPEED, 0.03 * SPEED);
+    for (int option = 0; option < 4; ++option) {
+        const double restitution = option / 2 == 0 ? 1.0 : 0.5;
+        const outcome o = meet(&(meeting){MOR_BODY_ELASTIC, 2 + option % 2, restitution, 0.0, 0.0, 1.0e7});
+        expect_momenta_kept(&o);
+        contact_scene_expect("speed after", o.velocity[1][0], restitution * SPEED,
+                             0.03 * restitution * SPEED); /* required; what waves take */
+    }
 }
 
-static void elastic_balls_give_back_half_the_speed(void **state)
+static void oblique_balls_part_along_their_line_as_restitution_says(void **state)
 {
     (void)state;
-    const outcome o = meet(&(meeting){MOR_BODY_ELASTIC, 3, 0.5, 0.0, 0.0, 1.0e7});
-    expect_momenta_kept(&o);
-    contact_scene_expect("speed after", o.velocity[1][0], 0.5 * SPEED, 0.03 * SPEED);
+    static const mor_body_kind kinds[2] = {MOR_BODY_RIGID, MOR_BODY_ELASTIC};
+    for (int option = 0; option < 8; ++option) {
+        const double restitution = option / 2 % 2 == 0 ? 1.0 : 0.5;
+        const double friction = option / 4 == 0 ? 0.05 : 0.5; /* slides throughout, sticks part of the time */
+        const outcome o = meet(&(meeting){kinds[option % 2], 3, restitution, friction, 1.0, 1.0e7});
+        expect_momenta_kept(&o);
+        contact_scene_expect("rebound", o.rebound, restitution,
+                             0.03 * restitution); /* required; 0.63 % at most was measured */
+        assert_true(o.energy_after < o.energy_before);
+    }
+}
+
+/* Without friction and damping contact gives back all that it took. Rigid: up to the error of the step, which falls
+ * with its square. Elastic: up to what the fit to few particles leaves open, whatever the step, see
+ * docs/theory/contact.md; waves in the bodies count as energy here. */
+static void frictionless_undamped_contact_gives_back_the_energy(void **state)
+{
+    (void)state;
+    static const mor_body_kind kinds[2] = {MOR_BODY_RIGID, MOR_BODY_ELASTIC};
+    for (int option = 0; option < 4; ++option) {
+        const outcome o = meet(&(meeting){kinds[option % 2], 2 + option / 2, 1.0, 0.0, 1.0, 1.0e8});
+        expect_momenta_kept(&o);
+        contact_scene_expect("energy after / before", o.energy_after / o.energy_before, 1.0,
+                             kinds[option % 2] == MOR_BODY_RIGID ? 5.0e-4   /* step; 2.2e-4 (discs) measured */
+                                                                 : 5.0e-3); /* the fit; 2.6e-3 (discs) measured */
+    }
 }
 
 /* Total impulse on the second ball over its mass, and what turns it. */
@@ -163,8 +215,9 @@ int main(void)
         cmocka_unit_test(rigid_balls_give_back_half_the_speed),
         cmocka_unit_test(sliding_balls_follow_coulomb),
         cmocka_unit_test(sticking_balls_stay_under_the_cone),
-        cmocka_unit_test(elastic_discs_give_back_most_of_the_speed),
-        cmocka_unit_test(elastic_balls_give_back_half_the_speed),
+        cmocka_unit_test(elastic_bodies_give_back_what_restitution_says),
+        cmocka_unit_test(oblique_balls_part_along_their_line_as_restitution_says),
+        cmocka_unit_test(frictionless_undamped_contact_gives_back_the_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ static double weigh(const rock *it)
 }
 
 /* A bed between smooth walls, and a plate over bed and walls. */
-static rock_scene *open_bed(mor_wall_friction friction, double coefficient)
+static rock_scene *open_bed(mor_wall_stress stress, mor_wall_friction friction, double coefficient)
 {
     rock_scene *it = calloc(1, sizeof *it);
     assert_non_null(it);
@@ -25,7 +25,7 @@ static rock_scene *open_bed(mor_wall_friction friction, double coefficient)
     it->settings.damping = 0.0;
     it->settings.stress_diffusion = 0.1;
     it->parameters[MOR_DRUCKER_PRAGER_COHESION] = 0.0;
-    it->stress = MOR_WALL_STRESS_ALONG;
+    it->stress = stress;
     rock_scene_add_soil(it, (const double[3]){0.0, 0.0, 0.0}, (const int[3]){LENGTH, DEPTH, 1});
     it->pile.n_rocks = 1;
     it->pile.rocks[0] = (rock){.center = {0.5 * LENGTH * SPACING, (DEPTH + 2) * SPACING, 0.0},
@@ -47,10 +47,10 @@ static rock_scene *open_bed(mor_wall_friction friction, double coefficient)
     /* The bed carries the plate from the start. */
     const double load = weigh(&it->pile.rocks[0]) / (LENGTH * SPACING);
     for (int64_t i = 0; i < it->n_points; ++i) {
-        double *stress = it->soil.set.data[MOR_FIELD_STRESS] + 6 * i;
+        double *own = it->soil.set.data[MOR_FIELD_STRESS] + 6 * i;
         const double height = it->soil.set.data[MOR_FIELD_POSITION][3 * i + 1];
-        stress[MOR_YY] = -load - it->settings.reference_density * GRAVITY * (DEPTH * SPACING - height);
-        stress[MOR_XX] = stress[MOR_ZZ] = 0.5 * stress[MOR_YY];
+        own[MOR_YY] = -load - it->settings.reference_density * GRAVITY * (DEPTH * SPACING - height);
+        own[MOR_XX] = own[MOR_ZZ] = 0.5 * own[MOR_YY];
     }
     rock_scene_start(it, 0.5);
     return it;
@@ -72,27 +72,32 @@ static double drag_over_load(rock_scene *it)
     }
     /* The bed carries the plate: what is left of 1 is the plate's bobbing at the start. */
     assert_true(fabs(sum[1] / (weigh(plate) * (time - first)) - 1.0) < 0.02);
-    assert_true(fabs(plate->center[1] - (DEPTH + 2) * SPACING) < 0.05 * SPACING); /* nor does it sink; 0.8 % measured */
+    assert_true(fabs(plate->center[1] - (DEPTH + 2) * SPACING) < 0.05 * SPACING); /* nor does it sink; 1.0 % measured */
     return -sum[0] / sum[1];
 }
 
-static double run_bed(mor_wall_friction friction, double coefficient)
+static double run_bed(mor_wall_stress stress, mor_wall_friction friction, double coefficient)
 {
-    rock_scene *it = open_bed(friction, coefficient);
+    rock_scene *it = open_bed(stress, friction, coefficient);
     const double ratio = drag_over_load(it);
     rock_scene_close(it);
     free(it);
     return ratio;
 }
 
+/* What the soil may see in the plate: the default of cases, and one without the part across the face. */
+static const mor_wall_stress stresses[2] = {MOR_WALL_STRESS_LINEAR, MOR_WALL_STRESS_ALONG};
+
 static void drag_over_load_is_the_friction_of_the_pair(void **state)
 {
     (void)state;
     static const double coefficients[2] = {0.1, 0.2};
-    for (int k = 0; k < 2; ++k) {
-        const double ratio = run_bed(MOR_WALL_COULOMB, coefficients[k]);
-        /* Within a twentieth; 1.0 and 1.5 % less were measured, from particles that do not slide all the time. */
-        assert_true(fabs(ratio - coefficients[k]) <= 0.05 * coefficients[k]);
+    for (int k = 0; k < 4; ++k) {
+        const double coefficient = coefficients[k % 2];
+        const double ratio = run_bed(stresses[k / 2], MOR_WALL_COULOMB, coefficient);
+        /* Within a twentieth; 2.2 and 1.5 % less were measured with linear stress, 1.0 and 1.5 % with stress along,
+         * from particles that do not slide all the time. */
+        assert_true(fabs(ratio - coefficient) <= 0.05 * coefficient);
     }
 }
 
@@ -100,16 +105,25 @@ static void smooth_plate_is_not_held(void **state)
 {
     (void)state;
     /* 3e-6 was measured: the ripple of the lattice under a plate that bobs. */
-    assert_true(fabs(run_bed(MOR_WALL_SMOOTH, 0.0)) < 1e-4);
-    assert_true(fabs(run_bed(MOR_WALL_COULOMB, 0.0)) < 1e-4); /* as above */
+    assert_true(fabs(run_bed(MOR_WALL_STRESS_ALONG, MOR_WALL_SMOOTH, 0.0)) < 1e-4);
+    for (int k = 0; k < 2; ++k) {
+        assert_true(fabs(run_bed(stresses[k], MOR_WALL_COULOMB, 0.0)) < 1e-4); /* as above */
+    }
+    /* Shear that is continued across the face and mirrored with the other sign cancels only where it varies evenly
+     * along the face; -1.6e-4 was measured, and it grows with the way: see docs/theory/coupling.md. */
+    assert_true(fabs(run_bed(MOR_WALL_STRESS_LINEAR, MOR_WALL_SMOOTH, 0.0)) < 5e-4);
 }
 
 static void rough_plate_is_held_by_the_strength_of_the_sand(void **state)
 {
     (void)state;
     const double slope = mor_drucker_prager_cone_fit(MOR_DRUCKER_PRAGER_PLANE_STRAIN, 0.5, 0.0).slope;
-    /* In steady shear sqrt(J2) = 3 slope p with the normal traction for p; 1 % less was measured. */
-    assert_true(fabs(run_bed(MOR_WALL_ROUGH, 0.0) / (3.0 * slope) - 1.0) <= 0.05);
+    for (int k = 0; k < 2; ++k) {
+        const double ratio = run_bed(stresses[k], MOR_WALL_ROUGH, 0.0);
+        /* In steady shear sqrt(J2) = 3 slope p with the normal traction for p; 2 % more (linear) and 1 % less (along)
+         * were measured. */
+        assert_true(fabs(ratio / (3.0 * slope) - 1.0) <= 0.05);
+    }
 }
 
 int main(void)

@@ -47,6 +47,30 @@ static void check_threads(const char *text)
     }
 }
 
+/* Every so many variants are tried, from a first one on, so that both texts together try all. */
+enum { SKIN_STRIDE = 2 };
+
+/* A search with more margin finds more pairs that do nothing, and is done more rarely. */
+static void check_skin(const char *text, int first)
+{
+    static const char *const skins[3] = {"numerics.skin_ratio=0", "numerics.skin_ratio=0.1", "numerics.skin_ratio=1.5"};
+    for (int k = first; k < BODY_VARIANTS; k += SKIN_STRIDE) {
+        const state usual = find_state(text, body_variants[k].settings, 1);
+        for (int skin = 0; skin < 3; ++skin) {
+            const char *list[SCENE_VARIANT_SETTINGS + 2] = {NULL};
+            int n = 0;
+            for (; body_variants[k].settings[n] != NULL; ++n) {
+                list[n] = body_variants[k].settings[n];
+            }
+            list[n] = skins[skin];
+            const state found = find_state(text, list, 1);
+            if (memcmp(&found, &usual, sizeof found) != 0) {
+                fail_msg("'%s': %s gives another result", body_variants[k].name, skins[skin]);
+            }
+        }
+    }
+}
+
 static void rocks_in_plane_strain_do_not_depend_on_the_number_of_threads(void **unused)
 {
     (void)unused;
@@ -59,6 +83,13 @@ static void rocks_in_space_do_not_depend_on_the_number_of_threads(void **unused)
     check_threads(body_space);
 }
 
+static void rocks_do_not_depend_on_the_margin_of_the_neighbor_search(void **unused)
+{
+    (void)unused;
+    check_skin(body_plane, 0);
+    check_skin(body_space, 1);
+}
+
 int main(int argc, char **argv)
 {
     (void)argc;
@@ -69,6 +100,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rocks_in_plane_strain_do_not_depend_on_the_number_of_threads),
         cmocka_unit_test(rocks_in_space_do_not_depend_on_the_number_of_threads),
+        cmocka_unit_test(rocks_do_not_depend_on_the_margin_of_the_neighbor_search),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

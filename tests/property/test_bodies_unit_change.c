@@ -23,7 +23,8 @@ static const char *const plane_probes[] = {
     "{type='contact_energy';}, {type='contact_friction_energy';}, {type='contact_damping_energy';},"
     "{type='contact_depth';}, {type='wall_contact_force'; wall='floor'; direction=(0, 1, 0);},"
     "{type='wall_impulse'; wall='floor'; direction=(0, 1, 0);}, {type='angular_momentum'; direction=(0, 0, 1);},"
-    "{type='rate_ratio';}, {type='total_energy';}, {type='momentum'; direction=(1, 0, 0);})",
+    "{type='rate_ratio';}, {type='total_energy';}, {type='momentum'; direction=(1, 0, 0);},"
+    "{type='soil_work_on_bodies';}, {type='external_work';}, {type='energy_balance';})",
     NULL};
 static const char *const space_probes[] = {"probes=({type='body_position'; body='ball'; direction=(0, 1, 0);}, "
                                            "{type='body_velocity'; body='block'; direction=(1, 0, 0);},"

@@ -16,7 +16,10 @@ static const char *const probes[] = {
     "{type='dissipated_energy';}, {type='mass';}, {type='momentum'; direction=(1, 2, 0);},"
     "{type='center_of_mass'; direction=(0, 1, 0);}, {type='wall_force'; wall='floor'; direction=(0, 1, 0);},"
     "{type='largest_speed';}, {type='density_drift';}, {type='stress_error';}, {type='stress_ratio';},"
-    "{type='stress_noise';})",
+    "{type='stress_noise';}, {type='plastic_energy';}, {type='boundary_dissipation';}, "
+    "{type='friction_strain_energy';},"
+    "{type='numerical_dissipation';}, {type='riemann_energy';}, {type='artificial_stress_energy';},"
+    "{type='stress_diffusion_energy';}, {type='external_work';}, {type='energy_balance';})",
     NULL};
 
 static void compare_fields(scene *plain, scene *scaled, const mor_units *units, const unit_change *by, const char *name)

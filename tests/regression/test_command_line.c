@@ -4,6 +4,8 @@
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
 
+#include <sys/stat.h>
+
 /* The program as its users meet it: exit codes, messages, what it prints and what it leaves behind. */
 
 enum { ARGUMENTS = 10 };
@@ -167,6 +169,25 @@ static void run_does_not_overwrite_a_run(void **state)
     assert_string_equal(before, after);
 }
 
+/* A case that reads well and cannot be built. What was in a folder before stays. */
+static void refused_run_leaves_no_folder_behind(void **state)
+{
+    static const char overlap[] = "soil[0].shape.min=(\"-5 mm\", \"0 m\")";
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const fresh[] = {"run", COLUMN, "-t", "1", "-o", "deep/refused", "--set", overlap, NULL};
+    const char *const kept[] = {"run", COLUMN, "-t", "1", "-o", "mine", "--set", overlap, NULL};
+    program_outcome outcome = program_run(folder, fresh, 2);
+    program_expect_text(outcome.errors, "overlapping wall 'back'");
+    program_clear(&outcome);
+    assert_int_not_equal(access(run_folder_file(folder, path, "deep/refused"), F_OK), 0);
+    assert_int_equal(mkdir(run_folder_file(folder, path, "mine"), 0700), 0);
+    run_folder_store(run_folder_file(folder, path, "mine/notes.txt"), "notes", 5);
+    outcome = program_run(folder, kept, 2);
+    program_clear(&outcome);
+    assert_int_equal(access(path, R_OK), 0);
+}
+
 static void missed_expectation_ends_with_code_3(void **state)
 {
     run_folder *folder = *state;
@@ -290,6 +311,7 @@ int main(void)
         TEST(run_prints_its_results_and_leaves_a_whole_folder_behind),
         TEST(resolved_case_gives_the_same_results),
         TEST(run_does_not_overwrite_a_run),
+        TEST(refused_run_leaves_no_folder_behind),
         TEST(missed_expectation_ends_with_code_3),
         TEST(run_stopped_by_a_guard_ends_with_code_1),
         TEST(interrupted_run_leaves_a_checkpoint_and_goes_on),

@@ -17,7 +17,8 @@ static const char *const outputs[] = {
     "{type='body_impulse_soil_received'; body='BODY'; direction=(1, 0, 0);}, {type='penetration_depth_largest'; "
     "body='BODY';},"
     "{type='contact_friction_energy';}, {type='contact_damping_energy';}, {type='total_energy';}, "
-    "{type='rate_ratio';})"};
+    "{type='rate_ratio';}, {type='plastic_energy';}, {type='numerical_dissipation';}, {type='boundary_dissipation';},"
+    "{type='soil_work_on_bodies';}, {type='external_work';}, {type='energy_balance';})"};
 
 enum { N_OUTPUTS = sizeof outputs / sizeof *outputs };
 
@@ -67,8 +68,44 @@ static void run_case(run_folder *folder, const char *text, const char *name, con
     fclose(output);
 }
 
+/* Stops twice and goes on with another number of threads each time; stops before the first step and resumes what has
+ * ended already. Must leave
+ * behind what a whole run did, zero-terminated name. */
+static void check_many_stops(run_folder *folder, const char *text, const char *whole, int k)
+{
+    char name[64];
+    snprintf(name, sizeof name, "threads_%d", k);
+    run_case(folder, text, name, &body_variants[k], 0.011, false);
+    folder->context.n_threads = 2;
+    run_case(folder, text, name, &body_variants[k], 0.0432, true);
+    folder->context.n_threads = 1;
+    run_case(folder, text, name, &body_variants[k], NAN, true);
+    finished_run_compare(folder, whole, name);
+    snprintf(name, sizeof name, "ends_%d", k);
+    run_case(folder, text, name, &body_variants[k], 0.0, false);
+    for (int again = 0; again < 2; ++again) {
+        run_case(folder, text, name, &body_variants[k], NAN, true);
+        finished_run_compare(folder, whole, name);
+    }
+}
+
+/* Variants that keep more between steps than others do, and are stopped in every way; in space, for its cost, the
+ * first and the last. */
+static const char *const often[] = {"as it comes", "single rate", "barrier", "angular momentum", "settled stress"};
+
+static bool is_stopped_often(const scene_variant *it, const char *text)
+{
+    const int n = sizeof often / sizeof *often;
+    bool is_listed = false;
+    for (int k = 0; k < n; k += text == body_plane ? 1 : n - 1) {
+        is_listed = is_listed || strcmp(it->name, often[k]) == 0;
+    }
+    return is_listed;
+}
+
 static void check_all(run_folder *folder, const char *text)
 {
+    int n_often = 0;
     for (int k = 0; k < BODY_VARIANTS; ++k) {
         char whole[64];
         char stopped[64];
@@ -78,7 +115,12 @@ static void check_all(run_folder *folder, const char *text)
         run_case(folder, text, stopped, &body_variants[k], 0.021, false);
         run_case(folder, text, stopped, &body_variants[k], NAN, true);
         finished_run_compare(folder, whole, stopped);
+        if (is_stopped_often(&body_variants[k], text)) {
+            check_many_stops(folder, text, whole, k);
+            ++n_often;
+        }
     }
+    assert_int_equal(n_often, text == body_plane ? 5 : 2); /* all names were found */
 }
 
 static void rocks_in_plane_strain_resume_as_if_never_stopped(void **state)

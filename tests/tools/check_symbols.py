@@ -20,7 +20,8 @@ ALLOWED_VARIABLES = {}
 
 # What the library must not call -> (why, patterns of library:object where it may).
 FORBIDDEN_CALLS = {
-    r"exit|_exit|quick_exit|abort": ("ends the process; return a mor_status", ()),
+    r"exit|quick_exit|abort": ("ends the process; return a mor_status", ()),
+    r"_exit": ("ends the process; return a mor_status", ("libmor_relaxation.a:isolate.*",)),  # ends a child
     r"(__)?(printf|vprintf)(_chk)?|puts|putchar|stdout|perror": (
         "prints; report through mor_context_log or a FILE * given by the caller", ()),
     r"stderr": ("prints; report through mor_context_log", ()),

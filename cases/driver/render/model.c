@@ -55,6 +55,9 @@ static mor_status check_group(mor_context *context, const mor_picture_group *gro
         MOR_CHECK(context, isfinite(radius) && radius > 0.0, MOR_ERROR_ARGUMENT,
                   "group '%s': particle %lld has radius %g m; it must be positive, such as half the particle spacing",
                   name_group(group), (long long)i, radius);
+        MOR_CHECK(context, group->light == NULL || (group->light[i] >= 0.0 && isfinite(group->light[i])),
+                  MOR_ERROR_ARGUMENT, "group '%s': particle %lld has light %g; it must be finite and not negative",
+                  name_group(group), (long long)i, group->light == NULL ? 1.0 : group->light[i]);
         MOR_CHECK(context, group->value == NULL || fabs(group->value[i]) < MOR_TICKS_LARGEST, MOR_ERROR_ARGUMENT,
                   "group '%s': particle %lld has value %g; only finite values below %g have a color", name_group(group),
                   (long long)i, group->value == NULL ? 0.0 : group->value[i], MOR_TICKS_LARGEST);

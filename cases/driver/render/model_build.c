@@ -143,7 +143,7 @@ static void add_group(const mor_picture *picture, const mor_picture_group *group
         }
         const double point[3] = {x[0], x[1], picture->dimension == 3 ? x[2] : 0.0};
         const double radius = model->camera.scale * mor_model_radius(picture, group, i);
-        const double shade = shade_part(group, i);
+        const double shade = shade_part(group, i) * (group->light != NULL ? group->light[i] : 1.0);
         double color[3] = {shade * base[0], shade * base[1], shade * base[2]};
         double view[3];
         mor_camera_to_view(&model->camera, point, view);

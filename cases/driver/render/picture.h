@@ -42,9 +42,10 @@ typedef struct mor_picture_group {
     double radius;          /* m; of every particle when radii is NULL: half the particle spacing */
     const double *radii;    /* shape [n_particles], m; NULL: radius holds for all */
     const double *value;    /* shape [n_particles], in the unit of the picture's value_unit; NULL: one color */
-    double color[3];    /* shape [3]; screen values, 1, in [0, 1]; read when value is NULL; all zero: a stone gray */
-    const double *part; /* shape [n_particles], whole numbers from 0 to MOR_PICTURE_PART_MAX; which part of the group a
+    double color[3];     /* shape [3]; screen values, 1, in [0, 1]; read when value is NULL; all zero: a stone gray */
+    const double *part;  /* shape [n_particles], whole numbers from 0 to MOR_PICTURE_PART_MAX; which part of the group a
                            particle belongs to: parts of one color differ slightly in shade. NULL: all of one part */
+    const double *light; /* shape [n_particles], 1, >= 0; multiplies the color of each particle; NULL: 1 for all */
     bool is_piece; /* one piece of material per part, not grains: drawn with a closed surface, and in the plane with
                            a dark line around each part, over groups that are not */
     mor_picture_style style;

@@ -1,0 +1,207 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/terrain_internal.h"
+
+#include "core/base/memory.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+/* Holes are solved until no height changes by more than this share of the relief, or for so many sweeps. */
+#define HOLE_CHANGE 1e-7
+enum { HOLE_SWEEPS_MAX = 20000 };
+
+/* Over-relaxation of the sweeps; any value in (1, 2) converges. */
+#define HOLE_RELAXATION 1.8
+
+/* A share of a cell by which the raster may end short of the last node of a new grid. */
+#define ON_NODE 1e-9
+
+/* Mean over the up to four neighbors that have a height; NaN when none has. */
+static double average_neighbors(const mor_terrain *terrain, int column, int row)
+{
+    static const int step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    double sum = 0.0;
+    int n = 0;
+    for (int k = 0; k < 4; ++k) {
+        const int x = column + step[k][0];
+        const int y = row + step[k][1];
+        if (x < 0 || y < 0 || x >= terrain->n_x || y >= terrain->n_y) {
+            continue;
+        }
+        const double height = terrain->heights[(int64_t)y * terrain->n_x + x];
+        if (!isnan(height)) {
+            sum += height;
+            ++n;
+        }
+    }
+    return n > 0 ? sum / n : NAN;
+}
+
+/* A first guess: rings of the mean of their known neighbors, from the rim inwards. Each ring is found before any of it
+ * is written. */
+static void guess_holes(mor_terrain *terrain, const int64_t *holes, int64_t n_holes, double *next)
+{
+    for (int64_t n_left = n_holes; n_left > 0;) {
+        for (int64_t k = 0; k < n_holes; ++k) {
+            const double height = terrain->heights[holes[k]];
+            next[k] = !isnan(height)
+                          ? height
+                          : average_neighbors(terrain, (int)(holes[k] % terrain->n_x), (int)(holes[k] / terrain->n_x));
+        }
+        n_left = 0;
+        for (int64_t k = 0; k < n_holes; ++k) {
+            terrain->heights[holes[k]] = next[k];
+            n_left += isnan(next[k]);
+        }
+    }
+}
+
+static void solve_holes(mor_terrain *terrain, const int64_t *holes, int64_t n_holes, double relief)
+{
+    for (int sweep = 0; sweep < HOLE_SWEEPS_MAX; ++sweep) {
+        double largest = 0.0;
+        for (int64_t k = 0; k < n_holes; ++k) {
+            const int column = (int)(holes[k] % terrain->n_x);
+            const int row = (int)(holes[k] / terrain->n_x);
+            double *height = &terrain->heights[holes[k]];
+            const double change = HOLE_RELAXATION * (average_neighbors(terrain, column, row) - *height);
+            *height += change;
+            largest = fmax(largest, fabs(change));
+        }
+        if (!(largest > HOLE_CHANGE * relief)) {
+            return;
+        }
+    }
+}
+
+mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain)
+{
+    const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
+    int64_t n_holes = 0;
+    double lowest = INFINITY;
+    double highest = -INFINITY;
+    for (int64_t n = 0; n < n_nodes; ++n) {
+        n_holes += isnan(terrain->heights[n]);
+        lowest = fmin(lowest, terrain->heights[n]);
+        highest = fmax(highest, terrain->heights[n]);
+    }
+    if (n_holes == 0) {
+        return MOR_OK;
+    }
+    int64_t *holes = NULL;
+    double *next = NULL;
+    mor_status status = MOR_NEW(context, &holes, n_holes, "holes of a raster");
+    if (status == MOR_OK) {
+        status = MOR_NEW(context, &next, n_holes, "heights of holes");
+    }
+    if (status == MOR_OK) {
+        int64_t at = 0;
+        for (int64_t n = 0; n < n_nodes; ++n) {
+            if (isnan(terrain->heights[n])) {
+                holes[at++] = n;
+            }
+        }
+        guess_holes(terrain, holes, n_holes, next);
+        solve_holes(terrain, holes, n_holes, highest - lowest);
+        mor_context_log(context, MOR_LOG_INFO, "terrain: %lld of %lld nodes without data filled from their rims",
+                        (long long)n_holes, (long long)n_nodes);
+    }
+    MOR_FREE(context, &next);
+    MOR_FREE(context, &holes);
+    return status;
+}
+
+/* Height between nodes, linear along both axes. */
+static double interpolate(const mor_terrain *terrain, double column, double row)
+{
+    const int x = (int)fmin(column, terrain->n_x - 2.0);
+    const int y = (int)fmin(row, terrain->n_y - 2.0);
+    const double s = fmin(column - x, 1.0);
+    const double t = fmin(row - y, 1.0);
+    const double *at = terrain->heights + (int64_t)y * terrain->n_x + x;
+    const double lower = (1.0 - s) * at[0] + s * at[1];
+    const double upper = (1.0 - s) * at[terrain->n_x] + s * at[terrain->n_x + 1];
+    return (1.0 - t) * lower + t * upper;
+}
+
+mor_status mor_terrain_resample(mor_context *context, mor_terrain *terrain, double cell)
+{
+    double n[2];
+    for (int a = 0; a < 2; ++a) {
+        const double extent = ((a == 0 ? terrain->n_x : terrain->n_y) - 1) * terrain->cell[a];
+        n[a] = floor(extent / cell + ON_NODE) + 1.0;
+        MOR_CHECK(context, n[a] >= 2.0, MOR_ERROR_ARGUMENT,
+                  "the raster is %g m long along %c, less than one cell of %g m: use smaller cells", extent, "xy"[a],
+                  cell);
+    }
+    MOR_CHECK(context, n[0] * n[1] <= MOR_TERRAIN_NODES_MAX, MOR_ERROR_ARGUMENT,
+              "cells of %g m give %g x %g nodes; allowed are %g in all: use larger cells or crop the raster", cell,
+              n[0], n[1], MOR_TERRAIN_NODES_MAX);
+    double *heights = NULL;
+    MOR_TRY(context, MOR_NEW(context, &heights, (int64_t)n[0] * (int64_t)n[1], "terrain heights"));
+    const double ratio[2] = {cell / terrain->cell[0], cell / terrain->cell[1]};
+    for (int row = 0; row < (int)n[1]; ++row) {
+        for (int column = 0; column < (int)n[0]; ++column) {
+            heights[(int64_t)row * (int)n[0] + column] = interpolate(terrain, column * ratio[0], row * ratio[1]);
+        }
+    }
+    MOR_FREE(context, &terrain->heights);
+    terrain->heights = heights;
+    terrain->n_x = (int)n[0];
+    terrain->n_y = (int)n[1];
+    terrain->cell[0] = cell;
+    terrain->cell[1] = cell;
+    return MOR_OK;
+}
+
+/* Reads the next word, cut at `size` bytes. */
+static bool read_word(FILE *file, char *word, size_t size)
+{
+    int c = fgetc(file);
+    while (c != EOF && isspace(c)) {
+        c = fgetc(file);
+    }
+    size_t n = 0;
+    while (c != EOF && !isspace(c)) {
+        if (n + 1 < size) {
+            word[n++] = (char)c;
+        }
+        c = fgetc(file);
+    }
+    word[n] = '\0';
+    return n > 0;
+}
+
+/* Keys of ESRI headers are bare words, those of GRASS end in a colon. */
+static bool is_key(const char *word)
+{
+    const bool is_number = strncasecmp(word, "nan", 3) == 0 || strncasecmp(word, "inf", 3) == 0;
+    return isalpha((unsigned char)word[0]) && (!is_number || strchr(word, ':') != NULL);
+}
+
+long long mor_terrain_count_numbers(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) {
+        return -1;
+    }
+    char word[64];
+    long long n = 0;
+    bool is_header = true;
+    while (read_word(file, word, sizeof word)) {
+        /* Header lines are a key and its value; the first word that is no key begins the numbers. */
+        is_header = is_header && is_key(word);
+        if (is_header) {
+            (void)read_word(file, word, sizeof word);
+        } else {
+            ++n;
+        }
+    }
+    const bool is_read = !ferror(file);
+    (void)fclose(file);
+    return is_read ? n : -1;
+}

@@ -1,0 +1,91 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_BODIES_TERRAIN_INTERNAL_H
+#define MOR_BODIES_TERRAIN_INTERNAL_H
+
+#include "bodies/terrain.h"
+
+/** @file
+ *  What the files of the terrain share. Not for other folders. */
+
+/** The surface of a terrain with what distances to it need. */
+typedef struct mor_terrain_surface {
+    mor_terrain terrain;    /* owned copy */
+    double reach;           /* distances up to this are exact, m */
+    double stretch;         /* vertical gap / least possible distance: sqrt(1 + steepest slope squared), 1 */
+    double lowest, highest; /* heights, m */
+} mor_terrain_surface;
+
+/** Checks that a terrain has nodes, cells and finite heights.
+ *  @param context [in,out]  one object
+ *  @param terrain [in]      one object
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_terrain_check(mor_context *context, const mor_terrain *terrain);
+
+/** Highest coordinate of the nodes along an axis, unit m.
+ *  @param terrain [in]  one object
+ *  @param axis    [in]  0 or 1 */
+double mor_terrain_end(const mor_terrain *terrain, int axis);
+
+/** Writes the two triangles of a square of nodes.
+ *  @param terrain   [in]   one object
+ *  @param column    [in]   of the lower left node
+ *  @param row       [in]   of the lower left node
+ *  @param triangles [out]  shape [2, 3, 3]; unit m; corners, counterclockwise seen from above */
+void mor_terrain_triangles(const mor_terrain *terrain, int column, int row, double triangles[2][3][3]);
+
+/** Distance of a point from the triangles of the surface, unit m: exact up to `reach`, some larger number beyond.
+ *  @param terrain [in]  one object
+ *  @param point   [in]  shape [3]; unit m
+ *  @param reach   [in]  unit m
+ *  Threads: safe to call concurrently. */
+double mor_terrain_distance(const mor_terrain *terrain, const double *point, double reach);
+
+/** Copies a terrain and finds its range and steepest slope.
+ *  @param context [in,out]  one object
+ *  @param terrain [in]      one object
+ *  @param reach   [in]      unit m; > 0
+ *  @param surface [out]     one object; owned by the caller, who ends it with mor_terrain_clear on its terrain
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
+mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *terrain, double reach,
+                                    mor_terrain_surface *surface);
+
+/** Distance from the surface, unit m, positive above it: exact within reach, beyond it a lower bound of the magnitude.
+ *  @param surface [in]  one object
+ *  @param point   [in]  shape [3]; unit m
+ *  Threads: safe to call concurrently. */
+double mor_terrain_surface_signed(const mor_terrain_surface *surface, const double *point);
+
+/** The surface and the layer of a release shape, or NULL for another shape.
+ *  @param shape     [in]   one object
+ *  Returns: borrowed, for the life of the shape. */
+const mor_terrain_surface *mor_terrain_release_surface(const mor_shape *shape);
+
+/** Thickness of a release layer at a place, unit m; zero outside its polygon.
+ *  @param shape [in]  one object, a release shape
+ *  @param x     [in]  unit m
+ *  @param y     [in]  unit m */
+double mor_terrain_release_thickness(const mor_shape *shape, double x, double y);
+
+/** Fills nodes without data: heights inside a hole solve Laplace's equation between its rims.
+ *  @param context  [in,out]  one object; what was filled is logged
+ *  @param terrain  [in,out]  one object; at least one node has data
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain);
+
+/** Replaces the nodes by those of a square grid from the first node on, by bilinear interpolation.
+ *  @param context [in,out]  one object
+ *  @param terrain [in,out]  one object; unchanged after a failure
+ *  @param cell    [in]      unit m; > 0
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when fewer than 2 x 2 nodes are left, or too many; MOR_ERROR_MEMORY. */
+mor_status mor_terrain_resample(mor_context *context, mor_terrain *terrain, double cell);
+
+/** Counts the numbers of an ESRI or GRASS ASCII file behind its header.
+ *  @param path     [in]   zero-terminated
+ *  Returns: the count; -1 when the file cannot be read. */
+long long mor_terrain_count_numbers(const char *path);
+
+/** Nodes a terrain may have, so that it fits into memory beside the particles on it. */
+#define MOR_TERRAIN_NODES_MAX 67108864.0
+
+#endif

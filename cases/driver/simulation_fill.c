@@ -1,0 +1,109 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/simulation_fill.h"
+
+#include "bodies/body.h"
+#include "cases/driver/simulation_bodies.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+
+#include <string.h>
+
+/* Particles that a body must have along each axis. */
+enum { ACROSS = 4 };
+
+static bool has_form(const mor_case_shape *outline)
+{
+    bool has = outline->kind == MOR_CASE_SHAPE_MESH || outline->kind == MOR_CASE_SHAPE_OUTLINE ||
+               outline->kind == MOR_CASE_SHAPE_ROCK;
+    for (int k = 0; k < outline->n_children && !has; ++k) {
+        has = has_form(&outline->children[k]);
+    }
+    return has;
+}
+
+bool mor_simulation_fill_is_relaxed(const mor_case_body *body)
+{
+    return body->particles == MOR_CASE_PARTICLES_BY_SHAPE ? has_form(&body->outline)
+                                                          : body->particles == MOR_CASE_PARTICLES_RELAXED;
+}
+
+/* As many whole cells as fit best along each axis of the body's own frame. */
+static mor_status find_lattice(mor_context *context, const mor_case *c, const mor_case_body *it,
+                               mor_lattice_request *request)
+{
+    mor_bounds bounds;
+    mor_lattice_request_init(request);
+    request->shape = it->shape;
+    request->dimension = c->dimension;
+    request->spacing = c->spacing;
+    it->shape->operations->bounds(it->shape, &bounds);
+    for (int a = 0; a < c->dimension; ++a) {
+        const double extent = bounds.maximum[a] - bounds.minimum[a];
+        const double n = floor(extent / c->spacing + 0.5);
+        MOR_CHECK(context, isfinite(extent) && extent > 0.0, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' without end along its own %c; allowed are bounded shapes; use a box, "
+                  "sphere, cylinder, or cut the shape off",
+                  it->place.file, it->place.line, it->name, "xyz"[a]);
+        MOR_CHECK(context, n >= ACROSS, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' %g m long along its own %c, which is %g particles at a spacing of %g m; "
+                  "allowed are at least %d particles across; use a smaller spacing or a larger body",
+                  it->place.file, it->place.line, it->name, extent, "xyz"[a], n, c -> spacing, ACROSS);
+        request->origin[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]) - 0.5 * n * c->spacing;
+    }
+    mor_simulation_body_frame(c, it, request->turn, request->move);
+    return MOR_OK;
+}
+
+/* Places relaxed particles as the lattice places its nodes. */
+static void place_points(const mor_lattice_request *frame, const mor_relax_points *relaxed, double *positions)
+{
+    for (int64_t i = 0; i < relaxed->n_points; ++i) {
+        double *position = positions + 3 * i;
+        mor_matrix_apply(frame->turn, relaxed->positions + 3 * i, position);
+        for (int a = 0; a < 3; ++a) {
+            position[a] = frame->dimension == 2 && a == 2 ? 0.0 : position[a] + frame->move[a];
+        }
+    }
+}
+
+static mor_status fill_relaxed(mor_context *context, const mor_case *c, const mor_case_body *it,
+                               const mor_lattice_request *frame, mor_point_cache *cache, mor_lattice_points *points)
+{
+    mor_body_mass mass;
+    mor_relax_request request;
+    mor_relax_points relaxed;
+    MOR_TRY(context, mor_body_mass_find(context, it->shape, c->dimension, &mass));
+    mor_relax_request_init(&request);
+    request.shape = it->shape;
+    request.dimension = c->dimension;
+    request.spacing = c->spacing;
+    request.volume = mass.volume;
+    request.seed = c->seed;
+    MOR_TRY(context, mor_point_cache_relax(context, cache, &request, &relaxed));
+    MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * relaxed.n_points, "particles of a body"));
+    points->n_points = relaxed.n_points;
+    place_points(frame, &relaxed, points->positions);
+    return MOR_OK;
+}
+
+mor_status mor_simulation_fill_body(mor_context *context, const mor_case *the_case, const mor_case_body *body,
+                                    mor_point_cache *cache, mor_lattice_points *points)
+{
+    mor_lattice_request request;
+    memset(points, 0, sizeof *points);
+    MOR_TRY(context, find_lattice(context, the_case, body, &request));
+    const mor_status status = mor_simulation_fill_is_relaxed(body)
+                                  ? fill_relaxed(context, the_case, body, &request, cache, points)
+                                  : mor_lattice_fill(context, &request, points);
+    if (status == MOR_ERROR_ARGUMENT) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", body->place.file, body->place.line, body->name,
+                        context->message);
+    }
+    MOR_TRY(context, status);
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' without a single particle at a spacing of %g m; allowed are shapes at least %d "
+              "spacings thick; use a smaller spacing or a thicker body",
+              body->place.file, body->place.line, body->name, the_case->spacing, ACROSS);
+    return MOR_OK;
+}

@@ -1,0 +1,208 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The audit of the soil's energy: its life, its integrals, and the part of the stress update. What forces take is in
+ * soil_energy_forces.c. */
+#include "core/sph/soil_energy.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/sph/soil_internal.h"
+
+#include <string.h>
+
+/* Particles handed to a material at once; a block is a whole number of them. */
+enum { BATCH = 128, PARTS = MOR_SOIL_ENERGY_PARTS };
+
+/* By how much one line between samples may be wrong, over the energy turned over so far. */
+#define LARGEST_ERROR 1.0e-3
+
+mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
+{
+    const int64_t n = soil->set.n_particles;
+    if (soil->energy != NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, MOR_NEW(context, &soil->energy, 1, "audit of energy"));
+    MOR_TRY(context, MOR_NEW(context, &soil->energy->scratch, 3 * n, "audit of energy"));
+    MOR_TRY(context, MOR_NEW(context, &soil->energy->strains, 12 * n, "audit of energy"));
+    return MOR_NEW(context, &soil->energy->block_sums, mor_block_count(n) * PARTS, "blocks of the audit of energy");
+}
+
+void mor_soil_clear_energy(mor_context *context, mor_soil *soil)
+{
+    if (soil->energy != NULL) {
+        MOR_FREE(context, &soil->energy->block_sums);
+        MOR_FREE(context, &soil->energy->strains);
+        MOR_FREE(context, &soil->energy->scratch);
+        MOR_FREE(context, &soil->energy);
+    }
+}
+
+void mor_soil_restart_energy(mor_soil *soil)
+{
+    if (soil->energy != NULL) {
+        memset(soil->energy->state, 0, sizeof soil->energy->state);
+    }
+}
+
+double mor_soil_energy_taken(const mor_soil *soil, mor_soil_energy_part part)
+{
+    if (soil->energy == NULL) {
+        return 0.0;
+    }
+    const double *state = soil->energy->state;
+    return state[MOR_SOIL_ENERGY_INTEGRAL + part] + state[MOR_SOIL_ENERGY_POWER + part] * state[MOR_SOIL_ENERGY_SPAN];
+}
+
+bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step)
+{
+    return soil->energy != NULL && (double)step->number >= soil->energy->state[MOR_SOIL_ENERGY_NEXT];
+}
+
+void mor_soil_energy_add(mor_context *context, mor_soil *soil, mor_soil_energy_block block, const mor_step *step)
+{
+    mor_soil_energy *energy = soil->energy;
+    const int64_t n = soil->set.n_particles;
+    const int64_t n_blocks = mor_block_count(n);
+    memset(energy->block_sums, 0, (size_t)(n_blocks * PARTS) * sizeof *energy->block_sums);
+    MOR_PARALLEL_FOR (context, k, n_blocks, 1) {
+        block(soil, step, k * MOR_BLOCK, mor_block_end(k, n), energy->block_sums + k * PARTS);
+    }
+    for (int64_t k = 0; k < n_blocks; ++k) {
+        for (int part = 0; part < PARTS; ++part) {
+            energy->fresh[part] += energy->block_sums[k * PARTS + part];
+        }
+    }
+}
+
+double mor_soil_stress_power(const double *stress, const double *gradient)
+{
+    const double *l = gradient;
+    return stress[MOR_XX] * l[0] + stress[MOR_YY] * l[4] + stress[MOR_ZZ] * l[8] + stress[MOR_XY] * (l[1] + l[3]) +
+           stress[MOR_YZ] * (l[5] + l[7]) + stress[MOR_ZX] * (l[2] + l[6]);
+}
+
+/* Inner product of two symmetric tensors. */
+static double double_dot(const double *a, const double *b)
+{
+    return a[MOR_XX] * b[MOR_XX] + a[MOR_YY] * b[MOR_YY] + a[MOR_ZZ] * b[MOR_ZZ] +
+           2.0 * (a[MOR_XY] * b[MOR_XY] + a[MOR_YZ] * b[MOR_YZ] + a[MOR_ZX] * b[MOR_ZX]);
+}
+
+/* Stored energy of n stresses by the material, J/m3; NaN when it cannot tell. */
+static void find_stored(const mor_soil *soil, int64_t first, int64_t n, const double *stress, double *stored)
+{
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        const int field = soil->state_fields[k];
+        state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
+    }
+    const mor_batch batch = {
+        .n = n, .density = soil->set.data[MOR_FIELD_DENSITY] + first, .stress_in = stress, .state_in = state};
+    const bool is_known = soil->material->operations.energy(soil->material, &batch, stored) == MOR_OK;
+    for (int64_t i = 0; i < n && !is_known; ++i) {
+        stored[i] = NAN;
+    }
+}
+
+/* Stresses at which stored energy is asked for: at the start of the step, at its end, and in the middle less and plus
+ * half of what diffusion adds. */
+enum { START, END, LOW, HIGH, N_STRESSES };
+
+/* (E4), (E5): what a stress between start and end of the step does over its strain, less what is stored of it. */
+static void find_stress_batch(const mor_soil *soil, double length, int64_t first, int64_t n, double *sums)
+{
+    double *const *data = soil->set.data;
+    double stress[N_STRESSES][BATCH * 6];
+    double stored[N_STRESSES][BATCH];
+    double middle[BATCH * 6];
+    for (int64_t k = 0; k < 6 * n; ++k) {
+        const double *record = soil->records + (first + k / 6) * MOR_RECORD_SIZE;
+        const double *diffusion = data[MOR_FIELD_STRESS_DIFFUSION];
+        const double half = diffusion != NULL ? 0.5 * length * diffusion[6 * first + k] : 0.0;
+        stress[START][k] = record[MOR_RECORD_STRESS + k % 6];
+        stress[END][k] = data[MOR_FIELD_STRESS][6 * first + k];
+        middle[k] = 0.5 * (stress[START][k] + stress[END][k]);
+        stress[LOW][k] = middle[k] - half;
+        stress[HIGH][k] = middle[k] + half;
+    }
+    for (int s = 0; s < N_STRESSES; ++s) {
+        find_stored(soil, first, n, stress[s], stored[s]);
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        const double volume = soil->records[(first + i) * MOR_RECORD_SIZE + MOR_RECORD_VOLUME];
+        const double work = mor_soil_stress_power(middle + 6 * i, data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * (first + i));
+        const double *strains = soil->energy->strains + 12 * (first + i);
+        const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
+        sums[MOR_SOIL_ENERGY_PLASTIC] += volume * (work + spread - (stored[END][i] - stored[START][i]) / length);
+        sums[MOR_SOIL_ENERGY_DIFFUSION] -= volume * spread;
+        sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * double_dot(middle + 6 * i, strains);
+        sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * double_dot(middle + 6 * i, strains + 6);
+    }
+}
+
+/* What XSPH and shifting moved without a force: their work against gravity, and the change of velocity. */
+static double find_regularization(const mor_soil *soil, double length, int64_t i)
+{
+    const double *before = soil->records + i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY;
+    const double *after = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+    const double *sums = soil->regularization + 6 * i;
+    const double shifting = soil->settings.has_shifting ? mor_vector_length(before) : 0.0;
+    double gained = 0.5 * (mor_vector_dot(after, after) - mor_vector_dot(before, before)) / length;
+    for (int a = 0; a < 3; ++a) {
+        gained -= soil->settings.gravity[a] * (soil->settings.xsph * sums[a] + shifting * sums[3 + a]);
+    }
+    return -soil->set.data[MOR_FIELD_MASS][i] * gained;
+}
+
+static void find_stress_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+{
+    for (int64_t start = first; start < last; start += BATCH) {
+        find_stress_batch(soil, step->length, start, last - start < BATCH ? last - start : BATCH, sums);
+    }
+    for (int64_t i = first; i < last && soil->regularization != NULL; ++i) {
+        sums[MOR_SOIL_ENERGY_REGULARIZATION] += find_regularization(soil, step->length, i);
+    }
+    for (int64_t i = first; i < last && soil->settings.has_gradient_correction; ++i) {
+        const double *record = soil->records + i * MOR_RECORD_SIZE;
+        sums[MOR_SOIL_ENERGY_CORRECTION] -=
+            record[MOR_RECORD_VOLUME] *
+            mor_soil_stress_power(record + MOR_RECORD_STRESS, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i);
+    }
+}
+
+/* A sample stands for the middle of its step. The first one reaches back to the start. Where the straight line to a
+ * sample may be wrong by more than a share of all that was turned over so far, the next sample comes sooner. */
+static void integrate(mor_soil_energy *energy, const mor_step *step)
+{
+    double *state = energy->state;
+    const double reach = state[MOR_SOIL_ENERGY_SPAN] + 0.5 * step->length;
+    const bool is_first = state[MOR_SOIL_ENERGY_STRIDE] == 0.0;
+    double change = 0.0;
+    for (int part = 0; part < PARTS; ++part) {
+        const double now = energy->fresh[part];
+        const double before = is_first ? now : state[MOR_SOIL_ENERGY_POWER + part];
+        state[MOR_SOIL_ENERGY_INTEGRAL + part] += 0.5 * (before + now) * reach;
+        state[MOR_SOIL_ENERGY_TURNOVER] += 0.5 * (fabs(before) + fabs(now)) * reach;
+        state[MOR_SOIL_ENERGY_POWER + part] = now;
+        change += 0.5 * fabs(now - before) * reach;
+    }
+    const double stride = state[MOR_SOIL_ENERGY_STRIDE];
+    const double next = change > LARGEST_ERROR * state[MOR_SOIL_ENERGY_TURNOVER] ? floor(0.5 * stride) : 2.0 * stride;
+    state[MOR_SOIL_ENERGY_SPAN] = 0.5 * step->length;
+    state[MOR_SOIL_ENERGY_STRIDE] = fmax(1.0, fmin(next, MOR_SOIL_ENERGY_INTERVAL));
+    state[MOR_SOIL_ENERGY_NEXT] = (double)step->number + state[MOR_SOIL_ENERGY_STRIDE];
+}
+
+mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    if (mor_soil_energy_is_due(soil, step)) {
+        mor_soil_energy_add(context, soil, find_stress_block, step);
+        integrate(soil->energy, step);
+    } else if (soil->energy != NULL) {
+        soil->energy->state[MOR_SOIL_ENERGY_SPAN] += step->length;
+    }
+    return MOR_OK;
+}

@@ -1,0 +1,74 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_SOIL_ENERGY_H
+#define MOR_CORE_SPH_SOIL_ENERGY_H
+
+#include "core/base/context.h"
+
+#include <stdint.h>
+
+/** @file
+ *  Where the energy of the soil goes, each part by itself. An audit is optional: without one nothing is computed, and
+ *  with one no bit of the run changes. It samples the power of each part, in each step while powers change fast and at
+ *  a longer interval while they do not; integrals over time are those of straight lines between the samples.
+ *  Theory: docs/theory/energy.md, whose equations are cited as (E...). */
+
+enum { MOR_SOIL_ENERGY_INTERVAL = 16 /* most steps from one sample to the next; a power of two */ };
+
+/** What takes kinetic, potential and elastic energy away from the soil; a negative number gives it back. */
+typedef enum mor_soil_energy_part {
+    MOR_SOIL_ENERGY_PLASTIC,        /* lost in the stress update, (E4) */
+    MOR_SOIL_ENERGY_DIFFUSION,      /* stress diffusion, (E5) */
+    MOR_SOIL_ENERGY_RIEMANN,        /* Riemann terms between soil particles, (E6) */
+    MOR_SOIL_ENERGY_ARTIFICIAL,     /* artificial stress, (E6) */
+    MOR_SOIL_ENERGY_DAMPING,        /* velocity damping */
+    MOR_SOIL_ENERGY_REGULARIZATION, /* XSPH and shifting */
+    MOR_SOIL_ENERGY_CORRECTION,     /* gradient correction and the skew stress that keeps angular momentum, (E8) */
+    MOR_SOIL_ENERGY_BOUNDARY,       /* friction and impact at walls and rocks, (E7) */
+    MOR_SOIL_ENERGY_PASSED_ON,      /* minus what friction passes on to the stress of the soil, counted above, (E7) */
+    MOR_SOIL_ENERGY_DRIVEN,         /* given to walls and rocks that move as prescribed */
+    MOR_SOIL_ENERGY_RAMP,           /* weight that the gravity ramp still holds back */
+    MOR_SOIL_ENERGY_ROCKS,          /* given to rocks that move freely, which keep it */
+    MOR_SOIL_ENERGY_PARTS
+} mor_soil_energy_part;
+
+/** What an audit carries from step to step, as one array that a checkpoint saves. */
+enum {
+    MOR_SOIL_ENERGY_INTEGRAL = 0,                     /* of each part up to the last sample, J (J/m) */
+    MOR_SOIL_ENERGY_POWER = MOR_SOIL_ENERGY_PARTS,    /* of each part in the last sample, W (W/m) */
+    MOR_SOIL_ENERGY_SPAN = 2 * MOR_SOIL_ENERGY_PARTS, /* time since the last sample, s */
+    MOR_SOIL_ENERGY_TURNOVER,                         /* of sizes of powers, integral up to the last sample, J (J/m) */
+    MOR_SOIL_ENERGY_STRIDE, /* steps from the last sample to the next, 0 before the first; 1 */
+    MOR_SOIL_ENERGY_NEXT,   /* number of the step of the next sample, 1 */
+    MOR_SOIL_ENERGY_STATE
+};
+
+struct mor_soil;
+
+/** One audit. Owner: the soil. */
+typedef struct mor_soil_energy {
+    double state[MOR_SOIL_ENERGY_STATE]; /* units of the enum above */
+    double fresh[MOR_SOIL_ENERGY_PARTS]; /* powers of the present sample, W (W/m) */
+    double *scratch;                     /* shape [n_particles, 3]; accelerations [m/s2] or powers [W (W/m)] */
+    double *strains;                     /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
+                                          * those that slip, 1/s */
+    double *block_sums;                  /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
+} mor_soil_energy;
+
+/** Switches the audit of a soil on.
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object; before its first step
+ *  Returns: MOR_OK, also when it is on; MOR_ERROR_MEMORY. Cost: allocates 120 bytes per particle; a few percent of a
+ *  run. */
+mor_status mor_soil_watch_energy(mor_context *context, struct mor_soil *soil);
+
+/** Lets an audit begin anew, with all integrals zero; does nothing without one.
+ *  @param soil [in,out]  one object */
+void mor_soil_restart_energy(struct mor_soil *soil);
+
+/** Returns what a part has taken since the start, up to now, unit J (J/m in plane strain); zero without an audit.
+ *  @param soil [in]  one object
+ *  @param part [in]  which */
+double mor_soil_energy_taken(const struct mor_soil *soil, mor_soil_energy_part part);
+
+#endif

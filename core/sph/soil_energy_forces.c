@@ -1,0 +1,216 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* What forces take from the soil's motion beside what its stress gets: the Riemann terms, walls and rocks, damping. */
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/sph/soil_contact_internal.h"
+#include "core/sph/soil_internal.h"
+
+#include <string.h>
+
+/* What a particle's boundaries take, kept in the scratch: W (W/m). */
+enum { LOST, GIVEN, GRAIN = MOR_CONTACT_GRAIN };
+
+/* Velocity in the middle of the kick: with it force times velocity is the change of kinetic energy exactly, and that of
+ * gravity the change of potential energy. */
+static void find_middle_velocity(const mor_soil *soil, double half_step, int64_t i, double *velocity)
+{
+    for (int64_t a = 0; a < 3; ++a) {
+        velocity[a] = soil->set.data[MOR_FIELD_VELOCITY][3 * i + a] -
+                      half_step * soil->set.data[MOR_FIELD_ACCELERATION][3 * i + a];
+    }
+}
+
+/* Adds the strain rate by a mirrored velocity, of which difference is the part that counts; symmetric. */
+static void add_strain(const double *difference, const double *gradient, double *strain)
+{
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3;
+        strain[a] -= 2.0 * difference[a] * gradient[a];
+        strain[3 + a] -= difference[a] * gradient[b] + difference[b] * gradient[a];
+    }
+}
+
+/* (E7) for one particle and one patch: force times velocity, and the strain rates that the mirrored velocity gave, as
+ * the drag added them. Where the boundary slips it is friction that strains along it. */
+static void audit_lane(const mor_soil_contact *contact, int64_t slot, int64_t k, const double *record,
+                       const double *middle, double *taken, double *strains)
+{
+    const int64_t lane = slot * MOR_CLUSTER + k;
+    const double *velocity = mor_soil_contact_velocity(contact, lane);
+    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    const double length2 = mor_vector_dot(gradient, gradient);
+    const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
+    const double stick = contact->stick[lane];
+    const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
+    const bool slips = patch->friction == MOR_WALL_COULOMB && stick < 1.0;
+    double relative[3];
+    double across[3];
+    double along[3];
+    for (int a = 0; a < 3; ++a) {
+        relative[a] = record[MOR_RECORD_VELOCITY + a] - velocity[a];
+    }
+    const double normal = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
+    for (int a = 0; a < 3; ++a) {
+        double force = mass * contact->push[3 * lane + a];
+        force += contact->barrier.is_on ? contact->repulsion[3 * lane + a] : 0.0;
+        across[a] = normal * gradient[a];
+        along[a] = stick * (relative[a] - across[a]);
+        taken[LOST] -= force * (contact->is_wall ? middle[a] - velocity[a] : middle[a]);
+        taken[GIVEN] -= contact->is_wall ? force * velocity[a] : 0.0;
+    }
+    add_strain(across, gradient, strains);
+    add_strain(along, gradient, slips ? strains + 6 : strains);
+}
+
+/* Adds what a boundary takes to the particles that see it, slot by slot in fixed order. */
+static void audit_contact(mor_context *context, mor_soil *soil, const mor_soil_contact *contact, double half_step)
+{
+    const int64_t n = soil->set.n_particles;
+    MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
+        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+            const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+            for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n); ++k) {
+                double middle[3];
+                find_middle_velocity(soil, half_step, first + k, middle);
+                audit_lane(contact, slot, k, soil->records + (first + k) * MOR_RECORD_SIZE, middle,
+                           soil->energy->scratch + 3 * (first + k), soil->energy->strains + 12 * (first + k));
+            }
+        }
+    }
+}
+
+/* What the soil's forces did on the points of rocks, whose velocities are by now the means over this step. */
+static void audit_rocks(mor_soil *soil, const mor_boundary *boundary)
+{
+    double *fresh = soil->energy->fresh;
+    for (int p = 0; p < boundary->n_patches; ++p) {
+        const mor_boundary_patch *patch = &boundary->patches[p];
+        double power = 0.0;
+        for (int64_t j = patch->first; j < patch->first + patch->n_points; ++j) {
+            power += mor_vector_dot(boundary->force + 3 * j,
+                                    boundary->records + MOR_BOUNDARY_RECORD * j + MOR_BOUNDARY_VELOCITY);
+        }
+        fresh[MOR_SOIL_ENERGY_BOUNDARY] -= power;
+        fresh[patch->is_driven ? MOR_SOIL_ENERGY_DRIVEN : MOR_SOIL_ENERGY_ROCKS] += power;
+    }
+}
+
+static void find_motion_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+{
+    const mor_soil_settings *s = &soil->settings;
+    for (int64_t i = first; i < last; ++i) {
+        const double *taken = soil->energy->scratch + 3 * i;
+        const double *record = soil->records + i * MOR_RECORD_SIZE;
+        const double mass = soil->set.data[MOR_FIELD_MASS][i];
+        double middle[3];
+        find_middle_velocity(soil, 0.5 * step->length, i, middle);
+        for (int a = 0; a < 3; ++a) {
+            const double before =
+                record[MOR_RECORD_VELOCITY + a] - step->length * soil->set.data[MOR_FIELD_ACCELERATION][3 * i + a];
+            sums[MOR_SOIL_ENERGY_DAMPING] += s->damping * mass * before * middle[a];
+            sums[MOR_SOIL_ENERGY_RAMP] += mass * (s->gravity[a] - soil->gravity[a]) * middle[a];
+        }
+        sums[MOR_SOIL_ENERGY_BOUNDARY] += taken[LOST];
+        sums[MOR_SOIL_ENERGY_DRIVEN] += taken[GIVEN];
+        if (s->has_gradient_correction) {
+            sums[MOR_SOIL_ENERGY_CORRECTION] +=
+                record[MOR_RECORD_VOLUME] *
+                mor_soil_stress_power(record + MOR_RECORD_STRESS, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i);
+        }
+    }
+}
+
+/* What the accelerations in the scratch take, into a part. */
+static void add_scratch(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sum)
+{
+    for (int64_t i = first; i < last; ++i) {
+        double middle[3];
+        find_middle_velocity(soil, 0.5 * step->length, i, middle);
+        *sum -= soil->set.data[MOR_FIELD_MASS][i] * mor_vector_dot(soil->energy->scratch + 3 * i, middle);
+    }
+}
+
+static void find_riemann_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+{
+    add_scratch(soil, step, first, last, sums + MOR_SOIL_ENERGY_RIEMANN);
+}
+
+static void find_artificial_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+{
+    add_scratch(soil, step, first, last, sums + MOR_SOIL_ENERGY_ARTIFICIAL);
+}
+
+static void find_spin_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+{
+    add_scratch(soil, step, first, last, sums + MOR_SOIL_ENERGY_CORRECTION);
+}
+
+/* Records as the momentum loop saw them, but without stress. */
+static void strip_records(mor_context *context, mor_soil *soil, double length)
+{
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        double *record = soil->records + i * MOR_RECORD_SIZE;
+        for (int a = 0; a < 3; ++a) {
+            record[MOR_RECORD_VELOCITY + a] -= length * soil->set.data[MOR_FIELD_ACCELERATION][3 * i + a];
+        }
+        memset(record + MOR_RECORD_STRESS, 0, 6 * sizeof *record);
+    }
+}
+
+static void restore_records(mor_context *context, mor_soil *soil)
+{
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        double *record = soil->records + i * MOR_RECORD_SIZE;
+        memcpy(record + MOR_RECORD_VELOCITY, soil->set.data[MOR_FIELD_VELOCITY] + 3 * i, 3 * sizeof *record);
+        memcpy(record + MOR_RECORD_STRESS, soil->set.data[MOR_FIELD_STRESS] + 6 * i, 6 * sizeof *record);
+    }
+}
+
+/* (E6): the momentum loop once more with what is not stress, and once with the artificial stress alone. Particles are
+ * where they were, so that the short lists come out the same. */
+static void audit_pairs(mor_context *context, mor_soil *soil, const mor_step *step)
+{
+    mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
+    mor_pair_constants constants = soil->constants;
+    const mor_pair_loop momentum = soil->table->momentum[soil->settings.dimension - 2];
+    arrays.acceleration = soil->energy->scratch;
+    constants.diffusion_rate = 0.0;
+    constants.has_artificial_stress = false;
+    strip_records(context, soil, step->length);
+    mor_soil_run_pairs(context, &constants, &arrays, momentum);
+    mor_soil_energy_add(context, soil, find_riemann_block, step);
+    if (soil->settings.has_artificial_stress) {
+        const double riemann = soil->energy->fresh[MOR_SOIL_ENERGY_RIEMANN];
+        constants.has_artificial_stress = true;
+        mor_soil_run_pairs(context, &constants, &arrays, momentum);
+        mor_soil_energy_add(context, soil, find_artificial_block, step);
+        soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] -= riemann;
+    }
+    restore_records(context, soil);
+    if (soil->settings.has_angular_momentum) {
+        memset(soil->energy->scratch, 0, (size_t)(3 * soil->set.n_particles) * sizeof(double));
+        mor_soil_run_pairs(context, &constants, &arrays, soil->table->spin);
+        mor_soil_energy_add(context, soil, find_spin_block, step);
+    }
+}
+
+mor_status mor_soil_audit_forces(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    if (!mor_soil_energy_is_due(soil, step)) {
+        return MOR_OK;
+    }
+    memset(soil->energy->fresh, 0, sizeof soil->energy->fresh);
+    memset(soil->energy->scratch, 0, (size_t)(3 * soil->set.n_particles) * sizeof(double));
+    memset(soil->energy->strains, 0, (size_t)(12 * soil->set.n_particles) * sizeof(double));
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        audit_contact(context, soil, mor_soil_contact_at(soil, k), 0.5 * step->length);
+    }
+    mor_soil_energy_add(context, soil, find_motion_block, step);
+    for (int k = 0; k < soil->n_boundaries; ++k) {
+        audit_rocks(soil, soil->boundaries[k].boundary);
+    }
+    audit_pairs(context, soil, step);
+    return MOR_OK;
+}

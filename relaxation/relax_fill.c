@@ -1,0 +1,302 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The shape as relaxation sees it, and where its particles start. */
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "core/particle/shape_analytic.h"
+#include "core/particle/shape_check.h"
+#include "relaxation/relax_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Half the width of the differences for a normal, spacings: small against the outer layer's depth. */
+#define NORMAL_STEP 0.05
+
+/* A gradient of the distance flatter than this is that of a ridge, where several surfaces are equally near. */
+#define GRADIENT_LEAST 0.3
+
+/* Each coordinate of a start moves by up to this, spacings: breaks the symmetry of the lattice, no more. */
+#define JITTER 0.02
+
+/* Starts shallower than this are not used, spacings. */
+#define SHALLOWEST 0.05
+
+enum { JITTER_PURPOSE = 0x524C4A54, SINK_MOST = 8, VOLUME_LEVELS = 4, CLIMB_LEVELS = 20, PROBES_MOST = 64 };
+
+static const int64_t nodes_limit = INT64_C(1) << 31;
+
+/* A node of the starting lattice. */
+typedef struct start_node {
+    double depth;  /* spacings */
+    int64_t index; /* in the order of the lattice */
+} start_node;
+
+/* A starting lattice about the middle of the bounds. */
+typedef struct start_lattice {
+    int64_t n_nodes[3];
+    double low[3];  /* of the first node, spacings */
+    double step[3]; /* along each axis, spacings */
+} start_lattice;
+
+mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *request, mor_relax_frame *frame)
+{
+    mor_bounds bounds;
+    memset(frame, 0, sizeof *frame);
+    MOR_CHECK(context, request->shape != NULL, MOR_ERROR_ARGUMENT, "there is no shape to fill: give one");
+    MOR_CHECK(context, request->dimension == 2 || request->dimension == 3, MOR_ERROR_ARGUMENT,
+              "the dimension of the particles is %d: give 2 or 3", request->dimension);
+    MOR_TRY(context, mor_shape_check_length(context, request->spacing, "the spacing of the particles"));
+    frame->shape = request->shape;
+    frame->dimension = request->dimension;
+    frame->spacing = request->spacing;
+    mor_shape_bounds(request->shape, &bounds);
+    for (int a = 0; a < request->dimension; ++a) {
+        MOR_CHECK(context, isfinite(bounds.minimum[a]) && isfinite(bounds.maximum[a]), MOR_ERROR_ARGUMENT,
+                  "the shape (%s) has no end along %c, from %g m to %g m: give one that is bounded",
+                  request->shape->operations->kind, 'x' + a, bounds.minimum[a], bounds.maximum[a]);
+        frame->middle[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]);
+        frame->half[a] = fmax(0.0, 0.5 * (bounds.maximum[a] - bounds.minimum[a]) / request->spacing);
+    }
+    return MOR_OK;
+}
+
+double mor_relax_frame_depth(const mor_relax_frame *frame, const double *place)
+{
+    double point[3];
+    mor_relax_frame_point(frame, place, point);
+    return -mor_shape_distance(frame->shape, point) / frame->spacing;
+}
+
+double mor_relax_frame_sink(const mor_relax_frame *frame, double *place, int n_most)
+{
+    double depth = mor_relax_frame_depth(frame, place);
+    double at[3] = {place[0], place[1], place[2]};
+    double deepest = depth;
+    for (int n = 0; n < n_most && depth < MOR_RELAX_LAYER; ++n) {
+        double slope[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < frame->dimension; ++a) {
+            double side[3] = {at[0], at[1], at[2]};
+            side[a] = at[a] + NORMAL_STEP;
+            slope[a] = mor_relax_frame_depth(frame, side);
+            side[a] = at[a] - NORMAL_STEP;
+            slope[a] = (slope[a] - mor_relax_frame_depth(frame, side)) / (2.0 * NORMAL_STEP);
+        }
+        const double length = fmax(mor_vector_length(slope), GRADIENT_LEAST);
+        for (int a = 0; a < frame->dimension; ++a) {
+            at[a] += slope[a] * (MOR_RELAX_LAYER - depth) / (length * length);
+        }
+        depth = mor_relax_frame_depth(frame, at);
+        if (depth > deepest) {
+            deepest = depth;
+            memcpy(place, at, sizeof at);
+        }
+    }
+    return deepest;
+}
+
+/* Whether the places at a radius, in the directions to the neighbors of a node of a grid, are all inside. */
+static bool is_ball_inside(const mor_relax_frame *frame, const double *middle, double radius)
+{
+    const int n = frame->dimension == 3 ? 27 : 9;
+    for (int k = 0; k < n; ++k) {
+        const double way[3] = {k % 3 - 1.0, k / 3 % 3 - 1.0, frame->dimension == 3 ? k / 9 - 1.0 : 0.0};
+        const double length = mor_vector_length(way);
+        double place[3];
+        for (int a = 0; a < 3; ++a) {
+            place[a] = middle[a] + (length > 0.0 ? radius * way[a] / length : 0.0);
+        }
+        if (mor_relax_frame_depth(frame, place) < 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Uphill from the deepest place found, in ever smaller steps. */
+static void climb(const mor_relax_frame *frame, double *best, double *deepest)
+{
+    double step = 1.0;
+    for (int level = 0; level < CLIMB_LEVELS; ++level, step *= 0.5) {
+        for (int k = 0; k < 2 * frame->dimension; ++k) {
+            double place[3] = {best[0], best[1], best[2]};
+            place[k / 2] += k % 2 == 0 ? step : -step;
+            const double depth = mor_relax_frame_depth(frame, place);
+            if (depth > *deepest) {
+                *deepest = depth;
+                memcpy(best, place, sizeof place);
+            }
+        }
+    }
+}
+
+bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *depth)
+{
+    double best[3] = {0.0, 0.0, 0.0};
+    int64_t n[3] = {1, 1, 1};
+    *depth = mor_relax_frame_depth(frame, best);
+    for (int a = 0; a < frame->dimension; ++a) {
+        n[a] = (int64_t)fmin(ceil(2.0 * frame->half[a]), PROBES_MOST);
+    }
+    for (int64_t k = 0; k < n[0] * n[1] * n[2] && *depth < radius; ++k) {
+        const int64_t index[3] = {k % n[0], k / n[0] % n[1], k / (n[0] * n[1])};
+        double place[3];
+        for (int a = 0; a < 3; ++a) {
+            place[a] = frame->half[a] * ((2.0 * (double)index[a] + 1.0) / (double)n[a] - 1.0);
+        }
+        const double here = mor_relax_frame_depth(frame, place);
+        if (here > 0.0 && is_ball_inside(frame, place, radius)) {
+            *depth = fmax(*depth, here);
+            return true;
+        }
+        if (here > *depth) {
+            *depth = here;
+            memcpy(best, place, sizeof best);
+        }
+    }
+    climb(frame, best, depth);
+    return *depth >= radius;
+}
+
+/* The inside of a cell given by its middle: all, nothing, or what its parts hold; the last as the distance says. */
+static double measure_cell(const mor_relax_frame *frame, const double *middle, double size, int level)
+{
+    const double volume = frame->dimension == 3 ? size * size * size : size * size;
+    const double depth = mor_relax_frame_depth(frame, middle);
+    if (fabs(depth) >= 0.5 * size * sqrt((double)frame->dimension)) {
+        return depth > 0.0 ? volume : 0.0;
+    }
+    if (level == VOLUME_LEVELS) {
+        return volume * fmin(1.0, fmax(0.0, 0.5 + depth / size));
+    }
+    double sum = 0.0;
+    for (int k = 0; k < 1 << frame->dimension; ++k) {
+        double part[3] = {middle[0], middle[1], middle[2]};
+        for (int a = 0; a < frame->dimension; ++a) {
+            part[a] += (k >> a & 1) != 0 ? 0.25 * size : -0.25 * size;
+        }
+        sum += measure_cell(frame, part, 0.5 * size, level + 1);
+    }
+    return sum;
+}
+
+double mor_relax_frame_volume(const mor_relax_frame *frame)
+{
+    double sum = 0.0;
+    int64_t n[3] = {1, 1, 1};
+    for (int a = 0; a < frame->dimension; ++a) {
+        n[a] = (int64_t)ceil(2.0 * frame->half[a]);
+    }
+    for (int64_t k = 0; k < n[0] * n[1] * n[2]; ++k) {
+        const int64_t index[3] = {k % n[0], k / n[0] % n[1], k / (n[0] * n[1])};
+        double middle[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < frame->dimension; ++a) {
+            middle[a] = (double)index[a] + 0.5 - 0.5 * (double)n[a];
+        }
+        sum += measure_cell(frame, middle, 1.0, 0);
+    }
+    return sum;
+}
+
+/* Whole cells along each axis, as many as fit best, and one more node on each side. */
+static mor_status size_lattice(mor_context *context, const mor_relax_frame *frame, start_lattice *lattice)
+{
+    double total = 1.0;
+    lattice->n_nodes[2] = 1;
+    for (int a = 0; a < frame->dimension; ++a) {
+        const double n = fmax(1.0, floor(2.0 * frame->half[a] + 0.5)) + 2.0;
+        lattice->step[a] = 1.0;
+        lattice->low[a] = 0.5 - 0.5 * n;
+        lattice->n_nodes[a] = (int64_t)n;
+        total *= n;
+    }
+    MOR_CHECK(context, total < (double)nodes_limit, MOR_ERROR_ARGUMENT,
+              "the box about the shape (%s) holds %g particles; allowed are %g: use a larger spacing",
+              frame->shape->operations->kind, total, (double)nodes_limit);
+    return MOR_OK;
+}
+
+static void place_start(const mor_relax_frame *frame, const start_lattice *lattice, int64_t index, double *place)
+{
+    const int64_t at[3] = {index % lattice->n_nodes[0], index / lattice->n_nodes[0] % lattice->n_nodes[1],
+                           index / (lattice->n_nodes[0] * lattice->n_nodes[1])};
+    for (int a = 0; a < 3; ++a) {
+        place[a] = a < frame->dimension ? lattice->low[a] + lattice->step[a] * (double)at[a] : 0.0;
+    }
+}
+
+/* Deepest first; of equally deep ones the first in the order of the lattice. */
+static int compare_depth(const void *a, const void *b)
+{
+    const start_node *first = a;
+    const start_node *second = b;
+    if (first->depth != second->depth) {
+        return first->depth > second->depth ? -1 : 1;
+    }
+    return first->index < second->index ? -1 : first->index > second->index;
+}
+
+static int compare_index(const void *a, const void *b)
+{
+    const start_node *first = a;
+    const start_node *second = b;
+    return first->index < second->index ? -1 : first->index > second->index;
+}
+
+/* Moves the usable nodes to the front; returns how many of the n asked for there are. */
+static int64_t choose_nodes(const mor_relax_frame *frame, const start_lattice *lattice, int64_t n, int64_t n_nodes,
+                            start_node *nodes)
+{
+    int64_t n_chosen = 0;
+    qsort(nodes, (size_t)n_nodes, sizeof *nodes, compare_depth);
+    for (int64_t k = 0; k < n_nodes && n_chosen < n; ++k) {
+        double place[3];
+        place_start(frame, lattice, nodes[k].index, place);
+        if (nodes[k].depth >= MOR_RELAX_LAYER || mor_relax_frame_sink(frame, place, SINK_MOST) > SHALLOWEST) {
+            nodes[n_chosen++] = nodes[k];
+        }
+    }
+    qsort(nodes, (size_t)n_chosen, sizeof *nodes, compare_index);
+    return n_chosen;
+}
+
+/* A start that the jitter would bring out of the shape goes without. */
+static void jitter_start(const mor_relax_frame *frame, uint64_t seed, int64_t index, double *place)
+{
+    double moved[3] = {place[0], place[1], place[2]};
+    for (int a = 0; a < frame->dimension; ++a) {
+        const double number = mor_random_uniform(seed, (uint64_t)index, JITTER_PURPOSE + (uint64_t)a);
+        moved[a] += JITTER * (2.0 * number - 1.0);
+    }
+    if (mor_relax_frame_sink(frame, moved, SINK_MOST) > 0.0 || mor_relax_frame_sink(frame, place, SINK_MOST) <= 0.0) {
+        memcpy(place, moved, sizeof moved);
+    }
+}
+
+mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, uint64_t seed, int64_t n, double *places)
+{
+    start_lattice lattice;
+    start_node *nodes = NULL;
+    memset(&lattice, 0, sizeof lattice);
+    MOR_TRY(context, size_lattice(context, frame, &lattice));
+    const int64_t n_nodes = lattice.n_nodes[0] * lattice.n_nodes[1] * lattice.n_nodes[2];
+    MOR_TRY(context, MOR_NEW(context, &nodes, n_nodes, "starting lattice"));
+    MOR_PARALLEL_FOR (context, k, n_nodes, 256) {
+        double place[3];
+        place_start(frame, &lattice, k, place);
+        nodes[k] = (start_node){mor_relax_frame_depth(frame, place), k};
+    }
+    const int64_t n_chosen = choose_nodes(frame, &lattice, n, n_nodes, nodes);
+    MOR_PARALLEL_FOR (context, i, n_chosen, 128) {
+        place_start(frame, &lattice, nodes[i].index, places + 3 * i);
+        jitter_start(frame, seed, nodes[i].index, places + 3 * i);
+    }
+    MOR_FREE(context, &nodes);
+    MOR_CHECK(
+        context, n_chosen == n, MOR_ERROR_ARGUMENT,
+        "the shape (%s) is to hold %lld particles at a spacing of %g m, but only %lld find a place: give its right "
+        "volume or a smaller spacing",
+        frame->shape->operations->kind, (long long)n, frame->spacing, (long long)n_chosen);
+    return MOR_OK;
+}

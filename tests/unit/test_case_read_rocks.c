@@ -1,0 +1,200 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/rocks_report.h"
+#include "core/base/math.h"
+#include "core/particle/shape_analytic.h"
+#include "tests/common/case_reading.h"
+
+#define REGION "region = { type = \"box\"; min = (0, 0); max = (10, 6); }; "
+#define SIZES "sizes = ( { diameter = \"60 cm\"; passing = 0; }, { diameter = 1.2; passing = 1; } ); "
+#define FORMS "forms = ( { type = \"rock\"; angularity = 0.9; seed = 4; }, { type = \"rock\"; elongation = 1; } ); "
+#define ELASTIC                                                                                                        \
+    "material = { model = \"neo_hookean\"; density = 2600; youngs_modulus = \"100 MPa\"; poissons_ratio = 0.25; }; "
+
+/* Rocks in a box of 60 m2, beside a body that stands in it. */
+static const char text[] =
+    "dimension = 2; spacing = 0.05; end = 1; gravity = (0, -10); domain = { min = (-1, -1); max = (11, 9); };\n"
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (0, 0); normal = (0, 1); }; } );\n"
+    "bodies = ( { name = \"post\"; position = (5, 3); shape = { type = \"box\"; min = (-1, -1); max = (1, 1); };\n"
+    "  material = { model = \"rigid\"; density = 2000; }; angle = 0.5; } );\n"
+    "rocks = ( { name = \"rock\"; content = 0.25; gap = \"10 cm\"; n_forms = 3; seed = 5; velocity = (1, 2);\n"
+    "  friction = \"coulomb\"; friction_coefficient = 0.4; particles = \"lattice\";\n" REGION "\n" SIZES "\n" FORMS
+    "\n" ELASTIC "},\n"
+    "  { name = \"pebble\"; content = 0.02; margin = \"-10 cm\"; material = { model = \"rigid\"; density = 2500; };\n"
+    "  " REGION "\n  sizes = ( { diameter = 0.4; passing = 1; } ); forms = ( { type = \"rock\"; } ); } );\n"
+    "contact = { friction_coefficient = 0.25; pairs = ( { first = \"rock_1\"; second = \"floor\"; restitution = 0.9; } "
+    "); };\n"
+    "probes = ( { type = \"body_velocity\"; body = \"rock_3\"; direction = (0, 1, 0); } );\n";
+
+static void an_item_becomes_bodies_of_the_asked_content_and_sizes(void **state)
+{
+    case_reading *f = *state;
+    case_reading_read(f, text, NULL, &f->first);
+    const mor_case *c = &f->first;
+    assert_int_equal(c->n_rocks, 2);
+    assert_int_equal(c->n_listed_bodies, 1);
+    assert_int_equal(c->n_bodies, 1 + c->rocks[0].n_rocks + c->rocks[1].n_rocks);
+    assert_int_equal(c->rocks[0].n_shapes, 6); /* three of each form */
+    double area = 0.0;
+    for (int k = 0; k < c->rocks[0].n_rocks; ++k) {
+        const mor_case_body *body = &c->bodies[1 + k];
+        mor_shape_moments moments;
+        char name[MOR_CASE_NAME_BYTES];
+        snprintf(name, sizeof name, "rock_%d", k + 1);
+        assert_string_equal(body->name, name);
+        assert_true(mor_shape_moments_known(body->shape, 2, &moments));
+        assert_float_equal(moments.volume, 0.25 * MOR_PI * body->packed_diameter * body->packed_diameter, 1e-12);
+        /* rounding of an exact area */
+        assert_true(body->packed_diameter >= 0.6 && body->packed_diameter <= 1.2);
+        assert_true(body->velocity[0] == 1.0 && body->velocity[1] == 2.0);
+        assert_true(body->soil_friction_coefficient == 0.4 && body->contact_modulus == 100e6);
+        assert_int_equal(body->particles, MOR_CASE_PARTICLES_LATTICE);
+        area += moments.volume;
+    }
+    assert_float_equal(area / 60.0, c->rocks[0].content_reached, 1e-12);               /* the same sum */
+    assert_float_equal(c->rocks[0].content_reached, 0.25, 0.5 * 0.2827 / 60.0 + 1e-6); /* half of the smallest rock */
+    assert_float_equal(c->rocks[0].passing_reached[0], 0.0, 0.02);                     /* the aim: two points */
+    assert_true(c->rocks[0].smallest_gap >= 0.1);
+    assert_true(c->rocks[1].gap == 0.05 && c->rocks[1].margin == -0.1); /* gap: the spacing */
+    assert_string_equal(c->bodies[1 + c->rocks[0].n_rocks].name, "pebble_1");
+}
+
+/* Distance of a point to a body at its place. */
+static double find_distance(const mor_case_body *body, double x, double y)
+{
+    const double dx = x - body->position[0];
+    const double dy = y - body->position[1];
+    const double c = cos(body->angle);
+    const double s = sin(body->angle);
+    return mor_shape_distance(body->shape, (const double[]){c * dx + s * dy, c * dy - s * dx, 0.0});
+}
+
+static void rocks_keep_off_each_other_and_off_bodies_that_are_there(void **state)
+{
+    enum { STEPS = 120 };
+    case_reading *f = *state;
+    case_reading_read(f, text, NULL, &f->first);
+    const mor_case *c = &f->first;
+    for (int j = 0; j < STEPS; ++j) {
+        for (int i = 0; i < STEPS; ++i) {
+            double nearest = INFINITY;
+            double second = INFINITY;
+            for (int k = 0; k < c->n_bodies; ++k) {
+                const double distance = find_distance(&c->bodies[k], 10.0 * i / STEPS, 6.0 * j / STEPS);
+                second = fmin(second, fmax(nearest, distance));
+                nearest = fmin(nearest, distance);
+            }
+            /* The two ways to two bodies with a gap of 0.05 m between them; less a quarter of the points' distance. */
+            assert_true(nearest + second > 0.05 - 0.25 * 0.025);
+        }
+    }
+}
+
+static void rocks_written_and_read_again_are_the_same(void **state)
+{
+    case_reading_round_trip(*state, text, NULL);
+    static const char *const settings[] = {"scale.length=4", "scale.mass=0.0625", "scale.time=64", NULL};
+    case_reading_round_trip(*state, text, settings);
+}
+
+static void rocks_follow_the_scale_of_the_case(void **state)
+{
+    case_reading *f = *state;
+    static const char *const settings[] = {"scale.length=4", "scale.mass=0.0625", "scale.time=64", NULL};
+    case_reading_read(f, text, NULL, &f->first);
+    case_reading_read(f, text, settings, &f->second);
+    case_reading_scaled_cases(f);
+    for (int k = 1; k < f->first.n_bodies; ++k) { /* exact: a power of two */
+        const mor_case_body *plain = &f->first.bodies[k];
+        const mor_case_body *scaled = &f->second.bodies[k];
+        const double x = plain->position[0] + 0.3;
+        const double y = plain->position[1] - 0.1;
+        assert_true(4.0 * plain->packed_diameter == scaled->packed_diameter);
+        assert_true(4.0 * find_distance(plain, x, y) == find_distance(scaled, 4.0 * x, 4.0 * y));
+    }
+}
+
+static void outlines_from_files_are_forms_of_unit_diameter(void **state)
+{
+    case_reading *f = *state;
+    char path[512];
+    char setting[700];
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/moraine_rocks_outline.txt", folder == NULL ? "/tmp" : folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("0 0\n30 0\n30 20\n0 20\n", file); /* centimeters or inches: no matter */
+    fclose(file);
+    snprintf(setting, sizeof setting, "rocks[0].forms=({type=\"outline\"; file=\"%s\";})", path);
+    const char *const settings[] = {setting, NULL};
+    case_reading_read(f, text, settings, &f->first);
+    const mor_case_body *body = &f->first.bodies[1];
+    mor_shape_moments moments;
+    assert_int_equal(body->outline.kind, MOR_CASE_SHAPE_OUTLINE);
+    assert_true(mor_shape_moments_known(body->shape, 2, &moments));
+    assert_float_equal(moments.volume, 0.25 * MOR_PI * body->packed_diameter * body->packed_diameter, 1e-12);
+    /* rounding */
+    mor_case_input inputs[4];
+    assert_int_equal(mor_case_inputs(&f->first, inputs, 4), 1);
+    case_reading_round_trip(f, text, settings);
+    remove(path);
+}
+
+static void what_cannot_be_is_refused(void **state)
+{
+    static const char *const wrong[][2] = {
+        {"rocks[0].content=1.5", "allowed: in (0, 1)"},
+        {"rocks[0].contnt=0.2", "did you mean 'content'?"},
+        {"rocks[0].sizes=( { diameter=1; passing=0.5; } )", "allowed: 1, for all rocks"},
+        {"rocks[0].sizes=( { diameter=1; passing=0.5; }, { diameter=0.5; passing=1; } )", "rising diameters"},
+        {"rocks[0].forms[0].type=ball", "allowed: rock, outline, mesh"},
+        {"rocks[0].forms[0].diameter=2", "unknown name 'diameter'"},
+        {"rocks[0].forms[0]={type=\"outline\"; file=\"nowhere.txt\";}", "an outline that cannot be read"},
+        {"rocks[0].region={ type=\"half_space\"; point=(0, 0); normal=(0, 1); }", "has no end along x"},
+        {"rocks[0].material.model=drucker_prager", "material model of a body"},
+        {"rocks[0].friction=rough", "'friction_coefficient', which has no effect"},
+        {"rocks[1].name=rock", "the name 'rock_1' again"},
+        {"bodies[0].name=rock_2", "the name 'rock_2' again"},
+        {"rocks[0].sizes=( { diameter=0.0001; passing=1; } )", "smallest diameter"},
+        {"probes[0].body=rock_1000", "name of a body"},
+    };
+    case_reading *f = *state;
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
+        const char *const settings[] = {wrong[k][0], NULL};
+        case_reading_refuse(f, text, settings, "", wrong[k][1]);
+    }
+}
+
+static void the_report_sets_what_was_reached_against_what_was_asked(void **state)
+{
+    case_reading *f = *state;
+    char *report = NULL;
+    size_t n_bytes = 0;
+    FILE *stream = open_memstream(&report, &n_bytes);
+    assert_non_null(stream);
+    case_reading_read(f, text, NULL, &f->first);
+    mor_rocks_report_print(&f->first, stream);
+    fclose(stream);
+    char head[128];
+    snprintf(head, sizeof head, "rocks 'rock': %d placed, content %.2f %% (asked for: 25.00 %%), smallest gap",
+             f->first.rocks[0].n_rocks, 100.0 * f->first.rocks[0].content_reached);
+    assert_non_null(strstr(report, head));
+    assert_non_null(strstr(report, "up to 1.2        m 100.00 % of their volume (asked for: 100.00 %)"));
+    assert_non_null(strstr(report, "rocks 'pebble'"));
+    free(report);
+}
+
+int main(void)
+{
+#define FOR_ROCKS(test) cmocka_unit_test_setup_teardown(test, case_reading_set_up, case_reading_tear_down)
+    const struct CMUnitTest tests[] = {
+        FOR_ROCKS(an_item_becomes_bodies_of_the_asked_content_and_sizes),
+        FOR_ROCKS(rocks_keep_off_each_other_and_off_bodies_that_are_there),
+        FOR_ROCKS(rocks_written_and_read_again_are_the_same),
+        FOR_ROCKS(rocks_follow_the_scale_of_the_case),
+        FOR_ROCKS(outlines_from_files_are_forms_of_unit_diameter),
+        FOR_ROCKS(what_cannot_be_is_refused),
+        FOR_ROCKS(the_report_sets_what_was_reached_against_what_was_asked),
+    };
+    return cmocka_run_group_tests_name("case_read_rocks", tests, NULL, NULL);
+}

@@ -1,0 +1,372 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/particle/shape_analytic.h"
+#include "relaxation/pack.h"
+#include "relaxation/rock_form.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { N_FORMS = 6, N_CORNERS = 96 };
+
+/* The slope of the paper, rocks as outlines. */
+typedef struct slope {
+    mor_context context;
+    mor_outline outlines[N_FORMS];
+    mor_shape *forms[N_FORMS];
+    mor_shape *region;
+    mor_pack_request request;
+    int n_warnings;
+} slope;
+
+static const double slope_area = 4075.0; /* m2 */
+static const double one_size[1] = {4.0};
+static const double all_pass[1] = {1.0};
+static const double curve_sizes[4] = {1.5, 3.0, 4.5, 6.0};
+static const double curve_passing[4] = {0.0, 0.25, 0.6, 1.0};
+
+static void count_warnings(void *user, mor_log_level level, const char *text)
+{
+    (void)text;
+    *(int *)user += level == MOR_LOG_WARNING;
+}
+
+static void open_slope(slope *s, double unit)
+{
+    const double corners[8] = {0.0, 0.0, 0.0, 50.0 * unit, 56.5 * unit, 50.0 * unit, 106.5 * unit, 0.0};
+    memset(s, 0, sizeof *s);
+    mor_context_init(&s->context);
+    s->context.log_sink = count_warnings;
+    s->context.log_user = &s->n_warnings;
+    for (int k = 0; k < N_FORMS; ++k) {
+        mor_rock_form form;
+        mor_rock_form_init(&form);
+        form.angularity = 0.7;
+        form.seed = (uint64_t)k;
+        assert_int_equal(mor_rock_outline(&s->context, &form, N_CORNERS, &s->outlines[k]), MOR_OK);
+        assert_int_equal(mor_shape_new_outline(&s->context, &s->outlines[k], &s->forms[k]), MOR_OK);
+    }
+    assert_int_equal(mor_shape_new_polygon(&s->context, corners, 4, &s->region), MOR_OK);
+    mor_pack_request_init(&s->request);
+    s->request.dimension = 2;
+    s->request.region = s->region;
+    s->request.forms = (const mor_shape *const *)s->forms;
+    s->request.n_forms = N_FORMS;
+    s->request.diameters = one_size;
+    s->request.passing = all_pass;
+    s->request.n_sizes = 1;
+    s->request.gap = 0.5 * unit;
+    s->request.margin = 0.25 * unit;
+    s->request.resolution = 0.25 * unit;
+}
+
+static void close_slope(slope *s)
+{
+    for (int k = 0; k < N_FORMS; ++k) {
+        mor_shape_free(&s->context, &s->forms[k]);
+        mor_outline_clear(&s->context, &s->outlines[k]);
+    }
+    mor_shape_free(&s->context, &s->region);
+    assert_int_equal(s->context.memory_bytes, 0);
+}
+
+/* Corners of a placed rock, shape [N_CORNERS, 2]. */
+static void place_corners(const slope *s, const mor_pack_rock *rock, double *corners)
+{
+    for (int i = 0; i < N_CORNERS; ++i) {
+        const double x = s->outlines[rock->form].points[2 * i] * rock->diameter;
+        const double y = s->outlines[rock->form].points[2 * i + 1] * rock->diameter;
+        corners[2 * i] = rock->position[0] + cos(rock->angle) * x - sin(rock->angle) * y;
+        corners[2 * i + 1] = rock->position[1] + sin(rock->angle) * x + cos(rock->angle) * y;
+    }
+}
+
+static double distance_to_edge(const double *a, const double *b, const double *p)
+{
+    const double ex = b[0] - a[0];
+    const double ey = b[1] - a[1];
+    const double t = fmin(1.0, fmax(0.0, ((p[0] - a[0]) * ex + (p[1] - a[1]) * ey) / (ex * ex + ey * ey)));
+    return hypot(p[0] - a[0] - t * ex, p[1] - a[1] - t * ey);
+}
+
+/* Exact distance of two closed lines that do not cross; negative when a corner of one lies in the other. */
+static double find_distance(const double *p, const double *q)
+{
+    double least = INFINITY;
+    for (int side = 0; side < 2; ++side) {
+        const double *line = side == 0 ? p : q;
+        const double *points = side == 0 ? q : p;
+        for (int i = 0; i < N_CORNERS; ++i) {
+            bool is_inside = false;
+            for (int k = 0; k < N_CORNERS; ++k) {
+                const double *a = line + 2 * k;
+                const double *b = line + 2 * ((k + 1) % N_CORNERS);
+                const double *c = points + 2 * i;
+                least = fmin(least, distance_to_edge(a, b, c));
+                is_inside ^=
+                    (a[1] > c[1]) != (b[1] > c[1]) && c[0] < a[0] + (b[0] - a[0]) * ((c[1] - a[1]) / (b[1] - a[1]));
+            }
+            if (is_inside) {
+                return -1.0;
+            }
+        }
+    }
+    return least;
+}
+
+/* Distances of all rocks, and the least depth of all corners, by brute force. */
+static void check_places(const slope *s, const mor_pack_result *result)
+{
+    const mor_pack_request *request = &s->request;
+    double *corners = NULL;
+    double least = INFINITY;
+    mor_context context;
+    mor_context_init(&context);
+    assert_int_equal(MOR_NEW(&context, &corners, 2 * N_CORNERS * (int64_t)result->n_rocks, "corners"), MOR_OK);
+    for (int i = 0; i < result->n_rocks; ++i) {
+        place_corners(s, &result->rocks[i], corners + 2 * N_CORNERS * i);
+        for (int k = 0; k < N_CORNERS; ++k) {
+            const double *c = corners + 2 * N_CORNERS * i + 2 * k;
+            const double depth = -mor_shape_distance(s->region, (const double[]){c[0], c[1], 0.0});
+            /* corners of an outline stand out between points half a resolution apart: by a quarter at most */
+            assert_true(depth > request->margin - 0.25 * request->resolution);
+        }
+        for (int j = 0; j < i; ++j) {
+            const double *a = result->rocks[i].position;
+            const double *b = result->rocks[j].position;
+            if (hypot(a[0] - b[0], a[1] - b[1]) < result->rocks[i].diameter + result->rocks[j].diameter) {
+                least = fmin(least, find_distance(corners + 2 * N_CORNERS * i, corners + 2 * N_CORNERS * j));
+            }
+        }
+    }
+    assert_true(least > request->gap - 0.25 * request->resolution);              /* the same */
+    assert_float_equal(least, result->smallest_gap, 0.25 * request->resolution); /* the same */
+    MOR_FREE(&context, &corners);
+}
+
+static void one_size_reaches_its_content_without_overlap(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 4; ++k) {
+        slope s;
+        mor_pack_result result;
+        open_slope(&s, 1.0);
+        s.request.content = 0.1 * k;
+        s.request.seed = (uint64_t)k;
+        assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_OK);
+        assert_float_equal(result.content, 0.1 * k, 0.5 * MOR_PI * 4.0 / slope_area + 1e-6);  /* half a rock */
+        assert_float_equal(result.content, result.n_rocks * MOR_PI * 4.0 / slope_area, 1e-4); /* area by integration */
+        assert_int_equal(result.n_given_up, 0);
+        check_places(&s, &result);
+        print_message("%d %%: %d rocks, %.2f %%, gap %.3f m\n", 10 * k, result.n_rocks, 100.0 * result.content,
+                      result.smallest_gap);
+        mor_pack_clear(&s.context, &result);
+        close_slope(&s);
+    }
+}
+
+static void curve_of_sizes_is_reached_at_40_percent(void **state)
+{
+    (void)state;
+    slope s;
+    mor_pack_result result;
+    open_slope(&s, 1.0);
+    s.request.content = 0.4;
+    s.request.diameters = curve_sizes;
+    s.request.passing = curve_passing;
+    s.request.n_sizes = 4;
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_OK);
+    assert_float_equal(result.content, 0.4, 0.005); /* the aim: half a point */
+    for (int k = 0; k < 4; ++k) {
+        assert_float_equal(result.passing[k], curve_passing[k], 0.5 * 36.0 / 16.0 * MOR_PI * 4.0 / (0.4 * slope_area));
+        /* half of the largest rock */
+    }
+    for (int i = 1; i < result.n_rocks; ++i) {
+        assert_true(result.rocks[i].diameter <= result.rocks[i - 1].diameter);
+    }
+    check_places(&s, &result);
+    mor_pack_clear(&s.context, &result);
+    close_slope(&s);
+}
+
+static void same_seed_gives_the_same_and_units_change_no_bit(void **state)
+{
+    (void)state;
+    slope s[3];
+    mor_pack_result results[3];
+    for (int k = 0; k < 3; ++k) {
+        open_slope(&s[k], k == 1 ? 16.0 : 1.0);
+        const double diameter = k == 1 ? 64.0 : 4.0;
+        s[k].context.n_threads = k == 2 ? 3 : 1;
+        s[k].request.content = 0.38; /* so full that rocks are pushed */
+        s[k].request.diameters = &diameter;
+        s[k].request.seed = 7;
+        assert_int_equal(mor_pack(&s[k].context, &s[k].request, &results[k]), MOR_OK);
+    }
+    assert_int_equal(results[0].n_rocks, results[1].n_rocks);
+    for (int i = 0; i < results[0].n_rocks; ++i) {
+        mor_pack_rock scaled = results[1].rocks[i];
+        scaled.diameter /= 16.0;
+        for (int a = 0; a < 3; ++a) {
+            scaled.position[a] /= 16.0;
+        }
+        assert_memory_equal(&scaled, &results[0].rocks[i], sizeof scaled);
+        assert_memory_equal(&results[2].rocks[i], &results[0].rocks[i], sizeof scaled);
+    }
+    for (int k = 0; k < 3; ++k) {
+        mor_pack_clear(&s[k].context, &results[k]);
+        close_slope(&s[k]);
+    }
+}
+
+static void what_cannot_be_reached_is_said(void **state)
+{
+    (void)state;
+    slope s;
+    mor_pack_result result;
+    open_slope(&s, 1.0);
+    const double diameter = 12.0; /* few and large, so that it is soon known */
+    s.request.diameters = &diameter;
+    s.request.content = 0.7;
+    s.request.gap = 2.0;
+    s.request.most_tries = 2000;
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_OK);
+    assert_true(result.content < 0.65);
+    assert_true(result.n_given_up > 0);
+    assert_int_equal(result.n_rocks + result.n_given_up, (int)round(0.7 * slope_area / (MOR_PI * 36.0)));
+    assert_int_equal(s.n_warnings, 1);
+    check_places(&s, &result);
+    mor_pack_clear(&s.context, &result);
+    close_slope(&s);
+}
+
+static void rocks_keep_off_an_obstacle_inside_and_out(void **state)
+{
+    (void)state;
+    slope s;
+    mor_pack_result result;
+    mor_shape *post = NULL;
+    open_slope(&s, 1.0);
+    /* Thinner than the distance of the points on a rock. */
+    const double low[3] = {20.0, 5.0, -INFINITY};
+    const double high[3] = {20.02, 45.0, INFINITY};
+    assert_int_equal(mor_shape_new_box(&s.context, low, high, &post), MOR_OK);
+    s.request.obstacle = post;
+    s.request.content = 0.35;
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_OK);
+    for (int i = 0; i < result.n_rocks; ++i) {
+        double corners[2 * N_CORNERS];
+        bool is_left = false;
+        bool is_right = false;
+        place_corners(&s, &result.rocks[i], corners);
+        for (int k = 0; k < N_CORNERS; ++k) {
+            const double point[3] = {corners[2 * k], corners[2 * k + 1], 0.0};
+            assert_true(mor_shape_distance(post, point) > 0.5 - 1e-9); /* the gap; rounding */
+            if (point[1] > 5.0 && point[1] < 45.0) {
+                is_left = is_left || point[0] < 20.0;
+                is_right = is_right || point[0] > 20.02;
+            }
+        }
+        assert_false(is_left && is_right);
+    }
+    mor_pack_clear(&s.context, &result);
+    mor_shape_free(&s.context, &post);
+    close_slope(&s);
+}
+
+static void balls_fill_a_box_to_20_percent_in_space(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_pack_request request;
+    mor_pack_result result;
+    mor_shape *region = NULL;
+    mor_shape *ball = NULL;
+    const double zero[3] = {0.0, 0.0, 0.0};
+    const double size[3] = {10.0, 8.0, 6.0};
+    const double diameters[2] = {0.8, 1.6};
+    const double passing[2] = {0.0, 1.0};
+    mor_context_init(&context);
+    assert_int_equal(mor_shape_new_box(&context, zero, size, &region), MOR_OK);
+    assert_int_equal(mor_shape_new_sphere(&context, zero, 0.5, &ball), MOR_OK);
+    const mor_shape *forms[1] = {ball};
+    mor_pack_request_init(&request);
+    request.region = region;
+    request.forms = forms;
+    request.n_forms = 1;
+    request.content = 0.2;
+    request.diameters = diameters;
+    request.passing = passing;
+    request.n_sizes = 2;
+    request.gap = 0.1;
+    request.resolution = 0.1;
+    assert_int_equal(mor_pack(&context, &request, &result), MOR_OK);
+    assert_float_equal(result.content, 0.2, 0.005); /* the aim: half a point */
+    for (int i = 0; i < result.n_rocks; ++i) {
+        const double *a = result.rocks[i].position;
+        const double radius = 0.5 * result.rocks[i].diameter;
+        for (int k = 0; k < 3; ++k) { /* closed form; points 0.05 apart on a ball: sagitta below 0.001 */
+            assert_true(a[k] > radius - 1e-3 && a[k] < size[k] - radius + 1e-3);
+        }
+        assert_float_equal(mor_vector_length(result.rocks[i].axis), 1.0, 1e-14); /* rounding */
+        for (int j = 0; j < i; ++j) {
+            const double *b = result.rocks[j].position;
+            const double offset[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+            assert_true(mor_vector_length(offset) - radius - 0.5 * result.rocks[j].diameter >
+                        0.1 - 1e-3); /* the same */
+        }
+    }
+    mor_pack_clear(&context, &result);
+    mor_shape_free(&context, &region);
+    mor_shape_free(&context, &ball);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+static void wrong_requests_are_refused(void **state)
+{
+    (void)state;
+    slope s;
+    mor_pack_result result;
+    open_slope(&s, 1.0);
+    const mor_pack_request good = s.request;
+    s.request.content = 1.0;
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(s.context.message, "content"));
+    s.request = good;
+    s.request.content = 0.2;
+    const double half[1] = {0.5};
+    s.request.passing = half;
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(s.context.message, "must be 1"));
+    s.request.passing = all_pass;
+    s.request.gap = -1.0;
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(s.context.message, "gap"));
+    s.request.gap = 0.5;
+    mor_shape *twice = s.forms[0];
+    assert_int_equal(mor_shape_new_scaled(&s.context, 2.0, &twice, &s.forms[0]), MOR_OK);
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(s.context.message, "scale it"));
+    assert_null(result.rocks);
+    close_slope(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_size_reaches_its_content_without_overlap),
+        cmocka_unit_test(curve_of_sizes_is_reached_at_40_percent),
+        cmocka_unit_test(same_seed_gives_the_same_and_units_change_no_bit),
+        cmocka_unit_test(what_cannot_be_reached_is_said),
+        cmocka_unit_test(rocks_keep_off_an_obstacle_inside_and_out),
+        cmocka_unit_test(balls_fill_a_box_to_20_percent_in_space),
+        cmocka_unit_test(wrong_requests_are_refused),
+    };
+    return cmocka_run_group_tests_name("pack", tests, NULL, NULL);
+}
