@@ -67,6 +67,38 @@ static double find_outward(const view *v, const double *position, double *outwar
     return radius;
 }
 
+/* Outermost particle of a set that lies above the origin of the probe, or what was found before. */
+static double find_toe(const view *v, const mor_set *set, double outermost)
+{
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double *position = set->data[MOR_FIELD_POSITION] + 3 * i;
+        double outward[3];
+        double height = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            height += (position[a] - v->frame.origin[a]) * v->frame.up[a];
+        }
+        if (height > 0.0) {
+            outermost = fmax(outermost, find_outward(v, position, outward));
+        }
+    }
+    return outermost;
+}
+
+static mor_status toe(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation *simulation = v->simulation;
+    double outermost = -INFINITY;
+    (void)context;
+    if (simulation->has_soil) {
+        outermost = find_toe(v, &simulation->soil.set, outermost);
+    }
+    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
+        outermost = find_toe(v, &simulation->bodies.groups[g]->set, outermost);
+    }
+    *value = isfinite(outermost) ? outermost : 0.0;
+    return MOR_OK;
+}
+
 /* Mean outward velocity of the particles within a spacing of the front. */
 static mor_status front_speed(mor_context *context, const view *v, double *value)
 {
@@ -320,6 +352,7 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
 }
 
 static const mor_probe_measure measures[] = {{"run_out", run_out},
+                                             {"toe", toe},
                                              {"front_speed", front_speed},
                                              {"height", height},
                                              {"repose_angle", repose_angle},

@@ -1,6 +1,7 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
-"""Refuses a test source that CTest does not run, and a test that cannot fail because nothing in it asserts."""
+"""Refuses a test source that CTest does not run, a test that cannot fail because nothing in it asserts, and comparisons
+in single precision."""
 
 import json
 import os
@@ -11,6 +12,7 @@ import sys
 import source
 
 TIERS = ("unit", "property", "physics", "regression")
+SINGLE = re.compile(r"\bassert_float_(?:not_)?equal\b")
 ASSERTION = re.compile(r"\b(assert_\w+|fail_msg|fail|mor_expect\w*|(?:\w+_)?scene_expect\w*)[ \t]*\(")
 TEST = re.compile(r"\bstatic\s+void\s+(\w+)\s*\(\s*void\s*\*\*\s*\w+\s*\)")
 
@@ -38,6 +40,9 @@ def check_source(path, text):
     code = source.without_comments_and_strings(text)
     if not ASSERTION.search(code):
         yield f"{path}:1: nothing in it asserts, so it cannot fail; assert the law its name states"
+    for match in SINGLE.finditer(code):
+        yield (f"{path}:{source.line_of(code, match.start())}: assert_float_equal compares in single precision; use "
+               "assert_near of tests/common/near.h")
     for match in TEST.finditer(code):
         uses = len(re.findall(rf"\b{match.group(1)}\b", code))
         if uses < 2:

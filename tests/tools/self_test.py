@@ -403,6 +403,11 @@ class Tests(Sample):
         self.write("tests/unit/test_length.c", text)
         self.expect(check_tests.check(self.root, {"unit/test_length"}), "nothing in it asserts")
 
+    def test_comparison_in_single_precision_is_refused(self):
+        text = GOOD["tests/unit/test_length.c"].replace("assert_true(1)", "assert_float_equal(1.0, 1.0, 0.0)")
+        self.write("tests/unit/test_length.c", text)
+        self.expect(check_tests.check(self.root, {"unit/test_length"}), "compares in single precision")
+
     def test_function_in_no_group_is_refused(self):
         text = GOOD["tests/unit/test_length.c"].replace("cmocka_unit_test(length_is_positive)", "")
         self.write("tests/unit/test_length.c", text)

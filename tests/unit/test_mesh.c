@@ -4,6 +4,7 @@
 #include "core/base/random.h"
 #include "relaxation/mesh_internal.h"
 #include "tests/common/mesh_forms.h"
+#include "tests/common/near.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -81,7 +82,7 @@ static void expect_volume(draft *it, double volume)
     mor_shape_moments moments;
     assert_int_equal(look_over(it), MOR_OK);
     mor_mesh_moments(&it->mesh, &moments);
-    assert_float_equal(moments.volume, volume, 1e-14 * volume); /* some tens of roundings */
+    assert_near(moments.volume, volume, 1e-14 * volume); /* some tens of roundings */
 }
 
 static void remove_triangle(draft *it, int64_t t)
@@ -117,12 +118,12 @@ static void moments_of_a_box_far_away_are_exact(void **state)
     assert_int_equal(look_over(it), MOR_OK);
     mor_mesh_moments(&it->mesh, &moments);
     const double tolerance = 1e-13; /* corners and middle are exact: only roundings of sums of order ten are left */
-    assert_float_equal(moments.volume, 6.0, tolerance);
-    assert_float_equal(mor_mesh_area(&it->mesh), 22.0, 22.0 * DBL_EPSILON * 12); /* twelve sums */
+    assert_near(moments.volume, 6.0, tolerance);
+    assert_near(mor_mesh_area(&it->mesh), 22.0, 22.0 * DBL_EPSILON * 12); /* twelve sums */
     const double inertia[6] = {6.0 * (4 + 9) / 12, 6.0 * (1 + 9) / 12, 6.0 * (1 + 4) / 12, 0.0, 0.0, 0.0};
     for (int k = 0; k < 6; ++k) {
-        assert_float_equal(moments.inertia[k], inertia[k], tolerance);
-        assert_float_equal(moments.center[k % 3], 1000.0, tolerance);
+        assert_near(moments.inertia[k], inertia[k], tolerance);
+        assert_near(moments.center[k % 3], 1000.0, tolerance);
     }
 }
 
@@ -141,14 +142,14 @@ static void moments_of_a_tetrahedron_are_those_of_the_closed_form(void **state)
     assert_int_equal(it->report.n_flipped, 0);
     mor_mesh_moments(&it->mesh, &moments);
     const double tolerance = 8.0 * DBL_EPSILON; /* a few roundings of numbers below one */
-    assert_float_equal(moments.volume, 1.0 / 6.0, tolerance);
+    assert_near(moments.volume, 1.0 / 6.0, tolerance);
     /* Of x2: 1/60, of x y: 1/120; less 1/6 * 1/16 for the center at 1/4. */
     const double square = 1.0 / 60.0 - 1.0 / 96.0;
     const double product = 1.0 / 120.0 - 1.0 / 96.0;
     for (int a = 0; a < 3; ++a) {
-        assert_float_equal(moments.center[a], 0.25, tolerance);
-        assert_float_equal(moments.inertia[a], 2.0 * square, tolerance);
-        assert_float_equal(moments.inertia[3 + a], -product, tolerance);
+        assert_near(moments.center[a], 0.25, tolerance);
+        assert_near(moments.inertia[a], 2.0 * square, tolerance);
+        assert_near(moments.inertia[3 + a], -product, tolerance);
     }
 }
 
@@ -169,24 +170,24 @@ static void moments_turn_with_the_mesh(void **state)
     mor_matrix_rotation(axis, 0.7, turn);
     mor_mesh_place(&it->mesh, turn, move);
     mor_mesh_moments(&it->mesh, &after);
-    assert_float_equal(after.volume, before.volume, 1e-13); /* roundings of numbers of order ten */
+    assert_near(after.volume, before.volume, 1e-13); /* roundings of numbers of order ten */
     double center[3];
     mor_matrix_apply(turn, before.center, center);
     for (int a = 0; a < 3; ++a) {
         double column[3];
         double expected[3];
         const double unit[3] = {turn[a], turn[3 + a], turn[6 + a]};
-        assert_float_equal(after.center[a], center[a] + move[a], 1e-13); /* roundings of numbers of order ten */
+        assert_near(after.center[a], center[a] + move[a], 1e-13); /* roundings of numbers of order ten */
         /* The box had no mixed moments: its axes are still principal ones. */
         mor_symmetric_apply(after.inertia, unit, column);
         for (int b = 0; b < 3; ++b) {
             expected[b] = before.inertia[a] * unit[b];
-            assert_float_equal(column[b], expected[b], 1e-12); /* roundings of numbers of order a hundred */
+            assert_near(column[b], expected[b], 1e-12); /* roundings of numbers of order a hundred */
         }
     }
     mor_mesh_center(&it->mesh);
     mor_mesh_moments(&it->mesh, &after);
-    assert_float_equal(mor_vector_length(after.center), 0.0, 1e-14); /* roundings of coordinates of order one */
+    assert_near(mor_vector_length(after.center), 0.0, 1e-14); /* roundings of coordinates of order one */
 }
 
 /* ---- Size -------------------------------------------------------------------------------------------------------- */
@@ -200,17 +201,17 @@ static void a_mesh_gets_the_size_asked_for(void **state)
     assert_int_equal(look_over(it), MOR_OK);
     assert_int_equal(mor_mesh_scale(&it->context, &it->mesh, MOR_MESH_AS_IS, 2.0), MOR_OK);
     mor_mesh_moments(&it->mesh, &moments);
-    assert_float_equal(moments.volume, 8.0, 1e-14);     /* roundings */
-    assert_float_equal(moments.center[0], 14.0, 1e-14); /* about the origin */
+    assert_near(moments.volume, 8.0, 1e-14);     /* roundings */
+    assert_near(moments.center[0], 14.0, 1e-14); /* about the origin */
     assert_int_equal(mor_mesh_scale(&it->context, &it->mesh, MOR_MESH_LENGTH, 0.25), MOR_OK);
     mor_mesh_bounds(&it->mesh, &box);
-    assert_float_equal(box.maximum[0] - box.minimum[0], 0.25, 1e-15); /* roundings of the corners */
+    assert_near(box.maximum[0] - box.minimum[0], 0.25, 1e-15); /* roundings of the corners */
     assert_int_equal(mor_mesh_scale(&it->context, &it->mesh, MOR_MESH_VOLUME, 5.0), MOR_OK);
     mor_mesh_moments(&it->mesh, &moments);
-    assert_float_equal(moments.volume, 5.0, 1e-13); /* roundings, times three by the cube */
+    assert_near(moments.volume, 5.0, 1e-13); /* roundings, times three by the cube */
     assert_int_equal(mor_mesh_scale(&it->context, &it->mesh, MOR_MESH_DIAMETER, 2.0), MOR_OK);
     mor_mesh_moments(&it->mesh, &moments);
-    assert_float_equal(moments.volume, 4.0 / 3.0 * MOR_PI, 1e-13); /* likewise */
+    assert_near(moments.volume, 4.0 / 3.0 * MOR_PI, 1e-13); /* likewise */
     assert_int_equal(mor_mesh_scale(&it->context, &it->mesh, MOR_MESH_LENGTH, 0.0), MOR_ERROR_ARGUMENT);
     assert_int_equal(mor_mesh_scale(&it->context, &it->mesh, MOR_MESH_VOLUME, -1.0), MOR_ERROR_ARGUMENT);
     assert_int_equal(mor_mesh_scale(&it->context, &it->mesh, MOR_MESH_AS_IS, NAN), MOR_ERROR_ARGUMENT);

@@ -5,6 +5,7 @@
 #include "core/particle/shape_analytic.h"
 #include "relaxation/pack.h"
 #include "relaxation/rock_form.h"
+#include "tests/common/near.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -145,8 +146,8 @@ static void check_places(const slope *s, const mor_pack_result *result)
             }
         }
     }
-    assert_true(least > request->gap - 0.25 * request->resolution);              /* the same */
-    assert_float_equal(least, result->smallest_gap, 0.25 * request->resolution); /* the same */
+    assert_true(least > request->gap - 0.25 * request->resolution);       /* the same */
+    assert_near(least, result->smallest_gap, 0.25 * request->resolution); /* the same */
     MOR_FREE(&context, &corners);
 }
 
@@ -160,8 +161,8 @@ static void one_size_reaches_its_content_without_overlap(void **state)
         s.request.content = 0.1 * k;
         s.request.seed = (uint64_t)k;
         assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_OK);
-        assert_float_equal(result.content, 0.1 * k, 0.5 * MOR_PI * 4.0 / slope_area + 1e-6);  /* half a rock */
-        assert_float_equal(result.content, result.n_rocks * MOR_PI * 4.0 / slope_area, 1e-4); /* area by integration */
+        assert_near(result.content, 0.1 * k, 0.5 * MOR_PI * 4.0 / slope_area + 1e-6);  /* half a rock */
+        assert_near(result.content, result.n_rocks * MOR_PI * 4.0 / slope_area, 1e-4); /* area by integration */
         assert_int_equal(result.n_given_up, 0);
         check_places(&s, &result);
         print_message("%d %%: %d rocks, %.2f %%, gap %.3f m\n", 10 * k, result.n_rocks, 100.0 * result.content,
@@ -182,9 +183,9 @@ static void curve_of_sizes_is_reached_at_40_percent(void **state)
     s.request.passing = curve_passing;
     s.request.n_sizes = 4;
     assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_OK);
-    assert_float_equal(result.content, 0.4, 0.005); /* the aim: half a point */
+    assert_near(result.content, 0.4, 0.005); /* the aim: half a point */
     for (int k = 0; k < 4; ++k) {
-        assert_float_equal(result.passing[k], curve_passing[k], 0.5 * 36.0 / 16.0 * MOR_PI * 4.0 / (0.4 * slope_area));
+        assert_near(result.passing[k], curve_passing[k], 0.5 * 36.0 / 16.0 * MOR_PI * 4.0 / (0.4 * slope_area));
         /* half of the largest rock */
     }
     for (int i = 1; i < result.n_rocks; ++i) {
@@ -307,14 +308,14 @@ static void balls_fill_a_box_to_20_percent_in_space(void **state)
     request.gap = 0.1;
     request.resolution = 0.1;
     assert_int_equal(mor_pack(&context, &request, &result), MOR_OK);
-    assert_float_equal(result.content, 0.2, 0.005); /* the aim: half a point */
+    assert_near(result.content, 0.2, 0.005); /* the aim: half a point */
     for (int i = 0; i < result.n_rocks; ++i) {
         const double *a = result.rocks[i].position;
         const double radius = 0.5 * result.rocks[i].diameter;
         for (int k = 0; k < 3; ++k) { /* closed form; points 0.05 apart on a ball: sagitta below 0.001 */
             assert_true(a[k] > radius - 1e-3 && a[k] < size[k] - radius + 1e-3);
         }
-        assert_float_equal(mor_vector_length(result.rocks[i].axis), 1.0, 1e-14); /* rounding */
+        assert_near(mor_vector_length(result.rocks[i].axis), 1.0, 1e-14); /* rounding */
         for (int j = 0; j < i; ++j) {
             const double *b = result.rocks[j].position;
             const double offset[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
