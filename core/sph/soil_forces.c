@@ -6,6 +6,7 @@
 #include "core/base/eigen.h"
 #include "core/base/parallel.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 /* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once.
@@ -39,6 +40,16 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step 
     return MOR_OK;
 }
 
+/* Whether all principal stresses are compressive: the leading minors of minus the stress are positive. In most of the
+ * soil, most of the time, this spares the eigenvalues. */
+static bool is_compressed(const double *s)
+{
+    const double plane = s[MOR_XX] * s[MOR_YY] - s[MOR_XY] * s[MOR_XY];
+    const double determinant = s[MOR_ZZ] * plane + s[MOR_XY] * s[MOR_YZ] * s[MOR_ZX] * 2.0 -
+                               s[MOR_XX] * s[MOR_YZ] * s[MOR_YZ] - s[MOR_YY] * s[MOR_ZX] * s[MOR_ZX];
+    return s[MOR_XX] < 0.0 && plane > 0.0 && determinant < 0.0;
+}
+
 /* Principal tensions answered by -epsilon times themselves, eqs. 28-31, in two and three dimensions. */
 static void find_artificial(const double *stress, double factor, double *artificial)
 {
@@ -46,6 +57,9 @@ static void find_artificial(const double *stress, double factor, double *artific
     double directions[9];
     for (int a = 0; a < 6; ++a) {
         artificial[a] = 0.0;
+    }
+    if (is_compressed(stress)) {
+        return;
     }
     mor_symmetric_eigen(stress, values, directions);
     for (int k = 0; k < 3; ++k) {
