@@ -4,6 +4,7 @@
 #include "cases/driver/command.h"
 
 #include "cases/driver/clock.h"
+#include "cases/driver/point_cache.h"
 #include "cases/driver/render/picture.h"
 #include "cases/driver/run_files.h"
 #include "core/base/math.h"
@@ -33,8 +34,9 @@ typedef struct filling {
     mor_shape *shape; /* to be filled */
     mor_shape_moments moments;
     mor_relax_request request;
-    mor_relax_points points;
-    double *depths; /* shape [n_points], m */
+    mor_point_cache cache;
+    mor_relax_points points; /* borrowed from the cache */
+    double *depths;          /* shape [n_points], m */
     double seconds;
 } filling;
 
@@ -163,8 +165,9 @@ static mor_status print_quality(mor_command *command, filling *it)
     fprintf(out, "equivalent diameter           %.6g m\n", size);
     fprintf(out, "volume                        %.6g %s\n", it->moments.volume, unit);
     fprintf(out, "particles                     %lld of %.6g %s\n", (long long)points->n_points, points->volume, unit);
-    fprintf(out, "relaxation                    %d steps, last move %.3g spacings%s, %.2f s\n", points->n_steps,
-            points->residual, points->is_converged ? "" : " (not converged)", it->seconds);
+    fprintf(out, "relaxation                    %d steps, last move %.3g spacings%s, %s%.2f s\n", points->n_steps,
+            points->residual, points->is_converged ? "" : " (not converged)",
+            it->cache.n_read > 0 ? "known from before, " : "", it->seconds);
     fprintf(out, "nearest neighbor              %.4f lattice spacings, deviation %.2f %%\n", quality.nearest_mean,
             100.0 * quality.spacing_deviation);
     if (!isnan(quality.kernel_sum_mean)) { /* else nothing lies deep enough */
@@ -266,7 +269,7 @@ static mor_status fill_shape(mor_command *command, filling *it)
     it->request.spacing = it->spacing;
     it->request.volume = it->moments.volume;
     const double start = mor_clock_now();
-    MOR_TRY(context, blame_input(context, mor_relax(context, &it->request, &it->points), ""));
+    MOR_TRY(context, blame_input(context, mor_point_cache_relax(context, &it->cache, &it->request, &it->points), ""));
     it->seconds = mor_clock_now() - start;
     MOR_TRY(context, MOR_NEW(context, &it->depths, it->points.n_points, "depths of particles"));
     for (int64_t i = 0; i < it->points.n_points; ++i) {
@@ -300,6 +303,7 @@ static mor_status relax(mor_command *command, filling *it)
     const char *slash = strrchr(command->subject, '/');
     const char *dot = strrchr(command->subject, '.');
     mor_relax_request_init(&it->request);
+    mor_point_cache_init(&it->cache, NULL);
     it->name = slash != NULL ? slash + 1 : command->subject;
     it->request.dimension = dot != NULL && strcasecmp(dot, ".txt") == 0 ? 2 : 3;
     MOR_TRY(command->context, read_options(command, it));
@@ -314,7 +318,7 @@ mor_status mor_command_relax(mor_command *command, int *exit_code)
     filling it = {.shape = NULL};
     (void)exit_code;
     const mor_status status = relax(command, &it);
-    mor_relax_clear(command->context, &it.points);
+    mor_point_cache_clear(command->context, &it.cache);
     MOR_FREE(command->context, &it.depths);
     mor_shape_free(command->context, &it.shape);
     return status;
