@@ -379,9 +379,9 @@ static double limit_pair(const mor_contact *contact, int own, int other, double 
     return step;
 }
 
-double mor_contact_longest_step(const void *owner, const mor_body_group *group)
+/* Longest step of a group as its bodies lie, or as if each pair by itself were in touch. */
+static double find_longest(const mor_contact *contact, const mor_body_group *group, bool is_touching)
 {
-    const mor_contact *contact = owner;
     const mor_contact_work *work = contact->work;
     double *speeds = work->speeds;
     double longest = INFINITY;
@@ -399,13 +399,25 @@ double mor_contact_longest_step(const void *owner, const mor_body_group *group)
             const double speed =
                 speeds[own] +
                 (is_wall ? mor_vector_length(contact->walls[other - work->n_bodies].velocity) : speeds[other]);
-            const double gap =
-                mor_contact_apart(contact, own < other ? own : other, own < other ? other : own, work->boxes);
+            const int first = own < other ? own : other;
+            const int second = own < other ? other : own;
+            const double gap = is_touching ? 0.0 : mor_contact_apart(contact, first, second, work->boxes);
             longest = fmin(longest, limit_pair(contact, own, other, gap, speed, &rate2));
         }
-        longest = rate2 > 0.0 ? fmin(longest, STEP_SHARE / sqrt(rate2)) : longest;
+        /* Nobody touches all others at once. */
+        longest = rate2 > 0.0 && !is_touching ? fmin(longest, STEP_SHARE / sqrt(rate2)) : longest;
     }
     return longest;
+}
+
+double mor_contact_longest_step(const void *owner, const mor_body_group *group)
+{
+    return find_longest(owner, group, false);
+}
+
+double mor_contact_touching_step(const void *owner, const mor_body_group *group)
+{
+    return fmin(find_longest(owner, group, false), find_longest(owner, group, true));
 }
 
 static int bit_index(uint64_t bit)

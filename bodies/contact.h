@@ -95,4 +95,11 @@ void mor_contact_exchange(mor_contact *contact, mor_exchange *exchange);
  *  @param group   [in]  one object */
 double mor_contact_longest_step(const void *contact, const mor_body_group *group);
 
+/** The same once bodies touch, unit s: no longer than the step of any one pair of them, or body and wall, in touch,
+ *  however far apart they are now; INFINITY without pairs. Bodies that touch several others at once may need shorter
+ *  ones. May be hung into a group in place of the above.
+ *  @param contact [in]  one object, a mor_contact
+ *  @param group   [in]  one object */
+double mor_contact_touching_step(const void *contact, const mor_body_group *group);
+
 #endif

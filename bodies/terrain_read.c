@@ -25,8 +25,8 @@
 #define LIKELY_MARK 20.0
 #define SURELY_MARK 1e4
 
-static const char *const drivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "EHdr",
-                                      "SAGA",  "GSAG",    "GSBG",           "GS7BG",   NULL};
+/* Formats of one file each: its hash then stands for all that was read. */
+static const char *const drivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "GSAG", "GSBG", "GS7BG", NULL};
 
 /* An open raster and what its header says. */
 typedef struct raster {
@@ -55,8 +55,6 @@ static void register_drivers(void)
     GDALRegister_AAIGrid();
     GDALRegister_GRASSASCIIGrid();
     GDALRegister_SRTMHGT();
-    GDALRegister_EHdr();
-    GDALRegister_SAGA();
     GDALRegister_GSAG();
     GDALRegister_GSBG();
     GDALRegister_GS7BG();
@@ -100,8 +98,8 @@ static mor_status open_raster(mor_context *context, raster *it)
     CPLErrorReset();
     it->dataset = GDALOpenEx(it->path, GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, NULL, NULL);
     MOR_CHECK(context, it->dataset != NULL, MOR_ERROR_IO,
-              "%s: cannot be read as a raster (%s); allowed are GeoTIFF, ESRI and GRASS ASCII, SRTM (.hgt), ESRI .bil, "
-              "SAGA and Surfer grids: convert it with gdal_translate",
+              "%s: cannot be read as a raster (%s); allowed are GeoTIFF, ESRI and GRASS ASCII, SRTM (.hgt) "
+              "and Surfer grids: convert it with gdal_translate",
               it->path, CPLGetLastErrorMsg()[0] != '\0' ? CPLGetLastErrorMsg() : "no known format");
     MOR_CHECK(context, GDALGetRasterCount(it->dataset) >= 1, MOR_ERROR_IO, "%s: the raster holds no band", it->path);
     const char *driver = GDALGetDriverShortName(GDALGetDatasetDriver(it->dataset));
@@ -266,12 +264,26 @@ static mor_status mend_holes(mor_context *context, const mor_terrain_request *re
               request->path, (long long)n_nodes);
     MOR_CHECK(context, n_holes == 0 || request->fills_no_data, MOR_ERROR_ARGUMENT,
               "%s: %lld of %lld nodes have no data, the first at (%g, %g) m; allowed are none: crop them off, or have "
-              "holes filled from their rims",
+              "holes filled from their rims: fill_no_data = true",
               request->path, (long long)n_holes, (long long)n_nodes,
               terrain->origin[0] + (double)(first % terrain->n_x) * terrain->cell[0],
               terrain->origin[1] + (double)(first / terrain->n_x) * terrain->cell[1]);
     MOR_TRY(context, mor_terrain_fill_holes(context, terrain));
     return MOR_OK;
+}
+
+/* Heights in meters over an extent in degrees. */
+static bool may_be_degrees(const mor_terrain *terrain)
+{
+    double lowest = INFINITY;
+    double highest = -INFINITY;
+    for (int64_t n = 0; n < (int64_t)terrain->n_x * terrain->n_y; ++n) {
+        lowest = fmin(lowest, terrain->heights[n]);
+        highest = fmax(highest, terrain->heights[n]);
+    }
+    const double extent =
+        fmax(mor_terrain_end(terrain, 0) - terrain->origin[0], mor_terrain_end(terrain, 1) - terrain->origin[1]);
+    return terrain->datum[0] == '\0' && highest - lowest > LIKELY_DEGREES * extent;
 }
 
 /* Cliffs no ground has. */
@@ -286,16 +298,22 @@ static mor_status check_steps(mor_context *context, const mor_terrain_request *r
             steepest = fmax(steepest, fmax(x, y));
         }
     }
+    const bool is_degrees = may_be_degrees(terrain);
     MOR_CHECK(
         context, steepest <= SURELY_MARK, MOR_ERROR_ARGUMENT,
-        "%s: heights of neighboring nodes differ by %g cells; allowed are %g: if the raster marks missing data with "
+        "%s: heights of neighboring nodes differ by %g cells; allowed are %g: %sif the raster marks missing data with "
         "a number, declare it with gdal_edit.py -a_nodata",
-        request->path, steepest, SURELY_MARK);
-    if (steepest > LIKELY_MARK) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "%s: heights of neighboring nodes differ by %g cells: does a number mark "
-                        "missing data without being declared?",
-                        request->path, steepest);
+        request->path, steepest, SURELY_MARK,
+        is_degrees
+            ? "it names no reference system, and if its coordinates are degrees, project it with gdalwarp -s_srs "
+              "EPSG:4326 -t_srs EPSG:<code of the local map grid>; "
+            : "");
+    if (is_degrees || steepest > LIKELY_MARK) {
+        mor_context_log(context, MOR_LOG_WARNING, "%s: heights of neighboring nodes differ by %g cells: %s",
+                        request->path, steepest,
+                        is_degrees ? "are its coordinates degrees, or does a number mark missing data without being "
+                                     "declared?"
+                                   : "does a number mark missing data without being declared?");
     }
     return MOR_OK;
 }
@@ -319,12 +337,6 @@ static void subtract_offset(mor_context *context, const mor_terrain_request *req
     }
     for (int64_t n = 0; n < n_nodes; ++n) {
         terrain->heights[n] -= terrain->offset[2];
-    }
-    const double extent =
-        fmax(mor_terrain_end(terrain, 0) - terrain->origin[0], mor_terrain_end(terrain, 1) - terrain->origin[1]);
-    if (terrain->datum[0] == '\0' && highest - lowest > LIKELY_DEGREES * extent) {
-        mor_context_log(context, MOR_LOG_WARNING, "%s: heights differ by %g m over %g m: are its coordinates degrees?",
-                        request->path, highest - lowest, extent);
     }
     mor_context_log(context, MOR_LOG_INFO,
                     "%s: %d x %d nodes %g m apart, heights %g m to %g m; offset (%.10g, %.10g, %.10g) m subtracted%s%s",

@@ -68,12 +68,34 @@ static void run_child(mor_isolate_work work, const void *user, int file)
     _exit(0);
 }
 
+/* A pipe whose ends are none of the three standard files, which the child points elsewhere. */
+static bool open_pipe(int *ends)
+{
+    if (pipe2(ends, O_CLOEXEC) != 0) {
+        return false;
+    }
+    for (int k = 0; k < 2; ++k) {
+        if (ends[k] <= STDERR_FILENO) {
+            const int raised = fcntl(ends[k], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+            const int code = errno;
+            (void)close(ends[k]);
+            if (raised < 0) {
+                (void)close(ends[1 - k]);
+                errno = code;
+                return false;
+            }
+            ends[k] = raised;
+        }
+    }
+    return true;
+}
+
 mor_status mor_isolate_start(mor_context *context, mor_isolate *it, mor_isolate_work work, const void *user,
                              unsigned seconds, size_t extra_bytes)
 {
     int ends[2];
     *it = (mor_isolate){.child = -1};
-    MOR_CHECK(context, pipe2(ends, O_CLOEXEC) == 0, MOR_ERROR_IO, "a pipe cannot be opened: %s", strerror(errno));
+    MOR_CHECK(context, open_pipe(ends), MOR_ERROR_IO, "a pipe cannot be opened: %s", strerror(errno));
     it->child = fork();
     if (it->child == 0) {
         (void)close(ends[0]);

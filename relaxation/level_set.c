@@ -201,6 +201,23 @@ static mor_status check_request(mor_context *context, const mor_level_set_reques
     return MOR_OK;
 }
 
+/* A cell that leaves few enough nodes, the band being as many cells wide as asked for. */
+static double find_cell(const mor_level_set_request *request, const mor_bounds *bounds)
+{
+    enum { ROUNDS = 200 };
+    const double band = 2.0 * request->band / request->cell + 4.0;
+    double cell = request->cell;
+    double n_nodes = INFINITY;
+    for (int round = 0; round < ROUNDS && n_nodes > nodes_limit; ++round) {
+        cell *= 1.05;
+        n_nodes = 1.0;
+        for (int a = 0; a < request->dimension; ++a) {
+            n_nodes *= (bounds->maximum[a] - bounds->minimum[a]) / cell + band;
+        }
+    }
+    return 1.01 * cell; /* it will be rounded to three digits */
+}
+
 /* Lays the grid about the bounds, with the band and the outer nodes of interpolation around them. */
 static mor_status lay_grid(mor_context *context, level_set_shape *set, const mor_level_set_request *request,
                            const mor_bounds *bounds)
@@ -228,9 +245,9 @@ static mor_status lay_grid(mor_context *context, level_set_shape *set, const mor
     }
     MOR_CHECK(
         context, counts[0] * counts[1] * counts[2] <= nodes_limit, MOR_ERROR_ARGUMENT,
-        "the level set would have %.3g x %.3g x %.3g nodes, more than %.3g: use a cell larger than %g m (a larger "
-        "spacing), or a smaller shape",
-        counts[0], counts[1], counts[2], nodes_limit, request->cell);
+        "the level set would have %.3g x %.3g x %.3g nodes, more than %.3g: use a cell of %.3g m at least instead of "
+        "%.3g m (a larger spacing), or a smaller shape",
+        counts[0], counts[1], counts[2], nodes_limit, find_cell(request, bounds), request->cell);
     for (int a = 0; a < 3; ++a) {
         grid->counts[a] = (int64_t)counts[a];
     }

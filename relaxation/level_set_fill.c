@@ -70,7 +70,7 @@ static bool is_block_far(const mor_level_set_grid *grid, const mor_level_set_sou
         reach2 += half * half;
     }
     place_node(grid, middle, point);
-    const double limit = (grid->band + sqrt(reach2) * grid->cell) * (1.0 + rounding);
+    const double limit = (grid->band + MOR_SHAPE_SLOPE_MOST * sqrt(reach2) * grid->cell) * (1.0 + rounding);
     const double distance = source->measure(source->object, point, limit);
     *value = copysign(grid->band, distance);
     return fabs(distance) >= limit;

@@ -38,13 +38,6 @@ static void find_corners(const mor_mesh *mesh, int64_t t, const double *from, do
     }
 }
 
-static void cross(const double *a, const double *b, double *out)
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 double mor_mesh_area(const mor_mesh *mesh)
 {
     double area = 0.0;
@@ -52,7 +45,7 @@ double mor_mesh_area(const mor_mesh *mesh)
         double corners[9];
         double normal[3];
         find_corners(mesh, t, mesh->vertices + 3 * (int64_t)mesh->triangles[3 * t], corners);
-        cross(corners + 3, corners + 6, normal);
+        mor_vector_cross(corners + 3, corners + 6, normal);
         area += 0.5 * mor_vector_length(normal);
     }
     return area;
@@ -70,7 +63,7 @@ static void add_tetrahedron(const double *corners, sums *total)
 {
     double normal[3];
     double sum[3];
-    cross(corners + 3, corners + 6, normal);
+    mor_vector_cross(corners + 3, corners + 6, normal);
     const double determinant = mor_vector_dot(corners, normal);
     total->volume += determinant / 6.0;
     for (int a = 0; a < 3; ++a) {

@@ -44,18 +44,21 @@ typedef enum mor_mesh_size {
 /** Reads STL (text and binary), OBJ, PLY or glTF, welds equal corners, orients the triangles, fills holes of up to
  *  16 edges, and refuses what has no inside: what is still open, has no volume, crosses itself, has more than one
  *  part, or is no mesh. Lengths are those of the file. Corners nearer together than 1e-6 of the diagonal of the box
- *  around all are equal. Assimp runs in a child process, which may break down or hang over a damaged file.
+ *  around all are equal. Refused is also a mesh so far from the origin, by 167 diagonals and more, that single
+ *  precision, in which Assimp holds corners, rounds them by more than 1e-5 of it. Assimp runs in a child process, which
+ *  may break down or hang over a damaged file.
  *  @param context [in,out]  one object; what was mended is logged as a warning
  *  @param path    [in]      zero-terminated; the kind is told by the ending .stl, .obj, .ply, .gltf or .glb
  *  @param mesh    [out]     one object; empty after a failure
  *  @param report  [out]     one object; filled in as far as it got, also after a failure; may be NULL
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that cannot be read or is no mesh; MOR_ERROR_ARGUMENT for a mesh without
  *  an inside, with what was found, where, and what to do; MOR_ERROR_MEMORY.
- *  Cost: O(n log n) for triangles of ordinary form; two seconds of processor time for a million triangles. Threads:
+ *  Cost: O(n log n) for triangles of ordinary form; two seconds of processor time for a million triangles. Where
+ *  tens of thousands of triangles meet in one corner, too many pairs would have to be looked at: refused. Threads:
  *  uses the context's; the result does not depend on them. */
 mor_status mor_mesh_read(mor_context *context, const char *path, mor_mesh *mesh, mor_mesh_report *report);
 
-/** Makes a mesh from arrays and checks and mends it as mor_mesh_read does.
+/** Makes a mesh from arrays, at any distance from the origin, and checks and mends it as mor_mesh_read does.
  *  @param context     [in,out]  one object
  *  @param vertices    [in]      shape [n_vertices, 3]; unit m; copied
  *  @param n_vertices  [in]      number of vertices

@@ -5,11 +5,14 @@
 #include "core/base/memory.h"
 #include "relaxation/mesh_internal.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Corners nearer than this times the diagonal of the box are one: a few units in the last place of single precision,
  * in which most files hold them. */
 #define WELD_RATIO 1e-6
+/* Largest rounding of a corner over the diagonal: shapes and volumes are then right to about as much. */
+#define ROUNDING_RATIO 1e-5
 /* A mesh thinner than this many weld distances, on average, has no inside. */
 #define THICKNESS_RATIO 4.0
 
@@ -55,6 +58,11 @@ static mor_status find_tolerance(mor_context *context, mor_mesh_work *work)
               "%s: the box around the mesh has a diagonal of %g, beyond what can be computed with; change its unit",
               work->name, diagonal);
     work->tolerance = WELD_RATIO * diagonal;
+    const double rounding = ldexp(work->reach, -24); /* of single precision, half a unit in the last place */
+    MOR_CHECK(context, rounding <= ROUNDING_RATIO * diagonal, MOR_ERROR_ARGUMENT,
+              "%s: the mesh lies %g from the origin, where corners, read in single precision, are rounded by up to %g; "
+              "allowed is %g, a hundred thousandth of its diagonal; move it near the origin",
+              work->name, work->reach, rounding, ROUNDING_RATIO * diagonal);
     return MOR_OK;
 }
 
@@ -168,18 +176,33 @@ static mor_status mend(mor_context *context, mor_mesh_work *work)
 static void log_mended(mor_context *context, const mor_mesh_work *work)
 {
     const mor_mesh_report *report = &work->report;
-    if (report->n_degenerate + report->n_duplicate + report->n_flipped + report->n_holes_filled > 0) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "%s: mended: %lld triangles without area and %lld given twice removed, %lld turned round, %lld "
-                        "holes filled",
-                        work->name, (long long)report->n_degenerate, (long long)report->n_duplicate,
-                        (long long)report->n_flipped, (long long)report->n_holes_filled);
+    const struct {
+        int64_t n;
+        const char *one;
+        const char *many;
+    } deeds[] = {
+        {report->n_degenerate, "triangle without area removed", "triangles without area removed"},
+        {report->n_duplicate, "triangle given twice removed", "triangles given twice removed"},
+        {report->n_flipped, "triangle turned round", "triangles turned round"},
+        {report->n_holes_filled, "hole filled", "holes filled"},
+    };
+    char text[256] = "";
+    size_t used = 0;
+    for (size_t k = 0; k < sizeof deeds / sizeof *deeds; ++k) {
+        if (deeds[k].n > 0) {
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%lld %s", used > 0 ? ", " : "",
+                                     (long long)deeds[k].n, deeds[k].n == 1 ? deeds[k].one : deeds[k].many);
+        }
+    }
+    if (used > 0) {
+        mor_context_log(context, MOR_LOG_WARNING, "%s: mended: %s", work->name, text);
     }
 }
 
-mor_status mor_mesh_finish(mor_context *context, mor_mesh *mesh, const char *name, mor_mesh_report *report)
+mor_status mor_mesh_finish(mor_context *context, mor_mesh *mesh, const char *name, double reach,
+                           mor_mesh_report *report)
 {
-    mor_mesh_work work = {.mesh = *mesh, .name = name, .second_shell = -1};
+    mor_mesh_work work = {.mesh = *mesh, .name = name, .reach = reach, .second_shell = -1};
     *mesh = (mor_mesh){0};
     work.report.n_vertices_read = work.mesh.n_vertices;
     work.report.n_triangles_read = work.mesh.n_triangles;
@@ -228,5 +251,5 @@ mor_status mor_mesh_init(mor_context *context, const double *vertices, int64_t n
         mesh->n_vertices = n_vertices;
         mesh->n_triangles = n_triangles;
     }
-    return mor_mesh_finish(context, mesh, name, report);
+    return mor_mesh_finish(context, mesh, name, 0.0, report);
 }

@@ -12,6 +12,10 @@
 /* A block of triangles that finds many crossings is left: the mesh is refused anyway. */
 enum { LEAF = 4, STACK = 128, BLOCK_CROSSINGS_MAX = 1024 };
 
+/* Pairs looked at before a mesh is refused: in all, and those of one block, so that it also ends. Blocks go in batches,
+ * whatever the number of threads, between which the sum is looked at. */
+enum { BATCH = 16, BLOCK_PAIRS_MAX = 8000000, PAIRS_MAX = 200000000, PAIRS_PER_TRIANGLE = 256 };
+
 typedef struct box {
     double minimum[3], maximum[3]; /* m */
 } box;
@@ -21,14 +25,21 @@ typedef struct entry {
     int32_t triangle;
 } entry;
 
+/* What a block of triangles found. */
+typedef struct finding {
+    int64_t n_crossings, n_pairs; /* pairs: looked at */
+    int32_t crossing, crowd;      /* triangles: the first that crosses one, and the one with the most pairs */
+    int64_t n_crowd;              /* its pairs */
+} finding;
+
 /* The tree lies in one array: children of node k are 2 k and 2 k + 1, leaves are n_leaves .. 2 n_leaves - 1. */
 typedef struct box_tree {
     const mor_mesh_work *work;
     entry *entries;   /* shape [n_triangles]; sorted */
+    box *boxes;       /* shape [n_triangles]; in that order */
     box *nodes;       /* shape [2 n_leaves] */
     int64_t n_leaves; /* a power of two */
-    int64_t *counts;  /* shape [blocks]; crossings */
-    int64_t *firsts;  /* shape [blocks]; place of one of them: a triangle */
+    finding *found;   /* shape [blocks] */
 } box_tree;
 
 /* ---- Two triangles ----------------------------------------------------------------------------------------------- */
@@ -38,13 +49,6 @@ static void subtract(const double *a, const double *b, double *out)
     for (int x = 0; x < 3; ++x) {
         out[x] = a[x] - b[x];
     }
-}
-
-static void cross(const double *a, const double *b, double *out)
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
 /* Whether the edge from p to q passes from one side of a triangle to the other. Ends within the tolerance touch. */
@@ -60,7 +64,7 @@ static bool is_pierced(const mor_mesh *mesh, int64_t t, const double *p, const d
     subtract(to[1], to[0], edges[0]);
     subtract(to[2], to[0], edges[1]);
     subtract(q, p, along);
-    cross(edges[0], edges[1], normal);
+    mor_vector_cross(edges[0], edges[1], normal);
     const double limit = tolerance * mor_vector_length(normal);
     const double height_p = -mor_vector_dot(to[0], normal);
     const double height_q = height_p + mor_vector_dot(along, normal);
@@ -71,7 +75,7 @@ static bool is_pierced(const mor_mesh *mesh, int64_t t, const double *p, const d
     int n_right = 0;
     for (int c = 0; c < 3; ++c) {
         double turn[3];
-        cross(to[c], to[(c + 1) % 3], turn);
+        mor_vector_cross(to[c], to[(c + 1) % 3], turn);
         const double side = mor_vector_dot(along, turn);
         n_left += side > 0.0;
         n_right += side < 0.0;
@@ -137,10 +141,11 @@ static box find_box(const mor_mesh *mesh, int64_t t)
     return it;
 }
 
+/* What only touches does not cross. */
 static bool overlap(const box *a, const box *b)
 {
     for (int x = 0; x < 3; ++x) {
-        if (a->minimum[x] > b->maximum[x] || b->minimum[x] > a->maximum[x]) {
+        if (a->minimum[x] >= b->maximum[x] || b->minimum[x] >= a->maximum[x]) {
             return false;
         }
     }
@@ -184,6 +189,9 @@ static void sort_triangles(const box_tree *tree)
         tree->entries[t] = (entry){code, (int32_t)t};
     }
     qsort(tree->entries, (size_t)mesh->n_triangles, sizeof *tree->entries, compare_entries);
+    for (int64_t place = 0; place < mesh->n_triangles; ++place) {
+        tree->boxes[place] = find_box(mesh, tree->entries[place].triangle);
+    }
 }
 
 static void fill_nodes(const box_tree *tree)
@@ -193,8 +201,7 @@ static void fill_nodes(const box_tree *tree)
         box *node = &tree->nodes[tree->n_leaves + leaf];
         *node = empty_box();
         for (int64_t k = LEAF * leaf; k < LEAF * (leaf + 1) && k < n; ++k) {
-            const box it = find_box(&tree->work->mesh, tree->entries[k].triangle);
-            widen(node, it.minimum, it.maximum);
+            widen(node, tree->boxes[k].minimum, tree->boxes[k].maximum);
         }
     }
     for (int64_t k = tree->n_leaves - 1; k > 0; --k) {
@@ -203,67 +210,99 @@ static void fill_nodes(const box_tree *tree)
     }
 }
 
-static int64_t visit_leaf(const box_tree *tree, int64_t leaf, int64_t place, const box *around)
+static void visit_leaf(const box_tree *tree, int64_t leaf, int64_t place, finding *own)
 {
     const int64_t n = tree->work->mesh.n_triangles;
-    const int32_t own = tree->entries[place].triangle;
-    int64_t n_crossings = 0;
+    const int32_t triangle = tree->entries[place].triangle;
     for (int64_t k = LEAF * leaf; k < LEAF * (leaf + 1) && k < n; ++k) {
-        const int32_t other = tree->entries[k].triangle;
         if (k > place) {
-            const box it = find_box(&tree->work->mesh, other);
-            n_crossings += overlap(around, &it) && do_cross(tree->work, own, other);
+            own->n_pairs += 1;
+            own->n_crossings += overlap(&tree->boxes[place], &tree->boxes[k]) &&
+                                do_cross(tree->work, triangle, tree->entries[k].triangle);
         }
     }
-    return n_crossings;
 }
 
 /* Crossings of the triangle at a place of the row with those behind it. */
-static int64_t search_tree(const box_tree *tree, int64_t place)
+static void search_tree(const box_tree *tree, int64_t place, finding *own)
 {
-    const box around = find_box(&tree->work->mesh, tree->entries[place].triangle);
     int64_t stack[STACK] = {1};
-    int64_t n_crossings = 0;
     for (int depth = 1; depth > 0;) {
         const int64_t node = stack[--depth];
-        if (!overlap(&around, &tree->nodes[node])) {
+        if (!overlap(&tree->boxes[place], &tree->nodes[node])) {
             continue;
         }
         if (node >= tree->n_leaves) {
-            n_crossings += visit_leaf(tree, node - tree->n_leaves, place, &around);
+            visit_leaf(tree, node - tree->n_leaves, place, own);
             continue;
         }
         stack[depth++] = 2 * node;
         stack[depth++] = 2 * node + 1;
     }
-    return n_crossings;
 }
 
 static void search_block(const box_tree *tree, int64_t block)
 {
     const int64_t end = mor_block_end(block, tree->work->mesh.n_triangles);
-    for (int64_t place = block * MOR_BLOCK; place < end && tree->counts[block] < BLOCK_CROSSINGS_MAX; ++place) {
-        const int64_t n = search_tree(tree, place);
-        if (n > 0 && tree->counts[block] == 0) {
-            tree->firsts[block] = tree->entries[place].triangle;
+    finding *found = &tree->found[block];
+    for (int64_t place = block * MOR_BLOCK;
+         place < end && found->n_crossings < BLOCK_CROSSINGS_MAX && found->n_pairs < BLOCK_PAIRS_MAX; ++place) {
+        finding own = {0};
+        search_tree(tree, place, &own);
+        if (own.n_crossings > 0 && found->n_crossings == 0) {
+            found->crossing = tree->entries[place].triangle;
         }
-        tree->counts[block] += n;
+        if (own.n_pairs > found->n_crowd) {
+            found->n_crowd = own.n_pairs;
+            found->crowd = tree->entries[place].triangle;
+        }
+        found->n_crossings += own.n_crossings;
+        found->n_pairs += own.n_pairs;
     }
+}
+
+/* Adds up what the blocks of a batch found. Returns whether one of them or all so far had too many pairs to look at. */
+static bool gather(const box_tree *tree, int64_t begin, int64_t end, mor_mesh_work *work, finding *total)
+{
+    bool is_crowded = false;
+    for (int64_t block = begin; block < end; ++block) {
+        const finding *found = &tree->found[block];
+        if (work->report.n_crossings == 0 && found->n_crossings > 0) {
+            work->place = 3 * (int64_t)found->crossing;
+        }
+        work->report.n_crossings += found->n_crossings;
+        total->n_pairs += found->n_pairs;
+        if (found->n_crowd > total->n_crowd) {
+            total->n_crowd = found->n_crowd;
+            total->crowd = found->crowd;
+        }
+        is_crowded = is_crowded || found->n_pairs >= BLOCK_PAIRS_MAX;
+    }
+    return is_crowded || total->n_pairs > PAIRS_MAX + PAIRS_PER_TRIANGLE * work->mesh.n_triangles;
 }
 
 static mor_status search_all(mor_context *context, const box_tree *tree, mor_mesh_work *work)
 {
     const int64_t n_blocks = mor_block_count(work->mesh.n_triangles);
+    finding total = {0};
     sort_triangles(tree);
     fill_nodes(tree);
-    MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
-        search_block(tree, block);
-    }
-    for (int64_t block = 0; block < n_blocks; ++block) {
-        if (work->report.n_crossings == 0 && tree->counts[block] > 0) {
-            work->place = 3 * tree->firsts[block];
+    for (int64_t begin = 0; begin < n_blocks; begin += BATCH) {
+        const int64_t end = begin + BATCH < n_blocks ? begin + BATCH : n_blocks;
+        MOR_PARALLEL_FOR (context, k, end - begin, 1) {
+            search_block(tree, begin + k);
         }
-        work->report.n_crossings += tree->counts[block];
+        const bool is_crowded = gather(tree, begin, end, work, &total);
+        if (is_crowded && work->report.n_crossings == 0) {
+            const double *at = mor_mesh_corner(&work->mesh, total.crowd, 0);
+            return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
+                            "%s: whether the surface crosses itself cannot be told: the box around the triangle at "
+                            "(%g, %g, %g) meets those of %lld others; divide long triangles that meet in one corner",
+                            work->name, at[0], at[1], at[2], (long long)total.n_crowd);
+        }
+        if (is_crowded) {
+            break;
+        }
     }
     return MOR_OK;
 }
@@ -271,27 +310,27 @@ static mor_status search_all(mor_context *context, const box_tree *tree, mor_mes
 mor_status mor_mesh_find_crossings(mor_context *context, mor_mesh_work *work)
 {
     const int64_t n = work->mesh.n_triangles;
-    const int64_t n_blocks = mor_block_count(n);
+    const char *what = "crossings of a mesh";
     box_tree tree = {.work = work, .n_leaves = 1};
     while (LEAF * tree.n_leaves < n) {
         tree.n_leaves *= 2;
     }
-    mor_status status = MOR_NEW(context, &tree.entries, n, "crossings of a mesh");
+    mor_status status = MOR_NEW(context, &tree.entries, n, what);
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &tree.nodes, 2 * tree.n_leaves, "crossings of a mesh");
+        status = MOR_NEW(context, &tree.boxes, n, what);
     }
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &tree.counts, n_blocks, "crossings of a mesh");
+        status = MOR_NEW(context, &tree.nodes, 2 * tree.n_leaves, what);
     }
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &tree.firsts, n_blocks, "crossings of a mesh");
+        status = MOR_NEW(context, &tree.found, mor_block_count(n), what);
     }
     if (status == MOR_OK) {
         status = search_all(context, &tree, work);
     }
     MOR_FREE(context, &tree.entries);
+    MOR_FREE(context, &tree.boxes);
     MOR_FREE(context, &tree.nodes);
-    MOR_FREE(context, &tree.counts);
-    MOR_FREE(context, &tree.firsts);
+    MOR_FREE(context, &tree.found);
     return status;
 }

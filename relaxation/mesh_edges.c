@@ -80,8 +80,10 @@ static int64_t visit_neighbors(mor_mesh_work *work, int32_t t, int32_t *part, in
             work->is_flipped[neighbor] = is_flipped;
             row[n_row++] = neighbor;
         } else if (work->is_flipped[neighbor] != is_flipped) {
+            if (work->report.n_crowded_edges == 0) { /* which is told first, with its place */
+                work->place = half;
+            }
             work->is_one_sided = true;
-            work->place = half;
         }
     }
     return n_row;

@@ -97,10 +97,11 @@ static mor_status check_obj(const head *it)
         if (end == NULL && it->n_bytes > it->n_text) {
             break;
         }
+        const int n_shown = (int)strcspn(word, "\r\n");
         const bool goes_on = line > it->text + 2 && (line[-2] == '\\' || (line[-2] == '\r' && line[-3] == '\\'));
         MOR_CHECK(it->context, is_blank || goes_on || is_obj_line(word), MOR_ERROR_IO,
-                  "%s: found '%.16s' in line %lld, which is no word of an OBJ file; this is no OBJ file", it->path,
-                  word, number);
+                  "%s: found '%.*s' in line %lld, which is no word of an OBJ file; this is no OBJ file", it->path,
+                  n_shown < 16 ? n_shown : 16, word, number);
         has_corner = has_corner || starts_with(word, "v");
         line = end != NULL ? end + 1 : NULL;
     }
@@ -175,5 +176,7 @@ mor_status mor_mesh_check_head(mor_context *context, const char *path, const cha
         }
     }
     return MOR_FAIL(context, MOR_ERROR_IO,
-                    "%s: found the ending '%s'; a mesh is read from .stl, .obj, .ply, .gltf and .glb", path, ending);
+                    "%s: found the ending '%s'; a mesh is read from .stl, .obj, .ply, .gltf and .glb, an "
+                    "outline from .txt",
+                    path, ending);
 }

@@ -19,6 +19,7 @@ typedef struct mor_mesh_work {
     mor_mesh mesh;
     mor_mesh_report report;
     const char *name;     /* for messages */
+    double reach;         /* of the corners from the origin, where they were held in single precision, m */
     double tolerance;     /* corners nearer together are one, m */
     int32_t *partner;     /* shape [3 n_triangles]; the half-edge on the other side, or one of the words above */
     bool *is_flipped;     /* shape [n_triangles]; against the file */
@@ -42,8 +43,10 @@ static inline int32_t mor_mesh_head(const mor_mesh *mesh, int64_t half)
     return mesh->triangles[mor_mesh_next(half)];
 }
 
-/* Takes the arrays of *mesh, mends, checks; *mesh is the finished one or empty. */
-mor_status mor_mesh_finish(mor_context *context, mor_mesh *mesh, const char *name, mor_mesh_report *report);
+/* Takes the arrays of *mesh, mends, checks; *mesh is the finished one or empty. reach: unit m; how far from the origin
+ * the corners were held in single precision; 0: they were not. */
+mor_status mor_mesh_finish(mor_context *context, mor_mesh *mesh, const char *name, double reach,
+                           mor_mesh_report *report);
 
 /* mesh_weld.c: sorts keys; welds corners; drops corners without triangles and triangles double or without area. */
 mor_status mor_mesh_sort(mor_context *context, mor_mesh_key *keys, int64_t n_keys, int64_t n_leads);

@@ -57,6 +57,7 @@ static double find_area(const mor_mesh *mesh, const hole *it, int i, int j, int 
     const int32_t c = it->corners[k];
     double u[3];
     double w[3];
+    double normal[3];
     if (a == b || b == c || c == a) {
         return INFINITY; /* a rim that touches itself */
     }
@@ -64,7 +65,7 @@ static double find_area(const mor_mesh *mesh, const hole *it, int i, int j, int 
         u[x] = mesh->vertices[3 * (int64_t)b + x] - mesh->vertices[3 * (int64_t)a + x];
         w[x] = mesh->vertices[3 * (int64_t)c + x] - mesh->vertices[3 * (int64_t)a + x];
     }
-    const double normal[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    mor_vector_cross(u, w, normal);
     return 0.5 * mor_vector_length(normal);
 }
 

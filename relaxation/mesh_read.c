@@ -11,6 +11,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,6 +23,7 @@ enum { SECONDS = 20, SECONDS_PER_10_MB = 5, BASE_BYTES = 1 << 29, BYTES_PER_BYTE
 /* What the child sends before the corners. */
 typedef struct parcel {
     int64_t n_vertices, n_triangles;
+    double reach;      /* largest sum of numbers, without their signs, that makes up a coordinate of a corner in use */
     char message[256]; /* why there are none */
 } parcel;
 
@@ -33,7 +35,8 @@ typedef struct walk {
     FILE *result; /* NULL: count only */
     bool sends_triangles;
     int64_t n_vertices, n_triangles; /* so far */
-    bool is_too_large;
+    double reach;                    /* as in a parcel */
+    bool is_too_large, is_too_deep;
 } walk;
 
 static bool is_triangle(const struct aiMesh *part, unsigned f)
@@ -43,17 +46,35 @@ static bool is_triangle(const struct aiMesh *part, unsigned f)
            face->mIndices[2] < part->mNumVertices;
 }
 
+static void take_rows(const struct aiMatrix4x4 *m, double *rows)
+{
+    const double numbers[12] = {m->a1, m->a2, m->a3, m->a4, m->b1, m->b2, m->b3, m->b4, m->c1, m->c2, m->c3, m->c4};
+    memcpy(rows, numbers, sizeof numbers);
+}
+
 static void send_vertices(const walk *it, const struct aiMesh *part, const struct aiMatrix4x4 *m)
 {
-    const double rows[3][4] = {
-        {m->a1, m->a2, m->a3, m->a4}, {m->b1, m->b2, m->b3, m->b4}, {m->c1, m->c2, m->c3, m->c4}};
+    double rows[12];
+    take_rows(m, rows);
     for (unsigned v = 0; v < part->mNumVertices; ++v) {
         const struct aiVector3D *x = &part->mVertices[v];
         double out[3];
         for (int a = 0; a < 3; ++a) {
-            out[a] = rows[a][0] * x->x + rows[a][1] * x->y + rows[a][2] * x->z + rows[a][3];
+            out[a] = rows[4 * a] * x->x + rows[4 * a + 1] * x->y + rows[4 * a + 2] * x->z + rows[4 * a + 3];
         }
         (void)fwrite(out, sizeof out, 1, it->result);
+    }
+}
+
+/* Notes how large the numbers are that a corner is made of: each of them was rounded to single precision. */
+static void note_reach(walk *it, const struct aiVector3D *x, const struct aiMatrix4x4 *m)
+{
+    double rows[12];
+    take_rows(m, rows);
+    for (int a = 0; a < 3; ++a) {
+        const double sum = fabs(rows[4 * a] * x->x) + fabs(rows[4 * a + 1] * x->y) + fabs(rows[4 * a + 2] * x->z) +
+                           fabs(rows[4 * a + 3]);
+        it->reach = fmax(it->reach, sum);
     }
 }
 
@@ -62,11 +83,16 @@ static void visit_part(walk *it, const struct aiMesh *part, const struct aiMatri
     int64_t n = 0;
     for (unsigned f = 0; f < part->mNumFaces; ++f) {
         if (is_triangle(part, f)) {
+            const unsigned *indices = part->mFaces[f].mIndices;
             n += 1;
-            if (it->result != NULL && it->sends_triangles) {
+            if (it->result == NULL) {
+                for (int c = 0; c < 3; ++c) {
+                    note_reach(it, &part->mVertices[indices[c]], transform);
+                }
+            } else if (it->sends_triangles) {
                 int32_t corners[3];
                 for (int c = 0; c < 3; ++c) {
-                    corners[c] = (int32_t)(it->n_vertices + part->mFaces[f].mIndices[c]);
+                    corners[c] = (int32_t)(it->n_vertices + indices[c]);
                 }
                 (void)fwrite(corners, sizeof corners, 1, it->result);
             }
@@ -88,7 +114,8 @@ static void visit_node(walk *it, const struct aiNode *node, struct aiMatrix4x4 t
             visit_part(it, it->scene->mMeshes[node->mMeshes[k]], &transform);
         }
     }
-    for (unsigned k = 0; k < node->mNumChildren && depth < NODE_DEPTH_MAX && !it->is_too_large; ++k) {
+    it->is_too_deep = it->is_too_deep || (depth == NODE_DEPTH_MAX && node->mNumChildren > 0);
+    for (unsigned k = 0; k < node->mNumChildren && !it->is_too_deep && !it->is_too_large; ++k) {
         visit_node(it, node->mChildren[k], transform, depth + 1);
     }
 }
@@ -114,9 +141,13 @@ static void send_scene(const void *user, FILE *result)
     const walk counted = walk_scene(scene, NULL, false);
     if (counted.is_too_large) {
         snprintf(head.message, sizeof head.message, "it holds more than %d triangles", INT32_MAX / 3);
+    } else if (counted.is_too_deep) {
+        snprintf(head.message, sizeof head.message, "its nodes lie more than %d deep in each other; join them",
+                 NODE_DEPTH_MAX);
     } else {
         head.n_vertices = counted.n_vertices;
         head.n_triangles = counted.n_triangles;
+        head.reach = counted.reach;
     }
     (void)fwrite(&head, sizeof head, 1, result);
     if (head.n_triangles > 0) {
@@ -169,7 +200,8 @@ static void find_ending(const char *path, char *ending, size_t room)
 }
 
 /* Takes what the child sends; *is_whole tells whether it sent all it should. */
-static mor_status receive(mor_context *context, mor_isolate *child, const char *path, mor_mesh *mesh, bool *is_whole)
+static mor_status receive(mor_context *context, mor_isolate *child, const char *path, mor_mesh *mesh, double *reach,
+                          bool *is_whole)
 {
     parcel head;
     *is_whole = mor_isolate_read(child, &head, sizeof head);
@@ -182,12 +214,13 @@ static mor_status receive(mor_context *context, mor_isolate *child, const char *
     MOR_TRY(context, MOR_NEW(context, &mesh->triangles, 3 * head.n_triangles, "triangles of a mesh"));
     mesh->n_vertices = head.n_vertices;
     mesh->n_triangles = head.n_triangles;
+    *reach = head.reach;
     *is_whole = mor_isolate_read(child, mesh->vertices, sizeof *mesh->vertices * 3 * (size_t)head.n_vertices) &&
                 mor_isolate_read(child, mesh->triangles, sizeof *mesh->triangles * 3 * (size_t)head.n_triangles);
     return MOR_OK;
 }
 
-static mor_status load_mesh(mor_context *context, const char *path, int64_t n_bytes, mor_mesh *mesh)
+static mor_status load_mesh(mor_context *context, const char *path, int64_t n_bytes, mor_mesh *mesh, double *reach)
 {
     mor_isolate child;
     char ending[64];
@@ -195,7 +228,7 @@ static mor_status load_mesh(mor_context *context, const char *path, int64_t n_by
     const unsigned seconds = SECONDS + SECONDS_PER_10_MB * (unsigned)(n_bytes / 10000000);
     MOR_TRY(context, mor_isolate_start(context, &child, send_scene, path, seconds,
                                        BASE_BYTES + BYTES_PER_BYTE * (size_t)n_bytes));
-    mor_status status = receive(context, &child, path, mesh, &is_whole);
+    mor_status status = receive(context, &child, path, mesh, reach, &is_whole);
     mor_isolate_finish(&child, ending, sizeof ending);
     if (status == MOR_OK && !is_whole) {
         status = MOR_FAIL(context, MOR_ERROR_IO,
@@ -213,6 +246,7 @@ mor_status mor_mesh_read(mor_context *context, const char *path, mor_mesh *mesh,
     char ending[8];
     int64_t n_head = 0;
     int64_t n_bytes = 0;
+    double reach = 0.0;
     *mesh = (mor_mesh){0};
     if (report != NULL) {
         *report = (mor_mesh_report){0};
@@ -225,7 +259,7 @@ mor_status mor_mesh_read(mor_context *context, const char *path, mor_mesh *mesh,
     }
     MOR_FREE(context, &head);
     if (status == MOR_OK) {
-        status = load_mesh(context, path, n_bytes, mesh);
+        status = load_mesh(context, path, n_bytes, mesh, &reach);
     }
-    return status == MOR_OK ? mor_mesh_finish(context, mesh, path, report) : status;
+    return status == MOR_OK ? mor_mesh_finish(context, mesh, path, reach, report) : status;
 }

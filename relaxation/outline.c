@@ -49,7 +49,7 @@ static void merge_corners(mor_outline_corners *corners)
     double *points = corners->points;
     int n_kept = 0;
     for (int i = 0; i < corners->n_points; ++i) {
-        const double *last = points + 2 * (n_kept - 1);
+        const double *last = points + 2 * (n_kept > 0 ? n_kept - 1 : 0);
         if (n_kept > 0 && hypot(points[2 * i] - last[0], points[2 * i + 1] - last[1]) <= apart) {
             continue;
         }

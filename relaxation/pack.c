@@ -10,7 +10,9 @@
 #include <string.h>
 
 static const int rocks_limit = 1000000;
-static const int presses_limit = 3;     /* in vain, before rocks are no longer pushed apart to make room */
+static const int presses_limit = 3;  /* in vain, before rocks are no longer pushed apart to make room */
+static const int pushes_limit = 500; /* for each rock placed, or for each of this many: then no more, either */
+static const int pushes_rocks = 64;
 static const int fewest_share = 64;     /* of most_tries: what is drawn at least */
 static const double cap_step = 0.9;     /* of the diameter: next size to try after one found no place */
 static const double sure_points = 0.5;  /* of the resolution: distance between points on a surface */
@@ -175,7 +177,6 @@ static mor_status prepare(mor_context *context, mor_pack_state *state, double ta
     MOR_CHECK(context, most <= rocks_limit, MOR_ERROR_ARGUMENT,
               "up to %.0f rocks are asked for, more than %d: raise the smallest diameter, %g m", most, rocks_limit,
               request->diameters[0]);
-    MOR_TRY(context, set_bounds(context, state));
     MOR_TRY(context, sample_forms(context, state, largest));
     double reach = 0.0;
     for (int k = 0; k < request->n_forms; ++k) {
@@ -204,18 +205,25 @@ static mor_status prepare(mor_context *context, mor_pack_state *state, double ta
     return MOR_OK;
 }
 
+/* Whether pushing still pays: where it takes much for each rock there is hardly any room left. */
+static bool can_push(const mor_pack_state *state, const placing *work)
+{
+    const int64_t n_rocks = state->n_items > pushes_rocks ? state->n_items : pushes_rocks;
+    return work->n_pressed < presses_limit && state->n_pushes < pushes_limit * n_rocks;
+}
+
 /* Places a rock at random, or by pushing others apart. Where places are hard to find fewer are drawn the next time. */
 static bool place_rock(mor_pack_state *state, int n_before, placing *work, mor_pack_item *item)
 {
     const int most = state->request->most_tries;
     if (mor_pack_drop(state, n_before, work->n_tries, item)) {
         work->n_tries = work->n_tries < most / 2 ? 2 * work->n_tries : most;
-        state->items[state->n_items++] = *item;
-        mor_pack_list(state);
+        state->items[state->n_items] = *item;
+        mor_pack_list_item(state, state->n_items++);
         return true;
     }
     work->n_tries = work->n_tries > most / fewest_share ? (work->n_tries + 1) / 2 : work->n_tries;
-    if (work->n_pressed < presses_limit && mor_pack_press(state, n_before, item)) {
+    if (can_push(state, work) && mor_pack_press(state, n_before, item)) {
         return true;
     }
     work->n_pressed += 1;
@@ -249,24 +257,40 @@ static int place_rocks(mor_pack_state *state, double target)
     return n_given_up;
 }
 
+/* Looks for the least gap so far of a rock to those before it. */
+typedef struct gap_work {
+    int self;
+    mor_pack_contact contact;
+} gap_work;
+
+static bool note_gap(void *user, const mor_pack_state *state, const mor_pack_item *item, int index)
+{
+    gap_work *work = user;
+    const mor_pack_item *other = state->items + index;
+    const double offset[3] = {item->position[0] - other->position[0], item->position[1] - other->position[1],
+                              item->position[2] - other->position[2]};
+    const double reaches =
+        state->forms[item->form].reach * item->diameter + state->forms[other->form].reach * other->diameter;
+    if (index < work->self && mor_vector_length(offset) - reaches < work->contact.gap) {
+        mor_pack_probe(state, item, other, -INFINITY, &work->contact);
+        mor_pack_probe(state, other, item, -INFINITY, &work->contact);
+    }
+    return true;
+}
+
 static double find_smallest_gap(const mor_pack_state *state)
 {
-    mor_pack_contact contact = {.gap = INFINITY};
-    for (int i = 0; i < state->n_items; ++i) {
-        const mor_pack_item *a = state->items + i;
-        for (int j = 0; j < i; ++j) {
-            const mor_pack_item *b = state->items + j;
-            const double offset[3] = {a->position[0] - b->position[0], a->position[1] - b->position[1],
-                                      a->position[2] - b->position[2]};
-            const double reaches =
-                state->forms[a->form].reach * a->diameter + state->forms[b->form].reach * b->diameter;
-            if (mor_vector_length(offset) - reaches < contact.gap) {
-                mor_pack_probe(state, a, b, -INFINITY, &contact);
-                mor_pack_probe(state, b, a, -INFINITY, &contact);
-            }
+    gap_work work = {.contact = {.gap = INFINITY}};
+    if (state->n_items < 2) {
+        return INFINITY;
+    }
+    /* No two that are not visited are nearer than `within`. */
+    for (double within = 2.0 * state->least_gap; !(work.contact.gap <= within); within *= 2.0) {
+        for (work.self = 0; work.self < state->n_items; ++work.self) {
+            (void)mor_pack_visit(state, state->items + work.self, within, note_gap, &work);
         }
     }
-    return contact.gap;
+    return work.contact.gap;
 }
 
 static void write_rock(const mor_pack_item *item, int dimension, mor_pack_rock *rock)

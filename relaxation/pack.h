@@ -28,10 +28,10 @@ typedef struct mor_pack_request {
     double gap;                    /* least distance between two rocks, m; >= 0 */
     double margin;                 /* least depth of a rock under the region's surface, m; < 0: may stick out so far */
     const mor_shape *obstacle;     /* rocks keep the gap to it; NULL: none */
-    double resolution;             /* of the exact check: points on a rock's surface are half of it apart, and so far
-                                    * apart stay any two rocks, m; > 0 */
+    double resolution;             /* of the exact check: points on a rock's surface are its crossings with a grid of
+                                    * cells of at most half of it, and so far apart stay any two rocks, m; > 0 */
     int most_tries;                /* places drawn for one rock, fewer after vain draws, before others are pushed
-                                    * apart to make room for it; >= 1 */
+                                    * apart to make room for it; >= 1. Pushing ends for good when it takes too much */
     uint64_t seed;
 } mor_pack_request;
 

@@ -6,10 +6,8 @@
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
 
-/* Distances of shapes change by at most this per length walked. */
-static const double distance_slack = 1.1;
-
-enum { LEVELS_MAX = 12, BISECTIONS = 24 };
+/* Halvings: points on a surface become four (in the plane two) times as many with each. */
+enum { LEVELS_MAX_PLANE = 12, LEVELS_MAX_SPACE = 9, BISECTIONS = 24 };
 
 /* A square or cube that is halved until it is small. */
 typedef struct cell {
@@ -44,7 +42,8 @@ static void set_root(const mor_shape *shape, int dimension, double spacing, int 
         root->half = fmax(root->half, 0.5 * (bounds.maximum[a] - bounds.minimum[a]));
     }
     root->half *= 1.0 + 1e-3; /* faces of the shape lie off those of the cells */
-    while (root->level < LEVELS_MAX && ldexp(2.0 * root->half, -root->level) > spacing) {
+    while (root->level < (dimension == 2 ? LEVELS_MAX_PLANE : LEVELS_MAX_SPACE) &&
+           ldexp(2.0 * root->half, -root->level) > spacing) {
         root->level += 1;
     }
 }
@@ -91,7 +90,7 @@ static void cross_edges(mor_pack_form *form, int dimension, const cell *place)
 /* Walks the smallest cells at the surface; counts the crossings, and writes them where there is room. */
 static void walk_surface(mor_pack_form *form, int dimension, const cell *place)
 {
-    if (fabs(mor_shape_distance(form->shape, place->center)) > distance_slack * cell_reach(place, dimension)) {
+    if (fabs(mor_shape_distance(form->shape, place->center)) > MOR_PACK_SLACK * cell_reach(place, dimension)) {
         return;
     }
     if (place->level == 0) {
@@ -153,6 +152,10 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
     }
     cell root;
     set_root(shape, dimension, spacing, 3, &root);
+    MOR_CHECK(context, ldexp(2.0 * root.half, -root.level) <= spacing, MOR_ERROR_ARGUMENT,
+              "the points on a rock are to be %g of its diameter apart; the least is %g: raise the resolution of the "
+              "packing, or pack the smaller rocks for themselves",
+              spacing, ldexp(2.0 * root.half, -root.level));
     walk_surface(form, dimension, &root);
     MOR_CHECK(context, form->n_points > dimension, MOR_ERROR_ARGUMENT,
               "a form to be packed (%s) has no surface that a grid of %g can see: give a form of diameter 1",
@@ -161,7 +164,7 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
     form->n_points = 0;
     walk_surface(form, dimension, &root);
     const double origin[3] = {0.0, 0.0, 0.0};
-    form->core = fmax(0.0, -mor_shape_distance(shape, origin) / distance_slack);
+    form->core = fmax(0.0, -mor_shape_distance(shape, origin) / MOR_PACK_SLACK);
     for (int64_t i = 0; i < form->n_points; ++i) {
         form->reach = fmax(form->reach, mor_vector_length(form->points + 3 * i));
     }
@@ -177,7 +180,7 @@ static double sum_volume(const mor_shape *shape, int dimension, const cell *plac
     const double side = 2.0 * place->half;
     const double volume = dimension == 2 ? side * side : side * side * side;
     const double distance = mor_shape_distance(shape, place->center);
-    if (fabs(distance) > distance_slack * cell_reach(place, dimension)) {
+    if (fabs(distance) > MOR_PACK_SLACK * cell_reach(place, dimension)) {
         return distance < 0.0 ? volume : 0.0;
     }
     if (place->level == 0) { /* as if the surface were flat and faced along an axis */

@@ -11,6 +11,9 @@
 /** Points are looked at by blocks of this many, which lie close together. */
 enum { MOR_PACK_BLOCK = 32 };
 
+/** Distances of shapes change by at most this per length walked, 1. */
+#define MOR_PACK_SLACK 1.1
+
 /** A form with points on its surface, in its own frame, of diameter 1 m. */
 typedef struct mor_pack_form {
     const mor_shape *shape; /* one object; borrowed */
@@ -46,22 +49,23 @@ typedef struct mor_pack_state {
     int n_items, n_items_max;
     double least_gap;    /* that two rocks must keep at the points, m */
     mor_bounds bounds;   /* of places, m; flat in 2D */
-    double cell;         /* side of a cell, m; no rock touches one two cells away */
+    double cell;         /* side of a cell, m; at least twice the largest reach and the least gap */
     int n_cells[3];      /* 1 along z in 2D */
     int32_t *heads;      /* shape [cells]; the last rock of each, -1: none */
     int32_t *next;       /* shape [n_items_max]; the rock before in the same cell, -1: none */
     mor_pack_item *kept; /* shape [n_items_max]; what to go back to */
+    int64_t n_pushes;    /* rocks looked at while pushing, in all sweeps so far */
     bool *is_awake;      /* shape [2, n_items_max]; moved in the last sweep, moved in this one */
 } mor_pack_state;
 
-/** Finds points on the surface of a form no farther apart than about `spacing`.
+/** Finds points on the surface of a form: its crossings with a grid of cells no larger than `spacing`.
  *  @param context   [in,out]  one object
  *  @param shape     [in]      one object; borrowed for the life of the form
  *  @param dimension [in]      2 or 3
  *  @param spacing   [in]      unit m; in the frame of the form
  *  @param form      [out]     one object; its points and blocks are owned by the caller, also after a failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a form without a surface, or not of the right size or center where it knows
- *  them; MOR_ERROR_MEMORY. */
+ *  them, and for a spacing too fine; MOR_ERROR_MEMORY. */
 mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, int dimension, double spacing,
                                 mor_pack_form *form);
 
@@ -105,13 +109,20 @@ bool mor_pack_clears_obstacle(const mor_pack_state *state, const mor_pack_item *
  *  @param state [in,out]  one object */
 void mor_pack_list(mor_pack_state *state);
 
-/** Calls visit for each placed rock that may come too near to an item, in a fixed order, until it returns false.
- *  @param state [in]      one object
- *  @param item  [in]      one object
- *  @param visit [in]      gets user, the state, the item and the index of the rock
- *  @param user  [in,out]  passed on; may be NULL
+/** Lists one more rock, which comes after all that are listed.
+ *  @param state [in,out]  one object
+ *  @param index [in]      of the rock */
+void mor_pack_list_item(mor_pack_state *state, int index);
+
+/** Calls visit for each listed rock that may come nearer to an item than a distance, in a fixed order, until it returns
+ *  false.
+ *  @param state  [in]      one object
+ *  @param item   [in]      one object
+ *  @param within [in]      unit m; the distance
+ *  @param visit  [in]      gets user, the state, the item and the index of the rock
+ *  @param user   [in,out]  passed on; may be NULL
  *  Returns: whether no visit returned false. */
-bool mor_pack_visit(const mor_pack_state *state, const mor_pack_item *item,
+bool mor_pack_visit(const mor_pack_state *state, const mor_pack_item *item, double within,
                     bool (*visit)(void *user, const mor_pack_state *state, const mor_pack_item *item, int index),
                     void *user);
 

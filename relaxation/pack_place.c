@@ -6,9 +6,6 @@
 #include "core/base/random.h"
 #include "core/particle/shape_analytic.h"
 
-/* Distances of shapes change by at most this per length walked. */
-static const double distance_slack = 1.1;
-
 static const double normal_step = 1e-3; /* of differences, relative to the size of a rock */
 
 enum purpose {
@@ -131,7 +128,7 @@ static bool is_out_of_reach(const probe_target *target, const double *point, dou
 static bool is_surely_far(const double *point, const double *last, double diameter, double distance, double gap)
 {
     const double way[3] = {point[0] - last[0], point[1] - last[1], point[2] - last[2]};
-    return distance - distance_slack * diameter * mor_vector_length(way) >= gap;
+    return distance - MOR_PACK_SLACK * diameter * mor_vector_length(way) >= gap;
 }
 
 /* Goes through the points of a rock, leaving out blocks of them that are surely far. */
@@ -139,7 +136,7 @@ static bool probe(const probe_target *target, const mor_pack_item *owner, double
 {
     const mor_pack_form *form = target->state->forms + owner->form;
     double nearest[3] = {0.0};
-    double local[3];
+    double local[3] = {0.0};
     double point[3];
     const double *last = NULL; /* looked at last, and its distance */
     double distance = 0.0;
@@ -149,10 +146,10 @@ static bool probe(const probe_target *target, const mor_pack_item *owner, double
         if (i % MOR_PACK_BLOCK == 0) {
             last = form->blocks + 4 * (i / MOR_PACK_BLOCK);
             place_point(owner, last, point);
-            distance = is_out_of_reach(target, point, contact->gap + distance_slack * owner->diameter * last[3])
+            distance = is_out_of_reach(target, point, contact->gap + MOR_PACK_SLACK * owner->diameter * last[3])
                            ? INFINITY
                            : find_distance(target, point, local);
-            if (distance - distance_slack * owner->diameter * last[3] >= contact->gap) {
+            if (distance - MOR_PACK_SLACK * owner->diameter * last[3] >= contact->gap) {
                 i += MOR_PACK_BLOCK - 1;
                 continue;
             }
@@ -196,7 +193,7 @@ bool mor_pack_probe_shape(const mor_pack_state *state, const mor_pack_item *owne
 {
     const double center = sign * mor_shape_distance(shape, owner->position);
     const probe_target target = {.state = state, .shape = shape, .sign = sign};
-    return center - distance_slack * state->forms[owner->form].reach * owner->diameter < contact->gap &&
+    return center - MOR_PACK_SLACK * state->forms[owner->form].reach * owner->diameter < contact->gap &&
            probe(&target, owner, enough, contact);
 }
 
@@ -205,7 +202,7 @@ static bool clears_cell(const mor_pack_state *state, const mor_pack_item *item, 
 {
     const mor_pack_request *request = state->request;
     const int d = request->dimension;
-    const double reach = distance_slack * half * sqrt((double)d);
+    const double reach = MOR_PACK_SLACK * half * sqrt((double)d);
     double point[3];
     place_point(item, center, point);
     const double distance = mor_shape_distance(request->obstacle, point) - request->gap;
@@ -254,25 +251,31 @@ void mor_pack_list(mor_pack_state *state)
         state->heads[c] = -1;
     }
     for (int i = 0; i < state->n_items; ++i) {
-        int index[3];
-        find_cell(state, state->items[i].position, index);
-        int32_t *head = state->heads + join_index(state, index[0], index[1], index[2]);
-        state->next[i] = *head;
-        *head = i;
+        mor_pack_list_item(state, i);
     }
 }
 
-bool mor_pack_visit(const mor_pack_state *state, const mor_pack_item *item,
+void mor_pack_list_item(mor_pack_state *state, int index)
+{
+    int cell[3];
+    find_cell(state, state->items[index].position, cell);
+    int32_t *head = state->heads + join_index(state, cell[0], cell[1], cell[2]);
+    state->next[index] = *head;
+    *head = index;
+}
+
+bool mor_pack_visit(const mor_pack_state *state, const mor_pack_item *item, double within,
                     bool (*visit)(void *user, const mor_pack_state *state, const mor_pack_item *item, int index),
                     void *user)
 {
-    const double reach = state->forms[item->form].reach * item->diameter + state->least_gap;
+    const double reach = state->forms[item->form].reach * item->diameter + within;
+    const double n_around = 1.0 + ceil(fmax(0.0, within - state->least_gap) / state->cell);
     int first[3];
     int last[3];
     find_cell(state, item->position, first);
     for (int a = 0; a < 3; ++a) {
-        last[a] = first[a] + 1 < state->n_cells[a] ? first[a] + 1 : first[a];
-        first[a] -= first[a] > 0;
+        last[a] = (int)fmin(first[a] + n_around, state->n_cells[a] - 1);
+        first[a] = (int)fmax(first[a] - n_around, 0.0);
     }
     for (int z = first[2]; z <= last[2]; ++z) {
         for (int y = first[1]; y <= last[1]; ++y) {
@@ -313,7 +316,7 @@ static bool is_free(const mor_pack_state *state, const mor_pack_item *item)
     mor_pack_contact contact = {.gap = request->margin};
     return mor_shape_distance(request->region, item->position) < -request->margin &&
            !mor_pack_probe_shape(state, item, request->region, -1.0, request->margin, &contact) &&
-           mor_pack_visit(state, item, is_clear_of, NULL) && mor_pack_clears_obstacle(state, item);
+           mor_pack_visit(state, item, state->least_gap, is_clear_of, NULL) && mor_pack_clears_obstacle(state, item);
 }
 
 bool mor_pack_drop(const mor_pack_state *state, int n_before, int n_tries, mor_pack_item *item)

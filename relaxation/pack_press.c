@@ -34,13 +34,10 @@ static double find_mobility(const mor_pack_state *state, const mor_pack_item *it
 static void find_lever(const mor_pack_item *item, const mor_pack_contact *contact, double *moment)
 {
     double arm[3];
-    const double *n = contact->normal;
     for (int a = 0; a < 3; ++a) {
         arm[a] = contact->point[a] - item->position[a];
     }
-    moment[0] = arm[1] * n[2] - arm[2] * n[1];
-    moment[1] = arm[2] * n[0] - arm[0] * n[2];
-    moment[2] = arm[0] * n[1] - arm[1] * n[0];
+    mor_vector_cross(arm, contact->normal, moment);
 }
 
 /* Moves and turns a rock by an impulse along the normal at the point of a contact. */
@@ -140,11 +137,12 @@ static double sweep(mor_pack_state *state)
         if (!state->is_awake[work.self]) {
             continue;
         }
+        state->n_pushes += 1;
         open_shape(&work, request->region, -1.0, request->margin);
         if (request->obstacle != NULL) {
             open_shape(&work, request->obstacle, 1.0, request->gap);
         }
-        mor_pack_visit(state, state->items + work.self, open_pair, &work);
+        mor_pack_visit(state, state->items + work.self, state->least_gap, open_pair, &work);
     }
     memcpy(state->is_awake, moved, (size_t)state->n_items * sizeof *moved);
     memset(moved, 0, (size_t)state->n_items * sizeof *moved);
@@ -204,7 +202,7 @@ static void find_spot(const mor_pack_state *state, int n_before, int round, mor_
         if (request->obstacle != NULL) {
             room = fmin(room, mor_shape_distance(request->obstacle, item->position));
         }
-        mor_pack_visit(state, item, note_room, &room);
+        mor_pack_visit(state, item, state->least_gap, note_room, &room);
         if (room > most) {
             most = room;
             best = *item;

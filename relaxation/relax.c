@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/base/random.h"
 #include "core/particle/shape_analytic.h"
 #include "relaxation/relax_internal.h"
 
@@ -25,16 +26,16 @@ enum { STEPS_AT_PACE = 150 };
  * this the inside comes out at its right density; measured, see docs/theory/relaxation.md. */
 #define OUTSIDE_DENSITY 0.8
 
+/* Push of close particles per spacing that they are too near, in units of that of the kernel; measured. */
+#define CLOSE_PUSH 1.0
+
 /* Longest move of a step, spacings. */
 #define MOVE_MOST 0.1
-
-/* Distances change by at most this, m per m. */
-#define DISTANCE_SLACK 1.1
 
 /* Thinnest shape, spacings. */
 #define THICKNESS_LEAST 4.0
 
-enum { SINK_MOST = 4 };
+enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041 };
 
 /* A relaxation on its way. Places in units of the spacing. */
 typedef struct relaxation {
@@ -42,13 +43,14 @@ typedef struct relaxation {
     mor_relax_wall wall;
     mor_relax_neighbors neighbors;
     int64_t n;
-    double volume;  /* of a particle, spacing^dimension */
-    double pace;    /* of the step, spacing^2 */
-    double *x;      /* shape [3, n]; first all x, then all y, then all z */
-    double *moves;  /* shape [3, n]; of the last step */
-    double *rest;   /* shape [n]; way a particle may go before its depth is looked at again */
-    double *strays; /* shape [n]; way since the rows were found */
-    double *blocks; /* shape [mor_block_count(n), 2]; largest move and stray of each */
+    double volume;            /* of a particle, spacing^dimension */
+    double pace;              /* of the step, spacing^2 */
+    double smallest_distance; /* at the end, spacings */
+    double *x;                /* shape [3, n]; first all x, then all y, then all z */
+    double *moves;            /* shape [3, n]; of the last step */
+    double *rest;             /* shape [n]; way a particle may go before its depth is looked at again */
+    double *strays;           /* shape [n]; way since the rows were found */
+    double *blocks;           /* shape [mor_block_count(n), 2]; largest move and stray of each */
 } relaxation;
 
 void mor_relax_request_init(mor_relax_request *request)
@@ -104,13 +106,13 @@ static mor_status count_particles(mor_context *context, const mor_relax_request 
     const bool is_thick = mor_relax_frame_holds(&it->frame, 0.5 * THICKNESS_LEAST * (1.0 - 1e-6), &depth);
     const double thickness = 2.0 * depth;
     MOR_CHECK(context, is_thick, MOR_ERROR_ARGUMENT,
-              "the shape (%s) is %g spacings thick at its thickest (%g m at a spacing of %g m); allowed are %g at "
-              "least: use a smaller spacing or a thicker shape",
+              "the shape (%s) is %.4g spacings thick at its thickest (%.4g m at a spacing of %g m); allowed are %g at "
+              "least: use a spacing of at most %.4g m, or a thicker shape",
               request->shape->operations->kind, thickness, thickness * request->spacing, request->spacing,
-              THICKNESS_LEAST);
-    MOR_CHECK(context, volume < 2e9, MOR_ERROR_ARGUMENT,
-              "the shape (%s) holds %g particles at a spacing of %g m; allowed are 2e9: use a larger spacing",
-              request->shape->operations->kind, volume, request->spacing);
+              THICKNESS_LEAST, 0.999 * thickness * request->spacing / THICKNESS_LEAST); /* the digits round up, too */
+    MOR_CHECK(context, volume < MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
+              "the shape (%s) holds %g particles at a spacing of %g m; allowed are %g: use a larger spacing",
+              request->shape->operations->kind, volume, request->spacing, MOR_RELAX_PARTICLES_MOST);
     it->n = (int64_t)floor(volume + 0.5);
     MOR_CHECK(context, it->n > 0, MOR_ERROR_ARGUMENT,
               "the volume of the shape (%s) is %g particles at a spacing of %g m: give its right volume",
@@ -156,16 +158,17 @@ static mor_status place_starts(mor_context *context, uint64_t seed, relaxation *
     return status;
 }
 
-/* Pushes of the neighbors of n particles from first on: sum of (1 - r / support)^3 (x_i - x_j). Lanes are added in a
- * fixed order, so that the result is that of any instruction set. */
+/* Pushes of the neighbors on the particles from first on: sum of (1 - r / support)^3 (x_i - x_j), and how many of them
+ * are close. Lanes are added in a fixed order, so that the result is that of any instruction set. */
 MOR_TARGET_CLONES
-static void push_apart(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end, double *out)
+static void push_apart(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end,
+                       double (*out)[4])
 {
     const int64_t n = neighbors->n;
     const double *y = x + n;
     const double *z = x + 2 * n;
     for (int64_t i = first; i < end; ++i) {
-        double sum[3][MOR_RELAX_LANES] = {{0.0}};
+        double sum[4][MOR_RELAX_LANES] = {{0.0}};
         const int32_t *row = neighbors->rows + i * neighbors->capacity;
         const double xi = x[i];
         const double yi = y[i];
@@ -176,20 +179,58 @@ static void push_apart(const mor_relax_neighbors *neighbors, const double *x, in
                 const double dx = xi - x[j];
                 const double dy = yi - y[j];
                 const double dz = zi - z[j];
-                const double u0 = 1.0 - (1.0 / MOR_RELAX_SUPPORT) * sqrt(dx * dx + dy * dy + dz * dz);
+                const double r2 = dx * dx + dy * dy + dz * dz;
+                const double u0 = 1.0 - (1.0 / MOR_RELAX_SUPPORT) * sqrt(r2);
                 const double u = u0 > 0.0 ? u0 : 0.0;
                 const double weight = u * u * u;
                 sum[0][l] += weight * dx;
                 sum[1][l] += weight * dy;
                 sum[2][l] += weight * dz;
+                sum[3][l] += r2 < MOR_RELAX_CLOSE * MOR_RELAX_CLOSE && j != i ? 1.0 : 0.0;
             }
         }
-        for (int a = 0; a < 3; ++a) {
+        for (int a = 0; a < 4; ++a) {
             double total = 0.0;
             for (int l = 0; l < MOR_RELAX_LANES; ++l) {
                 total += sum[a][l];
             }
-            out[3 * (i - first) + a] = total;
+            out[i - first][a] = total;
+        }
+    }
+}
+
+/* A direction for two particles at one place, by their numbers: opposite for the other of the two. */
+static void draw_direction(int64_t i, int64_t j, int dimension, double *direction)
+{
+    const int64_t low = i < j ? i : j;
+    const int64_t high = i < j ? j : i;
+    for (int a = 0; a < dimension; ++a) {
+        const double number = mor_random_uniform((uint64_t)low, (uint64_t)high, PART_PURPOSE + (uint64_t)a);
+        direction[a] = i < j ? number - 0.5 : 0.5 - number;
+    }
+}
+
+/* Adds what parts close particles. The kernel's push falls to nothing with their distance; this one, along the line
+ * between them, grows as they come nearer: CLOSE_PUSH (CLOSE - r). Few particles need it. */
+static void part_close(const relaxation *it, int64_t i, double *push)
+{
+    const int32_t *row = it->neighbors.rows + i * it->neighbors.capacity;
+    for (int32_t k = 0; k < it->neighbors.counts[i]; ++k) {
+        const int32_t j = row[k];
+        double way[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < 3; ++a) {
+            way[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+        }
+        const double r = mor_vector_length(way);
+        if (r >= MOR_RELAX_CLOSE) {
+            continue;
+        }
+        if (!(r > 0.0)) {
+            draw_direction(i, j, it->frame.dimension, way);
+        }
+        const double length = mor_vector_length(way);
+        for (int a = 0; a < 3 && length > 0.0; ++a) {
+            push[a] += CLOSE_PUSH * (MOR_RELAX_CLOSE - r) * (way[a] / length);
         }
     }
 }
@@ -202,15 +243,18 @@ static void find_moves(mor_context *context, relaxation *it)
     MOR_PARALLEL_FOR (context, chunk, (it->n + CHUNK - 1) / CHUNK, 1) {
         const int64_t first = chunk * CHUNK;
         const int64_t end = first + CHUNK < it->n ? first + CHUNK : it->n;
-        double pushes[3 * CHUNK];
+        double pushes[CHUNK][4];
         push_apart(&it->neighbors, it->x, first, end, pushes);
         for (int64_t i = first; i < end; ++i) {
             const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
             double push[3];
             double move[3];
             mor_relax_wall_push(&it->wall, place, push);
+            if (pushes[i - first][3] > 0.0) {
+                part_close(it, i, pushes[i - first]);
+            }
             for (int a = 0; a < 3; ++a) {
-                push[a] = 2.0 * (factor * pushes[3 * (i - first) + a] + OUTSIDE_DENSITY * push[a]);
+                push[a] = 2.0 * (factor * pushes[i - first][a] + OUTSIDE_DENSITY * push[a]);
                 move[a] = MEMORY * it->moves[a * it->n + i] + it->pace * push[a];
             }
             const double length = mor_vector_length(move);
@@ -235,7 +279,7 @@ static double move_particle(relaxation *it, int64_t i)
     for (int a = 0; a < 3; ++a) {
         way[a] = place[a] - old[a];
     }
-    it->rest[i] -= DISTANCE_SLACK * mor_vector_length(way);
+    it->rest[i] -= MOR_SHAPE_SLOPE_MOST * mor_vector_length(way);
     if (!(it->rest[i] > 0.0)) {
         const double depth = mor_relax_frame_sink(&it->frame, place, SINK_MOST);
         if (!(depth > 0.0)) {
@@ -275,12 +319,38 @@ static void move_particles(mor_context *context, relaxation *it, double *residua
     }
 }
 
+/* The smallest distance of two particles, spacings, of those in the rows. */
+static double find_smallest_distance(mor_context *context, relaxation *it)
+{
+    const int64_t n_blocks = mor_block_count(it->n);
+    double smallest = INFINITY;
+    MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
+        double nearest2 = INFINITY;
+        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, it->n); ++i) {
+            for (int32_t k = 0; k < it->neighbors.counts[i]; ++k) {
+                const int32_t j = it->neighbors.rows[i * it->neighbors.capacity + k];
+                double way[3];
+                for (int a = 0; a < 3; ++a) {
+                    way[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+                }
+                nearest2 = fmin(nearest2, mor_vector_dot(way, way));
+            }
+        }
+        it->blocks[2 * block] = sqrt(nearest2);
+    }
+    for (int64_t block = 0; block < n_blocks; ++block) {
+        smallest = fmin(smallest, it->blocks[2 * block]);
+    }
+    return smallest;
+}
+
 static mor_status relax_particles(mor_context *context, const mor_relax_request *request, relaxation *it,
                                   mor_relax_points *points)
 {
-    double stray = INFINITY;
+    double stray = 0.0;
     points->residual = INFINITY;
     it->pace = PACE;
+    MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
     for (int step = 0; step < request->most_steps && !points->is_converged; ++step) {
         if (stray > 0.5 * SKIN) {
             MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
@@ -290,8 +360,10 @@ static mor_status relax_particles(mor_context *context, const mor_relax_request 
         find_moves(context, it);
         move_particles(context, it, &points->residual, &stray);
         points->n_steps = step + 1;
-        points->is_converged = points->residual < request->largest_residual;
+        points->is_converged =
+            points->residual < request->largest_residual && find_smallest_distance(context, it) >= MOR_RELAX_APART;
     }
+    it->smallest_distance = find_smallest_distance(context, it);
     return MOR_OK;
 }
 
@@ -312,6 +384,12 @@ static mor_status write_points(mor_context *context, const relaxation *it, mor_r
                         "relaxation of %lld particles in a shape (%s) stopped after %d steps at a residual of %.3g "
                         "spacings; their positions are used as they are",
                         (long long)it->n, it->frame.shape->operations->kind, points->n_steps, points->residual);
+    }
+    if (it->smallest_distance < MOR_RELAX_APART) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "relaxation of %lld particles in a shape (%s) left two of them %.3g spacings apart, below %g: "
+                        "forces between them may be large; use a smaller spacing, a less pointed shape or a lattice",
+                        (long long)it->n, it->frame.shape->operations->kind, it->smallest_distance, MOR_RELAX_APART);
     }
     return MOR_OK;
 }

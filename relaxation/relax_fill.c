@@ -23,7 +23,18 @@
 /* Starts shallower than this are not used, spacings. */
 #define SHALLOWEST 0.05
 
-enum { JITTER_PURPOSE = 0x524C4A54, SINK_MOST = 8, VOLUME_LEVELS = 4, CLIMB_LEVELS = 20, PROBES_MOST = 64 };
+/* Starts are at least so far apart, spacings: where a ridge draws many nodes to one place, only some may start there.
+ * The second and third are for shapes that cannot be filled otherwise. */
+static const double starts_apart[] = {0.5, 0.25, 0.0};
+
+enum {
+    CHOSEN = -1,
+    JITTER_PURPOSE = 0x524C4A54,
+    SINK_MOST = 8,
+    VOLUME_LEVELS = 4,
+    CLIMB_LEVELS = 20,
+    PROBES_MOST = 64
+};
 
 static const int64_t nodes_limit = INT64_C(1) << 31;
 
@@ -33,16 +44,31 @@ typedef struct start_node {
     int64_t index; /* in the order of the lattice */
 } start_node;
 
+/* The nodes chosen so far, in lists by the node of the lattice nearest to where they start. */
+typedef struct start_list {
+    int64_t n;
+    int64_t *indices; /* shape [n]; of the nodes */
+    double *places;   /* shape [n, 3]; spacings */
+    int32_t *heads;   /* shape [n_nodes]; last in each list, counted from 1; 0: none */
+    int32_t *next;    /* shape [n]; the one before it, likewise */
+} start_list;
+
 /* A starting lattice about the middle of the bounds. */
 typedef struct start_lattice {
     int64_t n_nodes[3];
-    double low[3];  /* of the first node, spacings */
-    double step[3]; /* along each axis, spacings */
+    double low[3]; /* of the first node, spacings; the others are one spacing apart */
 } start_lattice;
+
+/* Nodes of the starting lattice: whole cells along an axis, as many as fit best, and one more node on each side. */
+static double count_nodes(const mor_relax_frame *frame, int axis)
+{
+    return fmax(1.0, floor(2.0 * frame->half[axis] + 0.5)) + 2.0;
+}
 
 mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *request, mor_relax_frame *frame)
 {
     mor_bounds bounds;
+    double total = 1.0;
     memset(frame, 0, sizeof *frame);
     MOR_CHECK(context, request->shape != NULL, MOR_ERROR_ARGUMENT, "there is no shape to fill: give one");
     MOR_CHECK(context, request->dimension == 2 || request->dimension == 3, MOR_ERROR_ARGUMENT,
@@ -58,7 +84,11 @@ mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *r
                   request->shape->operations->kind, 'x' + a, bounds.minimum[a], bounds.maximum[a]);
         frame->middle[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]);
         frame->half[a] = fmax(0.0, 0.5 * (bounds.maximum[a] - bounds.minimum[a]) / request->spacing);
+        total *= count_nodes(frame, a);
     }
+    MOR_CHECK(context, total < (double)nodes_limit, MOR_ERROR_ARGUMENT,
+              "the box about the shape (%s) holds %g particles; allowed are %g: use a larger spacing",
+              frame->shape->operations->kind, total, (double)nodes_limit);
     return MOR_OK;
 }
 
@@ -164,7 +194,7 @@ static double measure_cell(const mor_relax_frame *frame, const double *middle, d
 {
     const double volume = frame->dimension == 3 ? size * size * size : size * size;
     const double depth = mor_relax_frame_depth(frame, middle);
-    if (fabs(depth) >= 0.5 * size * sqrt((double)frame->dimension)) {
+    if (fabs(depth) >= MOR_SHAPE_SLOPE_MOST * 0.5 * size * sqrt((double)frame->dimension)) {
         return depth > 0.0 ? volume : 0.0;
     }
     if (level == VOLUME_LEVELS) {
@@ -199,22 +229,15 @@ double mor_relax_frame_volume(const mor_relax_frame *frame)
     return sum;
 }
 
-/* Whole cells along each axis, as many as fit best, and one more node on each side. */
-static mor_status size_lattice(mor_context *context, const mor_relax_frame *frame, start_lattice *lattice)
+static void size_lattice(const mor_relax_frame *frame, start_lattice *lattice)
 {
-    double total = 1.0;
+    memset(lattice, 0, sizeof *lattice);
     lattice->n_nodes[2] = 1;
     for (int a = 0; a < frame->dimension; ++a) {
-        const double n = fmax(1.0, floor(2.0 * frame->half[a] + 0.5)) + 2.0;
-        lattice->step[a] = 1.0;
+        const double n = count_nodes(frame, a);
         lattice->low[a] = 0.5 - 0.5 * n;
         lattice->n_nodes[a] = (int64_t)n;
-        total *= n;
     }
-    MOR_CHECK(context, total < (double)nodes_limit, MOR_ERROR_ARGUMENT,
-              "the box about the shape (%s) holds %g particles; allowed are %g: use a larger spacing",
-              frame->shape->operations->kind, total, (double)nodes_limit);
-    return MOR_OK;
 }
 
 static void place_start(const mor_relax_frame *frame, const start_lattice *lattice, int64_t index, double *place)
@@ -222,7 +245,7 @@ static void place_start(const mor_relax_frame *frame, const start_lattice *latti
     const int64_t at[3] = {index % lattice->n_nodes[0], index / lattice->n_nodes[0] % lattice->n_nodes[1],
                            index / (lattice->n_nodes[0] * lattice->n_nodes[1])};
     for (int a = 0; a < 3; ++a) {
-        place[a] = a < frame->dimension ? lattice->low[a] + lattice->step[a] * (double)at[a] : 0.0;
+        place[a] = a < frame->dimension ? lattice->low[a] + (double)at[a] : 0.0;
     }
 }
 
@@ -239,26 +262,81 @@ static int compare_depth(const void *a, const void *b)
 
 static int compare_index(const void *a, const void *b)
 {
-    const start_node *first = a;
-    const start_node *second = b;
-    return first->index < second->index ? -1 : first->index > second->index;
+    const int64_t first = *(const int64_t *)a;
+    const int64_t second = *(const int64_t *)b;
+    return first < second ? -1 : first > second;
 }
 
-/* Moves the usable nodes to the front; returns how many of the n asked for there are. */
-static int64_t choose_nodes(const mor_relax_frame *frame, const start_lattice *lattice, int64_t n, int64_t n_nodes,
-                            start_node *nodes)
+/* Index of the node nearest to a place along an axis. */
+static int64_t find_nearest(const start_lattice *lattice, const double *place, int axis)
 {
-    int64_t n_chosen = 0;
-    qsort(nodes, (size_t)n_nodes, sizeof *nodes, compare_depth);
-    for (int64_t k = 0; k < n_nodes && n_chosen < n; ++k) {
-        double place[3];
-        place_start(frame, lattice, nodes[k].index, place);
-        if (nodes[k].depth >= MOR_RELAX_LAYER || mor_relax_frame_sink(frame, place, SINK_MOST) > SHALLOWEST) {
-            nodes[n_chosen++] = nodes[k];
+    const double at = floor(place[axis] - lattice->low[axis] + 0.5);
+    return (int64_t)fmin(fmax(at, 0.0), (double)(lattice->n_nodes[axis] - 1));
+}
+
+static int64_t find_cell(const start_lattice *lattice, const double *place)
+{
+    return find_nearest(lattice, place, 0) +
+           lattice->n_nodes[0] *
+               (find_nearest(lattice, place, 1) + lattice->n_nodes[1] * find_nearest(lattice, place, 2));
+}
+
+/* Whether a place is at least so far from all chosen; least is not above one. */
+static bool is_apart(const start_lattice *lattice, const start_list *list, const double *place, double least)
+{
+    int64_t low[3];
+    int64_t high[3];
+    for (int a = 0; a < 3; ++a) {
+        const int64_t here = find_nearest(lattice, place, a);
+        low[a] = here > 0 ? here - 1 : 0;
+        high[a] = here + 1 < lattice->n_nodes[a] ? here + 1 : here;
+    }
+    for (int64_t c = low[2]; c <= high[2]; ++c) {
+        for (int64_t b = low[1]; b <= high[1]; ++b) {
+            for (int64_t a = low[0]; a <= high[0]; ++a) {
+                const int64_t cell = a + lattice->n_nodes[0] * (b + lattice->n_nodes[1] * c);
+                for (int64_t k = list->heads[cell]; k > 0; k = list->next[k - 1]) {
+                    const double *other = list->places + 3 * (k - 1);
+                    const double way[3] = {place[0] - other[0], place[1] - other[1], place[2] - other[2]};
+                    if (mor_vector_dot(way, way) < least * least) {
+                        return false;
+                    }
+                }
+            }
         }
     }
-    qsort(nodes, (size_t)n_chosen, sizeof *nodes, compare_index);
-    return n_chosen;
+    return true;
+}
+
+static void choose_start(const start_lattice *lattice, start_list *list, const double *place, int64_t index)
+{
+    const int64_t cell = find_cell(lattice, place);
+    memcpy(list->places + 3 * list->n, place, 3 * sizeof *place);
+    list->indices[list->n] = index;
+    list->next[list->n] = list->heads[cell];
+    list->heads[cell] = (int32_t)++list->n;
+}
+
+/* Chooses n nodes where there are so many; they come out in the order of the lattice. */
+static void choose_nodes(const mor_relax_frame *frame, const start_lattice *lattice, int64_t n, int64_t n_nodes,
+                         start_node *nodes, start_list *list)
+{
+    qsort(nodes, (size_t)n_nodes, sizeof *nodes, compare_depth);
+    for (size_t round = 0; round < sizeof starts_apart / sizeof *starts_apart; ++round) {
+        for (int64_t k = 0; k < n_nodes && list->n < n; ++k) {
+            double place[3];
+            if (nodes[k].index == CHOSEN) {
+                continue;
+            }
+            place_start(frame, lattice, nodes[k].index, place);
+            if ((nodes[k].depth >= MOR_RELAX_LAYER || mor_relax_frame_sink(frame, place, SINK_MOST) > SHALLOWEST) &&
+                is_apart(lattice, list, place, starts_apart[round])) {
+                choose_start(lattice, list, place, nodes[k].index);
+                nodes[k].index = CHOSEN;
+            }
+        }
+    }
+    qsort(list->indices, (size_t)list->n, sizeof *list->indices, compare_index);
 }
 
 /* A start that the jitter would bring out of the shape goes without. */
@@ -274,29 +352,47 @@ static void jitter_start(const mor_relax_frame *frame, uint64_t seed, int64_t in
     }
 }
 
-mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, uint64_t seed, int64_t n, double *places)
+static mor_status list_starts(mor_context *context, const mor_relax_frame *frame, const start_lattice *lattice,
+                              int64_t n, start_list *list)
 {
-    start_lattice lattice;
+    const int64_t n_nodes = lattice->n_nodes[0] * lattice->n_nodes[1] * lattice->n_nodes[2];
     start_node *nodes = NULL;
-    memset(&lattice, 0, sizeof lattice);
-    MOR_TRY(context, size_lattice(context, frame, &lattice));
-    const int64_t n_nodes = lattice.n_nodes[0] * lattice.n_nodes[1] * lattice.n_nodes[2];
+    MOR_TRY(context, MOR_NEW(context, &list->indices, n, "chosen starts"));
+    MOR_TRY(context, MOR_NEW(context, &list->places, 3 * n, "chosen starts"));
+    MOR_TRY(context, MOR_NEW(context, &list->next, n, "chosen starts"));
+    MOR_TRY(context, MOR_NEW(context, &list->heads, n_nodes, "chosen starts"));
     MOR_TRY(context, MOR_NEW(context, &nodes, n_nodes, "starting lattice"));
     MOR_PARALLEL_FOR (context, k, n_nodes, 256) {
         double place[3];
-        place_start(frame, &lattice, k, place);
+        place_start(frame, lattice, k, place);
         nodes[k] = (start_node){mor_relax_frame_depth(frame, place), k};
     }
-    const int64_t n_chosen = choose_nodes(frame, &lattice, n, n_nodes, nodes);
-    MOR_PARALLEL_FOR (context, i, n_chosen, 128) {
-        place_start(frame, &lattice, nodes[i].index, places + 3 * i);
-        jitter_start(frame, seed, nodes[i].index, places + 3 * i);
-    }
+    choose_nodes(frame, lattice, n, n_nodes, nodes, list);
     MOR_FREE(context, &nodes);
     MOR_CHECK(
-        context, n_chosen == n, MOR_ERROR_ARGUMENT,
+        context, list->n == n, MOR_ERROR_ARGUMENT,
         "the shape (%s) is to hold %lld particles at a spacing of %g m, but only %lld find a place: give its right "
         "volume or a smaller spacing",
-        frame->shape->operations->kind, (long long)n, frame->spacing, (long long)n_chosen);
+        frame->shape->operations->kind, (long long)n, frame->spacing, (long long)list->n);
     return MOR_OK;
+}
+
+mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, uint64_t seed, int64_t n, double *places)
+{
+    start_lattice lattice;
+    start_list list;
+    memset(&list, 0, sizeof list);
+    size_lattice(frame, &lattice);
+    const mor_status status = list_starts(context, frame, &lattice, n, &list);
+    if (status == MOR_OK) {
+        MOR_PARALLEL_FOR (context, i, n, 128) {
+            place_start(frame, &lattice, list.indices[i], places + 3 * i);
+            jitter_start(frame, seed, list.indices[i], places + 3 * i);
+        }
+    }
+    MOR_FREE(context, &list.indices);
+    MOR_FREE(context, &list.places);
+    MOR_FREE(context, &list.next);
+    MOR_FREE(context, &list.heads);
+    return status;
 }

@@ -21,6 +21,15 @@
  *  and 0.93 in the plane (dense packings). */
 #define MOR_RELAX_LAYER 0.46
 
+/** Particles nearer than this over the spacing, 1, are pushed apart by more than the kernel does. */
+#define MOR_RELAX_CLOSE 0.75
+
+/** Least distance of two particles over the spacing, 1, with which a set counts as converged. */
+#define MOR_RELAX_APART 0.4
+
+/** Most particles of a set. */
+#define MOR_RELAX_PARTICLES_MOST 2e9
+
 /** Entries of a row of neighbors come in groups of so many, for loops in lanes. */
 enum { MOR_RELAX_LANES = 8 };
 
@@ -51,14 +60,15 @@ typedef struct mor_relax_neighbors {
     double cell;         /* its cell, spacings */
     int64_t n_cells_max; /* room in firsts */
     int32_t *firsts;     /* shape [n_cells_max + 1]; first entry of each cell in sorted */
-    int32_t *cell_of;    /* shape [n] */
+    int64_t *cell_of;    /* shape [n] */
     int32_t *sorted;     /* shape [n]; particles by cell, within a cell by number */
     int32_t *counts;     /* shape [n]; entries of each row, particle itself left out */
     int32_t *rows;       /* shape [n, capacity]; filled up with the particle itself */
     int64_t capacity;    /* of a row; a multiple of MOR_RELAX_LANES */
 } mor_relax_neighbors;
 
-/** Reads the bounds. Returns MOR_OK, or MOR_ERROR_ARGUMENT for a wrong request or a shape without end.
+/** Reads the bounds. Returns MOR_OK, or MOR_ERROR_ARGUMENT for a wrong request, a shape without end, or one whose
+ *  bounds hold 2^31 spacings^dimension or more.
  *  @param context [in,out]  one object
  *  @param request [in]      one object
  *  @param frame   [out]     one object */
@@ -98,6 +108,7 @@ bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *
 double mor_relax_frame_volume(const mor_relax_frame *frame);
 
 /** Writes n starting places: those of a lattice that lie deepest, each moved by a jitter and sunk to the outer layer.
+ *  One that sinks to within half a spacing of another is taken only when nothing else is left.
  *  @param context [in,out]  one object
  *  @param frame   [in]      one object
  *  @param seed    [in]      of the jitter

@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* To be raised with any change of the method that moves particles. */
-enum { METHOD = 1 };
+enum { METHOD = 2 };
 
 /* Nodes along the longest side of the grid whose distances stand for a shape. */
 enum { HASH_NODES = 24 };
@@ -89,6 +89,10 @@ static void write_quality(const particle_measure *measures, int64_t n, double si
     const statistic sums =
         find_statistic(measures, n, offsetof(particle_measure, kernel_sum), MEASURE_SUPPORT, INFINITY);
     const statistic layer = find_statistic(measures, n, offsetof(particle_measure, depth), -INFINITY, OUTER_DEPTH);
+    quality->smallest_distance = INFINITY;
+    for (int64_t i = 0; i < n; ++i) {
+        quality->smallest_distance = fmin(quality->smallest_distance, measures[i].nearest);
+    }
     quality->spacing_deviation = nearest.deviation / nearest.mean;
     quality->nearest_mean = nearest.mean / side;
     quality->kernel_sum_mean = sums.mean;
@@ -102,13 +106,18 @@ static void write_quality(const particle_measure *measures, int64_t n, double si
     }
 }
 
-static void copy_places(const mor_relax_frame *frame, const double *positions, int64_t n, double *x)
+static mor_status copy_places(mor_context *context, const mor_relax_frame *frame, const double *positions, int64_t n,
+                              double *x)
 {
     for (int64_t i = 0; i < n; ++i) {
         for (int a = 0; a < frame->dimension; ++a) {
             x[a * n + i] = (positions[3 * i + a] - frame->middle[a]) / frame->spacing;
+            MOR_CHECK(context, isfinite(x[a * n + i]), MOR_ERROR_ARGUMENT,
+                      "the position of particle %lld along %c is %g m: all must be finite", (long long)i, 'x' + a,
+                      positions[3 * i + a]);
         }
     }
+    return MOR_OK;
 }
 
 mor_status mor_relax_measure(mor_context *context, const mor_relax_request *request, const double *positions,
@@ -120,6 +129,9 @@ mor_status mor_relax_measure(mor_context *context, const mor_relax_request *requ
     particle_measure *measures = NULL;
     memset(quality, 0, sizeof *quality);
     MOR_TRY(context, mor_relax_frame_init(context, request, &frame));
+    MOR_CHECK(context, n_points >= 0 && (double)n_points <= MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
+              "%lld particles are to be measured: give a number from 0 to %g", (long long)n_points,
+              MOR_RELAX_PARTICLES_MOST);
     double unit_volume = volume;
     for (int a = 0; a < frame.dimension; ++a) {
         unit_volume /= frame.spacing;
@@ -132,7 +144,9 @@ mor_status mor_relax_measure(mor_context *context, const mor_relax_request *requ
         status = MOR_NEW(context, &measures, n_points, "measures of particles");
     }
     if (status == MOR_OK) {
-        copy_places(&frame, positions, n_points, x);
+        status = copy_places(context, &frame, positions, n_points, x);
+    }
+    if (status == MOR_OK) {
         status = mor_relax_neighbors_find(context, &neighbors, x);
     }
     if (status == MOR_OK) {

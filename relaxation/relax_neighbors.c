@@ -74,7 +74,7 @@ static void sort_particles(mor_relax_neighbors *neighbors, const double *x)
             const int64_t index = (int64_t)((x[a * n + i] - neighbors->low[a]) / neighbors->cell);
             cell = cell * neighbors->n_cells[a] + index;
         }
-        neighbors->cell_of[i] = (int32_t)cell;
+        neighbors->cell_of[i] = cell;
         neighbors->firsts[cell + 1] += 1;
     }
     for (int64_t cell = 0; cell < n_cells; ++cell) {

@@ -3,6 +3,7 @@
 #include "cases/driver/case_reader.h"
 
 #include "cases/driver/case_read.h"
+#include "cases/driver/mesh_size.h"
 #include "core/base/hash.h"
 #include "relaxation/level_set.h"
 #include "relaxation/outline.h"
@@ -13,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Shapes of rocks: from a mesh, from an outline, drawn at random. The origin of each is its center of volume. They are
  * made in the units of the file, then brought to the scale of the case, which is an exact factor. */
@@ -25,6 +27,31 @@ enum { OUTLINE_CORNERS = 96, MESH_SUBDIVISION = 4, REPORT_BYTES = 1024 };
 
 /* ---- Files ------------------------------------------------------------------------------------------------------- */
 
+/* The whole path of a file: its folder as the system knows it, its own name as given, because the ending tells what it
+ * holds. Writes "" when it does not fit. */
+static void find_path(const char *given, char *path)
+{
+    char copy[PATH_MAX];
+    const char *slash = strrchr(given, '/');
+    const char *name = slash != NULL ? slash + 1 : given;
+    snprintf(copy, sizeof copy, "%.*s", slash != NULL ? (int)(name - given) : 1, slash != NULL ? given : ".");
+    char *folder = realpath(copy, NULL);
+    const int n = folder == NULL ? snprintf(path, MOR_CASE_TEXT_BYTES, "%s", given)
+                                 : snprintf(path, MOR_CASE_TEXT_BYTES, "%s%s%s", folder,
+                                            strcmp(folder, "/") == 0 ? "" : "/", name);
+    if (n >= MOR_CASE_TEXT_BYTES) {
+        path[0] = '\0';
+    }
+    free(folder);
+}
+
+/* A device or a pipe may never end. */
+static bool is_readable_kind(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) != 0 || S_ISREG(about.st_mode) || S_ISDIR(about.st_mode);
+}
+
 mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_node *node, const char *what,
                                   char *file, uint64_t *hash)
 {
@@ -36,18 +63,22 @@ mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_
     const char *slash = strrchr(root->origin, '/');
     const int n_folder = file[0] == '/' || slash == NULL ? 0 : (int)(slash + 1 - root->origin);
     const int n = snprintf(joined, sizeof joined, "%.*s%s", n_folder, root->origin, file);
-    char *whole = realpath(joined, NULL);
-    const char *path = whole != NULL ? whole : joined;
-    const bool fits = n < (int)sizeof joined && strlen(path) < MOR_CASE_TEXT_BYTES;
-    if (fits) {
-        snprintf(file, MOR_CASE_TEXT_BYTES, "%s", path);
+    char path[MOR_CASE_TEXT_BYTES] = "";
+    if (n < (int)sizeof joined) {
+        find_path(joined, path);
     }
-    free(whole);
-    if (!fits) {
+    if (path[0] != '\0') {
+        snprintf(file, MOR_CASE_TEXT_BYTES, "%s", path);
+    } else {
         return MOR_CASE_NODE_FAIL(reader->context, node,
                                   "found %s whose path is too long; allowed: %d letters with all folders; move it to a "
                                   "shorter path",
                                   what, MOR_CASE_TEXT_BYTES - 1);
+    }
+    if (!is_readable_kind(file)) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found %s that is a device or a pipe, '%s'; allowed: a file; correct the path", what,
+                                  file);
     }
     if (mor_hash_file(reader->context, file, hash) != MOR_OK) {
         char why[MOR_CONTEXT_MESSAGE_BYTES];
@@ -95,6 +126,11 @@ static mor_status check_sizes(const mor_case_reader *reader, const mor_case_node
     return MOR_OK;
 }
 
+static bool has_size(const mor_case_form *form)
+{
+    return !isnan(form->scale) || !isnan(form->length) || !isnan(form->volume) || !isnan(form->diameter);
+}
+
 static mor_status size_mesh(const mor_case_reader *reader, const mor_case_form *form, mor_mesh *mesh)
 {
     mor_mesh_size size = MOR_MESH_AS_IS;
@@ -126,10 +162,10 @@ static void log_report(const mor_case_reader *reader, const char *file, const mo
 {
     char text[REPORT_BYTES];
     mor_mesh_report_print(report, text, sizeof text);
-    for (char *end = strchr(text, '\n'); end != NULL; end = strchr(end, '\n')) {
-        *end = end[1] == '\0' ? '\0' : ';';
+    for (char *line = text, *end = strchr(text, '\n'); end != NULL; line = end + 1, end = strchr(line, '\n')) {
+        *end = '\0';
+        mor_context_log(reader->context, MOR_LOG_INFO, "%s: %s", file, line);
     }
-    mor_context_log(reader->context, MOR_LOG_INFO, "%s: %s", file, text);
 }
 
 static mor_status build_mesh(const mor_case_reader *reader, const mor_case_form *form, mor_shape **shape)
@@ -142,6 +178,10 @@ static mor_status build_mesh(const mor_case_reader *reader, const mor_case_form 
     if (status == MOR_OK) {
         mor_mesh_center(&mesh);
         status = fit_level_set(reader, &mesh, shape);
+        if (!has_size(form)) {
+            status = mor_mesh_size_blame(reader->context, status, &mesh, ldexp(1.0, -reader->length_power),
+                                         reader->spacing, "give length, diameter or, for millimeters, scale = 0.001");
+        }
     }
     mor_mesh_clear(reader->context, &mesh);
     return status;

@@ -142,6 +142,54 @@ static mor_status check_name(const mor_case_reader *reader, const mor_case_node 
     return child == NULL ? MOR_OK : mor_case_reader_refuse(reader, child, what, words, n_words);
 }
 
+/* The names of bodies without the long list that rocks would make. */
+static void list_bodies(const mor_case *the_case, char *text, size_t text_bytes)
+{
+    enum { LISTED_MAX = 8 };
+    size_t used = 0;
+    const int n_listed = the_case->n_listed_bodies < LISTED_MAX ? the_case->n_listed_bodies : LISTED_MAX;
+    text[0] = '\0';
+    for (int k = 0; k < n_listed && used < text_bytes; ++k) {
+        used += (size_t)snprintf(text + used, text_bytes - used, "%s%s", k > 0 ? ", " : "", the_case->bodies[k].name);
+    }
+    if (n_listed < the_case->n_listed_bodies && used < text_bytes) {
+        used += (size_t)snprintf(text + used, text_bytes - used, " and %d more", the_case->n_listed_bodies - n_listed);
+    }
+    for (int k = 0; k < the_case->n_rocks && used < text_bytes; ++k) {
+        const mor_case_rocks *rocks = &the_case->rocks[k];
+        used += (size_t)snprintf(text + used, text_bytes - used, "%s%s_1 to %s_%d", used > 0 ? ", " : "",
+                                 rocks->body.name, rocks->body.name, rocks->n_rocks);
+    }
+}
+
+static mor_status check_body(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                             const char *name, const char *const *bodies)
+{
+    char found[MOR_CASE_NODE_TEXT_BYTES];
+    char path[MOR_CASE_NODE_TEXT_BYTES];
+    char allowed[MOR_CASE_NODE_TEXT_BYTES];
+    const mor_case_node *child = mor_case_node_find(node, "body");
+    if (the_case->n_rocks == 0) {
+        return check_name(reader, child, "name of a body", name, bodies, the_case->n_bodies);
+    }
+    for (int k = 0; k < the_case->n_bodies; ++k) {
+        if (strcmp(bodies[k], name) == 0) {
+            return MOR_OK;
+        }
+    }
+    if (child == NULL) {
+        return MOR_OK;
+    }
+    mor_case_node_path(child, path, sizeof path);
+    mor_case_node_print(child, found, sizeof found);
+    list_bodies(the_case, allowed, sizeof allowed);
+    return MOR_CASE_NODE_FAIL(
+        reader->context, child,
+        "found %s = %s; allowed: %s (name of a body; rocks are numbered from the largest of those "
+        "that were placed); use one of these",
+        path, found, allowed);
+}
+
 static mor_status check_probe_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
                                     const mor_case_probe *probe)
 {
@@ -155,8 +203,7 @@ static mor_status check_probe_names(const mor_case_reader *reader, const mor_cas
     }
     MOR_TRY(reader->context, check_name(reader, mor_case_node_find(node, "wall"), "name of a wall", probe->wall, walls,
                                         the_case->n_walls));
-    return check_name(reader, mor_case_node_find(node, "body"), "name of a body", probe->body, bodies,
-                      the_case->n_bodies);
+    return check_body(reader, node, the_case, probe->body, bodies);
 }
 
 /* A probe of what the case does not have would measure nothing for the whole of the run. */

@@ -2,7 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case_reader.h"
 
+#include "bodies/body.h"
 #include "cases/driver/case_read.h"
+#include "cases/driver/log_owner.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
@@ -189,7 +191,11 @@ static mor_status pack_rocks(const mor_case_reader *reader, const mor_case *the_
     request.obstacle = obstacle;
     request.resolution = check_spacings * reader->spacing;
     request.seed = rocks->seed;
+    mor_log_owner owner;
+    mor_log_owner_begin(&owner, reader->context, "%s:%d: rocks '%s'", rocks->body.place.file, rocks->body.place.line,
+                        rocks->body.name);
     const mor_status status = mor_pack(reader->context, &request, result);
+    mor_log_owner_end(&owner, reader->context);
     mor_shape_free(reader->context, &obstacle);
     return status;
 }
@@ -201,6 +207,41 @@ static void note_result(const mor_pack_result *result, mor_case_rocks *rocks)
     rocks->content_reached = result->content;
     rocks->smallest_gap = result->smallest_gap;
     memcpy(rocks->passing_reached, result->passing, (size_t)rocks->n_sizes * sizeof *rocks->passing_reached);
+}
+
+static double find_volume(int dimension, double diameter)
+{
+    return dimension == 2 ? 0.25 * MOR_PI * diameter * diameter : MOR_PI / 6.0 * diameter * diameter * diameter;
+}
+
+/* An item without a single rock would be a case without rocks that nobody asked for. */
+static mor_status refuse_none(const mor_case_reader *reader, const mor_case_node *node, const mor_case_rocks *rocks)
+{
+    if (rocks->n_given_up > 0) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found rocks of which not one finds a place in the region; allowed: rocks that lie "
+                                  "%g m deep in it and %g m from listed bodies; enlarge the region, lower margin or "
+                                  "gap, or ask for smaller rocks",
+                                  rocks->margin, rocks->gap);
+    }
+    mor_body_mass region;
+    char most[64] = "";
+    const int dimension = reader->dimension;
+    const char *unit = dimension == 2 ? "m2" : "m3";
+    const double largest = rocks->sizes[rocks->n_sizes - 1].diameter;
+    const mor_status status = mor_body_mass_find(reader->context, rocks->region, dimension, &region);
+    if (status != MOR_OK) {
+        return refuse_packing(reader, node, status);
+    }
+    if (rocks->n_sizes > 1) {
+        snprintf(most, sizeof most, ", the largest %.4g %s", find_volume(dimension, largest), unit);
+    }
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found rocks that fill nothing: %.4g %% of the region is %.4g %s, and the smallest rock "
+                              "has %.4g %s%s; allowed: a content of half of a rock at least; raise content, enlarge "
+                              "the region, or ask for smaller rocks",
+                              100.0 * rocks->content, rocks->content * region.volume, unit,
+                              find_volume(dimension, rocks->sizes[0].diameter), unit, most);
 }
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
@@ -252,6 +293,10 @@ static mor_status add_bodies(const mor_case_reader *reader, const mor_case_node 
         return refuse_packing(reader, node, packed);
     }
     note_result(&result, rocks);
+    if (result.n_rocks == 0) {
+        mor_pack_clear(reader->context, &result);
+        return refuse_none(reader, node, rocks);
+    }
     mor_status status = make_room(reader, node, the_case, result.n_rocks);
     for (int k = 0; k < result.n_rocks && status == MOR_OK; ++k) {
         status = add_body(reader, node, the_case, rocks, &result.rocks[k], k + 1);

@@ -116,7 +116,11 @@ static mor_status open_ground(const mor_case_reader *reader, const mor_case_node
     mor_case_shape copy = {0};
     *shape = NULL;
     MOR_TRY(reader->context, find_ground(reader, node, outline->ground.wall, &ground));
+    /* What is said about the raster is said once, when the wall itself is read. */
+    const mor_log_sink sink = reader->context->log_sink;
+    reader->context->log_sink = NULL;
     const mor_status status = mor_case_reader_shape(reader, ground, &copy, shape);
+    reader->context->log_sink = sink;
     mor_case_shape_clear(reader->context, &copy);
     MOR_TRY(reader->context, status);
     return MOR_OK;

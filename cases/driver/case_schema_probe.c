@@ -133,7 +133,7 @@ const mor_case_probe_type mor_case_probe_types[] = {
     /* Soil. */
     {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "distance the deposit reaches"},
     {"toe", "m", "m", ALONG, 0, 0, 100.0,
-     "distance of the outermost particle, of soil or rocks, that lies higher than origin"},
+     "distance of the outermost particle, of soil or rocks, that lies higher than origin; 0: none does"},
     {"front_speed", "m/s", "m/s", FRONT, 0, OF_SOIL, 99.5, "speed of the end of the deposit"},
     {"height", "m", "m", PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0, "height of the deposit, against gravity"},
     {"repose_angle", "rad", "rad", ALONG, 0, OF_SOIL, 100.0, "slope of the free surface"},

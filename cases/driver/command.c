@@ -21,7 +21,7 @@ static const struct {
     {"run", "CASE", "run a case; results go into a folder", mor_command_run},
     {"check", "CASE", "read and build a case without running it", mor_command_check},
     {"explain", "CASE", "say what a run would do: particles, steps, memory, time, stages", mor_command_explain},
-    {"preview", "CASE", "draw what a run would start from", mor_command_preview},
+    {"preview", "CASE", "draw what a run would start from, before any settling", mor_command_preview},
     {"relax", "MESH", "fill a mesh, or an outline in a text file, with evenly spaced particles", mor_command_relax},
     {"render", "RUN", "draw the snapshots and the series of a run's folder", mor_command_render},
     {"list", "WHAT", "list materials, probes, fields, stages, shapes or keys", mor_command_list},
@@ -190,6 +190,11 @@ static mor_status check_options(const mor_command *command, command_function run
     MOR_CHECK(command->context, run == mor_command_relax || !has_size, MOR_ERROR_CONFIG,
               "found --spacing, --length, --volume or --diameter, which belong to moraine relax; the values of a case "
               "are changed by --set KEY=VALUE");
+    MOR_CHECK(command->context, run != mor_command_relax || command->n_settings == 0, MOR_ERROR_CONFIG,
+              "found --set, which changes a key of a case; moraine relax takes --spacing, --length, --volume, "
+              "--diameter and -o");
+    MOR_CHECK(command->context, (run != mor_command_relax && run != mor_command_preview) || !command->is_resume,
+              MOR_ERROR_CONFIG, "found --resume, which belongs to moraine run");
     return MOR_OK;
 }
 

@@ -6,6 +6,7 @@
 #include "cases/driver/case_read.h"
 #include "cases/driver/clock.h"
 #include "cases/driver/pictures.h"
+#include "cases/driver/rocks_report.h"
 #include "cases/driver/run.h"
 #include "cases/driver/run_files.h"
 #include "core/io/durable_file.h"
@@ -74,11 +75,13 @@ static mor_status print_check(mor_command *command, scene *it)
     fprintf(command->output, "%s: ok. %lld soil particles, ", it->the_case.path,
             (long long)it->simulation.soil.set.n_particles);
     if (it->the_case.n_bodies > 0) {
-        fprintf(command->output, "%d bodies of %lld particles, ", it->the_case.n_bodies,
+        fprintf(command->output, "%d bod%s of %lld particles, ", it->the_case.n_bodies,
+                it->the_case.n_bodies == 1 ? "y" : "ies",
                 (long long)(mor_simulation_particles(&it->simulation) - it->simulation.soil.set.n_particles));
     }
-    fprintf(command->output, "%d walls, %d probes, %d expectations\n", it->the_case.n_walls, it->the_case.n_probes,
-            it->the_case.n_expectations);
+    fprintf(command->output, "%d wall%s, %d probe%s, %d expectation%s\n", it->the_case.n_walls,
+            it->the_case.n_walls == 1 ? "" : "s", it->the_case.n_probes, it->the_case.n_probes == 1 ? "" : "s",
+            it->the_case.n_expectations, it->the_case.n_expectations == 1 ? "" : "s");
     return MOR_OK;
 }
 
@@ -152,13 +155,14 @@ static mor_status draw_preview(mor_command *command, scene *it)
     mor_snapshot_writer writer;
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     const int n_sets = mor_simulation_sets(&it->simulation, false, sets);
-    MOR_TRY(context, mor_run_files_refuse_run(context, command->folder));
+    MOR_TRY(context, mor_run_files_refuse_run(context, command->folder, "choose another folder with -o"));
     MOR_TRY(context, mor_durable_file_join(context, images, command->folder, "images"));
     MOR_TRY(context, mor_run_files_make_folders(context, images));
     MOR_TRY(context, mor_snapshot_writer_init(context, &writer, command->folder, &options, -1));
     const mor_status status = mor_snapshot_writer_add(context, &writer, sets, n_sets, 0, 0.0);
     mor_snapshot_writer_clear(context, &writer);
     MOR_TRY(context, status);
+    mor_rocks_report_print(&it->the_case, command->output);
     return mor_pictures_render(context, &it->the_case, command->folder, MOR_PICTURES_FIRST, command->output);
 }
 

@@ -3,10 +3,14 @@
 /* What `moraine explain` prints: sizes, clocks, expected time, warnings, stages. */
 #include "cases/driver/command.h"
 
+#include "bodies/contact.h"
+#include "bodies/terrain.h"
 #include "cases/driver/clock.h"
 #include "cases/driver/rocks_report.h"
 #include "cases/driver/simulation.h"
 #include "core/base/math.h"
+
+#include <string.h>
 
 static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *set)
 {
@@ -117,6 +121,29 @@ static mor_status time_steps(mor_context *context, mor_simulation *s, double *se
     return MOR_OK;
 }
 
+/* The ground of a wall in the frame of the case. */
+static void print_ground(FILE *out, const mor_case_wall *wall)
+{
+    const mor_terrain *it = mor_terrain_view(wall->shape);
+    if (it == NULL) {
+        return;
+    }
+    double lowest = INFINITY;
+    double highest = -INFINITY;
+    for (int64_t n = 0; n < (int64_t)it->n_x * it->n_y; ++n) {
+        lowest = fmin(lowest, it->heights[n]);
+        highest = fmax(highest, it->heights[n]);
+    }
+    fprintf(out, "  ground '%s': %d x %d nodes of %g m", wall->name, it->n_x, it->n_y, it->cell[0]);
+    if (it->cell[1] != it->cell[0]) {
+        fprintf(out, " x %g m", it->cell[1]);
+    }
+    fprintf(out, ", x %g to %g m, y %g to %g m, z %g to %g m; subtracted (%.10g, %.10g, %.10g) m; %s\n", it->origin[0],
+            it->origin[0] + (it->n_x - 1) * it->cell[0], it->origin[1], it->origin[1] + (it->n_y - 1) * it->cell[1],
+            lowest, highest, it->offset[0], it->offset[1], it->offset[2],
+            it->datum[0] != '\0' ? it->datum : "no reference system named, meters assumed");
+}
+
 static void print_sizes(FILE *out, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
@@ -133,8 +160,8 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     }
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];
-        fprintf(out, "  %-20s %d bodies, %lld particles, %lld surface nodes", group->set.name, group->n_bodies,
-                (long long)group->set.n_particles, (long long)group->n_nodes);
+        fprintf(out, "  %-20s %d bod%s, %lld particles, %lld surface nodes", group->set.name, group->n_bodies,
+                group->n_bodies == 1 ? "y" : "ies", (long long)group->set.n_particles, (long long)group->n_nodes);
         if (g < s->bodies.n_elastics) {
             fprintf(out, ", smoothing length %g m, sound speed %.4g m/s", s->bodies.elastics[g].smoothing_length,
                     s->bodies.elastics[g].sound_speed);
@@ -142,13 +169,42 @@ static void print_sizes(FILE *out, const mor_simulation *s)
         fprintf(out, "\n");
     }
     fprintf(out, "  walls                %d, %lld particles\n", c->n_walls, (long long)n_walls);
+    for (int w = 0; w < c->n_walls; ++w) {
+        print_ground(out, &c->walls[w]);
+    }
     mor_rocks_report_print(c, out);
 }
 
+/* What a step is like: as the scene begins, or once bodies touch. */
+typedef struct pace {
+    double length;  /* s */
+    double seconds; /* of waiting for one */
+    int substeps[MOR_SCHEDULE_STEPPERS_MAX];
+} pace;
+
+static mor_status find_pace(mor_context *context, mor_simulation *s, pace *found)
+{
+    MOR_TRY(context, mor_schedule_preview(context, &s->schedule, &found->length));
+    memcpy(found->substeps, s->schedule.substeps, sizeof found->substeps);
+    return MOR_OK;
+}
+
+/* Lets bodies step as if they touched, or as they lie. */
+static void let_touch(mor_simulation *s, bool is_touching)
+{
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        mor_body_group *group = s->bodies.groups[g];
+        if (group->longest_contact_step != NULL) {
+            group->longest_contact_step = is_touching ? mor_contact_touching_step : mor_contact_longest_step;
+        }
+    }
+}
+
 /* The longest step of each stepper, and how often it moves in a common step. */
-static void print_clocks(FILE *out, const mor_simulation *s, double length)
+static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, const pace *touching)
 {
     const mor_schedule *schedule = &s->schedule;
+    const double length = now->length;
     fprintf(out, "  time step            about %.4g s, limited by %s%s\n", length, schedule->limit,
             schedule->is_single_rate ? " (single rate)" : "");
     fprintf(out, "  steps                about %.0f for %g s\n", ceil(s->the_case->end / length), s->the_case->end);
@@ -159,7 +215,15 @@ static void print_clocks(FILE *out, const mor_simulation *s, double length)
         } else {
             fprintf(out, "any step; ");
         }
-        fprintf(out, "%d sub-step%s per step\n", schedule->substeps[k], schedule->substeps[k] == 1 ? "" : "s");
+        fprintf(out, "%d sub-step%s per step", now->substeps[k], now->substeps[k] == 1 ? "" : "s");
+        if (touching->substeps[k] > now->substeps[k]) {
+            fprintf(out, " now, up to about %d when touching a body or wall", touching->substeps[k]);
+        }
+        fprintf(out, "\n");
+    }
+    if (touching->length < 0.99 * length) {
+        fprintf(out, "  when bodies touch    steps of about %.4g s, %.0f for %g s\n", touching->length,
+                ceil(s->the_case->end / touching->length), s->the_case->end);
     }
 }
 
@@ -170,25 +234,57 @@ static const mor_set *set_of(const mor_simulation *s, int stepper)
     return g < 0 ? &s->soil.set : &s->bodies.groups[g]->set;
 }
 
+static void print_duration(FILE *out, double seconds)
+{
+    fprintf(out, "%.1f %s", seconds < 60.0 ? seconds : seconds / 60.0, seconds < 60.0 ? "s" : "min");
+}
+
+/* What contacts will cost cannot be timed before there are any. */
+static void print_expected_time(FILE *out, const mor_simulation *s, const pace *now, const pace *touching, bool is_same)
+{
+    const double end = s->the_case->end;
+    const double least = ceil(end / now->length) * now->seconds;
+    const double later = ceil(end / touching->length) * touching->seconds;
+    fprintf(out, "  expected time        %s", is_same ? "" : "at least ");
+    print_duration(out, is_same ? least : fmin(least, later));
+    if (!is_same) {
+        fprintf(out, ", or ");
+        print_duration(out, fmax(least, later));
+        fprintf(out, " with the steps of bodies that touch; the contacts themselves come on top");
+    }
+    fprintf(out, "\n");
+}
+
 mor_status mor_command_print_explanation(mor_command *command, mor_simulation *s)
 {
     FILE *out = command->output;
-    double length = 0.0;
-    double seconds = 0.0;
-    MOR_TRY(command->context, mor_schedule_preview(command->context, &s->schedule, &length));
+    pace now;
+    pace touching;
+    let_touch(s, true);
+    MOR_TRY(command->context, find_pace(command->context, s, &touching));
+    let_touch(s, false);
+    MOR_TRY(command->context, find_pace(command->context, s, &now));
+    const bool is_same =
+        touching.length == now.length && memcmp(touching.substeps, now.substeps, sizeof now.substeps) == 0;
     print_sizes(out, s);
-    print_clocks(out, s, length);
-    MOR_TRY(command->context, time_steps(command->context, s, &seconds));
+    print_clocks(out, s, &now, &touching);
+    MOR_TRY(command->context, time_steps(command->context, s, &now.seconds));
+    touching.seconds = now.seconds;
+    if (!is_same) {
+        let_touch(s, true);
+        MOR_TRY(command->context, time_steps(command->context, s, &touching.seconds));
+        let_touch(s, false);
+    }
+    const double seconds = now.seconds;
     fprintf(out, "  memory               %.1f MiB", (double)command->context->memory_peak_bytes / 1048576.0);
     if (s->has_soil) {
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
     }
     const int64_t n = s->has_soil ? s->soil.set.n_particles : mor_simulation_particles(s);
-    fprintf(out, "\n  speed now            %.2f M particle-steps/s with %d threads (%s)\n", 1e-6 * (double)n / seconds,
-            command->context->n_threads, mor_pair_select(NULL)->instruction_set);
-    const double expected = ceil(s->the_case->end / length) * seconds;
-    fprintf(out, "  expected time        %.1f %s\n", expected < 60.0 ? expected : expected / 60.0,
-            expected < 60.0 ? "s" : "min");
+    fprintf(out, "\n  speed now            %.2f M particle-steps/s with %d thread%s (%s)\n", 1e-6 * (double)n / seconds,
+            command->context->n_threads, command->context->n_threads == 1 ? "" : "s",
+            mor_pair_select(NULL)->instruction_set);
+    print_expected_time(out, s, &now, &touching, is_same);
     print_warnings(out, s);
     for (int k = 0; k < s->schedule.n_steppers; ++k) {
         print_stages(out, &s->schedule.steppers[k], set_of(s, k));

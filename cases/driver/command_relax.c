@@ -4,6 +4,7 @@
 #include "cases/driver/command.h"
 
 #include "cases/driver/clock.h"
+#include "cases/driver/mesh_size.h"
 #include "cases/driver/point_cache.h"
 #include "cases/driver/render/picture.h"
 #include "cases/driver/run_files.h"
@@ -21,9 +22,9 @@
 #include <string.h>
 #include <strings.h>
 
-/* The level set of a mesh: cells per spacing, and how far it reaches around the surface, in spacings: beyond the
- * support of the kernel by which evenness is measured. */
-#define CELLS_PER_SPACING 3.0
+/* The level set of a mesh: cells per spacing, as in a case, and how far it reaches around the surface, in spacings:
+ * beyond the support of the kernel by which evenness is measured. */
+#define CELLS_PER_SPACING 2.0
 #define BAND_SPACINGS 4.0
 
 /* What is made on the way. */
@@ -110,7 +111,13 @@ static mor_status shape_mesh(mor_command *command, filling *it)
     }
     if (status == MOR_OK) {
         mor_mesh_moments(&mesh, &it->moments);
-        status = blame_input(context, mor_shape_new_mesh(context, &mesh, &fineness, &it->shape), "");
+        status = mor_shape_new_mesh(context, &mesh, &fineness, &it->shape);
+        if (isnan(it->sizes[MOR_MESH_LENGTH]) && isnan(it->sizes[MOR_MESH_VOLUME]) &&
+            isnan(it->sizes[MOR_MESH_DIAMETER])) {
+            status = mor_mesh_size_blame(context, status, &mesh, 1.0, it->spacing,
+                                         "give its size in meters with --length or --diameter");
+        }
+        status = blame_input(context, status, "");
     }
     mor_mesh_clear(context, &mesh);
     return status;
@@ -163,13 +170,14 @@ static mor_status print_quality(mor_command *command, filling *it)
                                                 points->volume, &quality));
     FILE *out = command->output;
     fprintf(out, "equivalent diameter           %.6g m\n", size);
-    fprintf(out, "volume                        %.6g %s\n", it->moments.volume, unit);
+    fprintf(out, "%-29s %.6g %s\n", it->request.dimension == 2 ? "area" : "volume", it->moments.volume, unit);
     fprintf(out, "particles                     %lld of %.6g %s\n", (long long)points->n_points, points->volume, unit);
     fprintf(out, "relaxation                    %d steps, last move %.3g spacings%s, %s%.2f s\n", points->n_steps,
             points->residual, points->is_converged ? "" : " (not converged)",
             it->cache.n_read > 0 ? "known from before, " : "", it->seconds);
     fprintf(out, "nearest neighbor              %.4f lattice spacings, deviation %.2f %%\n", quality.nearest_mean,
             100.0 * quality.spacing_deviation);
+    fprintf(out, "smallest distance             %.3f spacings\n", quality.smallest_distance);
     if (!isnan(quality.kernel_sum_mean)) { /* else nothing lies deep enough */
         fprintf(out, "sum of W V inside             %.4f, largest error %.2f %%\n", quality.kernel_sum_mean,
                 100.0 * quality.kernel_sum_error);
@@ -290,7 +298,7 @@ static mor_status write_results(mor_command *command, const filling *it)
     if (dot != NULL) {
         *dot = '\0';
     }
-    MOR_TRY(command->context, mor_run_files_refuse_run(command->context, folder));
+    MOR_TRY(command->context, mor_run_files_refuse_run(command->context, folder, "choose another folder with -o"));
     MOR_TRY(command->context, mor_durable_file_join(command->context, images, folder, "images"));
     MOR_TRY(command->context, mor_run_files_make_folders(command->context, images));
     MOR_TRY(command->context, write_table(command, it, folder));

@@ -22,8 +22,8 @@
 /* Walls are shown this far around the particles, in spacings; in space one layer shows where they are. */
 #define WALL_MARGIN_PLANE 3.0
 #define WALL_MARGIN_SPACE 1.0
-/* Terrain is shown so many times the width of the particles around them, whatever its height. */
-#define TERRAIN_MARGIN 1.0
+/* Terrain is shown this share of the width of the scene around it, whatever its height. */
+#define TERRAIN_MARGIN 0.3
 /* Its particles are drawn with this radius, in spacings, so that steep slopes have no gaps, and as much lower. */
 #define TERRAIN_RADIUS 0.8
 /* Name of the soil's set; all others are bodies. */
@@ -264,12 +264,36 @@ static void sort_wall(gallery *g, int w)
     g->is_veil[w] = is_half && mor_vector_dot(normal, camera.toward) < 0.0;
 }
 
+/* Posts and the ground are part of the scene and widen the frame. */
+static void frame_wall(gallery *g, int w)
+{
+    const double half = 0.5 * g->the_case->spacing;
+    for (int64_t k = 0; k < 3 * g->walls[w].n_points; ++k) {
+        const int a = (int)(k % 3);
+        g->frame.minimum[a] = fmin(g->frame.minimum[a], g->walls[w].positions[k] - half);
+        g->frame.maximum[a] = fmax(g->frame.maximum[a], g->walls[w].positions[k] + half);
+    }
+}
+
+static bool is_post(const gallery *g, int w)
+{
+    return g->the_case->walls[w].outline.kind == MOR_CASE_SHAPE_POSTS;
+}
+
 static mor_status fill_walls(mor_context *context, gallery *g)
 {
     const mor_case *c = g->the_case;
     for (int w = 0; w < c->n_walls; ++w) {
+        if (is_post(g, w)) {
+            MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
+            frame_wall(g, w);
+        }
+    }
+    for (int w = 0; w < c->n_walls; ++w) {
         if (is_terrain(g, w)) {
             MOR_TRY(context, fill_terrain(context, g, w));
+        }
+        if (is_terrain(g, w) || is_post(g, w)) {
             continue;
         }
         MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
@@ -278,6 +302,11 @@ static mor_status fill_walls(mor_context *context, gallery *g)
             trim_wall(g, &g->walls[w]);
         }
         sort_wall(g, w);
+    }
+    for (int w = 0; w < c->n_walls; ++w) {
+        if (is_terrain(g, w)) {
+            frame_wall(g, w);
+        }
     }
     return MOR_OK;
 }
@@ -315,17 +344,16 @@ static mor_picture_group show_layer(const gallery *g, const layer *l, int tone)
 static mor_picture_group show_wall(const gallery *g, int w, bool is_first)
 {
     const bool is_plane = g->the_case->dimension == 2;
-    const bool is_post = g->the_case->walls[w].outline.kind == MOR_CASE_SHAPE_POSTS;
     mor_picture_group group = {.name = is_plane && is_first ? "walls" : NULL,
                                .position = g->walls[w].positions,
                                .n_particles = g->walls[w].n_points,
                                .radius = (is_terrain(g, w) ? TERRAIN_RADIUS : 0.5) * g->the_case->spacing,
                                .light = g->light[w],
-                               .style = g->is_ground[w]                           ? MOR_PICTURE_GROUND
-                                        : is_plane || is_post || is_terrain(g, w) ? MOR_PICTURE_SOLID
-                                                                                  : MOR_PICTURE_GHOST,
+                               .style = g->is_ground[w]                                 ? MOR_PICTURE_GROUND
+                                        : is_plane || is_post(g, w) || is_terrain(g, w) ? MOR_PICTURE_SOLID
+                                                                                        : MOR_PICTURE_GHOST,
                                .is_whole = true};
-    memcpy(group.color, is_post ? post_gray : wall_gray, sizeof group.color);
+    memcpy(group.color, is_post(g, w) ? post_gray : wall_gray, sizeof group.color);
     return group;
 }
 

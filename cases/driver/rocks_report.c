@@ -11,7 +11,7 @@
 enum { LINE_BYTES = 256 };
 
 /* Line of the report by number: the head, then one per size; returns false when there are no more. */
-static bool write_line(const mor_case_rocks *rocks, int line, char *text)
+static bool write_line(const mor_case_rocks *rocks, int dimension, int line, char *text)
 {
     if (line == 0) {
         int used = snprintf(text, LINE_BYTES, "rocks '%s': %d placed, content %.2f %% (asked for: %.2f %%)",
@@ -26,8 +26,8 @@ static bool write_line(const mor_case_rocks *rocks, int line, char *text)
     }
     if (line <= rocks->n_sizes) {
         const mor_case_size *size = &rocks->sizes[line - 1];
-        snprintf(text, LINE_BYTES, "  up to %-10.4g m %6.2f %% of their volume (asked for: %.2f %%)", size->diameter,
-                 100.0 * rocks->passing_reached[line - 1], 100.0 * size->passing);
+        snprintf(text, LINE_BYTES, "  up to %10.4g m %6.2f %% of their %s (asked for: %.2f %%)", size->diameter,
+                 100.0 * rocks->passing_reached[line - 1], dimension == 2 ? "area" : "volume", 100.0 * size->passing);
         return true;
     }
     return false;
@@ -37,21 +37,24 @@ void mor_rocks_report_print(const mor_case *the_case, FILE *output)
 {
     for (int k = 0; k < the_case->n_rocks; ++k) {
         char text[LINE_BYTES];
-        for (int line = 0; write_line(&the_case->rocks[k], line, text); ++line) {
+        for (int line = 0; write_line(&the_case->rocks[k], the_case->dimension, line, text); ++line) {
             fprintf(output, "  %s\n", text);
         }
     }
 }
 
-void mor_rocks_report_log(mor_context *context, const mor_case_rocks *rocks)
+void mor_rocks_report_log(mor_context *context, const mor_case *the_case)
 {
-    char text[LINE_BYTES];
-    for (int line = 0; write_line(rocks, line, text); ++line) {
-        mor_context_log(context, MOR_LOG_INFO, "%s", text);
+    for (int k = 0; k < the_case->n_rocks; ++k) {
+        char text[LINE_BYTES];
+        for (int line = 0; write_line(&the_case->rocks[k], the_case->dimension, line, text); ++line) {
+            mor_context_log(context, MOR_LOG_INFO, "%s", text);
+        }
     }
 }
 
-/* The diameters of the rocks of an item from the smallest to the largest, and the shares up to each. */
+/* The diameters of the rocks of an item from the smallest to the largest, and the shares up to each, half of its own
+ * included: the points of a sample drawn from a curve lie on it, not above. */
 static int64_t list_rocks(const mor_case *the_case, int item, double *diameter, double *passing)
 {
     const mor_case_rocks *rocks = &the_case->rocks[item];
@@ -62,8 +65,9 @@ static int64_t list_rocks(const mor_case *the_case, int item, double *diameter, 
     }
     for (int k = 0; k < rocks->n_rocks; ++k) {
         diameter[k] = the_case->bodies[last - 1 - k].packed_diameter;
-        sum += pow(diameter[k], the_case->dimension);
-        passing[k] = sum;
+        const double own = pow(diameter[k], the_case->dimension);
+        passing[k] = sum + 0.5 * own;
+        sum += own;
     }
     for (int k = 0; k < rocks->n_rocks; ++k) {
         passing[k] /= sum;

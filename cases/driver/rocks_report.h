@@ -15,13 +15,13 @@
  *  @param output   [in,out]  one open stream */
 void mor_rocks_report_print(const mor_case *the_case, FILE *output);
 
-/** Sends the same lines about one item to the log.
- *  @param context [in,out]  one object
- *  @param rocks   [in]      one object, packed */
-void mor_rocks_report_log(mor_context *context, const mor_case_rocks *rocks);
+/** Sends the same lines to the log.
+ *  @param context  [in,out]  one object
+ *  @param the_case [in]      one object */
+void mor_rocks_report_log(mor_context *context, const mor_case *the_case);
 
 /** Draws images/rocks_<name>.png in a run's folder for every item that has several sizes: the curve of sizes asked for
- *  and the rocks placed.
+ *  and the rocks placed, each at the middle of its share.
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object
  *  @param folder   [in]      zero-terminated; the run's folder

@@ -164,8 +164,9 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     fprintf(options->output, "%s\n%lld particles, %llu steps, %.3g M particle-steps/s", s->the_case->title,
             (long long)mor_simulation_particles(s), (unsigned long long)s->schedule.n_steps, 1e-6 * speed);
     if (s->bodies.n_groups > 0 && p->n_loop_steps > 0) {
-        fprintf(options->output, ", %.3g sub-steps of bodies per step in the mean",
-                (double)p->n_sub_steps / (double)p->n_loop_steps);
+        const double mean = (double)p->n_sub_steps / (double)p->n_loop_steps;
+        fprintf(options->output, ", %.3g sub-step%s of bodies per step in the mean", mean,
+                fabs(mean - 1.0) < 0.005 ? "" : "s");
     }
     if (s->has_soil) {
         fprintf(options->output, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
@@ -183,9 +184,7 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
 {
     pace p = {.last_progress = mor_clock_now(), .next_snapshot = 1};
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
-    for (int k = 0; k < files->the_case->n_rocks; ++k) { /* packed when the case was read, before there was a log */
-        mor_rocks_report_log(context, &files->the_case->rocks[k]);
-    }
+    mor_rocks_report_log(context, files->the_case);
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
     if (status == MOR_OK) {
         mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
@@ -226,11 +225,13 @@ mor_status mor_run(mor_context *context, const mor_run_options *options, const m
         status = MOR_FAIL(context, MOR_ERROR_MEMORY, "no memory for a run");
         goto out;
     }
-    status = mor_case_read(context, options->case_path, options->settings, options->n_settings, registry, the_case);
-    if (status != MOR_OK) {
-        goto out;
+    status = mor_run_files_listen(context, files);
+    if (status == MOR_OK) {
+        status = mor_case_read(context, options->case_path, options->settings, options->n_settings, registry, the_case);
     }
-    status = mor_run_files_open(context, files, options);
+    if (status == MOR_OK) {
+        status = mor_run_files_open(context, files, options);
+    }
     if (status == MOR_OK) {
         files->the_case = the_case;
         files->simulation = simulation;

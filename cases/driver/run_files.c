@@ -51,43 +51,64 @@ mor_status mor_run_files_make_folders(mor_context *context, const char *path)
     return mor_durable_file_make_folder(context, part);
 }
 
-mor_status mor_run_files_refuse_run(mor_context *context, const char *folder)
+mor_status mor_run_files_refuse_run(mor_context *context, const char *folder, const char *advice)
 {
     const bool holds_run = is_present(context, folder, MOR_CHECKPOINT_FILE) ||
                            is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
                            is_present(context, folder, MOR_SUMMARY_FILE);
-    MOR_CHECK(context, !holds_run, MOR_ERROR_CONFIG,
-              "the folder '%s' already holds a run; add --resume to go on with it, or choose another folder with -o",
-              folder);
+    MOR_CHECK(context, !holds_run, MOR_ERROR_CONFIG, "the folder '%s' already holds a run; %s", folder, advice);
     return MOR_OK;
+}
+
+mor_status mor_run_files_listen(mor_context *context, mor_run_files *files)
+{
+    memset(files, 0, sizeof *files);
+    files->log = open_memstream(&files->early_text, &files->n_early_bytes);
+    MOR_CHECK(context, files->log != NULL, MOR_ERROR_MEMORY, "no memory for the log of a run");
+    files->previous_sink = context->log_sink;
+    files->previous_user = context->log_user;
+    context->log_sink = log_line;
+    context->log_user = files;
+    return MOR_OK;
+}
+
+/* Makes a file the log: its first line says what was started, then follows what was logged before. */
+static void begin_log(mor_context *context, mor_run_files *files, FILE *log)
+{
+    const mor_run_options *options = files->options;
+    fclose(files->log);
+    files->log = log;
+    mor_context_log(context, MOR_LOG_INFO, "moraine %s, commit %s: %s", options->version, options->commit,
+                    options->command);
+    fwrite(files->early_text, 1, files->n_early_bytes, log);
+    fflush(log);
+    free(files->early_text);
+    files->early_text = NULL;
 }
 
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options)
 {
     char path[MOR_PATH_BYTES];
-    memset(files, 0, sizeof *files);
     files->options = options;
-    files->previous_sink = context->log_sink;
-    files->previous_user = context->log_user;
     if (!options->is_resume) {
-        MOR_TRY(context, mor_run_files_refuse_run(context, options->folder));
+        MOR_TRY(context, mor_run_files_refuse_run(context, options->folder,
+                                                  "add --resume to go on with it, or choose another folder with -o"));
     }
     files->is_folder_new = access(options->folder, F_OK) != 0;
     MOR_TRY(context, mor_run_files_make_folders(context, options->folder));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, IMAGES_FOLDER));
     MOR_TRY(context, mor_durable_file_make_folder(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
-    files->log = fopen(path, "a");
-    MOR_CHECK(context, files->log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions",
-              path);
+    FILE *log = fopen(path, "a");
+    MOR_CHECK(context, log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    MOR_CHECK(context, fcntl(fileno(files->log), F_SETLK, &lock) == 0, MOR_ERROR_CONFIG,
-              "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
-              options->folder);
-    context->log_sink = log_line;
-    context->log_user = files;
-    mor_context_log(context, MOR_LOG_INFO, "moraine %s, commit %s: %s", options->version, options->commit,
-                    options->command);
+    if (fcntl(fileno(log), F_SETLK, &lock) != 0) {
+        fclose(log);
+        return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                        "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
+                        options->folder);
+    }
+    begin_log(context, files, log);
     return MOR_OK;
 }
 
@@ -212,6 +233,8 @@ void mor_run_files_close(mor_context *context, mor_run_files *files)
         fclose(files->log);
         files->log = NULL;
     }
+    free(files->early_text);
+    files->early_text = NULL;
 }
 
 mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)

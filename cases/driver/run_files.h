@@ -19,7 +19,9 @@ typedef struct mor_run_files {
     const mor_run_options *options; /* borrowed */
     const mor_case *the_case;       /* borrowed */
     mor_simulation *simulation;     /* borrowed */
-    FILE *log;                      /* log.txt */
+    FILE *log;                      /* log.txt; before it is open, early_text */
+    char *early_text;               /* lines of the log before there was a folder; NULL: written */
+    size_t n_early_bytes;           /* length of early_text */
     mor_log_sink previous_sink;     /* where warnings and errors go as well */
     void *previous_user;            /* its argument */
     bool is_folder_new;             /* there was no such folder before */
@@ -35,9 +37,15 @@ typedef struct mor_run_files {
     int first_probe; /* column of the first probe */
 } mor_run_files;
 
-/** Makes the folder and opens its log.
- *  @param context [in,out]  one object; gets the log as its sink
- *  @param files   [out]     one object
+/** Begins to collect what is logged, for the log of a folder that is not there yet.
+ *  @param context [in,out]  one object; gets files as its sink
+ *  @param files   [out]     one object; to be closed, after a failure, too
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_listen(mor_context *context, mor_run_files *files);
+
+/** Makes the folder and opens its log, which begins with what was collected.
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object, listening
  *  @param options [in]      one object; borrowed
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_CONFIG when a new run would overwrite an old one. */
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options);
@@ -65,11 +73,12 @@ mor_status mor_run_files_make_folders(mor_context *context, const char *path);
 /** Refuses a folder that holds a run.
  *  @param context [in,out]  one object
  *  @param folder  [in]      zero-terminated
+ *  @param advice  [in]      zero-terminated; what to do
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
-mor_status mor_run_files_refuse_run(mor_context *context, const char *folder);
+mor_status mor_run_files_refuse_run(mor_context *context, const char *folder, const char *advice);
 
 /** Takes away a folder that was made by mor_run_files_open, with its log and the case, so that a case that is refused
- *  leaves nothing behind. A folder that was there before, or holds anything else, stays.
+ *  leaves no results behind. A folder that was there before, or holds anything else, stays, as do folders above it.
  *  @param context [in,out]  one object
  *  @param files   [in,out]  one object; still to be closed */
 void mor_run_files_discard(mor_context *context, mor_run_files *files);

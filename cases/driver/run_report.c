@@ -93,6 +93,9 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     mor_summary_input inputs[1 + INPUTS_MAX] = {{c->path, files->case_hash}};
     mor_case_input shapes[INPUTS_MAX];
     const int n_shapes = mor_case_inputs(c, shapes, INPUTS_MAX);
+    if (n_shapes == INPUTS_MAX) {
+        mor_context_log(context, MOR_LOG_WARNING, "summary.json names the first %d files of shapes only", INPUTS_MAX);
+    }
     for (int k = 0; k < n_shapes; ++k) {
         inputs[1 + k] = (mor_summary_input){shapes[k].path, shapes[k].hash};
     }

@@ -15,6 +15,9 @@
 /* Overlap below this part of the spacing is touching. */
 #define TOUCHING 0.05
 
+/* A ball in the thinnest relaxed rock that is not refused, spacings. */
+#define THICKNESS_LEAST 4.0
+
 void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *turn, double *move)
 {
     const double length = mor_vector_length(body->axis);
@@ -172,6 +175,69 @@ static mor_status blame_body(mor_context *context, const mor_case *c, const reci
                     it->place.line, context->message);
 }
 
+/* The thickness of a shape, nearly and never too much. */
+static double guess_thickness(const mor_shape *shape, int dimension)
+{
+    enum { ACROSS = 20 };
+    mor_bounds bounds;
+    double deepest = 0.0;
+    mor_shape_bounds(shape, &bounds);
+    const int n_layers = dimension == 3 ? ACROSS : 1;
+    for (int k = 0; k < ACROSS * ACROSS * n_layers; ++k) {
+        const int index[3] = {k % ACROSS, k / ACROSS % ACROSS, k / (ACROSS * ACROSS)};
+        double point[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < dimension; ++a) {
+            point[a] = bounds.minimum[a] + (index[a] + 0.5) / ACROSS * (bounds.maximum[a] - bounds.minimum[a]);
+        }
+        deepest = fmax(deepest, -mor_shape_distance(shape, point));
+    }
+    return 2.0 * deepest;
+}
+
+/* Another spacing may lead to another packing: names one that is fine enough for whatever rock may be drawn. */
+static mor_status blame_thin(mor_context *context, const mor_case *c, const mor_case_body *it)
+{
+    const mor_case_rocks *rocks = c->rocks;
+    int end = c->n_listed_bodies + rocks->n_rocks;
+    while (it - c->bodies >= end) {
+        rocks += 1;
+        end += rocks->n_rocks;
+    }
+    double least = INFINITY;
+    for (int k = 0; k < rocks->n_shapes; ++k) {
+        least = fmin(least, guess_thickness(rocks->shapes[k], c->dimension));
+    }
+    return MOR_FAIL(
+        context, MOR_ERROR_CONFIG,
+        "%s; it is the thinnest of the rocks, which may be drawn anew with another spacing: %.3g m does for "
+        "all that the sizes allow",
+        context->message, 0.98 * least * rocks->sizes[0].diameter / THICKNESS_LEAST);
+}
+
+/* Fills the thinnest packed rock before all others, so that not each of them is refused in turn. */
+static mor_status try_thinnest(mor_context *context, const mor_case *c, mor_point_cache *cache)
+{
+    const mor_case_body *thinnest = NULL;
+    double least = INFINITY;
+    for (int b = 0; b < c->n_bodies; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        const double thickness = it->packed_diameter > 0.0 && mor_simulation_fill_is_relaxed(it)
+                                     ? guess_thickness(it->shape, c->dimension)
+                                     : INFINITY;
+        if (thickness < least) {
+            least = thickness;
+            thinnest = it;
+        }
+    }
+    if (thinnest == NULL) {
+        return MOR_OK;
+    }
+    mor_lattice_points points;
+    const mor_status status = mor_simulation_fill_body(context, c, thinnest, cache, &points);
+    mor_lattice_clear(context, &points);
+    return status == MOR_ERROR_CONFIG ? blame_thin(context, c, thinnest) : status;
+}
+
 /* The group of one body and of all later bodies of its material. */
 static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
                              const mor_registry *registry, int leader, recipe *r)
@@ -272,6 +338,14 @@ void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body
     find_box(body->shape, turn, move, TOUCHING * the_case->spacing, box);
 }
 
+/* What to do about a body that lies wrong; packed rocks have no place of their own to change. */
+static const char *advise_place(const mor_case_body *it, const char *advice)
+{
+    return it->packed_diameter > 0.0 ? "rocks are packed without regard to walls and the domain; raise 'margin' or "
+                                       "shrink 'region'"
+                                     : advice;
+}
+
 /* What is moved as prescribed or clamped may stand in a wall. */
 static mor_status check_walls(mor_context *context, const mor_case *c, const mor_case_body *it, const double *point)
 {
@@ -279,9 +353,9 @@ static mor_status check_walls(mor_context *context, const mor_case *c, const mor
         const double depth = -mor_simulation_placed_distance(c->walls[w].shape, c->turn, c->move, point);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' overlapping wall '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
-                  "move the body or the wall",
+                  "%s",
                   it->place.file, it->place.line, it->name, c->walls[w].name, depth, point[0], point[1], point[2],
-                  TOUCHING * c->spacing);
+                  TOUCHING * c->spacing, advise_place(it, "move the body or the wall"));
     }
     return MOR_OK;
 }
@@ -293,8 +367,9 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
     for (int a = 0; a < c->dimension; ++a) {
         MOR_CHECK(context, node[a] >= frame->domain_minimum[a] && node[a] <= frame->domain_maximum[a], MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; allowed are bodies inside it; "
-                  "enlarge 'domain' or move the body",
-                  it->place.file, it->place.line, it->name, node[0], node[1], node[2]);
+                  "%s",
+                  it->place.file, it->place.line, it->name, node[0], node[1], node[2],
+                  advise_place(it, "enlarge 'domain' or move the body"));
     }
     for (int b = 0; b < c->n_bodies; ++b) {
         if (b == number || !mor_simulation_body_may_hold(&boxes[b], node)) {
@@ -387,6 +462,7 @@ static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodie
     mor_point_cache_init(cache, NULL);
     if (status == MOR_OK) {
         r->cache = cache;
+        status = try_thinnest(context, c, cache);
     }
     /* Elastic groups first, so that the rigid one is the last. */
     for (int pass = 0; pass < 2; ++pass) {

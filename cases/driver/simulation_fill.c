@@ -3,6 +3,7 @@
 #include "cases/driver/simulation_fill.h"
 
 #include "bodies/body.h"
+#include "cases/driver/log_owner.h"
 #include "cases/driver/simulation_bodies.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -80,7 +81,11 @@ static mor_status fill_relaxed(mor_context *context, const mor_case *c, const mo
     request.spacing = c->spacing;
     request.volume = mass.volume;
     request.seed = c->seed;
-    MOR_TRY(context, mor_point_cache_relax(context, cache, &request, &relaxed));
+    mor_log_owner owner;
+    mor_log_owner_begin(&owner, context, "body '%s'", it->name);
+    const mor_status status = mor_point_cache_relax(context, cache, &request, &relaxed);
+    mor_log_owner_end(&owner, context);
+    MOR_TRY(context, status);
     MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * relaxed.n_points, "particles of a body"));
     points->n_points = relaxed.n_points;
     place_points(frame, &relaxed, points->positions);

@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
+#include "core/base/memory.h"
 #include "relaxation/mesh.h"
 #include "tests/common/mesh_forms.h"
 #include "tests/common/near.h"
@@ -123,10 +124,48 @@ static void one_spike_through_a_large_mesh_is_found_for_any_number_of_threads(vo
     mor_mesh_clear(&folder->context, &mesh);
 }
 
+/* Two cones on one rim: all triangles of each meet in its tip, so all their boxes do. */
+static mor_status build_cones(mor_context *context, int n, mor_mesh *mesh)
+{
+    mor_mesh raw = {.n_vertices = n + 2, .n_triangles = 2 * (int64_t)n};
+    assert_int_equal(MOR_NEW(context, &raw.vertices, 3 * raw.n_vertices, "cones"), MOR_OK);
+    assert_int_equal(MOR_NEW(context, &raw.triangles, 3 * raw.n_triangles, "cones"), MOR_OK);
+    for (int k = 0; k < n; ++k) {
+        const int32_t corners[6] = {k, (k + 1) % n, n, (k + 1) % n, k, n + 1};
+        raw.vertices[3 * k] = cos(2.0 * MOR_PI * k / n);
+        raw.vertices[3 * k + 1] = sin(2.0 * MOR_PI * k / n);
+        memcpy(raw.triangles + 6 * (ptrdiff_t)k, corners, sizeof corners);
+    }
+    raw.vertices[3 * n + 2] = 1.0;
+    raw.vertices[3 * n + 5] = -1.0;
+    const mor_status status =
+        mor_mesh_init(context, raw.vertices, raw.n_vertices, raw.triangles, raw.n_triangles, "cones", mesh, NULL);
+    mor_mesh_clear(context, &raw);
+    return status;
+}
+
+static void many_triangles_in_one_corner_are_checked_or_refused_in_bounded_time(void **state)
+{
+    run_folder *folder = *state;
+    mor_mesh mesh;
+    mor_shape_moments moments;
+    assert_int_equal(build_cones(&folder->context, 10000, &mesh), MOR_OK);
+    mor_mesh_moments(&mesh, &moments);
+    assert_near(moments.volume, 2.0 / 3.0 * MOR_PI, 1e-6); /* 2 pi^3 / (3 n^2) * 2 / 3 missing: 1.4e-7 */
+    mor_mesh_clear(&folder->context, &mesh);
+    const clock_t start = clock();
+    assert_int_equal(build_cones(&folder->context, 100000, &mesh), MOR_ERROR_ARGUMENT);
+    print_message("refused after %.1f s of processor time\n", (double)(clock() - start) / CLOCKS_PER_SEC);
+    assert_non_null(strstr(folder->context.message, "divide long triangles"));
+    assert_null(mesh.triangles);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(balls_of_up_to_a_million_triangles_approach_the_sphere_in_second_order,
+                                        run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(many_triangles_in_one_corner_are_checked_or_refused_in_bounded_time,
                                         run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(one_spike_through_a_large_mesh_is_found_for_any_number_of_threads,
                                         run_folder_setup, run_folder_teardown),

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/pictures.h"
 #include "core/io/snapshot.h"
+#include "core/particle/shape_analytic.h"
 #include "tests/common/run_folder.h"
 
 #include <math.h>
@@ -67,17 +68,13 @@ static void write_series(run_folder *folder, int n_energies)
 }
 
 /* Writes one snapshot of the sets and draws it; the caller frees what was printed. */
-static char *render(run_folder *folder, const char *color, mor_set *const *sets, int n_sets, int n_energies,
-                    mor_status *status)
+static char *render_case(run_folder *folder, const mor_case *the_case, mor_set *const *sets, int n_sets, int n_energies,
+                         mor_status *status)
 {
-    static mor_case the_case; /* large */
     const mor_snapshot_options options = {.is_single = false};
     mor_snapshot_writer writer;
     char *printed = NULL;
     size_t n_bytes = 0;
-    the_case = (mor_case){.dimension = 2, .spacing = spacing, .gravity = {0.0, -9.81, 0.0}, .title = "Pictures"};
-    the_case.turn[0] = the_case.turn[4] = the_case.turn[8] = 1.0;
-    snprintf(the_case.output.color_field, sizeof the_case.output.color_field, "%s", color);
     make_part(folder, "snapshots");
     make_part(folder, "images");
     write_series(folder, n_energies);
@@ -86,9 +83,25 @@ static char *render(run_folder *folder, const char *color, mor_set *const *sets,
     mor_snapshot_writer_clear(&folder->context, &writer);
     FILE *output = open_memstream(&printed, &n_bytes);
     assert_non_null(output);
-    *status = mor_pictures_render(&folder->context, &the_case, folder->path, MOR_PICTURES_KEY, output);
+    *status = mor_pictures_render(&folder->context, the_case, folder->path, MOR_PICTURES_KEY, output);
     assert_int_equal(fclose(output), 0);
     return printed;
+}
+
+static void init_case(mor_case *the_case, int dimension, const char *color)
+{
+    *the_case = (mor_case){.dimension = dimension, .spacing = spacing, .title = "Pictures"};
+    the_case->gravity[dimension - 1] = -9.81;
+    the_case->turn[0] = the_case->turn[4] = the_case->turn[8] = 1.0;
+    snprintf(the_case->output.color_field, sizeof the_case->output.color_field, "%s", color);
+}
+
+static char *render(run_folder *folder, const char *color, mor_set *const *sets, int n_sets, int n_energies,
+                    mor_status *status)
+{
+    static mor_case the_case; /* large */
+    init_case(&the_case, 2, color);
+    return render_case(folder, &the_case, sets, n_sets, n_energies, status);
 }
 
 static void expect_picture(run_folder *folder, const char *printed, const char *name)
@@ -164,6 +177,47 @@ static void charts_hold_as_many_curves_as_colors_tell_apart(void **state)
     mor_set_clear(&folder->context, &rocks);
 }
 
+/* Draws a block with one post so high, far beside it; returns the bytes of the picture. */
+static uint8_t *draw_post(run_folder *folder, double height, size_t *n_bytes)
+{
+    static mor_case the_case; /* large */
+    char path[MOR_PATH_BYTES];
+    mor_set soil;
+    mor_status status = MOR_OK;
+    const double low[3] = {0.5, 0.0, 0.0};
+    const double high[3] = {0.53, 0.03, height};
+    init_case(&the_case, 3, "speed");
+    the_case.domain_minimum[0] = -1.0;
+    the_case.domain_minimum[1] = -1.0;
+    for (int a = 0; a < 3; ++a) {
+        the_case.domain_maximum[a] = 1.0;
+    }
+    the_case.n_walls = 1;
+    the_case.walls[0].outline.kind = MOR_CASE_SHAPE_POSTS;
+    snprintf(the_case.walls[0].name, sizeof the_case.walls[0].name, "posts");
+    assert_int_equal(mor_shape_new_box(&folder->context, low, high, &the_case.walls[0].shape), MOR_OK);
+    fill_set(folder, &soil, "soil", 0.0, 0.1);
+    char *printed = render_case(folder, &the_case, (mor_set *const[]){&soil}, 1, 2, &status);
+    assert_int_equal(status, MOR_OK);
+    free(printed);
+    mor_set_clear(&folder->context, &soil);
+    mor_shape_free(&folder->context, &the_case.walls[0].shape);
+    return run_folder_load(run_folder_file(folder, path, "images/step_000000_speed.png"), n_bytes);
+}
+
+static void a_post_far_from_the_soil_is_seen(void **state)
+{
+    void *other = NULL;
+    size_t n_bytes[2] = {0, 0};
+    uint8_t *low = draw_post(*state, 0.1, &n_bytes[0]);
+    assert_int_equal(run_folder_setup(&other), 0);
+    uint8_t *high = draw_post(other, 0.2, &n_bytes[1]);
+    assert_true(n_bytes[0] != n_bytes[1] || memcmp(low, high, n_bytes[0]) != 0);
+    free(low);
+    free(high);
+    assert_int_equal(run_folder_teardown(&other), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -173,6 +227,7 @@ int main(void)
                                         run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_color_that_no_set_has_is_refused_by_name, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_post_far_from_the_soil_is_seen, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(charts_hold_as_many_curves_as_colors_tell_apart, run_folder_setup,
                                         run_folder_teardown),
     };

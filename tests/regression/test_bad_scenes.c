@@ -77,6 +77,14 @@ static const bad_scene scenes[] = {
     {"spacing=1.1e-5 m", "lattice nodes", "larger spacing", true},
 };
 
+/* Rocks packed on the floor, away from the others. */
+#define PACKED(margin, smallest, largest)                                                                              \
+    "rocks=({name=\"r\"; content=0.3; margin=\"" margin "\"; particles=\"relaxed\"; "                                  \
+    "region={type=\"box\"; min=(\"0 m\", \"0 m\"); max=(\"5.5 m\", \"2.5 m\");}; "                                     \
+    "sizes=({diameter=\"" smallest "\"; passing=0;}, {diameter=\"" largest                                             \
+    "\"; passing=1;}); forms=({type=\"rock\";}); "                                                                     \
+    "material={model=\"rigid\"; density=2500;};})"
+
 /* Whatever is wrong with a rock is told with its line. */
 static const bad_scene rock_scenes[] = {
     {NULL, NULL, NULL, false},
@@ -109,6 +117,10 @@ static const bad_scene rock_scenes[] = {
      "body 'ball' has too few particles near", "smaller spacing or make it rigid", true},
     {"bodies[0].clamp={type=\"box\"; min=(\"4 m\", \"0 m\"); max=(\"5 m\", \"1 m\");}",
      "a clamp of body 'ball' that holds none of its", "move the clamp", true},
+    {PACKED("-0.3 m", "0.8 m", "0.9 m"), "overlapping wall '", "raise 'margin' or shrink 'region'", false},
+    {PACKED("0.1 m", "0.45 m", "0.5 m"), "spacings thick at its thickest", "use a spacing of at most", false},
+    /* Of many sizes the thinnest rock is told, and a spacing for all that may be drawn. */
+    {PACKED("0.1 m", "0.45 m", "0.9 m"), "it is the thinnest of the rocks", "does for all that the sizes allow", false},
     {"soil[0].shape={type=\"box\"; min=(\"2.9 m\", \"0.2 m\"); max=(\"3.1 m\", \"0.4 m\");}",
      "soil 'sand' without a single particle", "make the region larger", true},
 };

@@ -45,10 +45,37 @@ static void soil_off_a_wall_is_warned_of(void **state)
     }
 }
 
+static void ground_and_the_clocks_of_touching_bodies_are_told(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const arguments[] = {"explain", MOR_SOURCE_DIR "/cases/terrain-drop/case.cfg", "-t", "1", NULL};
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.output,
+                        "ground 'ground': 30 x 48 nodes of 10 m, x 5 to 295 m, y 5 to 475 m, z 100 to 195 m; "
+                        "subtracted (0, 0, 0) m; no reference system named, meters assumed");
+    program_expect_text(outcome.output, "1 sub-step per step now, up to about ");
+    program_expect_text(outcome.output, "with the steps of bodies that touch");
+    program_clear(&outcome);
+}
+
+/* One body, so one word for it. */
+static void one_body_is_counted_in_the_singular(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const arguments[] = {"check", MOR_SOURCE_DIR "/cases/crater/case.cfg", "-s", "spacing=6 mm",
+                                            NULL};
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.output, "1 body of ");
+    program_clear(&outcome);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(soil_off_a_wall_is_warned_of, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(ground_and_the_clocks_of_touching_bodies_are_told, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(one_body_is_counted_in_the_singular, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

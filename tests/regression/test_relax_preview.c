@@ -19,6 +19,7 @@ static void store_inputs(run_folder *folder)
     run_folder_store(run_folder_file(folder, path, "cube.obj"), cube_obj, sizeof cube_obj - 1);
     run_folder_store(run_folder_file(folder, path, "square.txt"), square_txt, sizeof square_txt - 1);
     run_folder_store(run_folder_file(folder, path, "open.obj"), cube_obj, 48);
+    run_folder_store(run_folder_file(folder, path, "cube.csv"), cube_obj, 48);
 }
 
 static void expect_picture(run_folder *folder, const char *name)
@@ -105,6 +106,7 @@ static void relax_fills_an_outline_with_its_area(void **state)
     double reach = 0.0;
     store_inputs(folder);
     program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.output, "\narea                          1 m2\n");
     program_clear(&outcome);
     assert_int_equal(read_table(folder, "flat/particles.csv", "x [m],y [m],z [m],volume [m2]\n", &area, &reach), 400);
     assert_near(area, 1.0, 1e-13); /* four hundred roundings */
@@ -125,7 +127,9 @@ static void relax_refuses_what_it_cannot_fill(void **state)
         {{"relax", "cube.obj", "--spacing", "1 kg", NULL}, "--spacing '1 kg'"},
         {{"relax", "cube.obj", "--spacing", "1", "--length", "1", "--diameter", "1", NULL},
          "more than one of --length"},
-        {{"relax", "cube.obj", "--spacing", "3", NULL}, "spacings"},
+        {{"relax", "cube.obj", "--spacing", "3", NULL}, "use a spacing of at most"},
+        {{"relax", "cube.csv", "--spacing", "1", NULL}, "an outline from .txt"},
+        {{"relax", "cube.obj", "--spacing", "0.001", NULL}, "as its file is taken in meters"},
         {{"check", "cube.obj", "--spacing", "1", NULL}, "belong to moraine relax"},
         {{"preview", "none.cfg", NULL}, "none.cfg"},
     };
@@ -158,8 +162,37 @@ static void preview_draws_the_first_state_and_spares_runs(void **state)
     program_outcome outcome = program_run(folder, run, 0);
     program_clear(&outcome);
     outcome = program_run(folder, over, 2);
-    program_expect_text(outcome.errors, "already holds a run");
+    program_expect_text(outcome.errors, "already holds a run; choose another folder with -o");
     program_clear(&outcome);
+}
+
+static void the_log_of_a_run_holds_what_was_said_before_there_was_a_folder(void **state)
+{
+    static const char text[] =
+        "dimension = 3; spacing = 0.2; gravity = (0, 0, 0); end = \"1 ms\";\n"
+        "domain = { min = (-3, -3, -3); max = (3, 3, 3); }; output = { pictures = false; };\n"
+        "bodies = ( { name = \"b\"; position = (0, 0, 0); shape = { type = \"mesh\"; file = \"torn.obj\"; };\n"
+        "  material = { model = \"rigid\"; density = 2600; }; } );\n";
+    static const char *const said[] = {"info: moraine ", "torn.obj: mended: 1 hole filled\n", "info: body 'b': "};
+    const char *const run[] = {"run", "torn.cfg", "-t", "1", "-o", "out", NULL};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    run_folder_store(run_folder_file(folder, path, "torn.cfg"), text, sizeof text - 1);
+    run_folder_store(run_folder_file(folder, path, "torn.obj"), cube_obj, sizeof cube_obj - 1 - strlen("f 4 1 5 8\n"));
+    program_outcome outcome = program_run(folder, run, 0);
+    const char *once = strstr(outcome.errors, "mended");
+    assert_non_null(once);
+    assert_null(strstr(once + 1, "mended")); /* the terminal was told at once */
+    program_clear(&outcome);
+    char *log = (char *)run_folder_load(run_folder_file(folder, path, "out/log.txt"), &n_bytes);
+    assert_non_null(log);
+    const char *place = log;
+    for (size_t k = 0; k < sizeof said / sizeof *said; ++k) { /* in this order */
+        place = strstr(place, said[k]);
+        assert_non_null(place);
+    }
+    free(log);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
@@ -171,6 +204,7 @@ int main(void)
         TEST(relax_fills_an_outline_with_its_area),
         TEST(relax_refuses_what_it_cannot_fill),
         TEST(preview_draws_the_first_state_and_spares_runs),
+        TEST(the_log_of_a_run_holds_what_was_said_before_there_was_a_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -158,12 +158,36 @@ static void what_cannot_be_is_refused(void **state)
         {"bodies[0].name=rock_2", "the name 'rock_2' again"},
         {"rocks[0].sizes=( { diameter=0.0001; passing=1; } )", "smallest diameter"},
         {"probes[0].body=rock_1000", "name of a body"},
+        {"probes[0].body=rock_1000", "allowed: post, rock_1 to rock_"},
+        {"rocks[1].content=0.0001", "fill nothing: 0.01 % of the region is 0.006 m2, and the smallest rock has 0.1257"},
+        {"rocks[1].sizes=( { diameter=5; passing=1; } )", "fill nothing"},
+        {"rocks[1].margin=2.9", "not one finds a place"},
     };
     case_reading *f = *state;
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
         const char *const settings[] = {wrong[k][0], NULL};
         case_reading_refuse(f, text, settings, "", wrong[k][1]);
     }
+}
+
+static void keep_line(void *user, mor_log_level level, const char *line)
+{
+    if (level == MOR_LOG_WARNING) {
+        snprintf(user, MOR_CONTEXT_MESSAGE_BYTES, "%s", line);
+    }
+}
+
+static void a_warning_of_packing_names_its_item(void **state)
+{
+    case_reading *f = *state;
+    char line[MOR_CONTEXT_MESSAGE_BYTES] = "";
+    static const char *const settings[] = {"rocks[0].content=0.7", NULL};
+    f->context.log_sink = keep_line;
+    f->context.log_user = line;
+    case_reading_read(f, text, settings, &f->first);
+    assert_true(f->first.rocks[0].n_given_up > 0);
+    assert_ptr_equal(strstr(line, "t.cfg:5: rocks 'rock': rocks fill "), line);
+    assert_true(f->context.log_sink == keep_line && f->context.log_user == line); /* given back */
 }
 
 static void the_report_sets_what_was_reached_against_what_was_asked(void **state)
@@ -180,7 +204,7 @@ static void the_report_sets_what_was_reached_against_what_was_asked(void **state
     snprintf(head, sizeof head, "rocks 'rock': %d placed, content %.2f %% (asked for: 25.00 %%), smallest gap",
              f->first.rocks[0].n_rocks, 100.0 * f->first.rocks[0].content_reached);
     assert_non_null(strstr(report, head));
-    assert_non_null(strstr(report, "up to 1.2        m 100.00 % of their volume (asked for: 100.00 %)"));
+    assert_non_null(strstr(report, "up to        1.2 m 100.00 % of their area (asked for: 100.00 %)"));
     assert_non_null(strstr(report, "rocks 'pebble'"));
     free(report);
 }
@@ -195,6 +219,7 @@ int main(void)
         FOR_ROCKS(rocks_follow_the_scale_of_the_case),
         FOR_ROCKS(outlines_from_files_are_forms_of_unit_diameter),
         FOR_ROCKS(what_cannot_be_is_refused),
+        FOR_ROCKS(a_warning_of_packing_names_its_item),
         FOR_ROCKS(the_report_sets_what_was_reached_against_what_was_asked),
     };
     return cmocka_run_group_tests_name("case_read_rocks", tests, NULL, NULL);

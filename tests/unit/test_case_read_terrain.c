@@ -141,6 +141,26 @@ static void particles_follow_the_ground(void **state)
     check_particles(f);
 }
 
+static void count_line(void *user, mor_log_level level, const char *text)
+{
+    (void)level;
+    *(int *)user += strstr(text, "nodes") != NULL && strstr(text, "offset") != NULL;
+}
+
+/* A layer and posts need the raster as well. */
+static void a_raster_is_spoken_of_once(void **state)
+{
+    case_reading *f = *state;
+    char text[TEXT_BYTES];
+    int n_lines = 0;
+    f->context.log_sink = count_line;
+    f->context.log_user = &n_lines;
+    case_reading_read(f, make_scene(text), NULL, &f->first);
+    assert_int_equal(n_lines, 1);
+    assert_true(f->context.log_sink == count_line);
+    f->context.log_sink = NULL;
+}
+
 static void wrong_terrain_is_refused_with_its_place(void **state)
 {
     case_reading *f = *state;
@@ -182,6 +202,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(terrain_survives_writing_and_scaling, case_reading_set_up,
                                         case_reading_tear_down),
         cmocka_unit_test_setup_teardown(particles_follow_the_ground, case_reading_set_up, case_reading_tear_down),
+        cmocka_unit_test_setup_teardown(a_raster_is_spoken_of_once, case_reading_set_up, case_reading_tear_down),
         cmocka_unit_test_setup_teardown(wrong_terrain_is_refused_with_its_place, case_reading_set_up,
                                         case_reading_tear_down),
     };

@@ -91,6 +91,31 @@ static void the_step_is_a_part_of_the_period_on_the_contact_spring(void **state)
     contact_scene_close(&scene);
 }
 
+/* The step of a body that will touch is known before it does. */
+static void the_step_of_touching_bodies_does_not_depend_on_gaps(void **state)
+{
+    (void)state;
+    const mor_body_kind kinds[2] = {MOR_BODY_RIGID, MOR_BODY_ELASTIC};
+    for (int k = 0; k < 2; ++k) {
+        double near_step = 0.0;
+        double step = 0.0;
+        for (int is_far = 0; is_far < 2; ++is_far) {
+            const contact_scene_body body = block_at(kinds[k], 0.0, is_far ? 100.0 * SIDE : 0.5 * SIDE);
+            contact_scene_request request = plain_request(&body, 1);
+            request.walls = &floor_wall;
+            request.n_walls = 1;
+            contact_scene scene;
+            contact_scene_open(&scene, &request);
+            const mor_body_group *group = k == 0 ? &scene.rigid.group : &scene.elastic.group;
+            near_step = is_far ? near_step : mor_contact_longest_step(&scene.contact, group);
+            assert_true(!is_far || mor_contact_longest_step(&scene.contact, group) > 10.0 * near_step);
+            step = mor_contact_touching_step(&scene.contact, group);
+            contact_scene_expect("step", step, near_step, 1.0e-6 * near_step); /* places of nodes by Newton steps */
+            contact_scene_close(&scene);
+        }
+    }
+}
+
 static void partners_are_those_that_can_meet(void **state)
 {
     (void)state;
@@ -200,6 +225,7 @@ int main(void)
         cmocka_unit_test(wrong_settings_are_refused),
         cmocka_unit_test(bodies_alone_may_take_any_step),
         cmocka_unit_test(the_step_is_a_part_of_the_period_on_the_contact_spring),
+        cmocka_unit_test(the_step_of_touching_bodies_does_not_depend_on_gaps),
         cmocka_unit_test(partners_are_those_that_can_meet),
         cmocka_unit_test(a_belt_drags_a_block_by_the_law_of_the_pair),
         cmocka_unit_test(a_rising_wall_lifts_a_block),

@@ -519,6 +519,13 @@ static void fins_and_one_sided_surfaces_are_refused(void **state)
         add_triangle(it, k, (k + 1) % 5, (k + 2) % 5);
     }
     expect_refusal(it, "one side only");
+    /* Both: the fin is told, and its place is that of the fin, at the middle of an edge of the cube. */
+    append_cube(it, 0.5, 8.0, 0.0, 0.0);
+    const double far_tip[3] = {8.0, 0.0, 2.0};
+    memcpy(it->vertices + 3 * it->n_vertices++, far_tip, sizeof far_tip);
+    add_triangle(it, 9, 10, 13);
+    expect_refusal(it, "near (8, -0.5, 0.5)");
+    assert_int_equal(it->report.n_crowded_edges, 1);
 }
 
 static void numbers_that_are_none_and_wrong_indices_are_refused(void **state)

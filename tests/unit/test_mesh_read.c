@@ -6,6 +6,7 @@
 #include "tests/common/run_folder.h"
 
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 enum { TEXT_BYTES = 16384 };
 
@@ -235,7 +236,7 @@ static void what_is_mended_is_logged(void **state)
     assert_int_equal(report.n_flipped, 1);
     assert_int_equal(report.n_holes_filled, 1);
     assert_int_equal(folder->n_logged, 1);
-    assert_non_null(strstr(folder->log, "1 turned round, 1 holes filled"));
+    assert_non_null(strstr(folder->log, "mended: 1 triangle turned round, 1 hole filled"));
     mor_mesh_clear(&folder->context, &mesh);
     mor_mesh_clear(&folder->context, &cube);
 }
@@ -256,6 +257,82 @@ static void files_without_an_inside_are_refused(void **state)
     it.n_bytes = 0;
     append_text(&it, "v 0 0 0\nv 1 nan 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     expect_refusal(folder, "nan.obj", &it, MOR_ERROR_ARGUMENT, "is no place");
+    mor_mesh_clear(&folder->context, &cube);
+}
+
+static void meshes_too_far_away_for_single_precision_are_refused(void **state)
+{
+    run_folder *folder = *state;
+    /* Allowed are 1e-5 of the diagonal, sqrt(3), and rounding is 2^-24 of the way: 290.6 m. */
+    static const double ways[] = {290.0, 290.25, 5e6};
+    for (int k = 0; k < 3; ++k) {
+        written obj = {.n_bytes = 0};
+        written stl = {.n_bytes = 0};
+        mor_mesh cube = mesh_cube(&folder->context, 0.5);
+        for (int64_t v = 0; v < cube.n_vertices; ++v) {
+            cube.vertices[3 * v] += ways[k];
+        }
+        write_obj(&obj, &cube);
+        write_stl_binary(&stl, &cube);
+        if (k == 0) { /* its far side lies at 290.5 m */
+            expect_cube(folder, "near.obj", &obj, 1.0, ways[k]);
+            expect_cube(folder, "near.stl", &stl, 1.0, ways[k]);
+        } else { /* at 290.75 m */
+            expect_refusal(folder, "far.obj", &obj, MOR_ERROR_ARGUMENT, "move it near the origin");
+            expect_refusal(folder, "far.stl", &stl, MOR_ERROR_ARGUMENT, "allowed is 1.73205e-05");
+        }
+        mor_mesh_clear(&folder->context, &cube);
+    }
+}
+
+static void nodes_too_deep_in_each_other_are_refused(void **state)
+{
+    run_folder *folder = *state;
+    written it = {.n_bytes = 0};
+    written buffer = {.n_bytes = 0};
+    char path[MOR_PATH_BYTES];
+    mor_mesh cube = mesh_cube(&folder->context, 0.5);
+    write_buffer(&buffer, &cube);
+    run_folder_store(run_folder_file(folder, path, "cube.bin"), buffer.bytes, buffer.n_bytes);
+    write_gltf_json(&it, &cube, "\"uri\":\"cube.bin\",");
+    expect_cube(folder, "two.gltf", &it, 2.0, 10.0);
+    /* The same with 300 nodes between the first and the mesh. */
+    char *tail = strstr(it.bytes, "\"meshes\"");
+    char *nodes = strstr(it.bytes, "[{\"children\"");
+    char rest[TEXT_BYTES];
+    assert_true(tail != NULL && nodes != NULL);
+    snprintf(rest, sizeof rest, "%s", tail);
+    it.n_bytes = (size_t)(nodes - it.bytes);
+    append_text(&it, "[");
+    for (int k = 1; k <= 300; ++k) {
+        append_text(&it, "{\"children\":[%d]},", k);
+    }
+    append_text(&it, "{\"mesh\":0}],%s", rest);
+    expect_refusal(folder, "deep.gltf", &it, MOR_ERROR_IO, "more than 256 deep");
+    mor_mesh_clear(&folder->context, &cube);
+}
+
+/* A pipe then gets the descriptors of input and output, which the reader's process points elsewhere. */
+static void a_process_without_input_and_output_reads_meshes(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    int code = 0;
+    written it = {.n_bytes = 0};
+    mor_mesh cube = mesh_cube(&folder->context, 0.5);
+    write_obj(&it, &cube);
+    run_folder_store(run_folder_file(folder, path, "cube.obj"), it.bytes, it.n_bytes);
+    const pid_t child = fork();
+    if (child == 0) {
+        mor_mesh mesh;
+        (void)close(STDIN_FILENO);
+        (void)close(STDOUT_FILENO);
+        _exit(mor_mesh_read(&folder->context, path, &mesh, NULL) == MOR_OK && mesh.n_triangles == 12 ? 0 : 1);
+    }
+    assert_true(child > 0);
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_true(WIFEXITED(code));
+    assert_int_equal(WEXITSTATUS(code), 0);
     mor_mesh_clear(&folder->context, &cube);
 }
 
@@ -361,6 +438,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(polygons_are_divided_into_triangles, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(what_is_mended_is_logged, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(files_without_an_inside_are_refused, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(meshes_too_far_away_for_single_precision_are_refused, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(nodes_too_deep_in_each_other_are_refused, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_process_without_input_and_output_reads_meshes, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(what_is_no_mesh_is_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_count_that_lies_and_a_file_cut_off_are_refused, run_folder_setup,
                                         run_folder_teardown),

@@ -3,6 +3,8 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
+#include "relaxation/level_set.h"
+#include "relaxation/mesh_distance.h"
 #include "relaxation/pack.h"
 #include "relaxation/rock_form.h"
 #include "tests/common/near.h"
@@ -192,6 +194,12 @@ static void curve_of_sizes_is_reached_at_40_percent(void **state)
         assert_true(result.rocks[i].diameter <= result.rocks[i - 1].diameter);
     }
     check_places(&s, &result);
+    double off = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        off = fmax(off, fabs(result.passing[k] - curve_passing[k]));
+    }
+    print_message("curve: %d rocks, %.2f %%, off by up to %.2f points, gap %.3f m\n", result.n_rocks,
+                  100.0 * result.content, 100.0 * off, result.smallest_gap);
     mor_pack_clear(&s.context, &result);
     close_slope(&s);
 }
@@ -329,6 +337,143 @@ static void balls_fill_a_box_to_20_percent_in_space(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+enum { N_BODIES = 3 };
+
+/* Angular rocks in a box, packed by their level sets. */
+typedef struct quarry {
+    mor_context context;
+    mor_mesh meshes[N_BODIES];
+    mor_mesh_distance *distances[N_BODIES];
+    mor_shape *forms[N_BODIES];
+    mor_shape *region;
+} quarry;
+
+static void open_quarry(quarry *q)
+{
+    const double low[3] = {0.0, 0.0, 0.0};
+    const double high[3] = {4.0, 3.0, 3.0};
+    const mor_level_set_request grid = {3, 0.04, 0.2};
+    memset(q, 0, sizeof *q);
+    mor_context_init(&q->context);
+    for (int k = 0; k < N_BODIES; ++k) {
+        mor_rock_form form;
+        mor_rock_form_init(&form);
+        form.elongation = 0.5;
+        form.angularity = 0.9;
+        form.seed = (uint64_t)k;
+        assert_int_equal(mor_rock_mesh(&q->context, &form, 3, &q->meshes[k]), MOR_OK);
+        assert_int_equal(mor_mesh_distance_new(&q->context, &q->meshes[k], &q->distances[k]), MOR_OK);
+        assert_int_equal(mor_shape_new_mesh(&q->context, &q->meshes[k], &grid, &q->forms[k]), MOR_OK);
+    }
+    assert_int_equal(mor_shape_new_box(&q->context, low, high, &q->region), MOR_OK);
+}
+
+static void close_quarry(quarry *q)
+{
+    for (int k = 0; k < N_BODIES; ++k) {
+        mor_mesh_distance_free(&q->context, &q->distances[k]);
+        mor_shape_free(&q->context, &q->forms[k]);
+        mor_mesh_clear(&q->context, &q->meshes[k]);
+    }
+    mor_shape_free(&q->context, &q->region);
+    assert_int_equal(q->context.memory_bytes, 0);
+}
+
+/* Least distance of the corners of one rock to the triangles of another; negative when a corner lies inside. */
+static double find_corner_distance(const quarry *q, const mor_pack_rock *owner, const mor_pack_rock *other)
+{
+    const mor_mesh *mesh = &q->meshes[owner->form];
+    double turns[2][9];
+    double least = INFINITY;
+    mor_matrix_rotation(owner->axis, owner->angle, turns[0]);
+    mor_matrix_rotation(other->axis, other->angle, turns[1]);
+    for (int64_t v = 0; v < mesh->n_vertices; ++v) {
+        double point[3];
+        double local[3];
+        mor_matrix_apply(turns[0], mesh->vertices + 3 * v, point);
+        for (int a = 0; a < 3; ++a) {
+            point[a] = point[a] * owner->diameter + owner->position[a] - other->position[a];
+        }
+        mor_matrix_apply_transposed(turns[1], point, local);
+        for (int a = 0; a < 3; ++a) {
+            local[a] /= other->diameter;
+        }
+        const double distance =
+            other->diameter * mor_mesh_distance_find(q->distances[other->form], local, INFINITY, NULL);
+        least = fmin(least, mor_mesh_distance_is_inside(q->distances[other->form], local) ? -distance : distance);
+    }
+    return least;
+}
+
+/* Least depth of the corners of a rock in the region. */
+static double find_corner_depth(const quarry *q, const mor_pack_rock *rock)
+{
+    const mor_mesh *mesh = &q->meshes[rock->form];
+    double turn[9];
+    double least = INFINITY;
+    mor_matrix_rotation(rock->axis, rock->angle, turn);
+    for (int64_t v = 0; v < mesh->n_vertices; ++v) {
+        double point[3];
+        mor_matrix_apply(turn, mesh->vertices + 3 * v, point);
+        for (int a = 0; a < 3; ++a) {
+            point[a] = point[a] * rock->diameter + rock->position[a];
+        }
+        least = fmin(least, -mor_shape_distance(q->region, point));
+    }
+    return least;
+}
+
+static double find_least(const quarry *q, const mor_pack_result *result)
+{
+    double least = INFINITY;
+    for (int i = 0; i < result->n_rocks; ++i) {
+        for (int j = 0; j < i; ++j) {
+            least = fmin(least, find_corner_distance(q, &result->rocks[i], &result->rocks[j]));
+            least = fmin(least, find_corner_distance(q, &result->rocks[j], &result->rocks[i]));
+        }
+    }
+    return least;
+}
+
+static void angular_rocks_keep_apart_in_space_as_they_are_turned(void **state)
+{
+    (void)state;
+    quarry q;
+    mor_pack_request request;
+    mor_pack_result result;
+    const double diameters[2] = {0.8, 1.4};
+    const double passing[2] = {0.0, 1.0};
+    open_quarry(&q);
+    mor_pack_request_init(&request);
+    request.region = q.region;
+    request.forms = (const mor_shape *const *)q.forms;
+    request.n_forms = N_BODIES;
+    request.content = 0.25;
+    request.diameters = diameters;
+    request.passing = passing;
+    request.n_sizes = 2;
+    request.gap = 0.05;
+    request.resolution = 0.1;
+    assert_int_equal(mor_pack(&q.context, &request, &result), MOR_OK);
+    assert_int_equal(result.n_given_up, 0);
+    double depth = INFINITY;
+    for (int i = 0; i < result.n_rocks; ++i) {
+        depth = fmin(depth, find_corner_depth(&q, &result.rocks[i]));
+    }
+    const double least = find_least(&q, &result);
+    print_message("%d rocks, %.2f %%, least gap of corners %.4f m (by points: %.4f m), least depth %.4f m\n",
+                  result.n_rocks, 100.0 * result.content, least, result.smallest_gap, depth);
+    assert_true(depth > -0.25 * request.resolution);                    /* what stands out between points */
+    assert_true(least > request.gap - 0.25 * request.resolution);       /* the same */
+    assert_near(least, result.smallest_gap, 0.25 * request.resolution); /* the same */
+    for (int i = 0; i < result.n_rocks; ++i) {
+        result.rocks[i].angle = 0.0;
+    }
+    assert_true(find_least(&q, &result) < 0.0); /* not turned, some would overlap: the corners see the turns */
+    mor_pack_clear(&q.context, &result);
+    close_quarry(&q);
+}
+
 static void wrong_requests_are_refused(void **state)
 {
     (void)state;
@@ -350,6 +495,10 @@ static void wrong_requests_are_refused(void **state)
     assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(s.context.message, "gap"));
     s.request.gap = 0.5;
+    s.request.resolution = 1e-3; /* 8000 points across the largest rock */
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(s.context.message, "raise the resolution"));
+    s.request.resolution = 0.25;
     mor_shape *twice = s.forms[0];
     assert_int_equal(mor_shape_new_scaled(&s.context, 2.0, &twice, &s.forms[0]), MOR_OK);
     assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_ERROR_ARGUMENT);
@@ -367,6 +516,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_reached_is_said),
         cmocka_unit_test(rocks_keep_off_an_obstacle_inside_and_out),
         cmocka_unit_test(balls_fill_a_box_to_20_percent_in_space),
+        cmocka_unit_test(angular_rocks_keep_apart_in_space_as_they_are_turned),
         cmocka_unit_test(wrong_requests_are_refused),
     };
     return cmocka_run_group_tests_name("pack", tests, NULL, NULL);

@@ -73,10 +73,11 @@ static void measures_of_a_lattice_are_those_known(void **state)
     }
     const mor_relax_request request = new_relax_request(box, 3, 0.5);
     assert_int_equal(mor_relax_measure(&context, &request, positions, N, 0.125, &quality), MOR_OK);
-    assert_true(fabs(quality.spacing_deviation) <= 1e-12);   /* rounding */
-    assert_true(fabs(quality.nearest_mean - 1.0) <= 1e-12);  /* rounding */
-    assert_true(fabs(quality.surface_depth - 0.5) <= 1e-12); /* rounding */
-    assert_true(fabs(quality.surface_deviation) <= 1e-12);   /* rounding */
+    assert_true(fabs(quality.spacing_deviation) <= 1e-12);       /* rounding */
+    assert_true(fabs(quality.nearest_mean - 1.0) <= 1e-12);      /* rounding */
+    assert_true(fabs(quality.smallest_distance - 1.0) <= 1e-12); /* rounding */
+    assert_true(fabs(quality.surface_depth - 0.5) <= 1e-12);     /* rounding */
+    assert_true(fabs(quality.surface_deviation) <= 1e-12);       /* rounding */
     double sum = 0.0;
     for (int i = -3; i <= 3; ++i) {
         for (int j = -3; j <= 3; ++j) {
@@ -105,6 +106,8 @@ static void push_of_a_plane_is_that_known(void **state)
     const mor_relax_request request = new_relax_request(box, 3, 1.0);
     assert_int_equal(mor_relax_frame_init(&context, &request, &frame), MOR_OK);
     assert_int_equal(mor_relax_wall_init(&context, &frame, &wall), MOR_OK);
+    double largest = 0.0;
+    double worst[3] = {0.0, 0.0, 0.0};
     for (double depth = 0.1; depth < MOR_RELAX_SUPPORT; depth += 0.17) {
         const double place[3] = {0.31, -0.23, 4.0 - depth};
         const int n = 2000;
@@ -116,12 +119,18 @@ static void push_of_a_plane_is_that_known(void **state)
             known += 2.0 * MOR_PI * r * mor_kernel_value(r, MOR_RELAX_SMOOTHING, 3) * step;
         }
         mor_relax_wall_push(&wall, place, push);
-        assert_true(fabs(push[0]) <= 1e-3); /* the grid is not symmetric about the place */
-        assert_true(fabs(push[1]) <= 1e-3); /* likewise */
-        /* Linear between nodes half a spacing apart: an eighth of 0.25 times the largest curvature, 1.2; a third of it
-         * more as the surface is spread over a cell. */
-        assert_true(fabs(push[2] + known) <= 0.05);
+        largest = fmax(largest, known);
+        worst[0] = fmax(worst[0], fabs(push[0]));
+        worst[1] = fmax(worst[1], fabs(push[1]));
+        worst[2] = fmax(worst[2], fabs(push[2] + known));
     }
+    printf("push of a plane: %.4f at most, off by %.4f along it and %.4f, %.4f across\n", largest, worst[2], worst[0],
+           worst[1]);
+    assert_true(worst[0] <= 1e-3 * largest); /* the grid is not symmetric about the place */
+    assert_true(worst[1] <= 1e-3 * largest); /* likewise */
+    /* Linear between nodes half a spacing apart: an eighth of 0.25 times the largest curvature, 2.1 times the largest
+     * push; a third of it more as the surface is spread over a cell. */
+    assert_true(worst[2] <= 0.087 * largest);
     mor_relax_wall_clear(&context, &wall);
     mor_shape_free(&context, &box);
     assert_int_equal(context.memory_bytes, 0);
@@ -161,6 +170,55 @@ static void rows_of_neighbors_are_those_of_all_pairs(void **state)
     (void)state;
 }
 
+/* What is asked for can end up in a grid of cells: it must not be a number that no cell has. */
+static void positions_that_are_not_finite_are_refused(void **state)
+{
+    mor_context context;
+    mor_relax_quality quality;
+    mor_context_init(&context);
+    mor_shape *ball = new_relax_shape(&context, "ball", 0.1);
+    const mor_relax_request request = new_relax_request(ball, 3, 0.1);
+    const double wrong[3] = {NAN, INFINITY, -1e308};
+    for (int k = 0; k < 3; ++k) {
+        const double positions[6] = {0.0, 0.0, 0.0, 0.0, wrong[k], 0.0};
+        assert_int_equal(mor_relax_measure(&context, &request, positions, 2, 1e-3, &quality), MOR_ERROR_ARGUMENT);
+        assert_non_null(strstr(context.message, "particle 1 along y"));
+        mor_context_clear_error(&context);
+    }
+    const double positions[6] = {0.0, 0.0, 0.0, 0.0, 0.025, 0.0};
+    assert_int_equal(mor_relax_measure(&context, &request, positions, 2, 1e-3, &quality), MOR_OK);
+    assert_true(fabs(quality.smallest_distance - 0.25) <= 1e-15); /* rounding */
+    assert_int_equal(mor_relax_measure(&context, &request, positions, -1, 1e-3, &quality), MOR_ERROR_ARGUMENT);
+    mor_shape_free(&context, &ball);
+    assert_int_equal(context.memory_bytes, 0);
+    (void)state;
+}
+
+/* A needle's nodes sink to its axis; they start apart and end apart. */
+static void starts_in_a_needle_are_apart(void **state)
+{
+    const double points[6] = {0.0, 0.0, 60.0, -3.0, 60.0, 3.0};
+    mor_context context;
+    mor_relax_frame frame;
+    mor_shape *needle = NULL;
+    mor_context_init(&context);
+    assert_int_equal(mor_shape_new_polygon(&context, points, 3, &needle), MOR_OK);
+    const mor_relax_request request = new_relax_request(needle, 2, 1.0);
+    assert_int_equal(mor_relax_frame_init(&context, &request, &frame), MOR_OK);
+    enum { N = 180 };
+    double places[3 * N];
+    assert_int_equal(mor_relax_fill(&context, &frame, 1, N, places), MOR_OK);
+    double nearest = INFINITY;
+    for (int i = 0; i < N; ++i) {
+        for (int j = 0; j < i; ++j) {
+            nearest = fmin(nearest, hypot(places[3 * i] - places[3 * j], places[3 * i + 1] - places[3 * j + 1]));
+        }
+    }
+    assert_true(nearest > 0.4); /* half a spacing, less the jitter of both, 0.04 along each axis, and what it bends */
+    mor_shape_free(&context, &needle);
+    (void)state;
+}
+
 static void refuse(mor_context *context, const mor_relax_request *request, const char *word)
 {
     mor_relax_points points;
@@ -192,6 +250,8 @@ static void wrong_requests_are_refused(void **state)
     request = right;
     request.spacing = 0.0;
     refuse(&context, &request, "spacing");
+    request.spacing = 1e-6; /* 1e19 nodes: none is visited */
+    refuse(&context, &request, "larger spacing");
     request.spacing = 0.54; /* 2.12 / 0.54 = 3.9 spacings */
     refuse(&context, &request, "thick");
     request = right;
@@ -291,6 +351,8 @@ int main(void)
         cmocka_unit_test(measures_of_a_lattice_are_those_known),
         cmocka_unit_test(push_of_a_plane_is_that_known),
         cmocka_unit_test(rows_of_neighbors_are_those_of_all_pairs),
+        cmocka_unit_test(positions_that_are_not_finite_are_refused),
+        cmocka_unit_test(starts_in_a_needle_are_apart),
         cmocka_unit_test(wrong_requests_are_refused),
         cmocka_unit_test(stop_before_the_residual_is_told),
         cmocka_unit_test(hash_stands_for_all_that_decides),

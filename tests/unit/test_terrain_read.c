@@ -114,6 +114,7 @@ static void holes_are_refused_or_filled_harmonically(void **state)
     }
     assert_int_equal(read_text(&context, text, &terrain), MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(context.message, "30 of 108 nodes have no data, the first at (6, 4)"));
+    assert_non_null(strstr(context.message, "fill_no_data = true"));
     mor_terrain_request request;
     mor_terrain_request_init(&request);
     request.fills_no_data = true;
@@ -126,6 +127,44 @@ static void holes_are_refused_or_filled_harmonically(void **state)
     }
     mor_terrain_clear(&context, &terrain);
     assert_int_equal(context.memory_bytes, 0);
+}
+
+static void keep_line(void *user, mor_log_level level, const char *text)
+{
+    char *lines = user;
+    if (level >= MOR_LOG_WARNING) {
+        snprintf(lines + strlen(lines), FILE_BYTES - strlen(lines), "%s\n", text);
+    }
+}
+
+/* A slope of 10 m per cell: degrees are suspected first where the relief is far above the extent. */
+static void heights_over_degrees_without_a_system_are_told_from_marks(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *cell;
+        mor_status status;
+        const char *words; /* in the message, or in the one warning */
+    } all[] = {{"0.0001", MOR_ERROR_ARGUMENT, "degrees, project it with gdalwarp"},
+               {"0.1", MOR_OK, "are its coordinates degrees, or does a number mark"},
+               {"10", MOR_OK, NULL}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
+        mor_context context;
+        mor_context_init(&context);
+        mor_terrain terrain;
+        char text[FILE_BYTES];
+        char lines[FILE_BYTES] = "";
+        context.log_sink = keep_line;
+        context.log_user = lines;
+        snprintf(text, sizeof text, "ncols 3\nnrows 2\nxllcorner 13\nyllcorner 47\ncellsize %s\n0 10 20\n0 10 20\n",
+                 all[k].cell);
+        assert_int_equal(read_text(&context, text, &terrain), all[k].status);
+        const char *said = all[k].status == MOR_OK ? lines : context.message;
+        assert_true(all[k].words != NULL ? strstr(said, all[k].words) != NULL : said[0] == '\0');
+        const char *mark = strstr(said, "a_nodata");
+        assert_true(mark == NULL || strstr(said, "degrees") < mark);
+        mor_terrain_clear(&context, &terrain);
+    }
 }
 
 /* Lines that are no height raster, and a word the message must hold. */
@@ -393,6 +432,7 @@ int main(void)
         cmocka_unit_test(bad_rasters_are_refused_with_the_reason),
         cmocka_unit_test(other_places_than_files_are_refused),
         cmocka_unit_test(geotiff_keeps_place_and_datum),
+        cmocka_unit_test(heights_over_degrees_without_a_system_are_told_from_marks),
         cmocka_unit_test(geotiff_in_degrees_or_rotated_is_refused),
         cmocka_unit_test(reading_leaves_no_files),
         cmocka_unit_test(volcano_has_its_known_range),
