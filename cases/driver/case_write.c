@@ -4,9 +4,9 @@
 
 #include "cases/driver/case_read.h"
 #include "core/base/hash.h"
+#include "core/io/durable_file.h"
 #include "core/material/params.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -469,16 +469,13 @@ mor_status mor_case_write_stream(mor_context *context, const mor_case *the_case,
 mor_status mor_case_write(mor_context *context, const mor_case *the_case, const mor_registry *registry,
                           const char *path)
 {
-    FILE *stream = fopen(path, "w");
-    MOR_CHECK(context, stream != NULL, MOR_ERROR_IO, "%s cannot be opened for writing (%s); check folder and rights",
-              path, strerror(errno));
-    const mor_status status = mor_case_write_stream(context, the_case, registry, stream);
-    const bool has_failed = ferror(stream) != 0;
-    const bool is_closed = fclose(stream) == 0;
+    mor_durable_file file;
+    MOR_TRY(context, mor_durable_file_open(context, &file, path));
+    const mor_status status = mor_case_write_stream(context, the_case, registry, file.stream);
     if (status != MOR_OK) {
+        mor_durable_file_discard(&file);
         return mor_context_pass(context, status, MOR_HERE);
     }
-    MOR_CHECK(context, !has_failed && is_closed, MOR_ERROR_IO, "%s could not be written whole (%s); free some space",
-              path, strerror(errno));
+    MOR_TRY(context, mor_durable_file_commit(context, &file));
     return MOR_OK;
 }

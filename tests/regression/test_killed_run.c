@@ -8,6 +8,8 @@
 
 #include <time.h>
 
+#define CASE_FILE "case.resolved.cfg"
+
 /* The program is killed at random moments and its checkpoints are damaged. What a run leaves behind must be enough to
  * end where an undisturbed run ends, bit by bit, or be refused by name. MOR_KILLS sets the number of kills. */
 enum { N_KILLS = 5, N_FLIPS = 6 };
@@ -100,6 +102,38 @@ static void prepare_runs(run_folder *folder, char *case_path)
     const char *const whole[] = {"run", case_path, "-t", "1", "-o", "whole", NULL};
     finished_run_store_case(folder, case_path);
     run_to_the_end(folder, whole);
+}
+
+/* A run is killed in its first moments, again and again: the file that says which case the folder holds is there whole
+ * or not at all, or the run could never be resumed. */
+static void case_file_of_a_run_killed_at_its_start_is_whole_or_missing(void **state)
+{
+    run_folder *folder = *state;
+    char case_path[MOR_PATH_BYTES];
+    char path[MOR_PATH_BYTES];
+    size_t n_whole_bytes = 0;
+    prepare_runs(folder, case_path);
+    unsigned char *whole = run_folder_load(finished_run_file(folder, path, "whole", CASE_FILE), &n_whole_bytes);
+    assert_non_null(whole);
+    int n_found = 0;
+    double seconds = 0.0005;
+    /* Ever later, until the file has been there ten times. */
+    for (int k = 0; k < 300 && n_found < 10; ++k, seconds *= 1.05) {
+        char run[32];
+        snprintf(run, sizeof run, "early_%d", k);
+        const char *const started[] = {"run", case_path, "-t", "1", "-o", run, NULL};
+        kill_after(folder, started, seconds);
+        size_t n_bytes = 0;
+        unsigned char *bytes = run_folder_load(finished_run_file(folder, path, run, CASE_FILE), &n_bytes);
+        if (bytes != NULL) {
+            assert_int_equal(n_bytes, n_whole_bytes);
+            assert_memory_equal(bytes, whole, n_bytes);
+        }
+        n_found += bytes != NULL;
+        free(bytes);
+    }
+    free(whole);
+    assert_int_equal(n_found, 10);
 }
 
 static void stop_half_way(run_folder *folder, const char *case_path, const char *run)
@@ -202,6 +236,8 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(run_with_rocks_killed_at_random_moments_ends_as_if_never_killed,
                                         run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(case_file_of_a_run_killed_at_its_start_is_whole_or_missing, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(truncated_checkpoint_falls_back_to_the_one_before, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(checkpoint_with_a_turned_bit_falls_back_to_the_one_before, run_folder_setup,

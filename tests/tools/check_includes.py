@@ -24,7 +24,7 @@ ALLOWED = {
     "materials": ("core/base", "core/material"),
     "bodies": CORE,
     "relaxation": ("core/base", "core/particle", "core/sph/kernel.h"),
-    "cases/driver/render": ("core/base", "core/particle/shape.h"),
+    "cases/driver/render": ("core/base", "core/io/durable_file.h", "core/particle/shape.h"),
     "cases/driver": EVERYTHING,
     "tests": EVERYTHING,
 }

@@ -4,6 +4,9 @@
 #include "core/particle/shape_analytic.h"
 #include "tests/common/case_reading.h"
 
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* Everything a case in three dimensions may have. */
@@ -311,6 +314,28 @@ static void a_written_case_marks_defaults_and_only_them(void **state)
     free(text);
 }
 
+/* A disk that is full after 64 bytes: the file of before stays, and nothing else is left. */
+static void check_full_disk(case_reading *f, const char *path)
+{
+    char temporary[600];
+    struct rlimit before;
+    struct stat old;
+    struct stat now;
+    snprintf(temporary, sizeof temporary, "%s.tmp", path);
+    assert_int_equal(stat(path, &old), 0);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &(struct rlimit){64, before.rlim_max});
+    const mor_status status = mor_case_write(&f->context, &f->first, f->registry, path);
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, handler);
+    assert_int_equal(status, MOR_ERROR_IO);
+    assert_non_null(strstr(f->context.message, path));
+    assert_int_equal(stat(path, &now), 0);
+    assert_true(now.st_ino == old.st_ino && now.st_size == old.st_size && old.st_size > 64);
+    assert_int_not_equal(access(temporary, F_OK), 0);
+}
+
 static void a_case_is_written_to_a_file_or_not_with_a_reason(void **state)
 {
     case_reading *f = *state;
@@ -324,13 +349,13 @@ static void a_case_is_written_to_a_file_or_not_with_a_reason(void **state)
     const mor_status written = mor_case_write(&f->context, &f->first, f->registry, path);
     mor_case_clear(&f->context, &f->second);
     const mor_status again = mor_case_read(&f->context, path, NULL, 0, f->registry, &f->second);
-    unlink(path);
     assert_int_equal(written, MOR_OK);
     assert_int_equal(again, MOR_OK);
     assert_string_equal(f->second.path, path);
     assert_int_equal(mor_case_write(&f->context, &f->first, f->registry, "/nowhere/case.cfg"), MOR_ERROR_IO);
     assert_non_null(strstr(f->context.message, "/nowhere/case.cfg"));
-    assert_int_equal(mor_case_write(&f->context, &f->first, f->registry, "/dev/full"), MOR_ERROR_IO);
+    check_full_disk(f, path);
+    unlink(path);
 }
 
 int main(void)

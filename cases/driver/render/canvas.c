@@ -4,10 +4,10 @@
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
+#include "core/io/durable_file.h"
 
 #include <cairo.h>
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -264,18 +264,14 @@ static cairo_status_t write_bytes(void *file, const unsigned char *bytes, unsign
 
 mor_status mor_canvas_write(mor_context *context, const mor_canvas *canvas, const char *path)
 {
+    mor_durable_file file;
     MOR_TRY(context, mor_canvas_check(context, canvas));
-    errno = 0;
-    FILE *file = fopen(path, "wb");
-    MOR_CHECK(context, file != NULL, MOR_ERROR_IO,
-              "%s: cannot be opened for writing: %s; check the folder and its rights", path, strerror(errno));
-    const cairo_status_t written = cairo_surface_write_to_png_stream(canvas->surface, write_bytes, file);
-    const int reason = errno;
-    const bool is_closed = fclose(file) == 0;
-    MOR_CHECK(context, written != CAIRO_STATUS_NO_MEMORY, MOR_ERROR_MEMORY,
-              "%s: not enough memory to write the picture", path);
-    MOR_CHECK(context, written == CAIRO_STATUS_SUCCESS && is_closed, MOR_ERROR_IO,
-              "%s: cannot be written: %s; check the free space of the disk", path,
-              strerror(reason != 0 ? reason : errno));
+    MOR_TRY(context, mor_durable_file_open(context, &file, path));
+    if (cairo_surface_write_to_png_stream(canvas->surface, write_bytes, file.stream) == CAIRO_STATUS_NO_MEMORY) {
+        mor_durable_file_discard(&file);
+        return MOR_FAIL(context, MOR_ERROR_MEMORY, "%s: not enough memory to write the picture", path);
+    }
+    /* What else went wrong, the stream remembers and the commit reports. */
+    MOR_TRY(context, mor_durable_file_commit(context, &file));
     return MOR_OK;
 }
