@@ -274,14 +274,14 @@ static mor_status check_regular(mor_context *context, const char *path, int desc
 {
     struct stat information;
     MOR_CHECK(context, fstat(descriptor, &information) == 0, MOR_ERROR_CONFIG,
-              "%s:0: found a file that cannot be examined (%s); allowed: a readable case file; check the path", path,
+              "%s: found a file that cannot be examined (%s); allowed: a readable case file; check the path", path,
               strerror(errno));
     MOR_CHECK(context, !S_ISDIR(information.st_mode), MOR_ERROR_CONFIG,
-              "%s:0: found a folder; allowed: a case file; name the file in it, such as %s/case.cfg", path, path);
+              "%s: found a folder; allowed: a case file; name the file in it, such as %s/case.cfg", path, path);
     MOR_CHECK(context, S_ISREG(information.st_mode), MOR_ERROR_CONFIG,
-              "%s:0: found a device, pipe or socket; allowed: a regular file; save the case to a file first", path);
+              "%s: found a device, pipe or socket; allowed: a regular file; save the case to a file first", path);
     MOR_CHECK(context, information.st_size <= MOR_CASE_SCAN_BYTES_MAX, MOR_ERROR_CONFIG,
-              "%s:0: found %lld bytes; allowed: at most %d; is this a case file?", path, (long long)information.st_size,
+              "%s: found %lld bytes; allowed: at most %d; is this a case file?", path, (long long)information.st_size,
               MOR_CASE_SCAN_BYTES_MAX);
     return MOR_OK;
 }
@@ -295,7 +295,7 @@ static mor_status read_bytes(mor_context *context, const char *path, int descrip
             continue;
         }
         MOR_CHECK(context, n >= 0, MOR_ERROR_CONFIG,
-                  "%s:0: found a file that cannot be read (%s); allowed: a readable case file; check the disk", path,
+                  "%s: found a file that cannot be read (%s); allowed: a readable case file; check the disk", path,
                   strerror(errno));
         if (n == 0) {
             break;
@@ -311,7 +311,7 @@ mor_status mor_case_file_load(mor_context *context, const char *path, mor_case_f
     /* Without blocking, or a pipe without a writer would hold us here. */
     const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     MOR_CHECK(context, descriptor >= 0, MOR_ERROR_CONFIG,
-              "%s:0: found no file that can be opened (%s); allowed: a readable case file; check the path", path,
+              "%s: found no file that can be opened (%s); allowed: a readable case file; check the path", path,
               strerror(errno));
     char *bytes = NULL;
     int64_t n_bytes = 0;

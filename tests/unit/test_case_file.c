@@ -198,9 +198,9 @@ static void what_is_no_readable_file_is_refused_by_name(void **state)
     fixture *f = *state;
     char path[2 * PATH_BYTES];
     mor_case_file *file = NULL;
-    expect_refusal(f, mor_case_file_load(&f->context, "/nowhere/case.cfg", &file), "/nowhere/case.cfg:0: found no file",
+    expect_refusal(f, mor_case_file_load(&f->context, "/nowhere/case.cfg", &file), "/nowhere/case.cfg: found no file",
                    "No such file");
-    expect_refusal(f, mor_case_file_load(&f->context, "", &file), ":0: found no file", "No such file");
+    expect_refusal(f, mor_case_file_load(&f->context, "", &file), ": found no file", "No such file");
     expect_refusal(f, mor_case_file_load(&f->context, f->folder, &file), f->folder, "found a folder");
     snprintf(path, sizeof path, "%s/pipe", f->folder);
     assert_int_equal(mkfifo(path, 0600), 0);
