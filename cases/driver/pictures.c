@@ -4,6 +4,7 @@
 
 #include "cases/driver/charts.h"
 #include "cases/driver/picture_color.h"
+#include "cases/driver/picture_wall.h"
 #include "cases/driver/render/camera.h"
 #include "cases/driver/render/picture.h"
 #include "cases/driver/rocks_report.h"
@@ -36,7 +37,7 @@ enum { LAYERS_MAX = 24, TONES = 4 };
 static const double stone_tones[TONES][3] = {
     {0.63, 0.56, 0.48}, {0.45, 0.42, 0.40}, {0.70, 0.64, 0.52}, {0.52, 0.47, 0.50}};
 static const double wall_gray[3] = {0.80, 0.82, 0.84};
-static const double post_gray[3] = {0.55, 0.58, 0.62};
+static const double structure_gray[3] = {0.55, 0.58, 0.62};
 
 /* What is colored: soil, or everything where there is none. */
 static bool is_colored(const char *name, bool has_soil)
@@ -87,6 +88,8 @@ typedef struct gallery {
     mor_bounds frame;
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
     double *light[MOR_CASE_WALLS_MAX]; /* shape [its points]; of terrain, NULL for others */
+    bool is_structure[MOR_CASE_WALLS_MAX];
+    bool is_hiding[MOR_CASE_WALLS_MAX]; /* a structure that is seen through */
     bool is_ground[MOR_CASE_WALLS_MAX];
     bool is_veil[MOR_CASE_WALLS_MAX]; /* between viewer and scene */
     double wall_time;                 /* s; moving walls stand where they are at this time */
@@ -195,7 +198,7 @@ static void free_layers(mor_context *context, gallery *g)
 
 /* ---- Walls ------------------------------------------------------------------------------------------------------- */
 
-/* Keeps the wall particles around the others. */
+/* Keeps the wall particles around the others: of ground and containers only those are of interest. */
 static void trim_wall(const gallery *g, mor_lattice_points *wall)
 {
     const double n_spacings = g->the_case->dimension == 2 ? WALL_MARGIN_PLANE : WALL_MARGIN_SPACE;
@@ -264,46 +267,53 @@ static void sort_wall(gallery *g, int w)
     g->is_veil[w] = is_half && mor_vector_dot(normal, camera.toward) < 0.0;
 }
 
-/* Posts and the ground are part of the scene and widen the frame. */
+/* Structures and terrain are part of the scene and widen the frame. */
 static void frame_wall(gallery *g, int w)
 {
-    const double half = 0.5 * g->the_case->spacing;
-    for (int64_t k = 0; k < 3 * g->walls[w].n_points; ++k) {
-        const int a = (int)(k % 3);
-        g->frame.minimum[a] = fmin(g->frame.minimum[a], g->walls[w].positions[k] - half);
-        g->frame.maximum[a] = fmax(g->frame.maximum[a], g->walls[w].positions[k] + half);
-    }
+    mor_picture_wall_widen(&g->frame, g->walls[w].positions, g->walls[w].n_points, 0.5 * g->the_case->spacing);
 }
 
-static bool is_post(const gallery *g, int w)
+static bool is_moving(const gallery *g, int w)
 {
-    return g->the_case->walls[w].outline.kind == MOR_CASE_SHAPE_POSTS;
+    return mor_vector_length(g->the_case->walls[w].velocity) > 0.0;
+}
+
+/* What is a structure is judged by the particles alone, whatever else stands there. */
+static mor_status fill_structures(mor_context *context, gallery *g)
+{
+    const mor_case *c = g->the_case;
+    const mor_bounds moving = g->frame;
+    mor_camera camera;
+    mor_camera_orient(&camera, c->output.view, g->up);
+    for (int w = 0; w < c->n_walls; ++w) {
+        if (is_terrain(g, w)) {
+            continue;
+        }
+        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
+        g->is_structure[w] = mor_picture_wall_is_structure(c, w, &g->walls[w], &moving, g->up);
+        if (g->is_structure[w]) {
+            g->is_hiding[w] = c->dimension == 3 && mor_picture_wall_hides(c, w, &moving, camera.toward);
+            frame_wall(g, w);
+        }
+    }
+    return MOR_OK;
 }
 
 static mor_status fill_walls(mor_context *context, gallery *g)
 {
-    const mor_case *c = g->the_case;
-    for (int w = 0; w < c->n_walls; ++w) {
-        if (is_post(g, w)) {
-            MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
-            frame_wall(g, w);
-        }
-    }
-    for (int w = 0; w < c->n_walls; ++w) {
+    MOR_TRY(context, fill_structures(context, g));
+    for (int w = 0; w < g->the_case->n_walls; ++w) {
         if (is_terrain(g, w)) {
             MOR_TRY(context, fill_terrain(context, g, w));
+        } else if (!g->is_structure[w]) {
+            /* A moving wall is kept whole: it may come into view later. */
+            if (!is_moving(g, w)) {
+                trim_wall(g, &g->walls[w]);
+            }
+            sort_wall(g, w);
         }
-        if (is_terrain(g, w) || is_post(g, w)) {
-            continue;
-        }
-        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
-        /* A moving wall is kept whole: it may come into view later. */
-        if (mor_vector_length(c->walls[w].velocity) == 0.0) {
-            trim_wall(g, &g->walls[w]);
-        }
-        sort_wall(g, w);
     }
-    for (int w = 0; w < c->n_walls; ++w) {
+    for (int w = 0; w < g->the_case->n_walls; ++w) {
         if (is_terrain(g, w)) {
             frame_wall(g, w);
         }
@@ -341,19 +351,34 @@ static mor_picture_group show_layer(const gallery *g, const layer *l, int tone)
     return group;
 }
 
+static mor_picture_style style_wall(const gallery *g, int w)
+{
+    const bool is_opaque = g->the_case->dimension == 2 || is_terrain(g, w) || g->is_structure[w];
+    if (g->is_ground[w]) {
+        return MOR_PICTURE_GROUND;
+    }
+    return is_opaque && !g->is_hiding[w] ? MOR_PICTURE_SOLID : MOR_PICTURE_GHOST;
+}
+
+/* In the plane all walls look alike; in space only structures need a name. */
+static bool is_named(const gallery *g, int w)
+{
+    return g->the_case->dimension == 2 || g->is_structure[w];
+}
+
 static mor_picture_group show_wall(const gallery *g, int w, bool is_first)
 {
     const bool is_plane = g->the_case->dimension == 2;
-    mor_picture_group group = {.name = is_plane && is_first ? "walls" : NULL,
+    mor_picture_group group = {.name = !is_first || !is_named(g, w) ? NULL
+                                       : is_plane                   ? "walls"
+                                                                    : "structures",
                                .position = g->walls[w].positions,
                                .n_particles = g->walls[w].n_points,
                                .radius = (is_terrain(g, w) ? TERRAIN_RADIUS : 0.5) * g->the_case->spacing,
                                .light = g->light[w],
-                               .style = g->is_ground[w]                                 ? MOR_PICTURE_GROUND
-                                        : is_plane || is_post(g, w) || is_terrain(g, w) ? MOR_PICTURE_SOLID
-                                                                                        : MOR_PICTURE_GHOST,
+                               .style = style_wall(g, w),
                                .is_whole = true};
-    memcpy(group.color, is_post(g, w) ? post_gray : wall_gray, sizeof group.color);
+    memcpy(group.color, g->is_structure[w] && !is_plane ? structure_gray : wall_gray, sizeof group.color);
     return group;
 }
 
@@ -370,7 +395,7 @@ static int list_groups(const gallery *g, mor_picture_group *groups)
     for (int w = 0; w < g->the_case->n_walls && n < MOR_PICTURE_GROUPS_MAX; ++w) {
         if (g->walls[w].n_points > 0 && !g->is_veil[w]) {
             groups[n++] = show_wall(g, w, is_first);
-            is_first = false;
+            is_first = is_first && !is_named(g, w);
         }
     }
     return n;
@@ -425,11 +450,7 @@ static mor_status widen_gallery(mor_context *context, gallery *g, const mor_snap
     for (int l = 0; l < g->n_layers; ++l) {
         const layer *shown = &g->layers[l];
         const int64_t n = shown->set->n_particles;
-        for (int64_t k = 0; k < 3 * n; ++k) {
-            const int a = (int)(k % 3);
-            g->frame.minimum[a] = fmin(g->frame.minimum[a], shown->position[k] - 0.5 * g->the_case->spacing);
-            g->frame.maximum[a] = fmax(g->frame.maximum[a], shown->position[k] + 0.5 * g->the_case->spacing);
-        }
+        mor_picture_wall_widen(&g->frame, shown->position, n, 0.5 * g->the_case->spacing);
         if (shown->value != NULL) {
             double low = 0.0;
             double high = 0.0;
