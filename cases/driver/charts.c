@@ -82,14 +82,16 @@ static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *out
     if (n == 0) {
         return MOR_OK;
     }
-    const mor_chart chart = {.title = n == 1 ? series[0].name : NULL,
+    const char *name = series[0].name;
+    series[0].name = n == 1 ? NULL : name; /* the title says it */
+    const mor_chart chart = {.title = n == 1 ? name : NULL,
                              .x_name = "time",
                              .x_unit = "s",
-                             .y_name = n == 1 ? series[0].name : NULL,
+                             .y_name = n == 1 ? name : NULL,
                              .y_unit = s->headings[first].unit,
                              .series = series,
                              .n_series = n};
-    const int n_bytes = snprintf(path, sizeof path, "%s/images/chart_%s.png", s->folder, series[0].name);
+    const int n_bytes = snprintf(path, sizeof path, "%s/images/chart_%s.png", s->folder, name);
     MOR_CHECK(context, n_bytes > 0 && n_bytes < (int)sizeof path, MOR_ERROR_IO, "the path of a chart is too long");
     MOR_TRY(context, mor_picture_chart(context, &chart, path));
     fprintf(output, "chart: %s\n", path);

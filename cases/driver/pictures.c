@@ -267,12 +267,6 @@ static void sort_wall(gallery *g, int w)
     g->is_veil[w] = is_half && mor_vector_dot(normal, camera.toward) < 0.0;
 }
 
-/* Structures and terrain are part of the scene and widen the frame. */
-static void frame_wall(gallery *g, int w)
-{
-    mor_picture_wall_widen(&g->frame, g->walls[w].positions, g->walls[w].n_points, 0.5 * g->the_case->spacing);
-}
-
 static bool is_moving(const gallery *g, int w)
 {
     return mor_vector_length(g->the_case->walls[w].velocity) > 0.0;
@@ -293,7 +287,7 @@ static mor_status fill_structures(mor_context *context, gallery *g)
         g->is_structure[w] = mor_picture_wall_is_structure(c, w, &g->walls[w], &moving, g->up);
         if (g->is_structure[w]) {
             g->is_hiding[w] = c->dimension == 3 && mor_picture_wall_hides(c, w, &moving, camera.toward);
-            frame_wall(g, w);
+            mor_picture_wall_widen(&g->frame, g->walls[w].positions, g->walls[w].n_points, 0.5 * c->spacing);
         }
     }
     return MOR_OK;
@@ -311,11 +305,6 @@ static mor_status fill_walls(mor_context *context, gallery *g)
                 trim_wall(g, &g->walls[w]);
             }
             sort_wall(g, w);
-        }
-    }
-    for (int w = 0; w < g->the_case->n_walls; ++w) {
-        if (is_terrain(g, w)) {
-            frame_wall(g, w);
         }
     }
     return MOR_OK;
@@ -377,7 +366,8 @@ static mor_picture_group show_wall(const gallery *g, int w, bool is_first)
                                .radius = (is_terrain(g, w) ? TERRAIN_RADIUS : 0.5) * g->the_case->spacing,
                                .light = g->light[w],
                                .style = style_wall(g, w),
-                               .is_whole = true};
+                               .is_whole = true,
+                               .is_framed = is_terrain(g, w)};
     memcpy(group.color, g->is_structure[w] && !is_plane ? structure_gray : wall_gray, sizeof group.color);
     return group;
 }

@@ -177,24 +177,20 @@ static void charts_hold_as_many_curves_as_colors_tell_apart(void **state)
     mor_set_clear(&folder->context, &rocks);
 }
 
-/* Draws a block with one post so high, far beside it; returns the bytes of the picture. */
-static uint8_t *draw_post(run_folder *folder, double height, size_t *n_bytes)
+/* Draws a block of soil, 0.24 m long, with one wall in the shape of a box; returns the bytes of the picture. */
+static uint8_t *draw_box(run_folder *folder, const double *low, const double *high, size_t *n_bytes)
 {
     static mor_case the_case; /* large */
     char path[MOR_PATH_BYTES];
     mor_set soil;
     mor_status status = MOR_OK;
-    const double low[3] = {0.5, 0.0, 0.0};
-    const double high[3] = {0.53, 0.03, height};
     init_case(&the_case, 3, "speed");
-    the_case.domain_minimum[0] = -1.0;
-    the_case.domain_minimum[1] = -1.0;
     for (int a = 0; a < 3; ++a) {
-        the_case.domain_maximum[a] = 1.0;
+        the_case.domain_minimum[a] = -2.0;
+        the_case.domain_maximum[a] = 2.0;
     }
     the_case.n_walls = 1;
-    the_case.walls[0].outline.kind = MOR_CASE_SHAPE_POSTS;
-    snprintf(the_case.walls[0].name, sizeof the_case.walls[0].name, "posts");
+    snprintf(the_case.walls[0].name, sizeof the_case.walls[0].name, "house");
     assert_int_equal(mor_shape_new_box(&folder->context, low, high, &the_case.walls[0].shape), MOR_OK);
     fill_set(folder, &soil, "soil", 0.0, 0.1);
     char *printed = render_case(folder, &the_case, (mor_set *const[]){&soil}, 1, 2, &status);
@@ -205,17 +201,35 @@ static uint8_t *draw_post(run_folder *folder, double height, size_t *n_bytes)
     return run_folder_load(run_folder_file(folder, path, "images/step_000000_speed.png"), n_bytes);
 }
 
-static void a_post_far_from_the_soil_is_seen(void **state)
+/* Whether pictures of two boxes that begin at the same corner are the same. */
+static bool look_alike(run_folder *folder, const double *low, const double *high, const double *other_high)
 {
     void *other = NULL;
     size_t n_bytes[2] = {0, 0};
-    uint8_t *low = draw_post(*state, 0.1, &n_bytes[0]);
+    uint8_t *first = draw_box(folder, low, high, &n_bytes[0]);
     assert_int_equal(run_folder_setup(&other), 0);
-    uint8_t *high = draw_post(other, 0.2, &n_bytes[1]);
-    assert_true(n_bytes[0] != n_bytes[1] || memcmp(low, high, n_bytes[0]) != 0);
-    free(low);
-    free(high);
+    uint8_t *second = draw_box(other, low, other_high, &n_bytes[1]);
+    const bool is_same = n_bytes[0] == n_bytes[1] && memcmp(first, second, n_bytes[0]) == 0;
+    free(first);
+    free(second);
     assert_int_equal(run_folder_teardown(&other), 0);
+    return is_same;
+}
+
+static void a_house_far_from_the_soil_is_seen_to_its_top(void **state)
+{
+    const double low[3] = {0.5, 0.0, 0.0};
+    const double high[3] = {0.53, 0.03, 0.1};
+    const double higher[3] = {0.53, 0.03, 0.2};
+    assert_false(look_alike(*state, low, high, higher));
+}
+
+static void how_far_a_floor_reaches_does_not_matter(void **state)
+{
+    const double low[3] = {-0.5, -0.5, -0.05};
+    const double high[3] = {0.5, 0.5, 0.0};
+    const double wider[3] = {1.0, 0.8, 0.0};
+    assert_true(look_alike(*state, low, high, wider));
 }
 
 int main(void)
@@ -227,7 +241,9 @@ int main(void)
                                         run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_color_that_no_set_has_is_refused_by_name, run_folder_setup,
                                         run_folder_teardown),
-        cmocka_unit_test_setup_teardown(a_post_far_from_the_soil_is_seen, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_house_far_from_the_soil_is_seen_to_its_top, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(how_far_a_floor_reaches_does_not_matter, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(charts_hold_as_many_curves_as_colors_tell_apart, run_folder_setup,
                                         run_folder_teardown),
     };

@@ -365,6 +365,29 @@ static void cuts_take_a_half_or_a_quarter_from_the_near_side(void **state)
     }
 }
 
+static void a_framed_group_is_in_the_picture_and_others_do_not_move_the_camera(void **state)
+{
+    run_folder *folder = *state;
+    pile p;
+    pile_fill(&p);
+    const double far_away[3] = {3.0, 0.0, 0.0}; /* m; ten times as far as the pile is wide */
+    mor_picture_group groups[2] = {pile_group(&p), {.position = far_away, .n_particles = 1, .radius = 0.01}};
+    mor_picture picture = pile_picture(groups, 2, 3);
+    picture.has_frame = true;
+    picture.frame = (mor_bounds){{-0.15, -0.15, 0.0}, {0.15, 0.15, 0.15}};
+    picture.view[1] = -1.0; /* x to the right */
+    mor_model with;
+    mor_model without;
+    assert_int_equal(mor_model_survey(&folder->context, &picture, &without), MOR_OK);
+    assert_true(without.extent.maximum[0] == 0.15); /* exact: a coordinate of the frame */
+    groups[1].is_framed = true;
+    assert_int_equal(mor_model_survey(&folder->context, &picture, &with), MOR_OK);
+    assert_true(with.extent.maximum[0] > 3.0);
+    assert_true(with.extent.minimum[0] == without.extent.minimum[0]);
+    mor_model_clear(&folder->context, &with);
+    mor_model_clear(&folder->context, &without);
+}
+
 static void one_frame_gives_one_camera_and_one_ground(void **state)
 {
     run_folder *folder = *state;
@@ -374,9 +397,10 @@ static void one_frame_gives_one_camera_and_one_ground(void **state)
     mor_picture picture = pile_picture(&group, 1, 3);
     picture.has_frame = true;
     mor_picture_bounds_init(&picture.frame);
-    picture.has_frame = false;
-    assert_int_equal(mor_picture_bounds(&folder->context, &picture, &picture.frame), MOR_OK);
-    picture.has_frame = true;
+    for (int k = 0; k < 3 * PILE; ++k) {
+        picture.frame.minimum[k % 3] = fmin(picture.frame.minimum[k % 3], p.position[k] - group.radius);
+        picture.frame.maximum[k % 3] = fmax(picture.frame.maximum[k % 3], p.position[k] + group.radius);
+    }
     mor_model before;
     mor_model after;
     build_model(folder, &picture, &before);
@@ -499,6 +523,8 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(cuts_take_a_half_or_a_quarter_from_the_near_side, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_framed_group_is_in_the_picture_and_others_do_not_move_the_camera,
+                                        run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(one_frame_gives_one_camera_and_one_ground, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test(ground_lies_on_top_of_an_inclined_floor),

@@ -168,23 +168,21 @@ static mor_status find_range(mor_context *context, const mor_picture *picture, m
 static void find_extent(const mor_picture *picture, mor_model *model)
 {
     mor_camera_extent_init(&model->extent);
-    if (picture->has_frame) {
-        for (int corner = 0; corner < 8; ++corner) {
-            double point[3];
-            for (int a = 0; a < 3; ++a) {
-                const bool is_upper = (corner >> a & 1) != 0;
-                point[a] = is_upper ? picture->frame.maximum[a] : picture->frame.minimum[a];
-            }
-            if (picture->dimension == 2) {
-                point[2] = 0.0;
-            }
-            mor_camera_extent_add(&model->camera, &model->extent, point, 0.0);
+    for (int corner = 0; picture->has_frame && corner < 8; ++corner) {
+        double point[3];
+        for (int a = 0; a < 3; ++a) {
+            const bool is_upper = (corner >> a & 1) != 0;
+            point[a] = is_upper ? picture->frame.maximum[a] : picture->frame.minimum[a];
         }
-        return;
+        if (picture->dimension == 2) {
+            point[2] = 0.0;
+        }
+        mor_camera_extent_add(&model->camera, &model->extent, point, 0.0);
     }
     for (int g = 0; g < picture->n_groups; ++g) {
         const mor_picture_group *group = picture->groups + g;
-        if (picture->dimension == 3 && group->style == MOR_PICTURE_GROUND) {
+        const bool is_plane = picture->dimension == 3 && group->style == MOR_PICTURE_GROUND;
+        if (picture->has_frame ? !group->is_framed : is_plane) {
             continue;
         }
         for (int64_t i = 0; i < group->n_particles; ++i) {

@@ -242,22 +242,3 @@ void mor_picture_bounds_init(mor_bounds *bounds)
         bounds->maximum[a] = -INFINITY;
     }
 }
-
-mor_status mor_picture_bounds(mor_context *context, const mor_picture *picture, mor_bounds *bounds)
-{
-    MOR_TRY(context, mor_model_check(context, picture));
-    for (int g = 0; g < picture->n_groups; ++g) {
-        const mor_picture_group *group = picture->groups + g;
-        if (picture->dimension == 3 && group->style == MOR_PICTURE_GROUND) {
-            continue;
-        }
-        for (int64_t i = 0; i < group->n_particles; ++i) {
-            const double radius = group->radii != NULL ? group->radii[i] : group->radius;
-            for (int a = 0; a < 3; ++a) {
-                bounds->minimum[a] = fmin(bounds->minimum[a], group->position[3 * i + a] - radius);
-                bounds->maximum[a] = fmax(bounds->maximum[a], group->position[3 * i + a] + radius);
-            }
-        }
-    }
-    return MOR_OK;
-}

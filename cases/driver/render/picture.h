@@ -49,7 +49,8 @@ typedef struct mor_picture_group {
     bool is_piece; /* one piece of material per part, not grains: drawn with a closed surface, and in the plane with
                            a dark line around each part, over groups that are not */
     mor_picture_style style;
-    bool is_whole; /* the cut leaves this group alone */
+    bool is_whole;  /* the cut leaves this group alone */
+    bool is_framed; /* the camera frames these particles too when the picture has a frame */
 } mor_picture_group;
 
 /** What to show and how. */
@@ -77,14 +78,7 @@ typedef struct mor_picture {
     bool hides_ground;      /* no ground plane; otherwise one lies under the particles even without a group */
 } mor_picture;
 
-/** Finds the box around all particles but those of ground groups; the union over a series is a frame for all of it.
- *  @param context [in,out]  one object
- *  @param picture [in]      one object
- *  @param bounds  [in,out]  one object, m; grown to hold the particles
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT as mor_picture_draw. */
-mor_status mor_picture_bounds(mor_context *context, const mor_picture *picture, mor_bounds *bounds);
-
-/** Makes a box that holds nothing, to start mor_picture_bounds from.
+/** Makes a box that holds nothing, to start a frame from.
  *  @param bounds [out]  one object */
 void mor_picture_bounds_init(mor_bounds *bounds);
 
