@@ -15,6 +15,7 @@
 #include "core/io/snapshot.h"
 #include "core/sph/measure.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -272,6 +273,16 @@ static bool is_moving(const gallery *g, int w)
     return mor_vector_length(g->the_case->walls[w].velocity) > 0.0;
 }
 
+/* In the plane one looks into a structure, which has no particles deep inside for the simulation. */
+static mor_status fill_inside(mor_context *context, gallery *g, int w)
+{
+    if (g->the_case->dimension == 2) {
+        mor_lattice_clear(context, &g->walls[w]);
+        MOR_TRY(context, mor_simulation_fill_wall(context, g->the_case, w, INT_MAX, &g->walls[w]));
+    }
+    return MOR_OK;
+}
+
 /* What is a structure is judged by the particles alone, whatever else stands there. */
 static mor_status fill_structures(mor_context *context, gallery *g)
 {
@@ -283,9 +294,10 @@ static mor_status fill_structures(mor_context *context, gallery *g)
         if (is_terrain(g, w)) {
             continue;
         }
-        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &g->walls[w]));
+        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, MOR_SIMULATION_WALL_LAYERS, &g->walls[w]));
         g->is_structure[w] = mor_picture_wall_is_structure(c, w, &g->walls[w], &moving, g->up);
         if (g->is_structure[w]) {
+            MOR_TRY(context, fill_inside(context, g, w));
             g->is_hiding[w] = c->dimension == 3 && mor_picture_wall_hides(c, w, &moving, camera.toward);
             mor_picture_wall_widen(&g->frame, g->walls[w].positions, g->walls[w].n_points, 0.5 * c->spacing);
         }

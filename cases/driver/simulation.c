@@ -74,7 +74,7 @@ static mor_status tell_place(mor_context *context, mor_status status, const mor_
                                                    place->line, name, context->message);
 }
 
-mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall,
+mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
                                     mor_lattice_points *points)
 {
     const mor_shape *earlier[MOR_CASE_WALLS_MAX];
@@ -84,19 +84,18 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
     const mor_case_wall *it = &the_case->walls[wall];
     mor_lattice_request request;
     set_request(the_case, it->shape, &request);
-    const double depth = MOR_SIMULATION_WALL_LAYERS * the_case->spacing;
-    request.depth = depth;
+    const double margin = MOR_SIMULATION_WALL_LAYERS * the_case->spacing;
+    request.depth = layers * the_case->spacing;
     request.excluded = earlier;
     request.n_excluded = wall;
     /* Walls carry soil up to the very edge of the domain, so they reach beyond it by their own thickness. */
     for (int a = 0; a < 3; ++a) {
-        request.domain.minimum[a] -= depth;
-        request.domain.maximum[a] += depth;
+        request.domain.minimum[a] -= margin;
+        request.domain.maximum[a] += margin;
     }
-    const mor_status status =
-        it->outline.kind == MOR_CASE_SHAPE_TERRAIN
-            ? mor_simulation_fill_terrain(context, the_case, wall, MOR_SIMULATION_WALL_LAYERS, points)
-            : fill_shape(context, &it->place, it->name, &request, points);
+    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_TERRAIN
+                                  ? mor_simulation_fill_terrain(context, the_case, wall, layers, points)
+                                  : fill_shape(context, &it->place, it->name, &request, points);
     MOR_TRY(context, tell_place(context, status, &it->place, it->name));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
@@ -365,7 +364,7 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
     const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
     for (int w = 0; w < c->n_walls; ++w) {
         mor_lattice_points points = {NULL, 0};
-        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, &points));
+        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, MOR_SIMULATION_WALL_LAYERS, &points));
         mor_wall_request request = {.name = c->walls[w].name,
                                     .points = points.positions,
                                     .n_points = points.n_points,

@@ -91,9 +91,10 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object
  *  @param wall     [in]      index of the wall; earlier walls are left out
+ *  @param layers   [in]      layers of particles below its surface, >= 1; a simulation has MOR_SIMULATION_WALL_LAYERS
  *  @param points   [out]     one object; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when the wall holds no particle; as mor_lattice_fill. */
-mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall,
+mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
                                     mor_lattice_points *points);
 
 /** Number of particles, soil and rocks.

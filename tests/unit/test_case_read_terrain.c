@@ -115,7 +115,8 @@ static void check_particles(case_reading *f)
     }
     for (int w = 0; w < 3; ++w) {
         mor_lattice_points points = {NULL, 0};
-        assert_int_equal(mor_simulation_fill_wall(&f->context, &f->first, w, &points), MOR_OK);
+        assert_int_equal(mor_simulation_fill_wall(&f->context, &f->first, w, MOR_SIMULATION_WALL_LAYERS, &points),
+                         MOR_OK);
         assert_true(points.n_points > 0);
         for (int64_t i = 0; i < points.n_points; ++i) {
             double x[3];
