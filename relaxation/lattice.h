@@ -38,14 +38,6 @@ typedef struct mor_lattice_points {
     int64_t n_points;  /* number of points */
 } mor_lattice_points;
 
-/** What mor_lattice_overlap found. */
-typedef struct mor_lattice_overlap_report {
-    int64_t n_pairs;  /* pairs that are too close */
-    int64_t first_a;  /* the lowest index in a that has a partner too close; -1 when there is none */
-    int64_t first_b;  /* its partner of lowest index in b; -1 when there is none */
-    double distance;  /* of that first pair, unit m; 0 when there is none */
-} mor_lattice_overlap_report;
-
 /** Sets what is not written to: no excluded shapes, whole depth, no domain limit, no jitter, seed 1, no placement,
  *  lattice corner at the origin, three dimensions. Shape and spacing are left to the caller.
  *  @param request [out]  one object */
@@ -65,18 +57,5 @@ mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *req
  *  @param context [in,out]  one object
  *  @param points  [in,out]  one object */
 void mor_lattice_clear(mor_context *context, mor_lattice_points *points);
-
-/** Counts the pairs (one point of a, one of b) closer than a distance. With b the same object as a, the pairs are those
- *  of two different points, each counted once.
- *  @param context  [in,out]  one object
- *  @param a        [in]      one object
- *  @param b        [in]      one object; may be a
- *  @param distance [in]      unit m; > 0; pairs at this distance to within 1e-9 of it are not too close
- *  @param report   [out]     one object
- *  Returns: MOR_OK, also when pairs were found; MOR_ERROR_ARGUMENT for a wrong distance or positions that are not
- *  finite; MOR_ERROR_MEMORY.
- *  Cost: O(n) for points that do not crowd, by a hashed cell grid; allocates. Threads: neither. */
-mor_status mor_lattice_overlap(mor_context *context, const mor_lattice_points *a, const mor_lattice_points *b,
-                               double distance, mor_lattice_overlap_report *report);
 
 #endif

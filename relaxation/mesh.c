@@ -162,18 +162,6 @@ mor_status mor_mesh_scale(mor_context *context, mor_mesh *mesh, mor_mesh_size si
     return MOR_OK;
 }
 
-void mor_mesh_place(mor_mesh *mesh, const double *turn, const double *move)
-{
-    for (int64_t v = 0; v < mesh->n_vertices; ++v) {
-        double *vertex = mesh->vertices + 3 * v;
-        double turned[3];
-        mor_matrix_apply(turn, vertex, turned);
-        for (int a = 0; a < 3; ++a) {
-            vertex[a] = turned[a] + move[a];
-        }
-    }
-}
-
 void mor_mesh_center(mor_mesh *mesh)
 {
     mor_shape_moments moments;

@@ -104,12 +104,6 @@ void mor_mesh_bounds(const mor_mesh *mesh, mor_bounds *bounds);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a value that is not finite and above zero. */
 mor_status mor_mesh_scale(mor_context *context, mor_mesh *mesh, mor_mesh_size size, double value);
 
-/** Places a mesh: x -> turn * x + move.
- *  @param mesh [in,out]  one object
- *  @param turn [in]      shape [3,3]; rotation matrix, unit 1
- *  @param move [in]      shape [3]; unit m */
-void mor_mesh_place(mor_mesh *mesh, const double *turn, const double *move);
-
 /** Moves a mesh so that the center of its volume is the origin.
  *  @param mesh [in,out]  one object */
 void mor_mesh_center(mor_mesh *mesh);

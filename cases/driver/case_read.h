@@ -63,11 +63,6 @@ typedef struct mor_case_input {
  *  Returns: the number of files. */
 int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room);
 
-/** The file that a shape was made from; without meaning when its file_hash is 0.
- *  @param outline [in]  one object
- *  Returns: zero-terminated path; borrowed from the outline. */
-const char *mor_case_shape_file(const mor_case_shape *outline);
-
 /** Frees what an outline owns, children included.
  *  @param context [in,out]  one object
  *  @param outline [in,out]  one object, read or zeroed */

@@ -258,12 +258,18 @@ mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_no
 
 /* ---- What was read ----------------------------------------------------------------------------------------------- */
 
+/* The file that a shape was made from; without meaning when its file_hash is 0. */
+static const char *name_file(const mor_case_shape *outline)
+{
+    return outline->kind == MOR_CASE_SHAPE_TERRAIN ? outline->ground.file : outline->form.file;
+}
+
 static void list_files(const mor_case_shape *outline, mor_case_input *inputs, int room, int *n_inputs)
 {
     for (int k = 0; k < outline->n_children; ++k) {
         list_files(&outline->children[k], inputs, room, n_inputs);
     }
-    const char *file = mor_case_shape_file(outline);
+    const char *file = name_file(outline);
     bool is_known = outline->file_hash == 0;
     for (int k = 0; k < *n_inputs && !is_known; ++k) {
         is_known = strcmp(inputs[k].path, file) == 0;
@@ -271,11 +277,6 @@ static void list_files(const mor_case_shape *outline, mor_case_input *inputs, in
     if (!is_known && *n_inputs < room) {
         inputs[(*n_inputs)++] = (mor_case_input){file, outline->file_hash};
     }
-}
-
-const char *mor_case_shape_file(const mor_case_shape *outline)
-{
-    return outline->kind == MOR_CASE_SHAPE_TERRAIN ? outline->ground.file : outline->form.file;
 }
 
 int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room)

@@ -34,7 +34,11 @@ static const mor_case_node *find_root(const mor_case_node *node)
 static mor_status read_raster(const mor_case_reader *reader, const mor_case_node *node, const mor_case_ground *ground,
                               mor_terrain *terrain)
 {
-    mor_terrain_request request = {.path = ground->file, .cell = ground->cell, .fills_no_data = ground->fills_no_data};
+    mor_terrain_request request;
+    mor_terrain_request_init(&request);
+    request.path = ground->file;
+    request.cell = ground->cell;
+    request.fills_no_data = ground->fills_no_data;
     memcpy(request.crop_minimum, ground->crop_minimum, sizeof request.crop_minimum);
     memcpy(request.crop_maximum, ground->crop_maximum, sizeof request.crop_maximum);
     memcpy(request.offset, ground->offset, sizeof request.offset);

@@ -149,7 +149,6 @@ static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies
     }
     MOR_TRY(context,
             mor_rigid_init(context, rigid, "rigid", c->dimension, c->spacing, r->requests, r->motions, r->n_members));
-    bodies->has_rigid = true;
     for (int m = 0; m < r->n_members; ++m) {
         bodies->of[r->members[m]] = (mor_simulation_body){&rigid->group, m, NULL, rigid};
     }

@@ -28,7 +28,6 @@ typedef struct mor_simulation_bodies {
     mor_elastic elastics[MOR_BODY_GROUPS_MAX];
     int n_elastics;
     mor_rigid rigid;
-    bool has_rigid;
     mor_body_group *groups[MOR_BODY_GROUPS_MAX]; /* shape [n_groups]; all groups, elastic ones first; borrowed */
     int n_groups;
     mor_simulation_body of[MOR_CASE_BODIES_MAX]; /* by number of the body in the case */

@@ -168,9 +168,8 @@ mor_status mor_measure_height(mor_context *context, const mor_measure_points *po
                               const double *up, double percent, double *height)
 {
     /* A height is a run-out along up. */
-    const mor_measure_frame frame = {.origin = {origin[0], origin[1], origin[2]},
-                                     .up = {up[0], up[1], up[2]},
-                                     .direction = {up[0], up[1], up[2]}};
+    const mor_measure_frame frame = {
+        .origin = {origin[0], origin[1], origin[2]}, .up = {up[0], up[1], up[2]}, .direction = {up[0], up[1], up[2]}};
     MOR_TRY(context, mor_measure_run_out(context, points, &frame, percent, height));
     return MOR_OK;
 }
@@ -186,28 +185,6 @@ mor_status mor_measure_speed(mor_context *context, const mor_measure_points *poi
     }
     const mor_status status = mor_measure_percentile(context, speeds, points->mass, points->n_points, percent, speed);
     MOR_FREE(context, &speeds);
-    MOR_TRY(context, status);
-    return MOR_OK;
-}
-
-mor_status mor_measure_density_drift(mor_context *context, const mor_measure_points *points, double reference,
-                                     mor_measure_drift *drift)
-{
-    MOR_TRY(context, mor_measure_check_points(context, points));
-    MOR_CHECK(context, points->density != NULL, MOR_ERROR_ARGUMENT,
-              "the density drift is asked for, but no densities are given");
-    MOR_CHECK(context, isfinite(reference) && reference > 0.0, MOR_ERROR_ARGUMENT,
-              "the reference density is %g kg/m3: give a finite number above zero", reference);
-    double *drifts = NULL;
-    MOR_TRY(context, MOR_NEW(context, &drifts, points->n_points, "density drifts"));
-    drift->maximum = 0.0;
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        drifts[i] = fabs(points->density[i] / reference - 1.0);
-        drift->maximum = fmax(drift->maximum, drifts[i]);
-    }
-    const mor_status status =
-        mor_measure_percentile(context, drifts, NULL, points->n_points, 99.0, &drift->percentile_99);
-    MOR_FREE(context, &drifts);
     MOR_TRY(context, status);
     return MOR_OK;
 }
@@ -249,25 +226,6 @@ void mor_measure_momentum(const mor_measure_points *points, const double *veloci
     sum_vectors(points, velocity, momentum);
 }
 
-void mor_measure_angular_momentum(const mor_measure_points *points, const double *velocity, const double *center,
-                                  double *momentum)
-{
-    mor_sum sums[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        double arm[3];
-        subtract(points->position + 3 * i, center, arm);
-        const double *v = velocity + 3 * i;
-        for (int a = 0; a < 3; ++a) {
-            const int b = (a + 1) % 3;
-            const int c = (a + 2) % 3;
-            mor_sum_add(&sums[a], points->mass[i] * (arm[b] * v[c] - arm[c] * v[b]));
-        }
-    }
-    for (int a = 0; a < 3; ++a) {
-        momentum[a] = mor_sum_value(sums[a]);
-    }
-}
-
 double mor_measure_kinetic_energy(const mor_measure_points *points, const double *velocity)
 {
     mor_sum sum = {0.0, 0.0};
@@ -284,24 +242,6 @@ double mor_measure_potential_energy(const mor_measure_points *points, const doub
         double offset[3];
         subtract(points->position + 3 * i, datum, offset);
         mor_sum_add(&sum, -points->mass[i] * mor_vector_dot(gravity, offset));
-    }
-    return mor_sum_value(sum);
-}
-
-double mor_measure_elastic_energy(const mor_measure_points *points, const double *stress, double bulk_modulus,
-                                  double shear_modulus)
-{
-    mor_sum sum = {0.0, 0.0};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        const double *s = stress + 6 * i;
-        const double mean = mor_symmetric_trace(s) / 3.0;
-        const double normal[3] = {s[MOR_XX] - mean, s[MOR_YY] - mean, s[MOR_ZZ] - mean};
-        const double j2 = 0.5 * mor_vector_dot(normal, normal) + mor_vector_dot(s + MOR_XY, s + MOR_XY);
-        double energy = mean * mean / (2.0 * bulk_modulus);
-        if (shear_modulus > 0.0) {
-            energy += j2 / (2.0 * shear_modulus);
-        }
-        mor_sum_add(&sum, mor_measure_volume(points, i) * energy);
     }
     return mor_sum_value(sum);
 }

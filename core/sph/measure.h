@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 /** @file
- *  Named results of a run: run-out, height, surface, angle of repose, energies, drift, stress at rest. Every function
+ *  Named results of a run: run-out, height, surface, angle of repose, energies, stress at rest. Every function
  *  reads arrays and changes nothing. Sums are compensated and percentiles sorted, so that a result depends neither on
  *  the number of threads nor, beyond the last bits, on the order of particles. No axis is special: "up" is a unit
  *  vector of the caller's, as a rule against gravity.
@@ -37,15 +37,15 @@ typedef struct mor_measure_frame {
 /** Thickness and surface of a deposit over the run-out distance. Made by mor_measure_profile_new. Owner: the caller.
  *  Bin k covers start + [k, k + 1) * bin_width: an annulus when radial in 3D, both sides together when radial in 2D. */
 typedef struct mor_measure_profile {
-    bool is_radial;      /* as in the frame */
-    int64_t n_bins;      /* number of bins; the outermost is empty */
-    double start;        /* inner edge of bin 0, unit m; 0 when radial */
-    double bin_width;    /* unit m */
-    double spacing;      /* of the particles, unit m */
-    double *center;      /* shape [n_bins]; middle of the bin, unit m */
-    double *thickness;   /* shape [n_bins]; volume over area of the bin, unit m; each particle's volume is spread evenly
+    bool is_radial;    /* as in the frame */
+    int64_t n_bins;    /* number of bins; the outermost is empty */
+    double start;      /* inner edge of bin 0, unit m; 0 when radial */
+    double bin_width;  /* unit m */
+    double spacing;    /* of the particles, unit m */
+    double *center;    /* shape [n_bins]; middle of the bin, unit m */
+    double *thickness; /* shape [n_bins]; volume over area of the bin, unit m; each particle's volume is spread evenly
                           * over one spacing of distance, so that thickness is continuous in the positions */
-    double *top;         /* shape [n_bins]; height over origin of the highest particle centered in the bin, plus half a
+    double *top;       /* shape [n_bins]; height over origin of the highest particle centered in the bin, plus half a
                           * spacing, unit m; NaN where there is none */
 } mor_measure_profile;
 
@@ -65,12 +65,6 @@ typedef struct mor_measure_repose {
     double angle_by_thickness; /* from the mean thickness of the same bins (flat floor), unit rad; or NaN */
     int64_t n_bins;            /* bins that take part */
 } mor_measure_repose;
-
-/** Density drift of a set. */
-typedef struct mor_measure_drift {
-    double percentile_99; /* of |density / reference - 1| over particles, 1 */
-    double maximum;       /* largest of them, 1 */
-} mor_measure_drift;
 
 /** A column at rest to compare stresses with. */
 typedef struct mor_measure_column {
@@ -139,15 +133,6 @@ mor_status mor_measure_height(mor_context *context, const mor_measure_points *po
  *  Returns: as mor_measure_percentile. Cost: O(n log n), allocates. */
 mor_status mor_measure_speed(mor_context *context, const mor_measure_points *points, const double *velocity,
                              double percent, double *speed);
-
-/** Measures how far densities have moved from a reference; every particle counts alike.
- *  @param context   [in,out]  one object
- *  @param points    [in]      one object; its density must be given
- *  @param reference [in]      unit kg/m3; > 0
- *  @param drift     [out]     one object
- *  Returns: as mor_measure_percentile. Cost: O(n log n), allocates. */
-mor_status mor_measure_density_drift(mor_context *context, const mor_measure_points *points, double reference,
-                                     mor_measure_drift *drift);
 
 /** Makes the profile of a deposit.
  *  @param context   [in,out]  one object
@@ -221,14 +206,6 @@ void mor_measure_center_of_mass(const mor_measure_points *points, double *center
  *  @param momentum [out]  shape [3]; unit kg m/s (2D: kg/s) */
 void mor_measure_momentum(const mor_measure_points *points, const double *velocity, double *momentum);
 
-/** Writes the angular momentum about a point: the sum of mass * (position - center) x velocity.
- *  @param points   [in]   one object
- *  @param velocity [in]   shape [n_points,3]; unit m/s
- *  @param center   [in]   shape [3]; unit m
- *  @param momentum [out]  shape [3]; unit kg m2/s (2D: kg m/s) */
-void mor_measure_angular_momentum(const mor_measure_points *points, const double *velocity, const double *center,
-                                  double *momentum);
-
 /** Returns the kinetic energy, the sum of mass * speed^2 / 2, unit J (2D: J/m).
  *  @param points   [in]  one object
  *  @param velocity [in]  shape [n_points,3]; unit m/s */
@@ -239,14 +216,5 @@ double mor_measure_kinetic_energy(const mor_measure_points *points, const double
  *  @param gravity [in]  shape [3]; unit m/s2
  *  @param datum   [in]  shape [3]; unit m; a place of zero potential */
 double mor_measure_potential_energy(const mor_measure_points *points, const double *gravity, const double *datum);
-
-/** Returns the elastic energy of linear isotropic elasticity, the sum of volume * (p^2 / (2 K) + J2 / (2 G)), unit J
- *  (2D: J/m), with p = -trace / 3 and J2 half the squared deviator.
- *  @param points        [in]  one object
- *  @param stress        [in]  shape [n_points,6]; unit Pa; order (xx, yy, zz, xy, yz, zx)
- *  @param bulk_modulus  [in]  K, unit Pa; > 0
- *  @param shear_modulus [in]  G, unit Pa; 0 leaves the deviator out (a fluid stores nothing in it) */
-double mor_measure_elastic_energy(const mor_measure_points *points, const double *stress, double bulk_modulus,
-                                  double shear_modulus);
 
 #endif

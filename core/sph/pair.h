@@ -85,7 +85,6 @@ typedef struct mor_pair_slot {
 /** Sums of kernel values over soil and, slot by slot, over boundaries. */
 typedef struct mor_pair_kernel_job {
     const double *source;         /* shape [n padded to 8, 16]; records of who gathers, units of MOR_RECORD_... */
-    int64_t n_source;             /* particles that gather */
     const double *target;         /* shape [n_target, target_stride]; x, y, z, volume first; unit m, volume m3 (m2) */
     int target_stride;            /* doubles per target record */
     const mor_relation *relation; /* one object: source -> target; its clusters are the range when slots is NULL */

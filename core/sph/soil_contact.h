@@ -130,10 +130,9 @@ double mor_soil_contact_speed(const mor_soil_contact *contact);
  *  @param contact   [in,out]  one object
  *  @param table     [in]      one object; pair routines
  *  @param constants [in]      one object
- *  @param records   [in]      shape [n_particles padded to 8, 16]; the soil's, units of MOR_RECORD_...
- *  @param n_particles [in]    number of soil particles */
+ *  @param records   [in]      shape [n_particles padded to 8, 16]; the soil's, units of MOR_RECORD_... */
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                          const mor_pair_constants *constants, const double *records, int64_t n_particles);
+                          const mor_pair_constants *constants, const double *records);
 
 /** Finds the velocity of the boundary anew, as the particles see it; to be called when its owner has changed it.
  *  @param context   [in,out]  one object

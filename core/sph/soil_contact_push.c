@@ -17,14 +17,14 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 #define LARGEST_SHARE 0.6
 
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                          const mor_pair_constants *constants, const double *records, int64_t n_particles)
+                          const mor_pair_constants *constants, const double *records)
 {
     const int64_t n = contact->n_slots;
     const double *points = contact->boundary->records;
     MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
         const int64_t first = chunk * GRAIN;
         double *sums = contact->sums + first * MOR_CLUSTER * MOR_KERNEL_SUMS;
-        const mor_pair_kernel_job job = {records, n_particles,   points, MOR_BOUNDARY_RECORD, &contact->relation,
+        const mor_pair_kernel_job job = {records, points,        MOR_BOUNDARY_RECORD, &contact->relation,
                                          sums,    contact->slots};
         table->kernel(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
     }

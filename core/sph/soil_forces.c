@@ -34,8 +34,7 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step 
     mor_soil *soil = owner;
     (void)step;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        mor_soil_contact_sum(context, mor_soil_contact_at(soil, k), soil->table, &soil->constants, soil->records,
-                             soil->set.n_particles);
+        mor_soil_contact_sum(context, mor_soil_contact_at(soil, k), soil->table, &soil->constants, soil->records);
     }
     return MOR_OK;
 }

@@ -26,8 +26,7 @@ static void sum_kernels(mor_context *context, mor_soil *soil, kernel_use use)
         double sums[CLUSTERS * MOR_CLUSTER * MOR_KERNEL_SUMS];
         const int64_t first = chunk * CLUSTERS;
         const int64_t last = first + CLUSTERS < n ? first + CLUSTERS : n;
-        const mor_pair_kernel_job job = {soil->records, n_particles, soil->records, MOR_RECORD_SIZE,
-                                         &soil->inner,  sums,        NULL};
+        const mor_pair_kernel_job job = {soil->records, soil->records, MOR_RECORD_SIZE, &soil->inner, sums, NULL};
         soil->table->kernel(&soil->constants, &job, first, last);
         for (int64_t i = first * MOR_CLUSTER; i < last * MOR_CLUSTER && i < n_particles; ++i) {
             use(soil, i, sums + (i - first * MOR_CLUSTER) * MOR_KERNEL_SUMS);

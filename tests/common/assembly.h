@@ -245,7 +245,6 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
         table->gradient[plane](&a->constants, &arrays, first, last);
         table->regularize(&a->constants, &arrays, first, last);
         const mor_pair_kernel_job job = {.source = a->records,
-                                         .n_source = a->n,
                                          .target = a->records,
                                          .target_stride = MOR_RECORD_SIZE,
                                          .relation = &a->relation,

@@ -92,7 +92,7 @@ static void run(meeting *m, const mor_pair_table *table)
     const double reach = MOR_KERNEL_SUPPORT * c->smoothing_length + 0.2 * ASSEMBLY_SPACING;
     memset(m->acceleration, 0, sizeof m->acceleration);
     assert_int_equal(mor_soil_contact_build(context, &m->contact, &points, reach), MOR_OK);
-    mor_soil_contact_sum(context, &m->contact, table, c, m->soil.records, m->soil.n);
+    mor_soil_contact_sum(context, &m->contact, table, c, m->soil.records);
     mor_soil_contact_continue(context, &m->contact, table, c, m->soil.records, &m->soil.relation);
     mor_soil_contact_push(context, &m->contact, MOR_DISSIPATION_BOTH, c->limiter_rate, m->soil.records, m->soil.n,
                           m->acceleration);

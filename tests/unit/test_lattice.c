@@ -470,101 +470,6 @@ static void region_without_nodes_comes_out_empty(void **state)
     mor_shape_free(&context, &box);
 }
 
-static void draw_points(mor_context *context, int64_t n_points, uint64_t purpose, mor_lattice_points *points)
-{
-    points->n_points = n_points;
-    assert_int_equal(MOR_NEW(context, &points->positions, 3 * n_points, "test points"), MOR_OK);
-    for (int64_t i = 0; i < 3 * n_points; ++i) {
-        points->positions[i] = 2.0 * mor_random_uniform(3, (uint64_t)i, purpose) - 1.0;
-    }
-}
-
-static void overlap_counts_the_pairs_that_testing_all_finds(void **state)
-{
-    (void)state;
-    mor_context context;
-    mor_context_init(&context);
-    mor_lattice_points sets[2];
-    draw_points(&context, 900, 1, &sets[0]);
-    draw_points(&context, 700, 2, &sets[1]);
-    for (int is_self = 0; is_self < 2; ++is_self) {
-        const mor_lattice_points *a = &sets[0];
-        const mor_lattice_points *b = &sets[!is_self];
-        const double limit = 0.2;
-        mor_lattice_overlap_report expected = {.first_a = -1, .first_b = -1};
-        for (int64_t i = 0; i < a->n_points; ++i) {
-            for (int64_t j = is_self ? i + 1 : 0; j < b->n_points; ++j) {
-                double offset[3];
-                for (int c = 0; c < 3; ++c) {
-                    offset[c] = a->positions[3 * i + c] - b->positions[3 * j + c];
-                }
-                if (mor_vector_length(offset) < limit) {
-                    if (expected.n_pairs == 0) {
-                        expected.first_a = i;
-                        expected.first_b = j;
-                        expected.distance = mor_vector_length(offset);
-                    }
-                    expected.n_pairs += 1;
-                }
-            }
-        }
-        mor_lattice_overlap_report report;
-        assert_int_equal(mor_lattice_overlap(&context, a, b, limit, &report), MOR_OK);
-        assert_true(expected.n_pairs > 100);
-        assert_int_equal(report.n_pairs, expected.n_pairs);
-        assert_int_equal(report.first_a, expected.first_a);
-        assert_int_equal(report.first_b, expected.first_b);
-        assert_true(report.distance == expected.distance); /* exact: the same operations */
-    }
-    mor_lattice_clear(&context, &sets[0]);
-    mor_lattice_clear(&context, &sets[1]);
-    assert_int_equal(context.memory_bytes, 0);
-}
-
-static void pair_is_counted_once_though_all_cells_share_a_bucket(void **state)
-{
-    (void)state;
-    mor_context context;
-    mor_context_init(&context);
-    double here[3] = {0.5, 0.5, 0.5};
-    double there[3] = {0.5, 0.52, 0.5};
-    const mor_lattice_points one = {here, 1};
-    const mor_lattice_points other = {there, 1};
-    mor_lattice_overlap_report report;
-    assert_int_equal(mor_lattice_overlap(&context, &one, &other, 0.1, &report), MOR_OK);
-    assert_int_equal(report.n_pairs, 1);
-}
-
-static void lattice_does_not_overlap_itself_at_its_spacing(void **state)
-{
-    (void)state;
-    mor_context context;
-    mor_context_init(&context);
-    mor_shape *ball = new_ball(&context, 0.0, 1.0);
-    mor_lattice_request request = new_request(ball, 0.1);
-    mor_lattice_points points;
-    mor_lattice_points empty = {NULL, 0};
-    mor_lattice_overlap_report report;
-    assert_int_equal(mor_lattice_fill(&context, &request, &points), MOR_OK);
-    assert_int_equal(mor_lattice_overlap(&context, &points, &points, 0.1, &report), MOR_OK);
-    assert_int_equal(report.n_pairs, 0);
-    assert_int_equal(report.first_a, -1);
-    assert_int_equal(mor_lattice_overlap(&context, &points, &points, 0.1001, &report), MOR_OK);
-    assert_true(report.n_pairs > 2 * points.n_points); /* nearly three a point: one ahead along each axis */
-    assert_int_equal(report.first_a, 0);
-    assert_int_equal(mor_lattice_overlap(&context, &empty, &points, 0.1, &report), MOR_OK);
-    assert_int_equal(report.n_pairs, 0);
-    assert_int_equal(mor_lattice_overlap(&context, &points, &empty, 0.1, &report), MOR_OK);
-    assert_int_equal(report.n_pairs, 0);
-    assert_int_equal(mor_lattice_overlap(&context, &points, &points, 0.0, &report), MOR_ERROR_ARGUMENT);
-    points.positions[4] = NAN;
-    assert_int_equal(mor_lattice_overlap(&context, &points, &points, 0.1, &report), MOR_ERROR_ARGUMENT);
-    assert_non_null(strstr(context.message, "point 1 "));
-    mor_lattice_clear(&context, &points);
-    mor_shape_free(&context, &ball);
-    assert_int_equal(context.memory_bytes, 0);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -579,9 +484,6 @@ int main(void)
         cmocka_unit_test(endless_or_vast_regions_are_refused_before_memory_is_asked_for),
         cmocka_unit_test(wrong_requests_are_refused_by_value),
         cmocka_unit_test(region_without_nodes_comes_out_empty),
-        cmocka_unit_test(overlap_counts_the_pairs_that_testing_all_finds),
-        cmocka_unit_test(pair_is_counted_once_though_all_cells_share_a_bucket),
-        cmocka_unit_test(lattice_does_not_overlap_itself_at_its_spacing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -165,19 +165,6 @@ void mor_canvas_circle(mor_canvas *canvas, const double *center, double radius, 
     finish_path(canvas, pen);
 }
 
-void mor_canvas_clip(mor_canvas *canvas, const double *rectangle)
-{
-    cairo_save(canvas->cairo);
-    cairo_new_path(canvas->cairo);
-    cairo_rectangle(canvas->cairo, rectangle[0], rectangle[1], rectangle[2], rectangle[3]);
-    cairo_clip(canvas->cairo);
-}
-
-void mor_canvas_unclip(mor_canvas *canvas)
-{
-    cairo_restore(canvas->cairo);
-}
-
 static void select_font(mor_canvas *canvas, const mor_canvas_font *font, double size)
 {
     cairo_select_font_face(canvas->cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,

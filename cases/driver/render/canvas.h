@@ -94,15 +94,6 @@ void mor_canvas_rectangle(mor_canvas *canvas, const double *rectangle, const mor
  *  @param pen    [in]      one object */
 void mor_canvas_circle(mor_canvas *canvas, const double *center, double radius, const mor_canvas_pen *pen);
 
-/** Keeps further drawing inside a rectangle, until mor_canvas_unclip.
- *  @param canvas    [in,out]  one object
- *  @param rectangle [in]      shape [4]; left, top, width, height, unit px */
-void mor_canvas_clip(mor_canvas *canvas, const double *rectangle);
-
-/** Ends the last mor_canvas_clip.
- *  @param canvas [in,out]  one object */
-void mor_canvas_unclip(mor_canvas *canvas);
-
 /** Sets a line of text.
  *  @param canvas [in,out]  one object
  *  @param place  [in]      shape [2], unit px; where the anchor goes

@@ -27,16 +27,6 @@ static void convert_oklab_to_linear(const double *oklab, double *linear)
     linear[2] = clip_unit(-0.0041960863 * l3 - 0.7034186147 * m3 + 1.7076147010 * s3);
 }
 
-void mor_colormap_to_oklab(const double *linear, double *oklab)
-{
-    const double l = cbrt(0.4122214708 * linear[0] + 0.5363325363 * linear[1] + 0.0514459929 * linear[2]);
-    const double m = cbrt(0.2119034982 * linear[0] + 0.6806995451 * linear[1] + 0.1073969566 * linear[2]);
-    const double s = cbrt(0.0883024619 * linear[0] + 0.2817188376 * linear[1] + 0.6299787005 * linear[2]);
-    oklab[0] = 0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s;
-    oklab[1] = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s;
-    oklab[2] = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s;
-}
-
 static double evaluate_quartic(const double *c, double u)
 {
     return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])));

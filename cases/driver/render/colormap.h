@@ -33,11 +33,6 @@ void mor_colormap_at(const mor_colormap *map, double fraction, double *linear);
  *  @param linear [out]  shape [3]; linear sRGB, 1 */
 void mor_colormap_category(int index, double *linear);
 
-/** Converts linear sRGB to Oklab.
- *  @param linear [in]   shape [3]; 1, in [0, 1]
- *  @param oklab  [out]  shape [3]; lightness in [0, 1] and the two color axes, 1 */
-void mor_colormap_to_oklab(const double *linear, double *oklab);
-
 /** Screen value of a linear light value, both 1; the input is clipped to [0, 1]. */
 double mor_colormap_encode(double linear);
 
