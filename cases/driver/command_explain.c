@@ -152,15 +152,15 @@ static void print_sizes(FILE *out, const mor_simulation *s)
         n_walls += s->soil.walls[w].n_points;
     }
     fprintf(out, "%s\n", c->title);
-    fprintf(out, "  dimension            %d\n", c->dimension);
-    fprintf(out, "  spacing              %g m\n", c->spacing);
+    fprintf(out, "  dimension               %d\n", c->dimension);
+    fprintf(out, "  spacing                 %g m\n", c->spacing);
     if (s->has_soil) {
-        fprintf(out, "  soil                 %lld particles, smoothing length %g m, sound speed %.4g m/s\n",
+        fprintf(out, "  soil                    %lld particles, smoothing length %g m, sound speed %.4g m/s\n",
                 (long long)s->soil.set.n_particles, s->soil.smoothing_length, s->soil.sound_speed);
     }
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];
-        fprintf(out, "  %-20s %d bod%s, %lld particles, %lld surface nodes", group->set.name, group->n_bodies,
+        fprintf(out, "  %-23s %d bod%s, %lld particles, %lld surface nodes", group->set.name, group->n_bodies,
                 group->n_bodies == 1 ? "y" : "ies", (long long)group->set.n_particles, (long long)group->n_nodes);
         if (g < s->bodies.n_elastics) {
             fprintf(out, ", smoothing length %g m, sound speed %.4g m/s", s->bodies.elastics[g].smoothing_length,
@@ -168,7 +168,11 @@ static void print_sizes(FILE *out, const mor_simulation *s)
         }
         fprintf(out, "\n");
     }
-    fprintf(out, "  walls                %d, %lld particles\n", c->n_walls, (long long)n_walls);
+    fprintf(out, "  walls                   %d", c->n_walls);
+    if (s->has_soil) { /* bodies touch the shapes themselves */
+        fprintf(out, ", %lld particles", (long long)n_walls);
+    }
+    fprintf(out, "\n");
     for (int w = 0; w < c->n_walls; ++w) {
         print_ground(out, &c->walls[w]);
     }
@@ -205,11 +209,11 @@ static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, co
 {
     const mor_schedule *schedule = &s->schedule;
     const double length = now->length;
-    fprintf(out, "  time step            about %.4g s, limited by %s%s\n", length, schedule->limit,
+    fprintf(out, "  time step               about %.4g s, limited by %s%s\n", length, schedule->limit,
             schedule->is_single_rate ? " (single rate)" : "");
-    fprintf(out, "  steps                about %.0f for %g s\n", ceil(s->the_case->end / length), s->the_case->end);
+    fprintf(out, "  steps                   about %.0f for %g s\n", ceil(s->the_case->end / length), s->the_case->end);
     for (int k = 0; k < schedule->n_steppers; ++k) {
-        fprintf(out, "  clock of %-11s ", schedule->steppers[k].name);
+        fprintf(out, "  clock of %-14s ", schedule->steppers[k].name);
         if (schedule->proposals[k] < INFINITY) {
             fprintf(out, "longest step %.4g s, limited by %s; ", schedule->proposals[k], schedule->limits[k]);
         } else {
@@ -222,7 +226,7 @@ static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, co
         fprintf(out, "\n");
     }
     if (touching->length < 0.99 * length) {
-        fprintf(out, "  when bodies touch    steps of about %.4g s, %.0f for %g s\n", touching->length,
+        fprintf(out, "  when bodies touch       steps of about %.4g s, %.0f for %g s\n", touching->length,
                 ceil(s->the_case->end / touching->length), s->the_case->end);
     }
 }
@@ -236,7 +240,10 @@ static const mor_set *set_of(const mor_simulation *s, int stepper)
 
 static void print_duration(FILE *out, double seconds)
 {
-    fprintf(out, "%.1f %s", seconds < 60.0 ? seconds : seconds / 60.0, seconds < 60.0 ? "s" : "min");
+    static const double sizes[3] = {1.0, 60.0, 3600.0};
+    static const char *const units[3] = {"s", "min", "h"};
+    const int unit = seconds < 60.0 ? 0 : seconds < 5400.0 ? 1 : 2;
+    fprintf(out, "%.1f %s", seconds / sizes[unit], units[unit]);
 }
 
 /* What contacts will cost cannot be timed before there are any. */
@@ -245,7 +252,7 @@ static void print_expected_time(FILE *out, const mor_simulation *s, const pace *
     const double end = s->the_case->end;
     const double least = ceil(end / now->length) * now->seconds;
     const double later = ceil(end / touching->length) * touching->seconds;
-    fprintf(out, "  expected time        %s", is_same ? "" : "at least ");
+    fprintf(out, "  expected time           %s", is_same ? "" : "at least ");
     print_duration(out, is_same ? least : fmin(least, later));
     if (!is_same) {
         fprintf(out, ", or ");
@@ -276,13 +283,13 @@ mor_status mor_command_print_explanation(mor_command *command, mor_simulation *s
         let_touch(s, false);
     }
     const double seconds = now.seconds;
-    fprintf(out, "  memory               %.1f MiB", (double)command->context->memory_peak_bytes / 1048576.0);
+    fprintf(out, "  memory                  %.1f MiB", (double)command->context->memory_peak_bytes / 1048576.0);
     if (s->has_soil) {
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
     }
     const int64_t n = s->has_soil ? s->soil.set.n_particles : mor_simulation_particles(s);
-    fprintf(out, "\n  speed now            %.2f M particle-steps/s with %d thread%s (%s)\n", 1e-6 * (double)n / seconds,
-            command->context->n_threads, command->context->n_threads == 1 ? "" : "s",
+    fprintf(out, "\n  speed now               %.2f M particle-steps/s with %d thread%s (%s)\n",
+            1e-6 * (double)n / seconds, command->context->n_threads, command->context->n_threads == 1 ? "" : "s",
             mor_pair_select(NULL)->instruction_set);
     print_expected_time(out, s, &now, &touching, is_same);
     print_warnings(out, s);
