@@ -83,7 +83,7 @@ static const answer answers[] = {
     {{"check", MOR_SOURCE_DIR "/cases/column-at-rest/case.cfg", NULL}, {"case.cfg: ok."}},
     {{"check", COLUMN, "--set", "spacing=5 mm", "-t", "1", NULL}, {"ok. 800 soil particles"}},
     {{"explain", COLUMN, "-s", "spacing=5 mm", "-t", "1", NULL},
-     {"soil                 800 particles", "1 sub-step per step", "bytes per soil particle",
+     {" 800 particles, smoothing length", "1 sub-step per step", "bytes per soil particle",
       "Stages of a step of 'soil'"}},
     {{"check-material", "drucker_prager", NULL}, {"drucker_prager"}},
 };
