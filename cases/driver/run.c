@@ -179,6 +179,16 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     return MOR_OK;
 }
 
+/* The message, and where in the program it arose, for whoever mends the program. */
+static void log_reason(const mor_context *context, FILE *log)
+{
+    fprintf(log, "stopped: %s\n", context->message);
+    for (int k = 0; k < context->n_frames; ++k) {
+        const mor_frame *frame = &context->frames[k];
+        fprintf(log, "  in %s, %s:%d\n", frame->function, frame->file, frame->line);
+    }
+}
+
 static mor_status run_simulation(mor_context *context, mor_run_files *files, const mor_registry *registry,
                                  mor_run_outcome *outcome)
 {
@@ -205,7 +215,7 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
         fprintf(files->options->progress, "\n");
     }
     if (status != MOR_OK) {
-        fprintf(files->log, "stopped: %s\n", context->message);
+        log_reason(context, files->log);
     }
     if (is_refused) {
         mor_run_files_discard(context, files);
