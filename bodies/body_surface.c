@@ -518,7 +518,7 @@ static mor_status carry_nodes(mor_context *context, mor_body_group *group, const
 {
     mor_tree tree;
     MOR_TRY(context, mor_tree_init(context, &tree, body->n_particles));
-    mor_tree_fit(context, &tree, group->reference + 3 * body->first, 3);
+    mor_tree_fit(&tree, group->reference + 3 * body->first, 3);
     mor_status status = MOR_OK;
     for (int64_t node = body->first_node; node < body->first_node + body->n_nodes && status == MOR_OK; ++node) {
         status = carry_node(context, group, body, &tree, node);

@@ -238,14 +238,14 @@ static void close_near(mor_context *context, mor_contact_work *work, mor_contact
 }
 
 /* The tree serves queries widened by what its body has traveled since it was fitted. */
-static void refit_tree(mor_context *context, mor_contact_body *c)
+static void refit_tree(mor_contact_body *c)
 {
     if (c->group->kind == MOR_BODY_RIGID) {
         return;
     }
     if (c->tree_travel < 0.0 || c->travel - c->tree_travel > HOLD * c->group->spacing) {
         const mor_body *body = &c->group->bodies[c->body];
-        mor_tree_fit(context, &c->tree, c->group->set.data[MOR_FIELD_POSITION] + 3 * body->first, 3);
+        mor_tree_fit(&c->tree, c->group->set.data[MOR_FIELD_POSITION] + 3 * body->first, 3);
         c->tree_travel = c->travel;
     }
 }
@@ -308,9 +308,9 @@ static mor_status visit_pair(mor_context *context, mor_contact *contact, int fir
     if (work->near_of[pair] == 0) {
         MOR_TRY(context, open_near(context, contact, first, second, pair));
     }
-    refit_tree(context, &work->bodies[first]);
+    refit_tree(&work->bodies[first]);
     if (second < work->n_bodies) {
-        refit_tree(context, &work->bodies[second]);
+        refit_tree(&work->bodies[second]);
     }
     work->active[work->n_active++] = work->near_of[pair] - 1;
     return MOR_OK;

@@ -36,7 +36,7 @@ static mor_status relate_body(mor_context *context, const mor_elastic *elastic, 
     }
     if (status == MOR_OK) {
         const mor_relation_points view = {&tree, points, 3};
-        mor_tree_fit(context, &tree, points, 3);
+        mor_tree_fit(&tree, points, 3);
         status = mor_relation_build(context, relation, &view, &view, MOR_KERNEL_SUPPORT * elastic->smoothing_length);
     }
     mor_tree_clear(context, &tree);

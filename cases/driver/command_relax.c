@@ -260,7 +260,7 @@ static mor_status draw_points(mor_command *command, const filling *it, const cha
                                  .time_text = count,
                                  .value_name = "depth",
                                  .value_unit = "m",
-                                 .cut = it->request.dimension == 2 ? MOR_PICTURE_CUT_NONE : MOR_PICTURE_CUT_QUADRANT,
+                                 .has_cut = true,
                                  .swelling = 1.0};
     MOR_TRY(command->context, mor_durable_file_join(command->context, path, folder, "images/particles.png"));
     MOR_TRY(command->context, mor_picture_write(command->context, &picture, path));

@@ -430,7 +430,7 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     for (int w = 0; w < c->n_walls; ++w) {
         picture.hides_ground = picture.hides_ground || is_terrain(g, w);
     }
-    picture.cut = c->output.has_cut ? MOR_PICTURE_CUT_QUADRANT : MOR_PICTURE_CUT_NONE;
+    picture.has_cut = c->output.has_cut;
     for (int a = 0; a < 3; ++a) {
         picture.gravity[a] = -g->up[a];
         picture.view[a] = c->output.view[a];

@@ -413,7 +413,8 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation, c
     MOR_TRY(context, status);
     MOR_TRY(context, add_walls(context, simulation));
     MOR_TRY(context, mor_soil_init_state(context, &simulation->soil));
-    return mor_soil_sort(context, &simulation->soil);
+    mor_soil_sort(&simulation->soil);
+    return MOR_OK;
 }
 
 static mor_status build_schedule(mor_context *context, mor_simulation *simulation)

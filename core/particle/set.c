@@ -76,10 +76,9 @@ int mor_set_find_field(const mor_set *set, const char *name)
     return -1;
 }
 
-void mor_set_permute(mor_context *context, mor_set *set, const int32_t *order, double *scratch)
+void mor_set_permute(mor_set *set, const int32_t *order, double *scratch)
 {
     const int64_t n = set->n_particles;
-    (void)context;
     for (int field = 0; field < set->n_fields; ++field) {
         double *data = set->data[field];
         if (data == NULL || (set->fields[field].flags & MOR_FIELD_EVOLVES) == 0) {

@@ -16,13 +16,13 @@
  *  Owner: the run. Field pointers are borrowed until the next resize or permute, which raise `generation`. */
 typedef struct mor_set {
     char name[MOR_FIELD_NAME_BYTES];
-    int64_t n_particles;                  /* number of particles */
-    int n_fields;                         /* declared fields; the built-in ones come first */
+    int64_t n_particles;                   /* number of particles */
+    int n_fields;                          /* declared fields; the built-in ones come first */
     mor_field_info fields[MOR_FIELDS_MAX]; /* shape [n_fields] */
-    double *data[MOR_FIELDS_MAX];         /* shape [n_fields] of [n_particles, n_components], NULL for unused
+    double *data[MOR_FIELDS_MAX];          /* shape [n_fields] of [n_particles, n_components], NULL for unused
                                              fields; unit: of the field */
-    int64_t *id;                          /* shape [n_particles]; number given at creation, unchanged by sorting */
-    uint64_t generation;                  /* raised by every resize or permute */
+    int64_t *id;                           /* shape [n_particles]; number given at creation, unchanged by sorting */
+    uint64_t generation;                   /* raised by every resize or permute */
 } mor_set;
 
 /** Makes a set with the given built-in fields.
@@ -54,12 +54,11 @@ mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field
 int mor_set_find_field(const mor_set *set, const char *name);
 
 /** Reorders the particles: new place i holds what was at order[i]. Scratch fields are left as they are.
- *  @param context [in,out]  one object
  *  @param set     [in,out]  one object
  *  @param order   [in]      shape [n_particles]; a permutation of 0 .. n_particles - 1
  *  @param scratch [in,out]  shape [9 * n_particles]; overwritten; holds values of every field in turn, any unit
  *  Gives: generation + 1. Cost: O(n), allocates nothing. */
-void mor_set_permute(mor_context *context, mor_set *set, const int32_t *order, double *scratch);
+void mor_set_permute(mor_set *set, const int32_t *order, double *scratch);
 
 /** Returns a 64-bit hash of all evolving fields, bit patterns in particle-id order.
  *  @param set [in]  one object

@@ -10,7 +10,6 @@
 /* Enough for the pending halves of 2^31 points. */
 enum { STACK = 64 };
 
-
 mor_status mor_tree_init(mor_context *context, mor_tree *tree, int64_t n_points)
 {
     memset(tree, 0, sizeof *tree);
@@ -116,7 +115,9 @@ void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t 
     for (int64_t place = 0; place < n_points; ++place) {
         order[place] = (int32_t)place;
     }
-    struct { int64_t begin, end; } stack[STACK];
+    struct {
+        int64_t begin, end;
+    } stack[STACK];
     int depth = 0;
     stack[depth].begin = 0;
     stack[depth++].end = (n_points + MOR_CLUSTER - 1) / MOR_CLUSTER;
@@ -177,9 +178,8 @@ static void fit_node(mor_tree *tree, const double *points, int stride, int64_t n
     join_boxes(tree->boxes + 6 * (node + 1), tree->boxes + 6 * (node + 2 * left), box);
 }
 
-void mor_tree_fit(mor_context *context, mor_tree *tree, const double *points, int stride)
+void mor_tree_fit(mor_tree *tree, const double *points, int stride)
 {
-    (void)context;
     if (tree->n_clusters > 0) {
         fit_node(tree, points, stride, 0, 0, tree->n_clusters);
     }

@@ -46,11 +46,10 @@ void mor_tree_clear(mor_context *context, mor_tree *tree);
 void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order);
 
 /** Fits the boxes to the points, which must lie in tree order.
- *  @param context [in]      one object
  *  @param tree    [in,out]  one object
  *  @param points  [in]      shape [n_points, stride]; unit m
  *  @param stride  [in]      doubles per record, >= 3 */
-void mor_tree_fit(mor_context *context, mor_tree *tree, const double *points, int stride);
+void mor_tree_fit(mor_tree *tree, const double *points, int stride);
 
 /** Number of clusters in the left child of a node with n_clusters >= 2 clusters, 1. */
 static inline int64_t mor_tree_left(int64_t n_clusters)

@@ -131,11 +131,9 @@ mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_
 mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
 
 /** Sorts the particles into clusters. To be called once when positions have been set, not after a resume.
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object
- *  Gives: a new generation of the set; the lists are rebuilt in the next step.
- *  Returns: MOR_OK. */
-mor_status mor_soil_sort(mor_context *context, mor_soil *soil);
+ *  @param soil [in,out]  one object
+ *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
+void mor_soil_sort(mor_soil *soil);
 
 /** Returns the soil as a stepper: its stages and step limit.
  *  @param soil     [in]   one object; becomes the owner

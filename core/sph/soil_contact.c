@@ -25,7 +25,7 @@ static mor_status prepare_contact(mor_context *context, mor_soil_contact *contac
     if (!contact->is_wall || contact->base != NULL) {
         MOR_TRY(context, MOR_NEW(context, &contact->built, 3 * n, "boundary points of the lists"));
     }
-    mor_tree_fit(context, &contact->tree, contact->boundary->records, RECORD);
+    mor_tree_fit(&contact->tree, contact->boundary->records, RECORD);
     return MOR_OK;
 }
 
@@ -294,7 +294,7 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
 {
     mor_boundary *boundary = contact->boundary;
     if (contact->built != NULL) {
-        mor_tree_fit(context, &contact->tree, boundary->records, RECORD);
+        mor_tree_fit(&contact->tree, boundary->records, RECORD);
         for (int64_t i = 0; i < contact->n_points; ++i) {
             memcpy(contact->built + 3 * i, boundary->records + RECORD * i, 3 * sizeof *contact->built);
         }

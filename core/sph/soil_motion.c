@@ -113,13 +113,12 @@ mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_st
     return check_domain(context, soil, step);
 }
 
-mor_status mor_soil_sort(mor_context *context, mor_soil *soil)
+void mor_soil_sort(mor_soil *soil)
 {
     mor_tree_order(soil->set.data[MOR_FIELD_POSITION], 3, soil->set.n_particles, soil->order);
     /* The velocity gradient is scratch, has room for nine numbers a particle and is written anew in each step. */
-    mor_set_permute(context, &soil->set, soil->order, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT]);
+    mor_set_permute(&soil->set, soil->order, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT]);
     soil->has_lists = false;
-    return MOR_OK;
 }
 
 static mor_status build_lists(mor_context *context, mor_soil *soil)
@@ -127,7 +126,7 @@ static mor_status build_lists(mor_context *context, mor_soil *soil)
     const double reach =
         MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.skin_ratio * soil->settings.spacing;
     const mor_relation_points points = {&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3};
-    mor_tree_fit(context, &soil->tree, points.records, 3);
+    mor_tree_fit(&soil->tree, points.records, 3);
     MOR_TRY(context, mor_relation_build(context, &soil->inner, &points, &points, reach));
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         MOR_TRY(context, mor_soil_contact_build(context, mor_soil_contact_at(soil, k), &points, reach));
@@ -141,7 +140,7 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, const mor_
 {
     mor_soil *soil = owner;
     if (step->number > 0 && step->number % (uint64_t)soil->settings.sort_interval == 0) {
-        MOR_TRY(context, mor_soil_sort(context, soil));
+        mor_soil_sort(soil);
     }
     /* Two particles that each move by the drift change their distance by twice as much. */
     double other = soil->drift;

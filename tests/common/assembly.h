@@ -131,7 +131,7 @@ static inline void assembly_list(assembly *a, double skin)
                MOR_RECORD_SIZE * sizeof(double));
     }
     const mor_relation_points points = {&a->tree, a->records, MOR_RECORD_SIZE};
-    mor_tree_fit(&a->context, &a->tree, a->records, MOR_RECORD_SIZE);
+    mor_tree_fit(&a->tree, a->records, MOR_RECORD_SIZE);
     const double reach = MOR_KERNEL_SUPPORT * a->constants.smoothing_length + skin;
     assert_int_equal(mor_relation_build(&a->context, &a->relation, &points, &points, reach), MOR_OK);
 }

@@ -120,7 +120,7 @@ static inline void cloud_open(mor_context *context, cloud *c, const double *poin
         memcpy(c->records + CLOUD_STRIDE * i, points + 3 * order[i], 3 * sizeof *points);
     }
     assert_int_equal(mor_tree_init(context, &c->tree, n), MOR_OK);
-    mor_tree_fit(context, &c->tree, c->records, CLOUD_STRIDE);
+    mor_tree_fit(&c->tree, c->records, CLOUD_STRIDE);
     c->view = (mor_relation_points){&c->tree, c->records, CLOUD_STRIDE};
 }
 

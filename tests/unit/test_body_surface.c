@@ -142,7 +142,7 @@ static void the_tree_finds_what_brute_force_finds(void **state)
     static int32_t found[ROOM];
     mor_tree tree;
     assert_int_equal(mor_tree_init(&scene.context, &tree, group->set.n_particles), MOR_OK);
-    mor_tree_fit(&scene.context, &tree, group->reference, 3);
+    mor_tree_fit(&tree, group->reference, 3);
     for (int query = 0; query < 50; ++query) {
         const double point[3] = {0.06 * sin(1.0 * query), 0.06 * cos(2.0 * query), 0.06 * sin(3.0 * query)};
         const double radius = 0.01 * (1 + query % 4);

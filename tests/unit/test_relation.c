@@ -166,7 +166,7 @@ static void lists_follow_points_that_move(void **state)
                 c.records[CLOUD_STRIDE * i + a] += step * cloud_number((uint64_t)i, purpose, -0.2, 0.3);
             }
         }
-        mor_tree_fit(&context, &c.tree, c.records, CLOUD_STRIDE);
+        mor_tree_fit(&c.tree, c.records, CLOUD_STRIDE);
         build(&context, &relation, &c, &c, 0.2);
         assert_complete(&relation, &c, &c);
         assert_int_equal(relation.n_builds, step + 1);
@@ -214,7 +214,7 @@ static void list_that_just_outgrows_its_buffer_is_whole(void **state)
         mor_relation relation = open_relation(&context, &source);
         mor_tree tree;
         assert_int_equal(mor_tree_init(&context, &tree, n), MOR_OK);
-        mor_tree_fit(&context, &tree, records, 3);
+        mor_tree_fit(&tree, records, 3);
         const mor_relation_points target = {&tree, records, 3};
         build(&context, &relation, &source, &source, 1.0);
         assert_int_equal(mor_relation_build(&context, &relation, &source.view, &target, 1.0), MOR_OK);
@@ -265,7 +265,7 @@ static double *scatter(mor_context *context, mor_tree *tree, int n)
         memcpy(sorted + 3 * i, points + 3 * order[i], 3 * sizeof *sorted);
     }
     assert_int_equal(mor_tree_init(context, tree, n), MOR_OK);
-    mor_tree_fit(context, tree, sorted, 3);
+    mor_tree_fit(tree, sorted, 3);
     free(points);
     free(order);
     return sorted;

@@ -242,7 +242,7 @@ static void boxes_follow_points_that_move(void **state)
     for (int64_t k = 0; k < c.n_points * CLOUD_STRIDE; ++k) {
         c.records[k] = cloud_number((uint64_t)k, 55, -2.0, -1.0);
     }
-    mor_tree_fit(&context, &c.tree, c.records, CLOUD_STRIDE);
+    mor_tree_fit(&c.tree, c.records, CLOUD_STRIDE);
     assert_boxes(&c, 0, 0, c.tree.n_clusters);
     assert_int_equal(context.n_allocations, n_allocations);
     cloud_close(&c);

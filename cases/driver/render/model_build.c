@@ -28,14 +28,13 @@ typedef struct cut_corner {
     bool is_cut;
     double center[3]; /* m */
     double first[3];  /* 1 */
-    double second[3]; /* 1; equal to first when half is cut */
+    double second[3]; /* 1 */
 } cut_corner;
 
 static cut_corner find_corner(const mor_picture *picture, const mor_model *model)
 {
-    cut_corner corner = {.is_cut = picture->dimension == 3 && picture->cut != MOR_PICTURE_CUT_NONE};
+    cut_corner corner = {.is_cut = picture->dimension == 3 && picture->has_cut};
     const mor_camera *camera = &model->camera;
-    const double across = picture->cut == MOR_PICTURE_CUT_QUADRANT ? 1.0 : 0.0;
     const double along = mor_vector_dot(camera->toward, model->up);
     double ahead[3];
     for (int a = 0; a < 3; ++a) {
@@ -50,8 +49,8 @@ static cut_corner find_corner(const mor_picture *picture, const mor_model *model
     const double length = mor_vector_length(ahead);
     for (int a = 0; a < 3; ++a) {
         ahead[a] = length > 1e-6 ? ahead[a] / length : -camera->up[a];
-        corner.first[a] = ahead[a] + across * camera->right[a];
-        corner.second[a] = ahead[a] - across * camera->right[a];
+        corner.first[a] = ahead[a] + camera->right[a];
+        corner.second[a] = ahead[a] - camera->right[a];
     }
     return corner;
 }

@@ -27,13 +27,6 @@ typedef enum mor_picture_style {
                           level or inclined. Pictures of dimension 2 show it like MOR_PICTURE_SOLID */
 } mor_picture_style;
 
-/** How much of the scene is left out, so that the inside is seen. Only the cut groups lose particles. */
-typedef enum mor_picture_cut {
-    MOR_PICTURE_CUT_NONE,
-    MOR_PICTURE_CUT_HALF,    /* the half nearest to the viewer */
-    MOR_PICTURE_CUT_QUADRANT /* the quadrant nearest to the viewer */
-} mor_picture_cut;
-
 /** Particles that are shown alike. The arrays are borrowed for the call. */
 typedef struct mor_picture_group {
     const char *name;       /* for messages and the legend; NULL: not in the legend */
@@ -67,15 +60,15 @@ typedef struct mor_picture {
     const char *value_unit; /* SI, such as "m/s"; prefixes are chosen; NULL: "1" */
     bool has_range;         /* range is given; otherwise from the 1st to the 99th percentile, rounded outwards */
     double range[2];        /* shape [2], unit value_unit; lower and upper end of the color bar */
-    mor_picture_cut cut;    /* in space only */
-    double swelling;        /* 1; particles are drawn this much larger than their radius, so that a body looks
+    bool has_cut; /* in space only: the quadrant nearest to the viewer is left out of all groups that are not whole */
+    double swelling;   /* 1; particles are drawn this much larger than their radius, so that a body looks
                                         closed; 1: as they are; 0: 1.55 in the plane; in space 1.22, pieces 1.5 */
-    int width;              /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
-    int height;             /* pixels; 0: in space from the width, or MOR_CANVAS_HEIGHT; in the plane what the
+    int width;         /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
+    int height;        /* pixels; 0: in space from the width, or MOR_CANVAS_HEIGHT; in the plane what the
                                         axes need, at most that, so that a series wants a frame */
-    bool has_frame;         /* frame is given; otherwise all particles but those of ground groups are framed */
-    mor_bounds frame;       /* m; what the camera frames: the same box gives the same camera */
-    bool hides_ground;      /* no ground plane; otherwise one lies under the particles even without a group */
+    bool has_frame;    /* frame is given; otherwise all particles but those of ground groups are framed */
+    mor_bounds frame;  /* m; what the camera frames: the same box gives the same camera */
+    bool hides_ground; /* no ground plane; otherwise one lies under the particles even without a group */
 } mor_picture;
 
 /** Makes a box that holds nothing, to start a frame from.
