@@ -26,9 +26,6 @@ typedef enum mor_body_kind {
     MOR_BODY_RIGID    /* six degrees of freedom */
 } mor_body_kind;
 
-/** Mass properties of the true shape, not of its particles. */
-typedef mor_shape_moments mor_body_mass;
-
 /** One body. */
 typedef struct mor_body {
     char name[MOR_FIELD_NAME_BYTES];
@@ -39,7 +36,7 @@ typedef struct mor_body {
     double shape_move[3];        /* m */
     double density;              /* kg/m3 */
     double mass;                 /* kg (kg/m) */
-    mor_body_mass geometry;      /* in the reference configuration */
+    mor_shape_moments geometry;  /* in the reference configuration */
     double contact_modulus;      /* pressure that pushes two surfaces into one another by one spacing, Pa */
     /* Motion as a whole. Rigid: kept current at the end of each sub-step. Elastic: the mean, found after each common
      * step. */
@@ -112,7 +109,7 @@ typedef struct mor_body_request {
     double shape_turn[9];       /* shape [3,3], 1 */
     double shape_move[3];       /* m */
     double density;             /* kg/m3 */
-    mor_body_mass geometry;     /* of the shape, in the reference configuration (mor_body_mass_find, then placed) */
+    mor_shape_moments geometry; /* of the shape, in the reference configuration (mor_shape_find_moments, then placed) */
     double velocity[3];         /* of the center of mass, m/s */
     double angular_velocity[3]; /* about the center of mass, rad/s */
     mor_wall_friction soil_friction;
@@ -169,20 +166,5 @@ void mor_body_group_observe(mor_context *context, mor_body_group *group, double 
  *  @param angular_momentum [out]  shape [3], about the origin of coordinates, unit kg m2/s (kg m/s)
  *  Returns: kinetic energy, unit J (J/m). For a rigid body use mor_rigid_energy, which knows the true inertia. */
 double mor_body_group_momentum(const mor_body_group *group, int body, double *momentum, double *angular_momentum);
-
-/** Volume, center and inertia of a shape in its own frame.
- *  @param context   [in,out]  one object
- *  @param shape     [in]      one object; bounded (in x, y for plane strain)
- *  @param dimension [in]      2 or 3
- *  @param mass      [out]     one object
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an empty or unbounded shape. Accuracy: 1e-5 relative or better; exact for
- *  axis-aligned boxes and shapes that know their moments. Cost: adaptive cells, milliseconds. */
-mor_status mor_body_mass_find(mor_context *context, const mor_shape *shape, int dimension, mor_body_mass *mass);
-
-/** Places mass properties: X = turn * x + move.
- *  @param mass [in,out]  one object
- *  @param turn [in]      shape [3,3], rotation matrix, unit 1
- *  @param move [in]      shape [3], unit m */
-void mor_body_mass_place(mor_body_mass *mass, const double *turn, const double *move);
 
 #endif

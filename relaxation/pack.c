@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
 #include "core/particle/shape_check.h"
+#include "core/particle/shape_moments.h"
 
 #include <string.h>
 
@@ -339,17 +340,28 @@ static mor_status write_result(mor_context *context, const mor_pack_state *state
     return MOR_OK;
 }
 
+static mor_status find_region_volume(mor_context *context, const mor_pack_request *request, double *volume)
+{
+    *volume = request->region_volume;
+    if (isnan(*volume)) {
+        mor_shape_moments moments;
+        MOR_TRY(context, mor_shape_find_moments(context, request->region, request->dimension, &moments));
+        *volume = moments.volume;
+    }
+    MOR_CHECK(context, isfinite(*volume) && *volume > 0.0, MOR_ERROR_ARGUMENT,
+              "the volume of the packing's region is %g: give a number above zero, or NaN for a bounded shape",
+              *volume);
+    return MOR_OK;
+}
+
 mor_status mor_pack(mor_context *context, const mor_pack_request *request, mor_pack_result *result)
 {
     *result = (mor_pack_result){.n_rocks = 0};
     MOR_TRY(context, check_request(context, request));
     mor_pack_state state = {.context = context, .request = request};
     MOR_TRY(context, set_bounds(context, &state));
-    const double region_volume =
-        isnan(request->region_volume) ? mor_pack_volume(request->region, request->dimension) : request->region_volume;
-    MOR_CHECK(context, isfinite(region_volume) && region_volume > 0.0, MOR_ERROR_ARGUMENT,
-              "the volume of the packing's region is %g: give a number above zero, or NaN for a bounded shape",
-              region_volume);
+    double region_volume = 0.0;
+    MOR_TRY(context, find_region_volume(context, request, &region_volume));
     const double target = request->content * region_volume;
     mor_status status = prepare(context, &state, target);
     if (status == MOR_OK) {

@@ -7,7 +7,7 @@
 #include "core/particle/shape_analytic.h"
 
 /* Halvings: points on a surface become four (in the plane two) times as many with each. */
-enum { LEVELS_MAX_PLANE = 12, LEVELS_MAX_SPACE = 9, BISECTIONS = 24 };
+enum { LEVELS_LEAST = 3, LEVELS_MAX_PLANE = 12, LEVELS_MAX_SPACE = 9, BISECTIONS = 24 };
 
 /* A square or cube that is halved until it is small. */
 typedef struct cell {
@@ -31,12 +31,12 @@ static void take_child(const cell *parent, int k, int dimension, cell *child)
     }
 }
 
-/* The cell that holds a shape, to be halved until it is no larger than `spacing`, or for some levels. */
-static void set_root(const mor_shape *shape, int dimension, double spacing, int levels, cell *root)
+/* The cell that holds a shape, to be halved until it is no larger than `spacing`, thrice at least. */
+static void set_root(const mor_shape *shape, int dimension, double spacing, cell *root)
 {
     mor_bounds bounds;
     mor_shape_bounds(shape, &bounds);
-    *root = (cell){.level = levels};
+    *root = (cell){.level = LEVELS_LEAST};
     for (int a = 0; a < dimension; ++a) {
         root->center[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]);
         root->half = fmax(root->half, 0.5 * (bounds.maximum[a] - bounds.minimum[a]));
@@ -151,7 +151,7 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
                   "a form to be packed (%s) has no end along %c: give a bounded one", shape->operations->kind, 'x' + a);
     }
     cell root;
-    set_root(shape, dimension, spacing, 3, &root);
+    set_root(shape, dimension, spacing, &root);
     MOR_CHECK(context, ldexp(2.0 * root.half, -root.level) <= spacing, MOR_ERROR_ARGUMENT,
               "the points on a rock are to be %g of its diameter apart; the least is %g: raise the resolution of the "
               "packing, or pack the smaller rocks for themselves",
@@ -173,35 +173,4 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
     surround_blocks(form);
     form->reach += 2.0 * ldexp(root.half, -root.level); /* a corner between points */
     return MOR_OK;
-}
-
-static double sum_volume(const mor_shape *shape, int dimension, const cell *place)
-{
-    const double side = 2.0 * place->half;
-    const double volume = dimension == 2 ? side * side : side * side * side;
-    const double distance = mor_shape_distance(shape, place->center);
-    if (fabs(distance) > MOR_PACK_SLACK * cell_reach(place, dimension)) {
-        return distance < 0.0 ? volume : 0.0;
-    }
-    if (place->level == 0) { /* as if the surface were flat and faced along an axis */
-        return volume * fmin(1.0, fmax(0.0, 0.5 - distance / side));
-    }
-    double sum = 0.0;
-    for (int k = 0; k < 1 << dimension; ++k) {
-        cell child;
-        take_child(place, k, dimension, &child);
-        sum += sum_volume(shape, dimension, &child);
-    }
-    return sum;
-}
-
-double mor_pack_volume(const mor_shape *shape, int dimension)
-{
-    mor_shape_moments moments;
-    if (mor_shape_moments_known(shape, dimension, &moments)) {
-        return moments.volume;
-    }
-    cell root;
-    set_root(shape, dimension, INFINITY, dimension == 2 ? 11 : 7, &root);
-    return sum_volume(shape, dimension, &root);
 }

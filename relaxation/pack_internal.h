@@ -69,11 +69,6 @@ typedef struct mor_pack_state {
 mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, int dimension, double spacing,
                                 mor_pack_form *form);
 
-/** Volume (area) of a bounded shape by halving cells at its surface, m3 (m2).
- *  @param shape     [in]  one object
- *  @param dimension [in]  2 or 3 */
-double mor_pack_volume(const mor_shape *shape, int dimension);
-
 /** Brings the quaternion of an item to length 1 and writes its matrix.
  *  @param item [in,out]  one object */
 void mor_pack_item_turn(mor_pack_item *item);

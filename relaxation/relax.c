@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/base/random.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "relaxation/relax_internal.h"
 
 #include <string.h>
@@ -83,25 +84,23 @@ static mor_status check_request(mor_context *context, const mor_relax_request *r
 }
 
 /* The volume in spacings^dimension. */
-static double find_volume(const mor_relax_request *request, const mor_relax_frame *frame)
+static mor_status find_volume(mor_context *context, const mor_relax_request *request, double *volume)
 {
-    mor_shape_moments moments;
-    double volume = request->volume;
-    if (isnan(volume)) {
-        if (!mor_shape_moments_known(request->shape, request->dimension, &moments)) {
-            return mor_relax_frame_volume(frame);
-        }
-        volume = moments.volume;
+    *volume = request->volume;
+    if (isnan(*volume)) {
+        mor_shape_moments moments;
+        MOR_TRY(context, mor_shape_find_moments(context, request->shape, request->dimension, &moments));
+        *volume = moments.volume;
     }
     for (int a = 0; a < request->dimension; ++a) {
-        volume /= request->spacing;
+        *volume /= request->spacing;
     }
-    return volume;
+    return MOR_OK;
 }
 
 static mor_status count_particles(mor_context *context, const mor_relax_request *request, relaxation *it)
 {
-    const double volume = find_volume(request, &it->frame);
+    double volume = 0.0;
     double depth = 0.0;
     const bool is_thick = mor_relax_frame_holds(&it->frame, 0.5 * THICKNESS_LEAST * (1.0 - 1e-6), &depth);
     const double thickness = 2.0 * depth;
@@ -110,6 +109,7 @@ static mor_status count_particles(mor_context *context, const mor_relax_request 
               "least: use a spacing of at most %.4g m, or a thicker shape",
               request->shape->operations->kind, thickness, thickness * request->spacing, request->spacing,
               THICKNESS_LEAST, 0.999 * thickness * request->spacing / THICKNESS_LEAST); /* the digits round up, too */
+    MOR_TRY(context, find_volume(context, request, &volume));
     MOR_CHECK(context, volume < MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
               "the shape (%s) holds %g particles at a spacing of %g m; allowed are %g: use a larger spacing",
               request->shape->operations->kind, volume, request->spacing, MOR_RELAX_PARTICLES_MOST);

@@ -27,14 +27,7 @@
  * The second and third are for shapes that cannot be filled otherwise. */
 static const double starts_apart[] = {0.5, 0.25, 0.0};
 
-enum {
-    CHOSEN = -1,
-    JITTER_PURPOSE = 0x524C4A54,
-    SINK_MOST = 8,
-    VOLUME_LEVELS = 4,
-    CLIMB_LEVELS = 20,
-    PROBES_MOST = 64
-};
+enum { CHOSEN = -1, JITTER_PURPOSE = 0x524C4A54, SINK_MOST = 8, CLIMB_LEVELS = 20, PROBES_MOST = 64 };
 
 static const int64_t nodes_limit = INT64_C(1) << 31;
 
@@ -187,46 +180,6 @@ bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *
     }
     climb(frame, best, depth);
     return *depth >= radius;
-}
-
-/* The inside of a cell given by its middle: all, nothing, or what its parts hold; the last as the distance says. */
-static double measure_cell(const mor_relax_frame *frame, const double *middle, double size, int level)
-{
-    const double volume = frame->dimension == 3 ? size * size * size : size * size;
-    const double depth = mor_relax_frame_depth(frame, middle);
-    if (fabs(depth) >= MOR_SHAPE_SLOPE_MOST * 0.5 * size * sqrt((double)frame->dimension)) {
-        return depth > 0.0 ? volume : 0.0;
-    }
-    if (level == VOLUME_LEVELS) {
-        return volume * fmin(1.0, fmax(0.0, 0.5 + depth / size));
-    }
-    double sum = 0.0;
-    for (int k = 0; k < 1 << frame->dimension; ++k) {
-        double part[3] = {middle[0], middle[1], middle[2]};
-        for (int a = 0; a < frame->dimension; ++a) {
-            part[a] += (k >> a & 1) != 0 ? 0.25 * size : -0.25 * size;
-        }
-        sum += measure_cell(frame, part, 0.5 * size, level + 1);
-    }
-    return sum;
-}
-
-double mor_relax_frame_volume(const mor_relax_frame *frame)
-{
-    double sum = 0.0;
-    int64_t n[3] = {1, 1, 1};
-    for (int a = 0; a < frame->dimension; ++a) {
-        n[a] = (int64_t)ceil(2.0 * frame->half[a]);
-    }
-    for (int64_t k = 0; k < n[0] * n[1] * n[2]; ++k) {
-        const int64_t index[3] = {k % n[0], k / n[0] % n[1], k / (n[0] * n[1])};
-        double middle[3] = {0.0, 0.0, 0.0};
-        for (int a = 0; a < frame->dimension; ++a) {
-            middle[a] = (double)index[a] + 0.5 - 0.5 * (double)n[a];
-        }
-        sum += measure_cell(frame, middle, 1.0, 0);
-    }
-    return sum;
 }
 
 static void size_lattice(const mor_relax_frame *frame, start_lattice *lattice)

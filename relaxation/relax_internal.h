@@ -103,10 +103,6 @@ double mor_relax_frame_sink(const mor_relax_frame *frame, double *place, int n_m
  *  @param depth  [out]  one number; the largest depth found, unit spacing */
 bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *depth);
 
-/** Returns the volume of the shape, unit spacing^dimension, by division into ever smaller cells.
- *  @param frame [in]  one object */
-double mor_relax_frame_volume(const mor_relax_frame *frame);
-
 /** Writes n starting places: those of a lattice that lie deepest, each moved by a jitter and sunk to the outer layer.
  *  One that sinks to within half a spacing of another is taken only when nothing else is left.
  *  @param context [in,out]  one object

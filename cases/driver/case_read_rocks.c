@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "relaxation/pack.h"
 
 #include <math.h>
@@ -224,12 +225,12 @@ static mor_status refuse_none(const mor_case_reader *reader, const mor_case_node
                                   "gap, or ask for smaller rocks",
                                   rocks->margin, rocks->gap);
     }
-    mor_body_mass region;
+    mor_shape_moments region;
     char most[64] = "";
     const int dimension = reader->dimension;
     const char *unit = dimension == 2 ? "m2" : "m3";
     const double largest = rocks->sizes[rocks->n_sizes - 1].diameter;
-    const mor_status status = mor_body_mass_find(reader->context, rocks->region, dimension, &region);
+    const mor_status status = mor_shape_find_moments(reader->context, rocks->region, dimension, &region);
     if (status != MOR_OK) {
         return refuse_packing(reader, node, status);
     }

@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -61,8 +62,8 @@ static mor_status make_request(mor_context *context, const mor_case *c, const mo
                                   .soil_friction_coefficient = it->soil_friction_coefficient,
                                   .contact_modulus = mor_case_contact_modulus(c, it)};
     mor_simulation_body_frame(c, it, request->shape_turn, request->shape_move);
-    MOR_TRY(context, mor_body_mass_find(context, it->shape, c->dimension, &request->geometry));
-    mor_body_mass_place(&request->geometry, request->shape_turn, request->shape_move);
+    MOR_TRY(context, mor_shape_find_moments(context, it->shape, c->dimension, &request->geometry));
+    mor_shape_moments_place(&request->geometry, request->shape_turn, request->shape_move);
     mor_matrix_apply(c->turn, it->velocity, request->velocity);
     mor_matrix_apply(c->turn, it->angular_velocity, request->angular_velocity);
     return MOR_OK;

@@ -7,6 +7,7 @@
 #include "cases/driver/simulation_bodies.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
+#include "core/particle/shape_moments.h"
 
 #include <string.h>
 
@@ -71,15 +72,15 @@ static void place_points(const mor_lattice_request *frame, const mor_relax_point
 static mor_status fill_relaxed(mor_context *context, const mor_case *c, const mor_case_body *it,
                                const mor_lattice_request *frame, mor_point_cache *cache, mor_lattice_points *points)
 {
-    mor_body_mass mass;
+    mor_shape_moments moments;
     mor_relax_request request;
     mor_relax_points relaxed;
-    MOR_TRY(context, mor_body_mass_find(context, it->shape, c->dimension, &mass));
+    MOR_TRY(context, mor_shape_find_moments(context, it->shape, c->dimension, &moments));
     mor_relax_request_init(&request);
     request.shape = it->shape;
     request.dimension = c->dimension;
     request.spacing = c->spacing;
-    request.volume = mass.volume;
+    request.volume = moments.volume;
     request.seed = c->seed;
     mor_log_owner owner;
     mor_log_owner_begin(&owner, context, "body '%s'", it->name);

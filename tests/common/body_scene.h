@@ -6,6 +6,7 @@
 #include "bodies/elastic.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
 #include "materials/neo_hookean.h"
@@ -136,7 +137,7 @@ static inline void body_scene_open(body_scene *it, const body_scene_request *req
                              .density = request->density,
                              .soil_friction = MOR_WALL_ROUGH,
                              .contact_modulus = request->youngs};
-    body_scene_require(it, mor_body_mass_find(&it->context, it->shape, request->dimension, &body.geometry));
+    body_scene_require(it, mor_shape_find_moments(&it->context, it->shape, request->dimension, &body.geometry));
     double *points = body_scene_fill(it, request, &body.n_particles);
     body.positions = points;
     const mor_elastic_settings settings = body_scene_settings(request);

@@ -9,6 +9,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
 #include "materials/neo_hookean.h"
@@ -170,8 +171,9 @@ static inline mor_body_request contact_scene_ask(contact_scene *it, int k)
     memcpy(ask.shape_move, body->position, sizeof ask.shape_move);
     memcpy(ask.velocity, body->velocity, sizeof ask.velocity);
     memcpy(ask.angular_velocity, body->angular_velocity, sizeof ask.angular_velocity);
-    contact_scene_require(it, mor_body_mass_find(&it->context, it->shapes[k], it->request.dimension, &ask.geometry));
-    mor_body_mass_place(&ask.geometry, ask.shape_turn, ask.shape_move);
+    contact_scene_require(it,
+                          mor_shape_find_moments(&it->context, it->shapes[k], it->request.dimension, &ask.geometry));
+    mor_shape_moments_place(&ask.geometry, ask.shape_turn, ask.shape_move);
     ask.positions = contact_scene_fill(it, k, &ask, &ask.n_particles);
     return ask;
 }

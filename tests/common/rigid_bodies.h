@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "core/time/schedule.h"
 #include "tests/common/cloud.h"
 
@@ -75,9 +76,9 @@ static inline mor_status rigid_push(mor_context *context, void *owner, const mor
 }
 
 /** Mass properties of a box about the origin, from its corners, shape [3] each; unit m. */
-static inline void rigid_geometry(const double *low, const double *high, int dimension, mor_body_mass *geometry)
+static inline void rigid_geometry(const double *low, const double *high, int dimension, mor_shape_moments *geometry)
 {
-    *geometry = (mor_body_mass){.volume = 1.0};
+    *geometry = (mor_shape_moments){.volume = 1.0};
     for (int a = 0; a < dimension; ++a) {
         geometry->volume *= high[a] - low[a];
     }
@@ -121,7 +122,7 @@ static inline void rigid_request(rigid_scene *it, const rigid_box *box, int b, i
     assert_int_equal(mor_shape_new_box(&it->context, low, high, &it->shapes[b]), MOR_OK);
     request->shape = it->shapes[b];
     rigid_geometry(low, high, dimension, &request->geometry);
-    mor_body_mass_place(&request->geometry, request->shape_turn, request->shape_move);
+    mor_shape_moments_place(&request->geometry, request->shape_turn, request->shape_move);
 }
 
 /** Puts the spring and the prescribed motion of a box into units. */

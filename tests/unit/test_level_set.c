@@ -3,6 +3,7 @@
 #include "bodies/body.h"
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "relaxation/level_set.h"
 #include "relaxation/outline.h"
 #include "tests/common/cloud.h"
@@ -318,7 +319,7 @@ static void expect_mesh_moments(mor_context *context, const mor_mesh *mesh, cons
     mor_bounds bounds;
     mor_shape_moments exact;
     mor_shape_moments told;
-    mor_body_mass found;
+    mor_shape_moments found;
     mor_mesh_bounds(mesh, &bounds);
     mor_mesh_moments(mesh, &exact);
     const double spacing = (bounds.maximum[0] - bounds.minimum[0]) / 20.0;
@@ -327,7 +328,7 @@ static void expect_mesh_moments(mor_context *context, const mor_mesh *mesh, cons
     assert_memory_equal(&told, &exact, sizeof exact); /* exact: those of the mesh */
     assert_false(mor_shape_moments_known(set, 2, &told));
     const silent_shape silent = {{&silent_operations}, set};
-    assert_int_equal(mor_body_mass_find(context, &silent.base, 3, &found), MOR_OK);
+    assert_int_equal(mor_shape_find_moments(context, &silent.base, 3, &found), MOR_OK);
     const double trace = mor_symmetric_trace(exact.inertia);
     double worst = 0.0;
     for (int k = 0; k < 6; ++k) {

@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "bodies/body.h"
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "tests/common/cloud.h"
 
 /* Promised relative accuracy. */
@@ -11,13 +11,13 @@
 /* Sums of some thousand compensated terms. */
 #define ROUNDING 1e-14
 
-static mor_body_mass find_mass(mor_context *context, mor_shape **shape, int dimension)
+static mor_shape_moments find_moments(mor_context *context, mor_shape **shape, int dimension)
 {
-    mor_body_mass mass;
-    assert_int_equal(mor_body_mass_find(context, *shape, dimension, &mass), MOR_OK);
+    mor_shape_moments moments;
+    assert_int_equal(mor_shape_find_moments(context, *shape, dimension, &moments), MOR_OK);
     mor_shape_free(context, shape);
     assert_int_equal(context->memory_bytes, 0);
-    return mass;
+    return moments;
 }
 
 static mor_shape *new_box(mor_context *context, const double *low, const double *high)
@@ -42,7 +42,7 @@ static void assert_near(double found, double expected, double tolerance)
 }
 
 /* Lengths to a share of the size of the body, inertia to a share of its largest moment. */
-static void assert_mass(const mor_body_mass *found, const mor_body_mass *expected, double size, double share)
+static void assert_moments(const mor_shape_moments *found, const mor_shape_moments *expected, double size, double share)
 {
     const double largest = fmax(expected->inertia[MOR_XX], fmax(expected->inertia[MOR_YY], expected->inertia[MOR_ZZ]));
     assert_near(found->volume, expected->volume, share * expected->volume);
@@ -55,19 +55,19 @@ static void assert_mass(const mor_body_mass *found, const mor_body_mass *expecte
 }
 
 /* Of a box about its center, from its corners. */
-static mor_body_mass box_mass(const double *low, const double *high, int dimension)
+static mor_shape_moments box_moments(const double *low, const double *high, int dimension)
 {
-    mor_body_mass mass = {.volume = 1.0};
+    mor_shape_moments moments = {.volume = 1.0};
     for (int a = 0; a < dimension; ++a) {
-        mass.volume *= high[a] - low[a];
-        mass.center[a] = 0.5 * (low[a] + high[a]);
+        moments.volume *= high[a] - low[a];
+        moments.center[a] = 0.5 * (low[a] + high[a]);
     }
     for (int a = 0; a < dimension; ++a) {
         for (int b = 0; b < 3; ++b) {
-            mass.inertia[b] += b != a ? mass.volume * (high[a] - low[a]) * (high[a] - low[a]) / 12.0 : 0.0;
+            moments.inertia[b] += b != a ? moments.volume * (high[a] - low[a]) * (high[a] - low[a]) / 12.0 : 0.0;
         }
     }
-    return mass;
+    return moments;
 }
 
 static void box_is_exact(void **state)
@@ -82,10 +82,10 @@ static void box_is_exact(void **state)
     for (size_t k = 0; k < sizeof boxes / sizeof *boxes; ++k) {
         for (int dimension = 2; dimension <= 3; ++dimension) {
             mor_shape *shape = new_box(&context, boxes[k], boxes[k] + 3);
-            const mor_body_mass expected = box_mass(boxes[k], boxes[k] + 3, dimension);
-            const mor_body_mass found = find_mass(&context, &shape, dimension);
-            assert_mass(&found, &expected, 10.0,
-                        10.0 * ROUNDING); /* sides are differences of corners, 10 times as long */
+            const mor_shape_moments expected = box_moments(boxes[k], boxes[k] + 3, dimension);
+            const mor_shape_moments found = find_moments(&context, &shape, dimension);
+            assert_moments(&found, &expected, 10.0,
+                           10.0 * ROUNDING); /* sides are differences of corners, 10 times as long */
         }
     }
 }
@@ -100,14 +100,14 @@ static void ball_has_its_closed_form(void **state)
     mor_shape *shape = new_sphere(&context, center, r);
     const double volume = 4.0 / 3.0 * MOR_PI * r * r * r;
     const double moment = 0.4 * volume * r * r;
-    const mor_body_mass ball = {volume, {3.0, -2.0, 0.0}, {moment, moment, moment, 0.0, 0.0, 0.0}};
-    mor_body_mass found = find_mass(&context, &shape, 3);
-    assert_mass(&found, &ball, r, PROMISED); /* promised */
+    const mor_shape_moments ball = {volume, {3.0, -2.0, 0.0}, {moment, moment, moment, 0.0, 0.0, 0.0}};
+    mor_shape_moments found = find_moments(&context, &shape, 3);
+    assert_moments(&found, &ball, r, PROMISED); /* promised */
     shape = new_sphere(&context, center, r);
     const double half = 0.25 * MOR_PI * r * r * r * r;
-    const mor_body_mass disc = {MOR_PI * r * r, {3.0, -2.0, 0.0}, {half, half, 2.0 * half, 0.0, 0.0, 0.0}};
-    found = find_mass(&context, &shape, 2);
-    assert_mass(&found, &disc, r, PROMISED); /* promised */
+    const mor_shape_moments disc = {MOR_PI * r * r, {3.0, -2.0, 0.0}, {half, half, 2.0 * half, 0.0, 0.0, 0.0}};
+    found = find_moments(&context, &shape, 2);
+    assert_moments(&found, &disc, r, PROMISED); /* promised */
 }
 
 static void cylinder_has_its_closed_form_at_any_tilt(void **state)
@@ -125,7 +125,7 @@ static void cylinder_has_its_closed_form_at_any_tilt(void **state)
         const double volume = MOR_PI * r * r * h;
         const double along = 0.5 * volume * r * r;
         const double across = volume * (3.0 * r * r + h * h) / 12.0;
-        mor_body_mass expected = {.volume = volume};
+        mor_shape_moments expected = {.volume = volume};
         double unit[3];
         for (int a = 0; a < 3; ++a) {
             unit[a] = axes[k][a] / length;
@@ -137,13 +137,13 @@ static void cylinder_has_its_closed_form_at_any_tilt(void **state)
         }
         mor_shape *shape = NULL;
         assert_int_equal(mor_shape_new_cylinder(&context, base, axes[k], r, h, &shape), MOR_OK);
-        const mor_body_mass found = find_mass(&context, &shape, 3);
-        assert_mass(&found, &expected, h + r, PROMISED); /* promised */
+        const mor_shape_moments found = find_moments(&context, &shape, 3);
+        assert_moments(&found, &expected, h + r, PROMISED); /* promised */
     }
 }
 
 /* A turned box has what the box has, placed: the one by cells, the other by algebra. */
-static void turned_box_agrees_with_the_placed_mass(void **state)
+static void turned_box_agrees_with_the_placed_moments(void **state)
 {
     (void)state;
     const double low[3] = {-0.3, -0.1, -0.2};
@@ -167,20 +167,20 @@ static void turned_box_agrees_with_the_placed_mass(void **state)
         mor_shape *box = new_box(&context, low, high);
         mor_shape *shape = NULL;
         assert_int_equal(mor_shape_new_placed(&context, turn, move, &box, &shape), MOR_OK);
-        mor_body_mass expected = box_mass(low, high, dimension);
-        mor_body_mass_place(&expected, turn, move);
-        const mor_body_mass found = find_mass(&context, &shape, dimension);
-        assert_mass(&found, &expected, 1.0, PROMISED); /* promised */
+        mor_shape_moments expected = box_moments(low, high, dimension);
+        mor_shape_moments_place(&expected, turn, move);
+        const mor_shape_moments found = find_moments(&context, &shape, dimension);
+        assert_moments(&found, &expected, 1.0, PROMISED); /* promised */
     }
 }
 
 /* Of a solid without a part of itself. */
-static mor_body_mass subtract(const mor_body_mass *from, const mor_body_mass *minus)
+static mor_shape_moments subtract(const mor_shape_moments *from, const mor_shape_moments *minus)
 {
     static const int first[6] = {0, 1, 2, 0, 1, 2};
     static const int second[6] = {0, 1, 2, 1, 2, 0};
-    const mor_body_mass *parts[2] = {from, minus};
-    mor_body_mass rest = {.volume = from->volume - minus->volume};
+    const mor_shape_moments *parts[2] = {from, minus};
+    mor_shape_moments rest = {.volume = from->volume - minus->volume};
     for (int a = 0; a < 3; ++a) {
         rest.center[a] = (from->volume * from->center[a] - minus->volume * minus->center[a]) / rest.volume;
     }
@@ -208,17 +208,17 @@ static void difference_is_the_difference(void **state)
     const double r = 0.6;
     const double volume = 4.0 / 3.0 * MOR_PI * r * r * r;
     const double moment = 0.4 * volume * r * r;
-    const mor_body_mass ball = {volume, {0.2, 0.1, -0.1}, {moment, moment, moment, 0.0, 0.0, 0.0}};
-    const mor_body_mass box = box_mass(low, high, 3);
-    const mor_body_mass expected = subtract(&box, &ball);
+    const mor_shape_moments ball = {volume, {0.2, 0.1, -0.1}, {moment, moment, moment, 0.0, 0.0, 0.0}};
+    const mor_shape_moments box = box_moments(low, high, 3);
+    const mor_shape_moments expected = subtract(&box, &ball);
     mor_context context;
     mor_context_init(&context);
     mor_shape *from = new_box(&context, low, high);
     mor_shape *minus = new_sphere(&context, center, r);
     mor_shape *shape = NULL;
     assert_int_equal(mor_shape_new_difference(&context, &from, &minus, &shape), MOR_OK);
-    const mor_body_mass found = find_mass(&context, &shape, 3);
-    assert_mass(&found, &expected, 1.0, PROMISED); /* promised */
+    const mor_shape_moments found = find_moments(&context, &shape, 3);
+    assert_moments(&found, &expected, 1.0, PROMISED); /* promised */
 }
 
 /* Gauss' sums over the edges. */
@@ -245,13 +245,13 @@ static void polygon_has_the_moments_of_its_corners(void **state)
     const double y = first[1] / area;
     const double xx = second[0] - area * x * x;
     const double yy = second[1] - area * y * y;
-    const mor_body_mass expected = {area, {x, y, 0.0}, {yy, xx, xx + yy, area * x * y - second[2], 0.0, 0.0}};
+    const mor_shape_moments expected = {area, {x, y, 0.0}, {yy, xx, xx + yy, area * x * y - second[2], 0.0, 0.0}};
     mor_context context;
     mor_context_init(&context);
     mor_shape *shape = NULL;
     assert_int_equal(mor_shape_new_polygon(&context, points, N, &shape), MOR_OK);
-    const mor_body_mass found = find_mass(&context, &shape, 2);
-    assert_mass(&found, &expected, 1.0, PROMISED); /* promised */
+    const mor_shape_moments found = find_moments(&context, &shape, 2);
+    assert_moments(&found, &expected, 1.0, PROMISED); /* promised */
 }
 
 static void unit_of_length_changes_no_bit(void **state)
@@ -261,7 +261,7 @@ static void unit_of_length_changes_no_bit(void **state)
     mor_context context;
     mor_context_init(&context);
     for (int dimension = 2; dimension <= 3; ++dimension) {
-        mor_body_mass plain = {.volume = 0.0};
+        mor_shape_moments plain = {.volume = 0.0};
         for (int k = -1; k < 2; ++k) {
             const double unit = k < 0 ? 1.0 : units[k];
             const double low[3] = {-0.3 * unit, -0.2 * unit, -0.5 * unit};
@@ -271,7 +271,7 @@ static void unit_of_length_changes_no_bit(void **state)
             mor_shape *minus = new_sphere(&context, center, 0.55 * unit);
             mor_shape *shape = NULL;
             assert_int_equal(mor_shape_new_difference(&context, &from, &minus, &shape), MOR_OK);
-            const mor_body_mass found = find_mass(&context, &shape, dimension);
+            const mor_shape_moments found = find_moments(&context, &shape, dimension);
             const double cell = dimension == 3 ? unit * unit * unit : unit * unit;
             plain = k < 0 ? found : plain;
             assert_true(found.volume == cell * plain.volume); /* exact: a power of two */
@@ -290,25 +290,25 @@ static void endless_and_empty_shapes_are_refused(void **state)
     const double up[3] = {0.0, 0.0, 1.0};
     const double corner[3] = {1.0, 1.0, 1.0};
     mor_context context;
-    mor_body_mass mass;
+    mor_shape_moments moments;
     mor_context_init(&context);
     mor_shape *shape = NULL;
     assert_int_equal(mor_shape_new_half_space(&context, origin, up, &shape), MOR_OK);
-    assert_int_equal(mor_body_mass_find(&context, shape, 3, &mass), MOR_ERROR_ARGUMENT);
+    assert_int_equal(mor_shape_find_moments(&context, shape, 3, &moments), MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(context.message, "has no end along x"));
     mor_shape_free(&context, &shape);
     mor_shape *from = new_box(&context, origin, corner);
     mor_shape *minus = new_sphere(&context, origin, 3.0);
     assert_int_equal(mor_shape_new_difference(&context, &from, &minus, &shape), MOR_OK);
-    assert_int_equal(mor_body_mass_find(&context, shape, 3, &mass), MOR_ERROR_ARGUMENT);
+    assert_int_equal(mor_shape_find_moments(&context, shape, 3, &moments), MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(context.message, "is empty"));
-    assert_true(mass.volume == 0.0); /* exact: cleared */
+    assert_true(moments.volume == 0.0); /* exact: cleared */
     mor_shape_free(&context, &shape);
     const double low[3] = {0.0, 0.0, 2.0};
     const double high[3] = {1.0, 1.0, 3.0};
     shape = new_box(&context, low, high); /* does not meet the plane z = 0 */
-    assert_int_equal(mor_body_mass_find(&context, shape, 2, &mass), MOR_ERROR_ARGUMENT);
-    assert_int_equal(mor_body_mass_find(&context, shape, 4, &mass), MOR_ERROR_ARGUMENT);
+    assert_int_equal(mor_shape_find_moments(&context, shape, 2, &moments), MOR_ERROR_ARGUMENT);
+    assert_int_equal(mor_shape_find_moments(&context, shape, 4, &moments), MOR_ERROR_ARGUMENT);
     mor_shape_free(&context, &shape);
     assert_int_equal(context.memory_bytes, 0);
 }
@@ -319,7 +319,7 @@ int main(void)
         cmocka_unit_test(box_is_exact),
         cmocka_unit_test(ball_has_its_closed_form),
         cmocka_unit_test(cylinder_has_its_closed_form_at_any_tilt),
-        cmocka_unit_test(turned_box_agrees_with_the_placed_mass),
+        cmocka_unit_test(turned_box_agrees_with_the_placed_moments),
         cmocka_unit_test(difference_is_the_difference),
         cmocka_unit_test(polygon_has_the_moments_of_its_corners),
         cmocka_unit_test(unit_of_length_changes_no_bit),

@@ -6,7 +6,7 @@
  * surface is as thick as the distance at the plane says. Where the fit is poor, at edges and tight curves, the cell is
  * divided instead. Every number is a sum or product of lengths, so that a unit of length that is a power of two changes
  * no bit. */
-#include "bodies/body.h"
+#include "core/particle/shape_moments.h"
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -37,11 +37,11 @@ enum {
 /* Moments of a solid about the middle of the bounds: volume, 3 of x, 6 of x (x) x. */
 enum { VOLUME = 0, FIRST = 1, SECOND = 4, N_MOMENTS = 10 };
 
-typedef struct mass_cell {
+typedef struct moment_cell {
     int32_t index[3];
-} mass_cell;
+} moment_cell;
 
-typedef struct mass_search {
+typedef struct moment_search {
     const mor_shape *shape;
     int dimension;
     double minimum[3]; /* corner of cell 0 */
@@ -52,10 +52,10 @@ typedef struct mass_search {
     bool has_layers; /* whether the distance corrects the planes it is cut by */
     double total[N_MOMENTS];
     double carry[N_MOMENTS]; /* what rounding kept out of total */
-    mass_cell *cells;        /* of this level */
-    mass_cell *next;         /* of the next one */
+    moment_cell *cells;      /* of this level */
+    moment_cell *next;       /* of the next one */
     int64_t n_cells, n_next;
-} mass_search;
+} moment_search;
 
 static void add_second(double *second, const double *v, double factor)
 {
@@ -68,7 +68,7 @@ static void add_second(double *second, const double *v, double factor)
 }
 
 /* Thousands of equal cells would let rounding grow: compensated. */
-static void add_moments(mass_search *search, const double *part)
+static void add_moments(moment_search *search, const double *part)
 {
     for (int k = 0; k < N_MOMENTS; ++k) {
         const double exact = part[k] - search->carry[k];
@@ -118,7 +118,7 @@ static void add_simplex(double *sum, const double (*corners)[3], int dimension, 
 
 /* Between a piece of the plane, a segment or a triangle, and the true surface there is a layer as thick as the distance
  * says. Quadrature exact for quadratics: two points of Gauss, or the middles of the three sides. */
-static void add_layer(const mass_search *search, double *sum, const double (*corners)[3])
+static void add_layer(const moment_search *search, double *sum, const double (*corners)[3])
 {
     const int n = search->dimension;
     double normal[3] = {0.0};
@@ -164,7 +164,7 @@ static void cross_edge(const double (*corners)[3], const double *values, int fro
 }
 
 /* Adds sign times the simplex that the zero plane of the values cuts off at a corner. */
-static void add_corner(const mass_search *search, double *sum, const double (*corners)[3], const double *values,
+static void add_corner(const moment_search *search, double *sum, const double (*corners)[3], const double *values,
                        int corner, double sign)
 {
     double cut[SIMPLEX_MAX][3]; /* the corner comes last */
@@ -180,7 +180,7 @@ static void add_corner(const mass_search *search, double *sum, const double (*co
 }
 
 /* Two corners inside, two outside: a wedge, which is three tetrahedra. */
-static void add_wedge(const mass_search *search, double *sum, const double (*corners)[3], const double *values,
+static void add_wedge(const moment_search *search, double *sum, const double (*corners)[3], const double *values,
                       const int *inside, const int *outside)
 {
     /* Corner inside and the crossings to both outside, for either corner inside. */
@@ -209,7 +209,7 @@ static void add_wedge(const mass_search *search, double *sum, const double (*cor
 
 /* Adds the part of a simplex where the linear function with these values at its corners is negative, and the layer
  * between its zero plane and the surface. */
-static void add_cut_simplex(const mass_search *search, double *sum, const double (*corners)[3], const double *values)
+static void add_cut_simplex(const moment_search *search, double *sum, const double (*corners)[3], const double *values)
 {
     int inside[SIMPLEX_MAX];
     int outside[SIMPLEX_MAX];
@@ -242,7 +242,7 @@ static double find_side(int k, int axis, int dimension)
 
 /* Adds the part of a cell, given by its middle, where mean + slope . (offset from the middle) is negative. The cell is
  * the union of one simplex for each order of the axes, along the edges from the lowest to the highest corner. */
-static void add_cut_cell(mass_search *search, const double *middle, double mean, const double *slope)
+static void add_cut_cell(moment_search *search, const double *middle, double mean, const double *slope)
 {
     static const int orders[6][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     const int dimension = search->dimension;
@@ -271,7 +271,7 @@ static void add_cut_cell(mass_search *search, const double *middle, double mean,
     add_moments(search, part);
 }
 
-static void add_full_cell(mass_search *search, const double *middle)
+static void add_full_cell(moment_search *search, const double *middle)
 {
     double part[N_MOMENTS] = {0.0};
     double volume = 1.0;
@@ -290,7 +290,7 @@ static void add_full_cell(mass_search *search, const double *middle)
 }
 
 /* Distances on the lattice of corners, middles of edges and faces, and the middle of a cell; returns the largest. */
-static double find_distances(const mass_search *search, const double *middle, double *distances)
+static double find_distances(const moment_search *search, const double *middle, double *distances)
 {
     double largest = -INFINITY;
     for (int k = 0; k < (search->dimension == 3 ? LATTICE_SPACE : LATTICE_PLANE); ++k) {
@@ -307,7 +307,7 @@ static double find_distances(const mass_search *search, const double *middle, do
 
 /* The linear function nearest to the distance in the mean over the cell, by Simpson's rule; returns what it misses at
  * most on the lattice. */
-static double fit_plane(const mass_search *search, const double *distances, double *mean, double *slope)
+static double fit_plane(const moment_search *search, const double *distances, double *mean, double *slope)
 {
     static const double weights[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
     const bool is_space = search->dimension == 3;
@@ -339,8 +339,27 @@ static double fit_plane(const mass_search *search, const double *distances, doub
     return missed;
 }
 
+/* Whether the surface passes a cell by, told from the distance at its middle; where that lies close to half the
+ * diagonal, a distance that grows faster than the way walked is looked at in more places. */
+static bool is_uniform(const moment_search *search, const double *middle, double at_middle, double half_diagonal)
+{
+    if (fabs(at_middle) < half_diagonal) {
+        return false;
+    }
+    bool is_one = true;
+    if (fabs(at_middle) < MOR_SHAPE_SLOPE_MOST * half_diagonal) {
+        double distances[LATTICE_SPACE];
+        const double sign = at_middle > 0.0 ? 1.0 : -1.0;
+        find_distances(search, middle, distances);
+        for (int k = 0; k < (search->dimension == 3 ? LATTICE_SPACE : LATTICE_PLANE); ++k) {
+            is_one = is_one && sign * distances[k] >= -ROUNDING * half_diagonal;
+        }
+    }
+    return is_one;
+}
+
 /* Counts a cell, or returns true when it must be divided. */
-static bool is_divided(mass_search *search, const mass_cell *cell, bool is_last)
+static bool is_divided(moment_search *search, const moment_cell *cell, bool is_last)
 {
     double middle[3] = {0.0};
     double diagonal2 = 0.0;
@@ -353,11 +372,10 @@ static bool is_divided(mass_search *search, const mass_cell *cell, bool is_last)
     const double poor_fit = search->dimension == 3 ? POOR_FIT_SPACE : POOR_FIT_PLANE;
     const double half_diagonal = 0.5 * sqrt(diagonal2);
     const double at_middle = mor_shape_distance(search->shape, middle);
-    if (at_middle >= half_diagonal) {
-        return false;
-    }
-    if (at_middle <= -half_diagonal) {
-        add_full_cell(search, middle);
+    if (is_uniform(search, middle, at_middle, half_diagonal)) {
+        if (at_middle < 0.0) {
+            add_full_cell(search, middle);
+        }
         return false;
     }
     if (search->level < LEVEL_FIRST && !is_last) {
@@ -381,10 +399,10 @@ static bool is_divided(mass_search *search, const mass_cell *cell, bool is_last)
     return false;
 }
 
-static void divide_cell(mass_search *search, const mass_cell *cell)
+static void divide_cell(moment_search *search, const moment_cell *cell)
 {
     for (int k = 0; k < 1 << search->dimension; ++k) {
-        mass_cell *child = &search->next[search->n_next++];
+        moment_cell *child = &search->next[search->n_next++];
         for (int a = 0; a < 3; ++a) {
             child->index[a] = 2 * cell->index[a] + (k >> a & 1);
         }
@@ -392,7 +410,7 @@ static void divide_cell(mass_search *search, const mass_cell *cell)
 }
 
 /* Level by level, so that the number of cells can be bounded. */
-static void count_cells(mass_search *search)
+static void count_cells(moment_search *search)
 {
     const int n_children = 1 << search->dimension;
     for (; search->n_cells > 0; ++search->level) {
@@ -403,7 +421,7 @@ static void count_cells(mass_search *search)
                 divide_cell(search, &search->cells[i]);
             }
         }
-        mass_cell *const done = search->cells;
+        moment_cell *const done = search->cells;
         search->cells = search->next;
         search->next = done;
         search->n_cells = search->n_next;
@@ -414,7 +432,7 @@ static void count_cells(mass_search *search)
 }
 
 /* Nearly cubic cells of the size of the shortest side. */
-static void make_roots(mass_search *search, const mor_bounds *bounds)
+static void make_roots(moment_search *search, const mor_bounds *bounds)
 {
     double shortest = INFINITY;
     double longest = 0.0;
@@ -427,7 +445,7 @@ static void make_roots(mass_search *search, const mor_bounds *bounds)
         longest = fmax(longest, search->size[a]);
     }
     search->last_level = search->dimension == 3 ? LEVEL_LAST_SPACE : LEVEL_LAST_PLANE;
-    /* In a flat or slim body edges are long in cells and matter less. */
+    /* In a flat or slim shape edges are long in cells and matter less. */
     for (double part = longest; part >= 4.0 * shortest && search->last_level > LEVEL_FULL + 1; part *= 0.25) {
         search->last_level -= 1;
     }
@@ -439,14 +457,14 @@ static void make_roots(mass_search *search, const mor_bounds *bounds)
     for (int32_t z = 0; z < counts[2]; ++z) {
         for (int32_t y = 0; y < counts[1]; ++y) {
             for (int32_t x = 0; x < counts[0]; ++x) {
-                search->cells[search->n_cells++] = (mass_cell){{x, y, z}};
+                search->cells[search->n_cells++] = (moment_cell){{x, y, z}};
             }
         }
     }
 }
 
-/* Moments about the middle of the bounds become mass properties. */
-static void finish_mass(const mass_search *search, mor_body_mass *mass)
+/* Moments about the middle of the bounds become those about the center. */
+static void finish_moments(const moment_search *search, mor_shape_moments *moments)
 {
     const double *total = search->total;
     double offset[3];
@@ -454,13 +472,13 @@ static void finish_mass(const mass_search *search, mor_body_mass *mass)
     memcpy(second, total + SECOND, sizeof second);
     for (int a = 0; a < 3; ++a) {
         offset[a] = total[FIRST + a] / total[VOLUME];
-        mass->center[a] = search->middle[a] + offset[a];
+        moments->center[a] = search->middle[a] + offset[a];
     }
     add_second(second, offset, -total[VOLUME]);
     const double trace = mor_symmetric_trace(second);
-    mass->volume = total[VOLUME];
+    moments->volume = total[VOLUME];
     for (int k = 0; k < 6; ++k) {
-        mass->inertia[k] = (k < 3 ? trace : 0.0) - second[k];
+        moments->inertia[k] = (k < 3 ? trace : 0.0) - second[k];
     }
 }
 
@@ -470,37 +488,38 @@ static mor_status check_bounds(mor_context *context, const mor_shape *shape, con
               dimension);
     for (int a = 0; a < dimension; ++a) {
         MOR_CHECK(context, isfinite(bounds->minimum[a]) && isfinite(bounds->maximum[a]), MOR_ERROR_ARGUMENT,
-                  "the shape of a body has no end along %c (a %s from %g m to %g m): give one that is bounded", 'x' + a,
+                  "the shape has no end along %c (a %s from %g m to %g m): give one that is bounded", 'x' + a,
                   shape->operations->kind, bounds->minimum[a], bounds->maximum[a]);
         MOR_CHECK(context, bounds->minimum[a] < bounds->maximum[a], MOR_ERROR_ARGUMENT,
-                  "the shape of a body is empty along %c (a %s from %g m to %g m): give one with an inside", 'x' + a,
+                  "the shape is empty along %c (a %s from %g m to %g m): give one with an inside", 'x' + a,
                   shape->operations->kind, bounds->minimum[a], bounds->maximum[a]);
     }
     return MOR_OK;
 }
 
-mor_status mor_body_mass_find(mor_context *context, const mor_shape *shape, int dimension, mor_body_mass *mass)
+mor_status mor_shape_find_moments(mor_context *context, const mor_shape *shape, int dimension,
+                                  mor_shape_moments *moments)
 {
     mor_bounds bounds;
-    mass_search search = {.shape = shape, .dimension = dimension};
-    memset(mass, 0, sizeof *mass);
+    moment_search search = {.shape = shape, .dimension = dimension};
+    memset(moments, 0, sizeof *moments);
     mor_shape_bounds(shape, &bounds);
     MOR_TRY(context, check_bounds(context, shape, &bounds, dimension));
-    if (mor_shape_moments_known(shape, dimension, mass)) {
+    if (mor_shape_moments_known(shape, dimension, moments)) {
         return MOR_OK;
     }
-    mor_status status = MOR_NEW(context, &search.cells, CELLS_MAX, "cells of mass properties");
+    mor_status status = MOR_NEW(context, &search.cells, CELLS_MAX, "cells of moments");
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &search.next, CELLS_MAX, "cells of mass properties");
+        status = MOR_NEW(context, &search.next, CELLS_MAX, "cells of moments");
     }
     if (status == MOR_OK) {
         make_roots(&search, &bounds);
         count_cells(&search);
         if (search.total[VOLUME] > 0.0) {
-            finish_mass(&search, mass);
+            finish_moments(&search, moments);
         } else {
             status = MOR_FAIL(context, MOR_ERROR_ARGUMENT,
-                              "the shape of a body is empty: a %s without an inside between (%g, %g, %g) and (%g, %g, "
+                              "the shape is empty: a %s without an inside between (%g, %g, %g) and (%g, %g, "
                               "%g) m",
                               shape->operations->kind, bounds.minimum[0], bounds.minimum[1], bounds.minimum[2],
                               bounds.maximum[0], bounds.maximum[1], bounds.maximum[2]);
@@ -511,21 +530,21 @@ mor_status mor_body_mass_find(mor_context *context, const mor_shape *shape, int 
     return status;
 }
 
-void mor_body_mass_place(mor_body_mass *mass, const double *turn, const double *move)
+void mor_shape_moments_place(mor_shape_moments *moments, const double *turn, const double *move)
 {
     double center[3];
     double inertia[3][3];
-    mor_matrix_apply(turn, mass->center, center);
+    mor_matrix_apply(turn, moments->center, center);
     for (int a = 0; a < 3; ++a) {
-        mass->center[a] = center[a] + move[a];
+        moments->center[a] = center[a] + move[a];
         double half[3];
-        mor_symmetric_apply(mass->inertia, turn + 3 * a, half);
+        mor_symmetric_apply(moments->inertia, turn + 3 * a, half);
         mor_matrix_apply(turn, half, inertia[a]);
     }
-    mass->inertia[MOR_XX] = inertia[0][0];
-    mass->inertia[MOR_YY] = inertia[1][1];
-    mass->inertia[MOR_ZZ] = inertia[2][2];
-    mass->inertia[MOR_XY] = inertia[0][1];
-    mass->inertia[MOR_YZ] = inertia[1][2];
-    mass->inertia[MOR_ZX] = inertia[2][0];
+    moments->inertia[MOR_XX] = inertia[0][0];
+    moments->inertia[MOR_YY] = inertia[1][1];
+    moments->inertia[MOR_ZZ] = inertia[2][2];
+    moments->inertia[MOR_XY] = inertia[0][1];
+    moments->inertia[MOR_YZ] = inertia[1][2];
+    moments->inertia[MOR_ZX] = inertia[2][0];
 }

@@ -1,0 +1,28 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_PARTICLE_SHAPE_MOMENTS_H
+#define MOR_CORE_PARTICLE_SHAPE_MOMENTS_H
+
+#include "core/particle/shape.h"
+
+/** @file
+ *  Volume, center and inertia of any bounded shape: told by the shape, or else integrated from its distances. */
+
+/** Finds the moments of a shape in its own frame.
+ *  Theory: docs/theory/rigid.md, Mass properties.
+ *  @param context   [in,out]  one object
+ *  @param shape     [in]      one object; bounded (in x, y for plane strain)
+ *  @param dimension [in]      2 or 3
+ *  @param moments   [out]     one object; zero after a failure
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an empty or unbounded shape; MOR_ERROR_MEMORY. Accuracy: 1e-5 relative or
+ *  better; exact for axis-aligned boxes and shapes that know their moments. Cost: adaptive cells, milliseconds. */
+mor_status mor_shape_find_moments(mor_context *context, const mor_shape *shape, int dimension,
+                                  mor_shape_moments *moments);
+
+/** Places moments: X = turn * x + move.
+ *  @param moments [in,out]  one object
+ *  @param turn    [in]      shape [3,3], rotation matrix, unit 1
+ *  @param move    [in]      shape [3], unit m */
+void mor_shape_moments_place(mor_shape_moments *moments, const double *turn, const double *move);
+
+#endif
