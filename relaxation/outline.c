@@ -4,8 +4,8 @@
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
 #include "core/particle/shape_check.h"
+#include "core/particle/shape_moments.h"
 #include "relaxation/outline_internal.h"
 
 #include <stdio.h>
@@ -13,13 +13,6 @@
 
 /* Corners nearer together than this share of the size are one; an area below it, squared by size, is none. */
 static const double least_share = 1e-9;
-
-/* A polygon that knows its moments. */
-typedef struct outline_shape {
-    mor_shape base;
-    mor_shape *polygon; /* owned */
-    mor_shape_moments moments;
-} outline_shape;
 
 /* Says which corner is meant: its line in a file, or its number. */
 static void name_corner(const mor_outline_corners *corners, int corner, char *text, size_t room)
@@ -150,83 +143,12 @@ void mor_outline_clear(mor_context *context, mor_outline *outline)
     outline->n_points = 0;
 }
 
-/* Sums over the triangles between an edge and the first corner (Green's theorem), then brought to the center. */
-void mor_outline_moments(const mor_outline *outline, mor_shape_moments *moments)
-{
-    const double *points = outline->points;
-    double area = 0.0;
-    double first[2] = {0.0, 0.0};
-    double second[3] = {0.0, 0.0, 0.0}; /* xx, yy, xy */
-    for (int i = 1; i + 1 < outline->n_points; ++i) {
-        const double b[2] = {points[2 * i] - points[0], points[2 * i + 1] - points[1]};
-        const double c[2] = {points[2 * i + 2] - points[0], points[2 * i + 3] - points[1]};
-        const double doubled = b[0] * c[1] - b[1] * c[0];
-        area += doubled / 2.0;
-        for (int a = 0; a < 2; ++a) {
-            first[a] += doubled * (b[a] + c[a]) / 6.0;
-            second[a] += doubled * (b[a] * b[a] + b[a] * c[a] + c[a] * c[a]) / 12.0;
-        }
-        second[2] += doubled * (2.0 * (b[0] * b[1] + c[0] * c[1]) + b[0] * c[1] + c[0] * b[1]) / 24.0;
-    }
-    const double offset[2] = {first[0] / area, first[1] / area};
-    memset(moments, 0, sizeof *moments);
-    moments->volume = area;
-    moments->center[0] = points[0] + offset[0];
-    moments->center[1] = points[1] + offset[1];
-    moments->inertia[MOR_XX] = second[1] - area * offset[1] * offset[1];
-    moments->inertia[MOR_YY] = second[0] - area * offset[0] * offset[0];
-    moments->inertia[MOR_ZZ] = moments->inertia[MOR_XX] + moments->inertia[MOR_YY];
-    moments->inertia[MOR_XY] = area * offset[0] * offset[1] - second[2];
-}
-
 void mor_outline_normalize(mor_outline *outline, double diameter)
 {
     mor_shape_moments moments;
-    mor_outline_moments(outline, &moments);
+    mor_shape_find_polygon_moments(outline->points, outline->n_points, &moments);
     const double factor = isnan(diameter) ? 1.0 : diameter / (2.0 * sqrt(moments.volume / MOR_PI));
     for (int k = 0; k < 2 * outline->n_points; ++k) {
         outline->points[k] = (outline->points[k] - moments.center[k % 2]) * factor;
     }
-}
-
-static double outline_distance(const mor_shape *shape, const double *point)
-{
-    return mor_shape_distance(((const outline_shape *)shape)->polygon, point);
-}
-
-static void outline_bounds(const mor_shape *shape, mor_bounds *bounds)
-{
-    mor_shape_bounds(((const outline_shape *)shape)->polygon, bounds);
-}
-
-static void outline_free(mor_context *context, mor_shape *shape)
-{
-    outline_shape *outline = (outline_shape *)shape;
-    mor_shape_free(context, &outline->polygon);
-    MOR_FREE(context, &outline);
-}
-
-static bool outline_moments(const mor_shape *shape, int dimension, mor_shape_moments *moments)
-{
-    *moments = ((const outline_shape *)shape)->moments;
-    return dimension == 2;
-}
-
-static const mor_shape_operations outline_operations = {"outline", outline_distance, outline_bounds, outline_free,
-                                                        outline_moments};
-
-mor_status mor_shape_new_outline(mor_context *context, const mor_outline *outline, mor_shape **shape)
-{
-    *shape = NULL;
-    outline_shape *made = NULL;
-    MOR_TRY(context, MOR_NEW(context, &made, 1, "outline shape"));
-    made->base.operations = &outline_operations;
-    const mor_status status = mor_shape_new_polygon(context, outline->points, outline->n_points, &made->polygon);
-    if (status != MOR_OK) {
-        MOR_FREE(context, &made);
-        return mor_context_pass(context, status, MOR_HERE);
-    }
-    mor_outline_moments(outline, &made->moments);
-    *shape = &made->base;
-    return MOR_OK;
 }

@@ -7,7 +7,8 @@
 
 /** @file
  *  Outlines in the plane, such as profiles of photographed rocks: text files with one corner "x y" per line; blanks,
- *  tabs, commas and semicolons separate; '#' starts a comment. The last corner may repeat the first. */
+ *  tabs, commas and semicolons separate; '#' starts a comment. The last corner may repeat the first. The inside is a
+ *  shape by mor_shape_new_polygon. */
 
 /** Most corners of an outline: each distance visits them all. */
 enum { MOR_OUTLINE_CORNERS_MAX = 10000 };
@@ -40,21 +41,9 @@ mor_status mor_outline_init(mor_context *context, const double *points, int n_po
  *  @param outline [in,out]  one object */
 void mor_outline_clear(mor_context *context, mor_outline *outline);
 
-/** Area, center and second moment of the inside, exact; volume per meter of thickness.
- *  @param outline [in]   one object
- *  @param moments [out]  one object */
-void mor_outline_moments(const mor_outline *outline, mor_shape_moments *moments);
-
 /** Moves the center of the area to the origin and scales the outline to an equivalent diameter D = 2 sqrt(A / pi).
  *  @param outline  [in,out]  one object
  *  @param diameter [in]      unit m; NaN: as it is */
 void mor_outline_normalize(mor_outline *outline, double diameter);
-
-/** Makes the inside of an outline as a shape that knows its exact moments; exact distance.
- *  @param context [in,out]  one object
- *  @param outline [in]      one object; copied
- *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
-mor_status mor_shape_new_outline(mor_context *context, const mor_outline *outline, mor_shape **shape);
 
 #endif

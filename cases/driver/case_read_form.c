@@ -5,6 +5,7 @@
 #include "cases/driver/case_read.h"
 #include "cases/driver/mesh_size.h"
 #include "core/base/hash.h"
+#include "core/particle/shape_analytic.h"
 #include "relaxation/level_set.h"
 #include "relaxation/outline.h"
 #include "relaxation/rock_form.h"
@@ -195,7 +196,7 @@ static mor_status fit_outline(const mor_case_reader *reader, mor_outline *outlin
     for (int k = 0; k < 2 * outline->n_points; ++k) {
         outline->points[k] = ldexp(factor * outline->points[k], reader->length_power);
     }
-    return mor_shape_new_outline(reader->context, outline, shape);
+    return mor_shape_new_polygon(reader->context, outline->points, outline->n_points, shape);
 }
 
 static mor_status build_outline(const mor_case_reader *reader, const mor_case_form *form, mor_shape **shape)

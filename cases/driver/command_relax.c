@@ -13,6 +13,7 @@
 #include "core/base/units.h"
 #include "core/io/snapshot.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "moraine_build.h"
 #include "relaxation/level_set.h"
 #include "relaxation/outline.h"
@@ -129,7 +130,7 @@ static double find_diameter(const filling *it, const mor_outline *outline)
     mor_shape_moments moments;
     double low[2] = {INFINITY, INFINITY};
     double high[2] = {-INFINITY, -INFINITY};
-    mor_outline_moments(outline, &moments);
+    mor_shape_find_polygon_moments(outline->points, outline->n_points, &moments);
     for (int k = 0; k < 2 * outline->n_points; ++k) {
         low[k % 2] = fmin(low[k % 2], outline->points[k]);
         high[k % 2] = fmax(high[k % 2], outline->points[k]);
@@ -150,8 +151,8 @@ static mor_status shape_outline(mor_command *command, filling *it)
     if (status == MOR_OK) {
         fprintf(command->output, "%d corners of an outline\n", outline.n_points);
         mor_outline_normalize(&outline, find_diameter(it, &outline));
-        mor_outline_moments(&outline, &it->moments);
-        status = mor_shape_new_outline(context, &outline, &it->shape);
+        mor_shape_find_polygon_moments(outline.points, outline.n_points, &it->moments);
+        status = mor_shape_new_polygon(context, outline.points, outline.n_points, &it->shape);
     }
     mor_outline_clear(context, &outline);
     return status;

@@ -67,7 +67,7 @@ mor_status mor_shape_new_sphere(mor_context *context, const double *center, doub
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_half_space(mor_context *context, const double *point, const double *normal, mor_shape **shape);
 
-/** Makes the inside of a simple polygon in the x-y plane, without end in z.
+/** Makes the inside of a simple polygon in the x-y plane, without end in z. It knows its moments in the plane.
  *  @param context  [in,out]  one object
  *  @param points   [in]      shape [n_points,2]; unit m; corners in either orientation, first not repeated; copied
  *  @param n_points [in]      >= 3

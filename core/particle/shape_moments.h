@@ -19,6 +19,13 @@
 mor_status mor_shape_find_moments(mor_context *context, const mor_shape *shape, int dimension,
                                   mor_shape_moments *moments);
 
+/** Finds area, center and inertia of the inside of a simple closed line, exact; volume per meter of thickness.
+ *  @param points   [in]   shape [n_points,2]; unit m; corners in either orientation, around an area
+ *  @param n_points [in]   >= 3
+ *  @param moments  [out]  one object
+ *  Cost: O(n_points). Threads: safe to call concurrently. */
+void mor_shape_find_polygon_moments(const double *points, int n_points, mor_shape_moments *moments);
+
 /** Places moments: X = turn * x + move.
  *  @param moments [in,out]  one object
  *  @param turn    [in]      shape [3,3], rotation matrix, unit 1

@@ -5,6 +5,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_check.h"
+#include "core/particle/shape_moments.h"
 
 #include <string.h>
 
@@ -58,8 +59,47 @@ static void polygon_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &polygon);
 }
 
+static bool polygon_moments(const mor_shape *shape, int dimension, mor_shape_moments *moments)
+{
+    const polygon_shape *polygon = (const polygon_shape *)shape;
+    if (dimension != 2) {
+        return false; /* without end in z */
+    }
+    mor_shape_find_polygon_moments(polygon->points, polygon->n_points, moments);
+    return true;
+}
+
 static const mor_shape_operations polygon_operations = {"polygon", polygon_distance, polygon_bounds, polygon_free,
-                                                        NULL};
+                                                        polygon_moments};
+
+/* Sums over the triangles between an edge and the first corner (Green's theorem), then brought to the center. */
+void mor_shape_find_polygon_moments(const double *points, int n_points, mor_shape_moments *moments)
+{
+    double area = 0.0;
+    double first[2] = {0.0, 0.0};
+    double second[3] = {0.0, 0.0, 0.0}; /* xx, yy, xy */
+    for (int i = 1; i + 1 < n_points; ++i) {
+        const double b[2] = {points[2 * i] - points[0], points[2 * i + 1] - points[1]};
+        const double c[2] = {points[2 * i + 2] - points[0], points[2 * i + 3] - points[1]};
+        const double doubled = b[0] * c[1] - b[1] * c[0];
+        area += doubled / 2.0;
+        for (int a = 0; a < 2; ++a) {
+            first[a] += doubled * (b[a] + c[a]) / 6.0;
+            second[a] += doubled * (b[a] * b[a] + b[a] * c[a] + c[a] * c[a]) / 12.0;
+        }
+        second[2] += doubled * (2.0 * (b[0] * b[1] + c[0] * c[1]) + b[0] * c[1] + c[0] * b[1]) / 24.0;
+    }
+    const double sign = area < 0.0 ? -1.0 : 1.0; /* clockwise corners make all sums negative */
+    const double offset[2] = {first[0] / area, first[1] / area};
+    memset(moments, 0, sizeof *moments);
+    moments->volume = sign * area;
+    moments->center[0] = points[0] + offset[0];
+    moments->center[1] = points[1] + offset[1];
+    moments->inertia[MOR_XX] = sign * (second[1] - area * offset[1] * offset[1]);
+    moments->inertia[MOR_YY] = sign * (second[0] - area * offset[0] * offset[0]);
+    moments->inertia[MOR_ZZ] = moments->inertia[MOR_XX] + moments->inertia[MOR_YY];
+    moments->inertia[MOR_XY] = sign * (area * offset[0] * offset[1] - second[2]);
+}
 
 /* Twice the signed area of a triangle. */
 static double orient(const double *a, const double *b, const double *c)

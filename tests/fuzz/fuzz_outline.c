@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "relaxation/outline.h"
 
 #include <math.h>
@@ -26,14 +27,14 @@ static void check_outline(mor_context *context, mor_outline *outline)
 {
     mor_shape_moments moments;
     mor_shape *shape = NULL;
-    mor_outline_moments(outline, &moments);
+    mor_shape_find_polygon_moments(outline->points, outline->n_points, &moments);
     require(outline->n_points >= 3 && moments.volume > 0.0 && isfinite(moments.inertia[2]));
-    require(mor_shape_new_outline(context, outline, &shape) == MOR_OK);
+    require(mor_shape_new_polygon(context, outline->points, outline->n_points, &shape) == MOR_OK);
     const double point[3] = {outline->points[0], outline->points[1], 0.0};
     require(mor_shape_distance(shape, point) == 0.0);
     mor_shape_free(context, &shape);
     mor_outline_normalize(outline, 1.0);
-    mor_outline_moments(outline, &moments);
+    mor_shape_find_polygon_moments(outline->points, outline->n_points, &moments);
     require(fabs(moments.volume - 0.785398) < 1e-3);
     mor_outline_clear(context, outline);
 }

@@ -389,7 +389,7 @@ static void level_set_of_a_shape_knows_moments_when_the_shape_does(void **state)
     mor_shape *profile = NULL;
     mor_shape_moments moments;
     assert_int_equal(mor_outline_init(&context, corners, 4, &outline), MOR_OK);
-    assert_int_equal(mor_shape_new_outline(&context, &outline, &profile), MOR_OK);
+    assert_int_equal(mor_shape_new_polygon(&context, outline.points, outline.n_points, &profile), MOR_OK);
     mor_shape *set = new_level_set(&context, profile, 2, 0.05, 0.2);
     assert_true(mor_shape_moments_known(set, 2, &moments));
     assert_near(moments.volume, 2.0, 1e-15); /* rounding */

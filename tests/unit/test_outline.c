@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "relaxation/outline.h"
 #include "tests/common/cloud.h"
 #include "tests/common/near.h"
@@ -60,7 +61,7 @@ static void clockwise_corners_are_turned_round(void **state)
     mor_outline outline;
     mor_shape_moments moments;
     assert_int_equal(mor_outline_init(&context, corners, 4, &outline), MOR_OK);
-    mor_outline_moments(&outline, &moments);
+    mor_shape_find_polygon_moments(outline.points, outline.n_points, &moments);
     assert_near(moments.volume, 2.0, 0.0);                                                         /* exact in binary */
     assert_true(outline.points[0] == 0.0 && outline.points[1] == 0.0 && outline.points[7] == 1.0); /* exact: copied */
     mor_outline_clear(&context, &outline);
@@ -144,7 +145,7 @@ static void too_many_corners_are_refused(void **state)
     assert_int_equal(read_text(&context, text, n_bytes, &outline), MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(context.message, "keep every second one"));
     assert_int_equal(mor_outline_init(&context, points, n_points - 1, &outline), MOR_OK);
-    mor_outline_moments(&outline, &moments);
+    mor_shape_find_polygon_moments(outline.points, outline.n_points, &moments);
     assert_near(moments.volume, MOR_PI, 1e-6); /* 2 pi^3 / (3 n^2) = 2e-7 for the disc, and one side left out */
     mor_outline_clear(&context, &outline);
     free(points);
@@ -163,7 +164,7 @@ static void moments_of_a_triangle_are_the_closed_forms(void **state)
     mor_outline outline;
     mor_shape_moments moments;
     assert_int_equal(mor_outline_init(&context, corners, 3, &outline), MOR_OK);
-    mor_outline_moments(&outline, &moments);
+    mor_shape_find_polygon_moments(outline.points, outline.n_points, &moments);
     assert_near(moments.volume, a * b / 2.0, 1e-14);                             /* rounding */
     assert_near(moments.center[0], 1000.0 + a / 3.0, 2e-13);                     /* rounding at 1000 */
     assert_near(moments.center[1], -500.0 + b / 3.0, 2e-13);                     /* rounding at 500 */
@@ -184,13 +185,13 @@ static void normalized_outline_has_its_center_at_the_origin_and_its_diameter(voi
     mor_outline outline;
     mor_shape_moments moments;
     assert_int_equal(mor_outline_init(&context, corners, 5, &outline), MOR_OK);
-    mor_outline_moments(&outline, &moments);
+    mor_shape_find_polygon_moments(outline.points, outline.n_points, &moments);
     const double area = moments.volume;
     mor_outline_normalize(&outline, NAN);
-    mor_outline_moments(&outline, &moments);
+    mor_shape_find_polygon_moments(outline.points, outline.n_points, &moments);
     assert_near(moments.volume, area, 1e-13 * area); /* rounding: only moved */
     mor_outline_normalize(&outline, 4.0);
-    mor_outline_moments(&outline, &moments);
+    mor_shape_find_polygon_moments(outline.points, outline.n_points, &moments);
     assert_near(moments.volume, 4.0 * MOR_PI, 1e-13);                     /* rounding */
     assert_near(hypot(moments.center[0], moments.center[1]), 0.0, 1e-14); /* rounding */
     mor_outline_clear(&context, &outline);
@@ -207,7 +208,7 @@ static void shape_of_an_outline_knows_distance_bounds_and_moments(void **state)
     mor_shape_moments moments;
     mor_bounds bounds;
     assert_int_equal(mor_outline_init(&context, corners, 6, &outline), MOR_OK);
-    assert_int_equal(mor_shape_new_outline(&context, &outline, &shape), MOR_OK);
+    assert_int_equal(mor_shape_new_polygon(&context, outline.points, outline.n_points, &shape), MOR_OK);
     mor_outline_clear(&context, &outline);
     assert_near(mor_shape_distance(shape, (const double[3]){2.0, 2.0, 5.0}), 1.0, 1e-15);    /* rounding */
     assert_near(mor_shape_distance(shape, (const double[3]){0.5, 0.25, 0.0}), -0.25, 1e-15); /* rounding */
@@ -239,7 +240,7 @@ static void unit_of_length_by_a_power_of_two_changes_no_bit(void **state)
     for (int f = 0; f < 2; ++f) {
         assert_int_equal(mor_outline_init(&context, corners[f], 7, &outlines[f]), MOR_OK);
         mor_outline_normalize(&outlines[f], f == 0 ? 1.0 : factor);
-        mor_outline_moments(&outlines[f], &moments[f]);
+        mor_shape_find_polygon_moments(outlines[f].points, outlines[f].n_points, &moments[f]);
     }
     for (int k = 0; k < 14; ++k) {
         assert_true(outlines[0].points[k] * factor == outlines[1].points[k]); /* exact: powers of two do not round */

@@ -53,7 +53,8 @@ static void open_slope(slope *s, double unit)
         form.angularity = 0.7;
         form.seed = (uint64_t)k;
         assert_int_equal(mor_rock_outline(&s->context, &form, N_CORNERS, &s->outlines[k]), MOR_OK);
-        assert_int_equal(mor_shape_new_outline(&s->context, &s->outlines[k], &s->forms[k]), MOR_OK);
+        assert_int_equal(
+            mor_shape_new_polygon(&s->context, s->outlines[k].points, s->outlines[k].n_points, &s->forms[k]), MOR_OK);
     }
     assert_int_equal(mor_shape_new_polygon(&s->context, corners, 4, &s->region), MOR_OK);
     mor_pack_request_init(&s->request);

@@ -246,12 +246,30 @@ static void polygon_has_the_moments_of_its_corners(void **state)
     const double xx = second[0] - area * x * x;
     const double yy = second[1] - area * y * y;
     const mor_shape_moments expected = {area, {x, y, 0.0}, {yy, xx, xx + yy, area * x * y - second[2], 0.0, 0.0}};
+    double turned[2 * N]; /* the same corners clockwise */
+    for (int k = 0; k < 2 * N; ++k) {
+        turned[k] = points[2 * (N - 1 - k / 2) + k % 2];
+    }
+    const double *const orders[2] = {points, turned};
+    const double unmoved[3] = {0.0};
     mor_context context;
     mor_context_init(&context);
-    mor_shape *shape = NULL;
-    assert_int_equal(mor_shape_new_polygon(&context, points, N, &shape), MOR_OK);
-    const mor_shape_moments found = find_moments(&context, &shape, 2);
-    assert_moments(&found, &expected, 1.0, PROMISED); /* promised */
+    for (int k = 0; k < 2; ++k) {
+        mor_shape *shape = NULL;
+        mor_shape *silent = NULL;
+        mor_shape_moments told;
+        assert_int_equal(mor_shape_new_polygon(&context, orders[k], N, &shape), MOR_OK);
+        assert_true(mor_shape_moments_known(shape, 2, &told));
+        assert_false(mor_shape_moments_known(shape, 3, &told)); /* without end in z */
+        const mor_shape_moments found = find_moments(&context, &shape, 2);
+        assert_moments(&found, &expected, 1.0, ROUNDING); /* sums of five terms */
+        /* A moved shape does not tell: found by cells. */
+        assert_int_equal(mor_shape_new_polygon(&context, orders[k], N, &shape), MOR_OK);
+        assert_int_equal(mor_shape_new_translate(&context, unmoved, &shape, &silent), MOR_OK);
+        assert_false(mor_shape_moments_known(silent, 2, &told));
+        const mor_shape_moments integrated = find_moments(&context, &silent, 2);
+        assert_moments(&integrated, &expected, 1.0, PROMISED); /* promised */
+    }
 }
 
 static void unit_of_length_changes_no_bit(void **state)
