@@ -16,9 +16,6 @@ static const int64_t points_limit = INT64_C(2147483648) - 64;
 /* Distances to a surface, relative to the spacing, below which a node counts as lying on it. */
 static const double surface_tolerance = 1e-9;
 
-/* Guards the skipping of nodes against distances that grow slightly faster than the way walked. */
-static const double distance_slack = 1.1;
-
 enum { JITTER_PURPOSE = 0x4A495454 }; /* keeps these numbers apart from other uses of the seed */
 
 /* Node indices to visit: first[a] <= index < first[a] + count[a]. */
@@ -187,7 +184,8 @@ static int64_t walk_row(const mor_lattice_request *request, const index_box *box
         double reach = 0.0;
         place_node(request, index, node);
         const bool is_kept = is_node_kept(request, node, &reach);
-        const double stride = fmin(floor(reach / (distance_slack * request->spacing)), (double)(end - index[0] - 1));
+        const double stride =
+            fmin(floor(reach / (MOR_SHAPE_SLOPE_MOST * request->spacing)), (double)(end - index[0] - 1));
         const int64_t stop = index[0] + 1 + (int64_t)stride;
         if (is_kept) {
             for (; positions != NULL && index[0] < stop; ++index[0]) {

@@ -18,7 +18,7 @@
  *
  *  Made ready by mor_lattice_request_init. Everything pointed to is borrowed during the call. */
 typedef struct mor_lattice_request {
-    const mor_shape *shape;           /* one object; the solid to fill; distances change by at most 1.1 m per m */
+    const mor_shape *shape;           /* one object; the solid to fill */
     const mor_shape *const *excluded; /* shape [n_excluded]; nodes inside any of these are left out; NULL for none */
     int n_excluded;                   /* number of excluded shapes, >= 0 */
     int dimension;                    /* 2 (in x-y) or 3 */

@@ -90,7 +90,7 @@ static void cross_edges(mor_pack_form *form, int dimension, const cell *place)
 /* Walks the smallest cells at the surface; counts the crossings, and writes them where there is room. */
 static void walk_surface(mor_pack_form *form, int dimension, const cell *place)
 {
-    if (fabs(mor_shape_distance(form->shape, place->center)) > MOR_PACK_SLACK * cell_reach(place, dimension)) {
+    if (fabs(mor_shape_distance(form->shape, place->center)) > MOR_SHAPE_SLOPE_MOST * cell_reach(place, dimension)) {
         return;
     }
     if (place->level == 0) {
@@ -164,7 +164,7 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
     form->n_points = 0;
     walk_surface(form, dimension, &root);
     const double origin[3] = {0.0, 0.0, 0.0};
-    form->core = fmax(0.0, -mor_shape_distance(shape, origin) / MOR_PACK_SLACK);
+    form->core = fmax(0.0, -mor_shape_distance(shape, origin) / MOR_SHAPE_SLOPE_MOST);
     for (int64_t i = 0; i < form->n_points; ++i) {
         form->reach = fmax(form->reach, mor_vector_length(form->points + 3 * i));
     }

@@ -11,9 +11,6 @@
 /** Points are looked at by blocks of this many, which lie close together. */
 enum { MOR_PACK_BLOCK = 32 };
 
-/** Distances of shapes change by at most this per length walked, 1. */
-#define MOR_PACK_SLACK 1.1
-
 /** A form with points on its surface, in its own frame, of diameter 1 m. */
 typedef struct mor_pack_form {
     const mor_shape *shape; /* one object; borrowed */

@@ -128,7 +128,7 @@ static bool is_out_of_reach(const probe_target *target, const double *point, dou
 static bool is_surely_far(const double *point, const double *last, double diameter, double distance, double gap)
 {
     const double way[3] = {point[0] - last[0], point[1] - last[1], point[2] - last[2]};
-    return distance - MOR_PACK_SLACK * diameter * mor_vector_length(way) >= gap;
+    return distance - MOR_SHAPE_SLOPE_MOST * diameter * mor_vector_length(way) >= gap;
 }
 
 /* Goes through the points of a rock, leaving out blocks of them that are surely far. */
@@ -146,10 +146,10 @@ static bool probe(const probe_target *target, const mor_pack_item *owner, double
         if (i % MOR_PACK_BLOCK == 0) {
             last = form->blocks + 4 * (i / MOR_PACK_BLOCK);
             place_point(owner, last, point);
-            distance = is_out_of_reach(target, point, contact->gap + MOR_PACK_SLACK * owner->diameter * last[3])
+            distance = is_out_of_reach(target, point, contact->gap + MOR_SHAPE_SLOPE_MOST * owner->diameter * last[3])
                            ? INFINITY
                            : find_distance(target, point, local);
-            if (distance - MOR_PACK_SLACK * owner->diameter * last[3] >= contact->gap) {
+            if (distance - MOR_SHAPE_SLOPE_MOST * owner->diameter * last[3] >= contact->gap) {
                 i += MOR_PACK_BLOCK - 1;
                 continue;
             }
@@ -193,7 +193,7 @@ bool mor_pack_probe_shape(const mor_pack_state *state, const mor_pack_item *owne
 {
     const double center = sign * mor_shape_distance(shape, owner->position);
     const probe_target target = {.state = state, .shape = shape, .sign = sign};
-    return center - MOR_PACK_SLACK * state->forms[owner->form].reach * owner->diameter < contact->gap &&
+    return center - MOR_SHAPE_SLOPE_MOST * state->forms[owner->form].reach * owner->diameter < contact->gap &&
            probe(&target, owner, enough, contact);
 }
 
@@ -202,7 +202,7 @@ static bool clears_cell(const mor_pack_state *state, const mor_pack_item *item, 
 {
     const mor_pack_request *request = state->request;
     const int d = request->dimension;
-    const double reach = MOR_PACK_SLACK * half * sqrt((double)d);
+    const double reach = MOR_SHAPE_SLOPE_MOST * half * sqrt((double)d);
     double point[3];
     place_point(item, center, point);
     const double distance = mor_shape_distance(request->obstacle, point) - request->gap;
