@@ -29,14 +29,6 @@ static inline mor_body_team mor_body_team_for(const mor_context *context, int64_
 mor_status mor_body_order(mor_context *context, const mor_body_request *request, int dimension, double spacing,
                           int32_t *order);
 
-/** out += factor * a x b; shape [3] each; unit of out: product of theirs. */
-static inline void mor_vector_cross_add(double factor, const double *a, const double *b, double *out)
-{
-    out[0] += factor * (a[1] * b[2] - a[2] * b[1]);
-    out[1] += factor * (a[2] * b[0] - a[0] * b[2]);
-    out[2] += factor * (a[0] * b[1] - a[1] * b[0]);
-}
-
 /** Inverse of a matrix, shape [3,3]; false, and zero, when it is singular: its determinant is less than 1e-9 of that of
  *  a multiple of I of the same norm. */
 static inline bool mor_matrix_invert(const double *m, double *inverse)

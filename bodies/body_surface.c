@@ -340,8 +340,9 @@ static double patch_area(const cover *c, const int32_t *nodes)
         u[a] = c->nodes[3 * (int64_t)nodes[2] + a] - p[a];
         v[a] = c->nodes[3 * (int64_t)nodes[3] + a] - q[a];
     }
-    const double cross[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    return 0.5 * mor_vector_length(cross);
+    double normal[3];
+    mor_vector_cross(u, v, normal);
+    return 0.5 * mor_vector_length(normal);
 }
 
 /* Shares a bare face of a cell among the nodes of its corners. */

@@ -231,9 +231,7 @@ void mor_body_point_push(mor_body_group *group, int body, const mor_body_support
     mor_body *b = &group->bodies[body];
     const double arm[3] = {place[0] - b->center[0], place[1] - b->center[1], place[2] - b->center[2]};
     for (int a = 0; a < 3; ++a) {
-        const int p = (a + 1) % 3;
-        const int q = (a + 2) % 3;
         b->contact_force[a] += force[a];
-        b->contact_moment[a] += arm[p] * force[q] - arm[q] * force[p];
     }
+    mor_vector_cross_add(1.0, arm, force, b->contact_moment);
 }

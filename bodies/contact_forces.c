@@ -25,13 +25,6 @@ typedef struct pair_sums {
     int64_t end;
 } pair_sums;
 
-static void cross(const double *a, const double *b, double *out)
-{
-    for (int k = 0; k < 3; ++k) {
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-    }
-}
-
 /* Solves symmetric * x = b; plane strain: about z only. */
 static void solve_symmetric(int dimension, const double *m, const double *b, double *x)
 {
@@ -77,7 +70,7 @@ static void observe_elastic(mor_contact_body *c)
     for (int64_t i = 0; i < body->n_particles; ++i) {
         const double d[3] = {x[3 * i] - c->center[0], x[3 * i + 1] - c->center[1], x[3 * i + 2] - c->center[2]};
         double moment[3];
-        cross(d, v + 3 * i, moment);
+        mor_vector_cross(d, v + 3 * i, moment);
         for (int a = 0; a < 3; ++a) {
             spin[a] += m[i] * moment[a];
             c->inertia[a] += m[i] * (mor_vector_dot(d, d) - d[a] * d[a]);
@@ -113,7 +106,7 @@ static void whole_velocity(const mor_contact *contact, int second, const double 
     mor_contact_body *c = &contact->work->bodies[second];
     observe_body(c);
     const double arm[3] = {place[0] - c->center[0], place[1] - c->center[1], place[2] - c->center[2]};
-    cross(c->spin, arm, velocity);
+    mor_vector_cross(c->spin, arm, velocity);
     for (int a = 0; a < 3; ++a) {
         velocity[a] += c->velocity[a];
     }
@@ -148,7 +141,7 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     const double *m = group->set.data[MOR_FIELD_MASS];
     double moment[3], turn[3];
     double mass = 0.0;
-    cross(arm, force, moment);
+    mor_vector_cross(arm, force, moment);
     solve_symmetric(group->dimension, c->inertia, moment, turn);
     for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
         mass += m[i];
@@ -156,7 +149,7 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
         const double d[3] = {x[3 * i] - c->center[0], x[3 * i + 1] - c->center[1], x[3 * i + 2] - c->center[2]};
         double around[3];
-        cross(turn, d, around);
+        mor_vector_cross(turn, d, around);
         for (int a = 0; a < 3; ++a) {
             group->contact_force[3 * i + a] += m[i] * (force[a] / mass + around[a]);
         }

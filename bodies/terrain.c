@@ -115,13 +115,6 @@ static double segment_distance2(const double *a, const double *b)
     return mor_vector_dot(foot, foot);
 }
 
-static void cross(const double *a, const double *b, double *out)
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* Squared distance of a point from a triangle: that of its plane when the foot lies inside, else that of the edges. */
 static double triangle_distance2(double triangle[3][3], const double *point)
 {
@@ -134,12 +127,12 @@ static double triangle_distance2(double triangle[3][3], const double *point)
     const double u[3] = {corner[1][0] - corner[0][0], corner[1][1] - corner[0][1], corner[1][2] - corner[0][2]};
     const double v[3] = {corner[2][0] - corner[0][0], corner[2][1] - corner[0][1], corner[2][2] - corner[0][2]};
     double normal[3];
-    cross(u, v, normal);
+    mor_vector_cross(u, v, normal);
     bool is_inside = true;
     for (int k = 0; k < 3 && is_inside; ++k) {
         /* The origin lies on the inner side of the edge when the volume it spans with edge and normal is positive. */
         double area[3];
-        cross(corner[k], corner[(k + 1) % 3], area);
+        mor_vector_cross(corner[k], corner[(k + 1) % 3], area);
         is_inside = mor_vector_dot(area, normal) >= 0.0;
     }
     if (is_inside) {

@@ -115,14 +115,9 @@ static mor_status moment_soil(mor_context *context, const view *v, double *value
     const mor_simulation_body *it = NULL;
     MOR_TRY(context, find_body(context, v, &it));
     const mor_boundary_patch *patch = &it->group->boundary.patches[it->index];
-    const double *center = body_of(it)->center;
-    *value = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const int next = (a + 1) % 3;
-        const int last = (a + 2) % 3;
-        const double moved = patch->moment[a] - (center[next] * patch->force[last] - center[last] * patch->force[next]);
-        *value += moved * v->frame.direction[a];
-    }
+    double moved[3] = {patch->moment[0], patch->moment[1], patch->moment[2]};
+    mor_vector_cross_add(-1.0, body_of(it)->center, patch->force, moved);
+    *value = mor_vector_dot(moved, v->frame.direction);
     return MOR_OK;
 }
 
@@ -278,12 +273,11 @@ static mor_status angular_momentum(mor_context *context, const view *v, double *
     (void)context;
     mor_simulation_bodies_momentum(&v->simulation->bodies, v->frame.origin, momentum, sum);
     for (int64_t i = 0; i < v->points.n_points; ++i) {
+        double arm[3];
         for (int a = 0; a < 3; ++a) {
-            const int next = (a + 1) % 3;
-            const int last = (a + 2) % 3;
-            sum[a] += v->points.mass[i] * ((x[3 * i + next] - v->frame.origin[next]) * u[3 * i + last] -
-                                           (x[3 * i + last] - v->frame.origin[last]) * u[3 * i + next]);
+            arm[a] = x[3 * i + a] - v->frame.origin[a];
         }
+        mor_vector_cross_add(v->points.mass[i], arm, u + 3 * i, sum);
     }
     *value = mor_vector_dot(sum, v->frame.direction);
     return MOR_OK;

@@ -75,11 +75,10 @@ void mor_simulation_bodies_momentum(const mor_simulation_bodies *bodies, const d
             } else {
                 mor_rigid_energy(&bodies->rigid, b, p, l);
             }
+            mor_vector_cross_add(-1.0, point, p, l);
             for (int a = 0; a < 3; ++a) {
-                const int next = (a + 1) % 3;
-                const int last = (a + 2) % 3;
                 momentum[a] += p[a];
-                angular_momentum[a] += l[a] - (point[next] * p[last] - point[last] * p[next]);
+                angular_momentum[a] += l[a];
             }
         }
     }
@@ -126,22 +125,12 @@ static void add_motion(const mor_case *c, const mor_case_body *it, const double 
         arm[a] = reference[a] - origin[a] - c->move[a];
     }
     const double along = mor_vector_dot(arm, axis) / it->motion_length;
-    for (int a = 0; a < 3; ++a) {
-        if (it->motion == MOR_CASE_MOTION_CANTILEVER) {
-            velocity[a] += it->motion_speed * cantilever_shape(along) * direction[a] / across;
-        } else {
-            const int next = (a + 1) % 3;
-            const int last = (a + 2) % 3;
-            velocity[a] +=
-                it->motion_speed * sin(0.5 * MOR_PI * along) * (axis[next] * arm[last] - axis[last] * arm[next]);
-        }
+    if (it->motion != MOR_CASE_MOTION_CANTILEVER) {
+        mor_vector_cross_add(it->motion_speed * sin(0.5 * MOR_PI * along), axis, arm, velocity);
+        return;
     }
-}
-
-static void cross_add(const double *spin, const double *arm, double *velocity)
-{
     for (int a = 0; a < 3; ++a) {
-        velocity[a] += spin[(a + 1) % 3] * arm[(a + 2) % 3] - spin[(a + 2) % 3] * arm[(a + 1) % 3];
+        velocity[a] += it->motion_speed * cantilever_shape(along) * direction[a] / across;
     }
 }
 
@@ -171,7 +160,7 @@ static int64_t set_elastic(const mor_case *c, const mor_case_body *it, const mor
         n_clamped += is_clamped;
         body->elastic->held[i] = is_clamped || is_held;
         memcpy(v, velocity, sizeof velocity);
-        cross_add(spin, arm, v);
+        mor_vector_cross_add(1.0, spin, arm, v);
         if (it->motion != MOR_CASE_MOTION_UNIFORM) {
             add_motion(c, it, reference, v);
         }

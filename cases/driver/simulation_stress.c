@@ -28,11 +28,7 @@ static void set_axes(const double *up, surface *s)
     for (int a = 0; a < 3; ++a) {
         e[a] /= length;
     }
-    for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3;
-        const int c = (a + 2) % 3;
-        s->across[1][a] = up[b] * e[c] - up[c] * e[b];
-    }
+    mor_vector_cross(up, e, s->across[1]);
 }
 
 static int64_t column_of(const surface *s, const double *position)

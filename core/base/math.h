@@ -27,6 +27,14 @@ static inline void mor_vector_cross(const double *a, const double *b, double *ou
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/** out += factor * a x b; a, b and out shape [3], out not aliased; unit of out: product of theirs. */
+static inline void mor_vector_cross_add(double factor, const double *a, const double *b, double *out)
+{
+    out[0] += factor * (a[1] * b[2] - a[2] * b[1]);
+    out[1] += factor * (a[2] * b[0] - a[0] * b[2]);
+    out[2] += factor * (a[0] * b[1] - a[1] * b[0]);
+}
+
 /** Length of a vector, shape [3]; unit: that of the vector. */
 static inline double mor_vector_length(const double *a)
 {

@@ -90,9 +90,8 @@ static double find_simplex_size(const double (*corners)[3], int dimension)
     if (dimension == 2) {
         return 0.5 * fabs(edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]);
     }
-    const double normal[3] = {edge[0][1] * edge[1][2] - edge[0][2] * edge[1][1],
-                              edge[0][2] * edge[1][0] - edge[0][0] * edge[1][2],
-                              edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]};
+    double normal[3];
+    mor_vector_cross(edge[0], edge[1], normal);
     return fabs(mor_vector_dot(normal, edge[2])) / 6.0;
 }
 
@@ -121,7 +120,7 @@ static void add_simplex(double *sum, const double (*corners)[3], int dimension, 
 static void add_layer(const moment_search *search, double *sum, const double (*corners)[3])
 {
     const int n = search->dimension;
-    double normal[3] = {0.0};
+    double normal[3];
     double edge[2][3];
     if (!search->has_layers) {
         return;
@@ -131,12 +130,11 @@ static void add_layer(const moment_search *search, double *sum, const double (*c
             edge[k - 1][a] = corners[k][a] - corners[0][a];
         }
     }
-    for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3;
-        const int c = (a + 2) % 3;
-        normal[a] = n == 2 ? edge[0][a] : 0.5 * (edge[0][b] * edge[1][c] - edge[0][c] * edge[1][b]);
+    double size = mor_vector_length(edge[0]);
+    if (n == 3) {
+        mor_vector_cross(edge[0], edge[1], normal);
+        size = 0.5 * mor_vector_length(normal);
     }
-    const double size = mor_vector_length(normal);
     const double near = n == 2 ? 0.5 + 0.5 / sqrt(3.0) : 0.5;
     for (int k = 0; k < n; ++k) {
         double place[3];

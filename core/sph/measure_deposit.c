@@ -35,10 +35,8 @@ static void widen(value_range *range, double value)
 static mor_status find_ranges(mor_context *context, const mor_measure_points *points, const mor_measure_frame *frame,
                               value_range *distances, value_range *sides)
 {
-    const double *up = frame->up;
-    const double *ahead = frame->direction;
-    const double side[3] = {up[1] * ahead[2] - up[2] * ahead[1], up[2] * ahead[0] - up[0] * ahead[2],
-                            up[0] * ahead[1] - up[1] * ahead[0]};
+    double side[3];
+    mor_vector_cross(frame->up, frame->direction, side);
     *distances = (value_range){INFINITY, -INFINITY};
     *sides = (value_range){INFINITY, -INFINITY};
     for (int64_t i = 0; i < points->n_points; ++i) {
@@ -52,8 +50,8 @@ static mor_status find_ranges(mor_context *context, const mor_measure_points *po
     return MOR_OK;
 }
 
-static mor_status check_profile(mor_context *context, const mor_measure_points *points,
-                                const mor_measure_frame *frame, double bin_width, double breadth)
+static mor_status check_profile(mor_context *context, const mor_measure_points *points, const mor_measure_frame *frame,
+                                double bin_width, double breadth)
 {
     MOR_TRY(context, mor_measure_check_points(context, points));
     MOR_TRY(context, mor_measure_check_frame(context, frame));

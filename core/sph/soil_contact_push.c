@@ -206,11 +206,7 @@ static void sum_patch(mor_soil_contact *contact, int patch, const double *record
                 part[a] = repulsion != NULL ? mass * push[a] + repulsion[a] : mass * push[a];
                 force[a] -= part[a];
             }
-            for (int a = 0; a < 3; ++a) {
-                const int b = (a + 1) % 3;
-                const int c = (a + 2) % 3;
-                moment[a] -= record[b] * part[c] - record[c] * part[b];
-            }
+            mor_vector_cross_add(-1.0, record, part, moment);
         }
     }
     memcpy(contact->boundary->patches[patch].force, force, sizeof force);

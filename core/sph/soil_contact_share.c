@@ -80,11 +80,7 @@ static void measure_patch(const double *records, int64_t n, double *center, doub
 static void add_moment(const double *place, const double *center, const double *force, double *moment)
 {
     const double s[3] = {place[0] - center[0], place[1] - center[1], place[2] - center[2]};
-    for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3;
-        const int c = (a + 2) % 3;
-        moment[a] += s[b] * force[c] - s[c] * force[b];
-    }
+    mor_vector_cross_add(1.0, s, force, moment);
 }
 
 /* Solves inertia * turn = moment; false for a patch that cannot carry a moment. In plane strain it is about z. */
@@ -156,11 +152,7 @@ static void restore_moment(const mor_soil_contact *contact, int patch, const dou
     for (int64_t j = 0; j < n; ++j) {
         const double *record = points + MOR_BOUNDARY_RECORD * j;
         const double s[3] = {record[0] - center[0], record[1] - center[1], record[2] - center[2]};
-        for (int a = 0; a < 3; ++a) {
-            const int b = (a + 1) % 3;
-            const int c = (a + 2) % 3;
-            force[3 * j + a] += record[MOR_BOUNDARY_VOLUME] * (turn[b] * s[c] - turn[c] * s[b]);
-        }
+        mor_vector_cross_add(record[MOR_BOUNDARY_VOLUME], turn, s, force + 3 * j);
     }
 }
 

@@ -200,9 +200,7 @@ static void find_spin_stress(mor_soil *soil, int64_t i)
         mor_symmetric_apply(s, v, turned);
         /* Without neighbors in this plane there is no moment either. */
         const double part = sum > 0.0 ? mor_vector_dot(u, turned) * (values[b] - values[a]) / sum : 0.0;
-        for (int k = 0; k < 3; ++k) {
-            spin[k] += part * (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
-        }
+        mor_vector_cross_add(part, u, v, spin);
     }
 }
 

@@ -11,13 +11,6 @@
 static const double automatic_azimuth = -60.0 * MOR_PI / 180.0;
 static const double automatic_elevation = 25.0 * MOR_PI / 180.0;
 
-static void compute_cross(const double *a, const double *b, double *out)
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* Two scalings: the length of a very short or very long vector would otherwise under- or overflow. */
 static void normalize(const double *a, double *out)
 {
@@ -46,7 +39,7 @@ void mor_camera_horizon(const double *up, double *first, double *second)
     double flat[3];
     project_out(fabs(up[0]) < 0.9 ? x : y, up, flat);
     normalize(flat, first);
-    compute_cross(up, first, second);
+    mor_vector_cross(up, first, second);
 }
 
 void mor_camera_orient(mor_camera *camera, const double *view, const double *up)
@@ -70,7 +63,7 @@ void mor_camera_orient(mor_camera *camera, const double *view, const double *up)
     const bool is_overhead = fabs(mor_vector_dot(zenith, camera->toward)) > 1.0 - 1e-9;
     project_out(is_overhead ? second : zenith, camera->toward, flat);
     normalize(flat, camera->up);
-    compute_cross(camera->up, camera->toward, camera->right);
+    mor_vector_cross(camera->up, camera->toward, camera->right);
 }
 
 void mor_camera_extent_init(mor_camera_extent *extent)
