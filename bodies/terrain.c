@@ -18,6 +18,16 @@ double mor_terrain_end(const mor_terrain *terrain, int axis)
     return terrain->origin[axis] + ((axis == 0 ? terrain->n_x : terrain->n_y) - 1) * terrain->cell[axis];
 }
 
+void mor_terrain_range(const mor_terrain *terrain, double *lowest, double *highest)
+{
+    *lowest = INFINITY;
+    *highest = -INFINITY;
+    for (int64_t n = 0; n < (int64_t)terrain->n_x * terrain->n_y; ++n) {
+        *lowest = fmin(*lowest, terrain->heights[n]);
+        *highest = fmax(*highest, terrain->heights[n]);
+    }
+}
+
 mor_status mor_terrain_check(mor_context *context, const mor_terrain *terrain)
 {
     MOR_CHECK(context, terrain->heights != NULL && terrain->n_x >= 2 && terrain->n_y >= 2, MOR_ERROR_ARGUMENT,
@@ -200,24 +210,21 @@ mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *ter
     MOR_TRY(context, mor_terrain_check(context, terrain));
     MOR_CHECK(context, reach > 0.0 && isfinite(reach), MOR_ERROR_ARGUMENT,
               "the reach of exact distances is %g m: give a length above zero", reach);
-    *surface = (mor_terrain_surface){*terrain, reach, 0.0, INFINITY, -INFINITY};
+    *surface = (mor_terrain_surface){*terrain, reach, 0.0, 0.0, 0.0};
     surface->terrain.heights = NULL;
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
     MOR_TRY(context, MOR_NEW(context, &surface->terrain.heights, n_nodes, "terrain heights"));
     memcpy(surface->terrain.heights, terrain->heights, (size_t)n_nodes * sizeof *terrain->heights);
+    mor_terrain_range(terrain, &surface->lowest, &surface->highest);
     double steepest2 = 0.0;
-    for (int row = 0; row < terrain->n_y; ++row) {
-        for (int column = 0; column < terrain->n_x; ++column) {
+    for (int row = 0; row + 1 < terrain->n_y; ++row) {
+        for (int column = 0; column + 1 < terrain->n_x; ++column) {
+            /* Whichever way the square is cut, no triangle is steeper than its steeper sides together. */
             const double *at = terrain->heights + (int64_t)row * terrain->n_x + column;
-            surface->lowest = fmin(surface->lowest, at[0]);
-            surface->highest = fmax(surface->highest, at[0]);
-            if (column + 1 < terrain->n_x && row + 1 < terrain->n_y) {
-                /* Whichever way the square is cut, no triangle is steeper than its steeper sides together. */
-                const double x = fmax(fabs(at[1] - at[0]), fabs(at[terrain->n_x + 1] - at[terrain->n_x]));
-                const double y = fmax(fabs(at[terrain->n_x] - at[0]), fabs(at[terrain->n_x + 1] - at[1]));
-                const double slope[2] = {x / terrain->cell[0], y / terrain->cell[1]};
-                steepest2 = fmax(steepest2, slope[0] * slope[0] + slope[1] * slope[1]);
-            }
+            const double x = fmax(fabs(at[1] - at[0]), fabs(at[terrain->n_x + 1] - at[terrain->n_x]));
+            const double y = fmax(fabs(at[terrain->n_x] - at[0]), fabs(at[terrain->n_x + 1] - at[1]));
+            const double slope[2] = {x / terrain->cell[0], y / terrain->cell[1]};
+            steepest2 = fmax(steepest2, slope[0] * slope[0] + slope[1] * slope[1]);
         }
     }
     surface->stretch = sqrt(1.0 + steepest2);

@@ -58,6 +58,12 @@ void mor_terrain_clear(mor_context *context, mor_terrain *terrain);
  *  Threads: safe to call concurrently. */
 double mor_terrain_height(const mor_terrain *terrain, double x, double y);
 
+/** Finds the range of the heights, unit m. Nodes without data do not count; without any the range is empty.
+ *  @param terrain [in]   one object
+ *  @param lowest  [out]  one number, unit m
+ *  @param highest [out]  one number, unit m */
+void mor_terrain_range(const mor_terrain *terrain, double *lowest, double *highest);
+
 /** Makes the ground as a shape: solid below the surface, down to `thickness` under its lowest point, with vertical
  *  sides at the raster's edge. Distances are exact within `reach` of the surface, beyond it a lower bound.
  *  @param context   [in,out]  one object

@@ -82,12 +82,10 @@ mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain)
 {
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
     int64_t n_holes = 0;
-    double lowest = INFINITY;
-    double highest = -INFINITY;
+    double lowest;
+    double highest;
     for (int64_t n = 0; n < n_nodes; ++n) {
         n_holes += isnan(terrain->heights[n]);
-        lowest = fmin(lowest, terrain->heights[n]);
-        highest = fmax(highest, terrain->heights[n]);
     }
     if (n_holes == 0) {
         return MOR_OK;
@@ -105,6 +103,7 @@ mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain)
                 holes[at++] = n;
             }
         }
+        mor_terrain_range(terrain, &lowest, &highest);
         guess_holes(terrain, holes, n_holes, next);
         solve_holes(terrain, holes, n_holes, highest - lowest);
         mor_context_log(context, MOR_LOG_INFO, "terrain: %lld of %lld nodes without data filled from their rims",

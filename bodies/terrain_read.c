@@ -275,12 +275,9 @@ static mor_status mend_holes(mor_context *context, const mor_terrain_request *re
 /* Heights in meters over an extent in degrees. */
 static bool may_be_degrees(const mor_terrain *terrain)
 {
-    double lowest = INFINITY;
-    double highest = -INFINITY;
-    for (int64_t n = 0; n < (int64_t)terrain->n_x * terrain->n_y; ++n) {
-        lowest = fmin(lowest, terrain->heights[n]);
-        highest = fmax(highest, terrain->heights[n]);
-    }
+    double lowest;
+    double highest;
+    mor_terrain_range(terrain, &lowest, &highest);
     const double extent =
         fmax(mor_terrain_end(terrain, 0) - terrain->origin[0], mor_terrain_end(terrain, 1) - terrain->origin[1]);
     return terrain->datum[0] == '\0' && highest - lowest > LIKELY_DEGREES * extent;
@@ -322,12 +319,9 @@ static mor_status check_steps(mor_context *context, const mor_terrain_request *r
 static void subtract_offset(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain)
 {
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
-    double lowest = INFINITY;
-    double highest = -INFINITY;
-    for (int64_t n = 0; n < n_nodes; ++n) {
-        lowest = fmin(lowest, terrain->heights[n]);
-        highest = fmax(highest, terrain->heights[n]);
-    }
+    double lowest;
+    double highest;
+    mor_terrain_range(terrain, &lowest, &highest);
     const double chosen[3] = {terrain->origin[0], terrain->origin[1], lowest};
     for (int a = 0; a < 3; ++a) {
         terrain->offset[a] = isnan(request->offset[a]) ? chosen[a] : request->offset[a];

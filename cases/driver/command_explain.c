@@ -128,12 +128,9 @@ static void print_ground(FILE *out, const mor_case_wall *wall)
     if (it == NULL) {
         return;
     }
-    double lowest = INFINITY;
-    double highest = -INFINITY;
-    for (int64_t n = 0; n < (int64_t)it->n_x * it->n_y; ++n) {
-        lowest = fmin(lowest, it->heights[n]);
-        highest = fmax(highest, it->heights[n]);
-    }
+    double lowest;
+    double highest;
+    mor_terrain_range(it, &lowest, &highest);
     fprintf(out, "  ground '%s': %d x %d nodes of %g m", wall->name, it->n_x, it->n_y, it->cell[0]);
     if (it->cell[1] != it->cell[0]) {
         fprintf(out, " x %g m", it->cell[1]);

@@ -204,31 +204,56 @@ static mor_status write_table(mor_command *command, const filling *it, const cha
     return MOR_OK;
 }
 
-/* Particles with volume and depth, as one snapshot. */
+static double tell_volume(const filling *it, int64_t i)
+{
+    (void)i;
+    return it->points.volume;
+}
+
+static double tell_depth(const filling *it, int64_t i)
+{
+    return it->depths[i];
+}
+
+/* What the snapshot says of each particle beside its place. */
+static const struct {
+    int dimension; /* in which it does; 0: in both */
+    mor_field_info field;
+    double (*tell)(const filling *it, int64_t i);
+} columns[] = {
+    {2, {"volume", 1, "m2", "relax", MOR_FIELD_OUTPUT, "volume"}, tell_volume},
+    {3, {"volume", 1, "m3", "relax", MOR_FIELD_OUTPUT, "volume"}, tell_volume},
+    {0, {"depth", 1, "m", "relax", MOR_FIELD_OUTPUT, "distance to the surface"}, tell_depth},
+};
+
+static mor_status fill_set(mor_context *context, const filling *it, mor_set *set)
+{
+    memcpy(set->data[MOR_FIELD_POSITION], it->points.positions, 3 * (size_t)it->points.n_points * sizeof(double));
+    for (size_t k = 0; k < sizeof columns / sizeof *columns; ++k) {
+        int place = 0;
+        if (columns[k].dimension != 0 && columns[k].dimension != it->request.dimension) {
+            continue;
+        }
+        MOR_TRY(context, mor_set_add_field(context, set, &columns[k].field, &place));
+        for (int64_t i = 0; i < it->points.n_points; ++i) {
+            set->data[place][i] = columns[k].tell(it, i);
+        }
+    }
+    return MOR_OK;
+}
+
+/* The particles as one snapshot. */
 static mor_status write_snapshot(mor_command *command, const filling *it, const char *folder)
 {
     mor_context *context = command->context;
-    const mor_field_info fields[2] = {
-        {"volume", 1, it->request.dimension == 2 ? "m2" : "m3", "relax", MOR_FIELD_OUTPUT, "volume"},
-        {"depth", 1, "m", "relax", MOR_FIELD_OUTPUT, "distance to the surface"}};
     const mor_snapshot_fact facts[3] = {{"version", MOR_VERSION}, {"commit", MOR_COMMIT}, {"command", command->line}};
     const mor_snapshot_options options = {.facts = facts, .n_facts = 3};
     mor_snapshot_writer writer = {.folder = ""};
     mor_set set;
     mor_set *sets[1] = {&set};
-    int places[2] = {0};
     MOR_TRY(context, mor_set_init(context, &set, "particles", it->points.n_points, 1u << MOR_FIELD_POSITION));
-    mor_status status = MOR_OK;
-    for (int k = 0; k < 2 && status == MOR_OK; ++k) {
-        status = mor_set_add_field(context, &set, &fields[k], &places[k]);
-    }
+    mor_status status = fill_set(context, it, &set);
     if (status == MOR_OK) {
-        const size_t n = (size_t)it->points.n_points;
-        memcpy(set.data[MOR_FIELD_POSITION], it->points.positions, 3 * n * sizeof(double));
-        memcpy(set.data[places[1]], it->depths, n * sizeof(double));
-        for (size_t i = 0; i < n; ++i) {
-            set.data[places[0]][i] = it->points.volume;
-        }
         status = mor_snapshot_writer_init(context, &writer, folder, &options, -1);
     }
     if (status == MOR_OK) {

@@ -204,14 +204,14 @@ static mor_status total_energy(mor_context *context, const view *v, double *valu
 static mor_status energy_left(mor_context *context, const view *v, double *value)
 {
     MOR_TRY(context, total_energy(context, v, value));
-    *value /= v->simulation->initial_energy + find_offset(v);
+    *value /= mor_simulation_initial_energy(v->simulation) + find_offset(v);
     return MOR_OK;
 }
 
 static mor_status dissipated_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
-    *value = v->simulation->initial_energy - mor_simulation_energy(v->simulation, NULL);
+    *value = mor_simulation_initial_energy(v->simulation) - mor_simulation_energy(v->simulation, NULL);
     return MOR_OK;
 }
 

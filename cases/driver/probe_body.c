@@ -211,7 +211,7 @@ static mor_status bodies_energy_balance(mor_context *context, const view *v, dou
     const mor_contact *contact = &v->simulation->bodies.contact;
     MOR_TRY(context, bodies_damped_energy(context, v, value));
     *value += contact->friction_energy + contact->damping_energy + mor_simulation_energy(v->simulation, NULL);
-    *value /= v->simulation->initial_energy;
+    *value /= mor_simulation_initial_energy(v->simulation);
     return MOR_OK;
 }
 

@@ -310,7 +310,6 @@ static void list_state(mor_simulation *s, saved_state *state)
         {"soil_largest_acceleration", MOR_HDF5_DOUBLE, 1, &s->soil.largest_acceleration},
         {"soil_wall_force", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_force},
         {"soil_wall_impulse", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_impulse},
-        {"initial_energy", MOR_HDF5_DOUBLE, 1, &s->initial_energy},
         {"initial_energies", MOR_HDF5_DOUBLE, 3, s->initial_energies},
         {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},
         {"probe_extremes", MOR_HDF5_DOUBLE, MOR_CASE_PROBES_MAX, s->extremes},

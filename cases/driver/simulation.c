@@ -20,6 +20,15 @@ void mor_simulation_place_point(const mor_case *the_case, const double *point, d
     }
 }
 
+void mor_simulation_take_point_back(const mor_case *the_case, const double *placed, double *point)
+{
+    double moved[3];
+    for (int a = 0; a < 3; ++a) {
+        moved[a] = placed[a] - the_case->move[a];
+    }
+    mor_matrix_apply_transposed(the_case->turn, moved, point);
+}
+
 void mor_simulation_find_up(const mor_case *the_case, double *up)
 {
     const double fallback[3] = {0.0, the_case->dimension == 2 ? 1.0 : 0.0, the_case->dimension == 2 ? 0.0 : 1.0};
@@ -117,12 +126,8 @@ static mor_status check_overlap(mor_context *context, const mor_case *the_case, 
         int64_t n_inside = 0;
         double first[3] = {0.0, 0.0, 0.0};
         for (int64_t i = 0; i < points->n_points; ++i) {
-            double moved[3];
             double point[3];
-            for (int a = 0; a < 3; ++a) {
-                moved[a] = points->positions[3 * i + a] - the_case->move[a];
-            }
-            mor_matrix_apply_transposed(the_case->turn, moved, point);
+            mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
             if (shape->operations->distance(shape, point) < 0.0 && n_inside++ == 0) {
                 memcpy(first, point, sizeof first);
             }

@@ -31,8 +31,7 @@ typedef struct mor_simulation {
     mor_schedule schedule;
     double up[3];                         /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
     double surface_height;                /* of the initial soil along up over the placed origin, m */
-    double initial_energy;                /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
-    double initial_energies[3];           /* these by themselves, J (J/m in 2D) */
+    double initial_energies[3];           /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     double extremes[MOR_CASE_PROBES_MAX]; /* largest value so far of probes that ask for it, unit of the probe */
 } mor_simulation;
 
@@ -67,6 +66,12 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
  *  @param point    [in]   shape [3], unit m
  *  @param placed   [out]  shape [3], unit m; may not alias point */
 void mor_simulation_place_point(const mor_case *the_case, const double *point, double *placed);
+
+/** Maps a point of the placed frame back into that of the case.
+ *  @param the_case [in]   one object
+ *  @param placed   [in]   shape [3], unit m
+ *  @param point    [out]  shape [3], unit m */
+void mor_simulation_take_point_back(const mor_case *the_case, const double *placed, double *point);
 
 /** Finds the direction against gravity in the placed frame; without gravity y (2D) or z (3D) of the case, turned.
  *  @param the_case [in]   one object
@@ -107,6 +112,13 @@ int64_t mor_simulation_particles(const mor_simulation *simulation);
  *  @param has_history [in]  whether the contact's memory is wanted, which has no places
  *  Returns: their number. */
 int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **sets);
+
+/** The total energy at time zero, unit J (J/m in 2D).
+ *  @param simulation [in]  one object */
+static inline double mor_simulation_initial_energy(const mor_simulation *simulation)
+{
+    return simulation->initial_energies[0] + simulation->initial_energies[1] + simulation->initial_energies[2];
+}
 
 /** Kinetic, potential and elastic energy of soil and rocks now, unit J (J/m in 2D); potential energy counts from the
  *  placed origin.

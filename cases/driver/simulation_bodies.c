@@ -102,15 +102,21 @@ static void set_motion(const mor_case *c, const mor_case_body *it, const mor_bod
     }
 }
 
-/* One group in the making. */
+/* One group in the making. Zeroed before each. */
 typedef struct recipe {
     int members[MOR_CASE_BODIES_MAX]; /* numbers in the case */
     int n_members;
     mor_lattice_points points[MOR_CASE_BODIES_MAX];
     mor_body_request requests[MOR_CASE_BODIES_MAX];
     mor_rigid_motion motions[MOR_CASE_BODIES_MAX];
-    mor_point_cache *cache; /* borrowed; of all groups */
 } recipe;
+
+/* What the groups are made with. */
+typedef struct workshop {
+    const mor_registry *registry; /* borrowed */
+    mor_point_cache cache;        /* of all groups */
+    recipe recipe;
+} workshop;
 
 static void name_group(const mor_simulation_bodies *bodies, const char *model, char *name, size_t room)
 {
@@ -239,29 +245,28 @@ static mor_status try_thinnest(mor_context *context, const mor_case *c, mor_poin
 }
 
 /* The group of one body and of all later bodies of its material. */
-static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
-                             const mor_registry *registry, int leader, recipe *r)
+static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, int leader,
+                             workshop *shop)
 {
+    recipe *r = &shop->recipe;
     const mor_case_body *first = &c->bodies[leader];
     const mor_material *material = NULL;
     mor_status status = MOR_OK;
-    mor_point_cache *const cache = r->cache;
     MOR_CHECK(context, bodies->n_groups < MOR_BODY_GROUPS_MAX, MOR_ERROR_CONFIG,
               "%s:%d: found body '%s' of one more material; allowed are %d materials of bodies, all rigid bodies "
               "counting as one; give some bodies the same material",
               first->place.file, first->place.line, first->name, MOR_BODY_GROUPS_MAX);
     if (!mor_case_body_is_rigid(first)) {
-        MOR_TRY(context, mor_registry_require(context, registry, first->model, &material));
+        MOR_TRY(context, mor_registry_require(context, shop->registry, first->model, &material));
     }
     memset(r, 0, sizeof *r);
-    r->cache = cache;
     for (int b = leader; b < c->n_bodies && status == MOR_OK; ++b) {
         const mor_case_body *it = &c->bodies[b];
         if (b == leader ||
             (mor_case_body_is_rigid(first) ? mor_case_body_is_rigid(it) : has_same_material(first, it))) {
             const int m = r->n_members++;
             r->members[m] = b;
-            status = make_request(context, c, it, cache, &r->points[m], &r->requests[m]);
+            status = make_request(context, c, it, &shop->cache, &r->points[m], &r->requests[m]);
         }
     }
     if (status == MOR_OK) {
@@ -455,26 +460,21 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
 static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
                               const mor_registry *registry)
 {
-    recipe *r = NULL;
-    mor_point_cache *cache = NULL;
-    MOR_TRY(context, MOR_NEW(context, &cache, 1, "cache of particles"));
-    mor_status status = MOR_NEW(context, &r, 1, "groups of bodies");
-    mor_point_cache_init(cache, NULL);
-    if (status == MOR_OK) {
-        r->cache = cache;
-        status = try_thinnest(context, c, cache);
-    }
+    workshop *shop = NULL;
+    MOR_TRY(context, MOR_NEW(context, &shop, 1, "groups of bodies"));
+    shop->registry = registry;
+    mor_point_cache_init(&shop->cache, NULL);
+    mor_status status = try_thinnest(context, c, &shop->cache);
     /* Elastic groups first, so that the rigid one is the last. */
     for (int pass = 0; pass < 2; ++pass) {
         for (int b = 0; b < c->n_bodies && status == MOR_OK; ++b) {
             if (mor_case_body_is_rigid(&c->bodies[b]) == (pass == 1) && bodies->of[b].group == NULL) {
-                status = make_group(context, bodies, c, registry, b, r);
+                status = make_group(context, bodies, c, b, shop);
             }
         }
     }
-    mor_point_cache_clear(context, cache);
-    MOR_FREE(context, &cache);
-    MOR_FREE(context, &r);
+    mor_point_cache_clear(context, &shop->cache);
+    MOR_FREE(context, &shop);
     return status;
 }
 

@@ -4,6 +4,7 @@
 #include "cases/driver/simulation_bodies.h"
 
 #include "bodies/body_surface.h"
+#include "cases/driver/simulation.h"
 #include "core/base/math.h"
 
 #include <string.h>
@@ -149,13 +150,11 @@ static int64_t set_elastic(const mor_case *c, const mor_case_body *it, const mor
         const double *reference = group->reference + 3 * i;
         double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
         double scene[3];
-        double moved[3];
         double arm[3];
         for (int a = 0; a < 3; ++a) {
-            moved[a] = reference[a] - c->move[a];
             arm[a] = group->set.data[MOR_FIELD_POSITION][3 * i + a] - own->center[a];
         }
-        mor_matrix_apply_transposed(c->turn, moved, scene);
+        mor_simulation_take_point_back(c, reference, scene);
         const bool is_clamped = it->clamp != NULL && it->clamp->operations->distance(it->clamp, scene) < 0.0;
         n_clamped += is_clamped;
         body->elastic->held[i] = is_clamped || is_held;

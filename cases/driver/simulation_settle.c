@@ -174,7 +174,6 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         simulation->schedule.n_particle_steps = 0;
     }
     mor_soil_restart_energy(soil);
-    simulation->initial_energy = mor_simulation_energy(simulation, NULL);
     mor_simulation_energies(simulation, simulation->initial_energies);
     return MOR_OK;
 }

@@ -3,7 +3,7 @@
 #include "cases/driver/simulation_terrain.h"
 
 #include "bodies/terrain.h"
-#include "core/base/math.h"
+#include "cases/driver/simulation.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
 
@@ -26,10 +26,7 @@ static void place_points(const mor_case *the_case, mor_lattice_points *points)
     for (int64_t i = 0; i < points->n_points; ++i) {
         double *at = points->positions + 3 * i;
         const double point[3] = {at[0], at[1], at[2]};
-        mor_matrix_apply(the_case->turn, point, at);
-        for (int a = 0; a < 3; ++a) {
-            at[a] += the_case->move[a];
-        }
+        mor_simulation_place_point(the_case, point, at);
     }
 }
 
@@ -82,12 +79,9 @@ mor_status mor_simulation_fill_release(mor_context *context, const mor_case *the
 /* Heights between contour lines: a tenth or so of the relief, one of 1, 2, 5 times a power of ten. */
 static double choose_interval(const mor_terrain *terrain)
 {
-    double lowest = INFINITY;
-    double highest = -INFINITY;
-    for (int64_t n = 0; n < (int64_t)terrain->n_x * terrain->n_y; ++n) {
-        lowest = fmin(lowest, terrain->heights[n]);
-        highest = fmax(highest, terrain->heights[n]);
-    }
+    double lowest;
+    double highest;
+    mor_terrain_range(terrain, &lowest, &highest);
     const double wanted = (highest - lowest) / CONTOURS;
     const double power = pow(10.0, floor(log10(wanted)));
     return wanted > 0.0 ? power * (wanted > 5.0 * power ? 10.0 : wanted > 2.0 * power ? 5.0 : 2.0) : INFINITY;
@@ -120,12 +114,8 @@ mor_status mor_simulation_light_terrain(mor_context *context, const mor_case *th
     const double interval = choose_interval(terrain);
     MOR_TRY(context, MOR_NEW(context, light, points->n_points, "light of a terrain"));
     for (int64_t i = 0; i < points->n_points; ++i) {
-        double moved[3];
         double point[3];
-        for (int a = 0; a < 3; ++a) {
-            moved[a] = points->positions[3 * i + a] - the_case->move[a];
-        }
-        mor_matrix_apply_transposed(the_case->turn, moved, point);
+        mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
         (*light)[i] = find_light(terrain, the_case->spacing, interval, point);
     }
     return MOR_OK;

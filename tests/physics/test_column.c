@@ -62,7 +62,7 @@ static void column_loses_energy_as_an_independent_program_says(void **state)
 static void column_comes_to_rest(void **state)
 {
     column *c = *state;
-    const double share = scene_probe(c->it, "kinetic_energy") / c->it->simulation.initial_energy;
+    const double share = scene_probe(c->it, "kinetic_energy") / mor_simulation_initial_energy(&c->it->simulation);
     scene_expect_near("kinetic share of the energy", share, 0.0, 1e-3); /* stray grains roll on */
 }
 
