@@ -174,25 +174,13 @@ static bool project(const cover *c, double *point)
     return fabs(gap) <= FAR_OFF * spacing;
 }
 
-/* Solves a symmetric positive system of three by Cramer's rule. */
-static void solve_dense(const double *m, const double *b, double *x)
-{
-    const double r[6] = {m[4] * m[8] - m[5] * m[5], m[0] * m[8] - m[2] * m[2], m[0] * m[4] - m[1] * m[1],
-                         m[2] * m[5] - m[1] * m[8], m[1] * m[2] - m[0] * m[5], m[1] * m[5] - m[2] * m[4]};
-    const double determinant = m[0] * r[0] + m[1] * r[3] + m[2] * r[5];
-    mor_symmetric_apply(r, b, x);
-    for (int a = 0; a < 3; ++a) {
-        x[a] /= determinant;
-    }
-}
-
 /* Pulls a node to the edge or corner next to it: the place nearest to the tangent planes around it. Returns whether
  * there is one. */
 static bool sharpen(const cover *c, double *point)
 {
     const int dimension = c->group->dimension;
     const double spacing = c->group->spacing;
-    double normals[6][3], m[9] = {0.0}, b[3] = {0.0}, best[3];
+    double normals[6][3], m[6] = {0.0}, b[3] = {0.0}, best[3];
     double smallest = 1.0;
     for (int k = 0; k < 2 * dimension; ++k) {
         double q[3] = {point[0], point[1], point[2]};
@@ -207,20 +195,22 @@ static bool sharpen(const cover *c, double *point)
         const double along = mor_vector_dot(normals[k], q) - mor_vector_dot(normals[k], point);
         for (int a = 0; a < 3; ++a) {
             b[a] += normals[k][a] * along;
-            for (int d = 0; d < 3; ++d) {
-                m[3 * a + d] += normals[k][a] * normals[k][d];
-            }
+            m[a] += normals[k][a] * normals[k][a];
+            m[3 + a] += normals[k][a] * normals[k][(a + 1) % 3];
         }
     }
     for (int a = 0; a < 3; ++a) {
-        m[4 * a] += EDGE_STAY;
+        m[a] += EDGE_STAY;
     }
     if (smallest >= EDGE_COSINE) {
         return false;
     }
     double move[3];
-    solve_dense(m, b, move);
+    double cofactors[6];
+    const double determinant = mor_symmetric_cofactors(m, cofactors);
+    mor_symmetric_apply(cofactors, b, move);
     for (int a = 0; a < 3; ++a) {
+        move[a] /= determinant;
         best[a] = point[a] + (a < dimension ? move[a] : 0.0);
     }
     if (mor_vector_length(move) < EDGE_REACH * spacing && project(c, best)) {

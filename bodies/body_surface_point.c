@@ -72,13 +72,7 @@ static void offset_from(const double *positions, int32_t particle, const double 
 /* Inverts a symmetric tensor of length-free numbers; false when it is nearly flat. */
 static bool invert_covariance(const double *c, double size, double *r)
 {
-    r[0] = c[1] * c[2] - c[4] * c[4];
-    r[1] = c[0] * c[2] - c[5] * c[5];
-    r[2] = c[0] * c[1] - c[3] * c[3];
-    r[3] = c[5] * c[4] - c[3] * c[2];
-    r[4] = c[3] * c[5] - c[0] * c[4];
-    r[5] = c[3] * c[4] - c[5] * c[1];
-    const double determinant = c[0] * r[0] + c[3] * r[3] + c[5] * r[5];
+    const double determinant = mor_symmetric_cofactors(c, r);
     if (!(determinant > FLATTEST * size * size * size)) {
         return false;
     }

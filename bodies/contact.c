@@ -338,16 +338,6 @@ static void find_boxes(const mor_contact *contact, double *speeds)
     }
 }
 
-static double inverse_mass(const mor_contact *contact, int second)
-{
-    if (second >= contact->work->n_bodies) {
-        return 0.0;
-    }
-    const mor_contact_body *c = &contact->work->bodies[second];
-    const mor_body *body = &c->group->bodies[c->body];
-    return body->is_held ? 0.0 : 1.0 / body->mass;
-}
-
 /* Time until two bodies can meet at the earliest, at their speeds and falling. */
 static double time_apart(double gap, double speed, double gravity)
 {
@@ -364,7 +354,9 @@ static double limit_pair(const mor_contact *contact, int own, int other, double 
     const double bedding = mor_contact_bedding(contact, first, second);
     const double face = second < work->n_bodies ? fmin(work->bodies[first].face, work->bodies[second].face) : c->face;
     const double y = work->rebound[work->law_of[mor_contact_pair_index(contact, first, second)]];
-    const double pair_rate2 = bedding * face * (inverse_mass(contact, own) + inverse_mass(contact, other)) * (1.0 + y);
+    const double pair_rate2 = bedding * face *
+                              (mor_contact_inverse_mass(contact, own) + mor_contact_inverse_mass(contact, other)) *
+                              (1.0 + y);
     double step = STEP_SHARE / sqrt(pair_rate2);
     if (c->group->kind == MOR_BODY_ELASTIC) {
         step = LAYER_SHARE / sqrt(bedding * c->softness * (1.0 + y));
@@ -392,7 +384,8 @@ static double find_longest(const mor_contact *contact, const mor_body_group *gro
         }
         double rate2 = 0.0;
         for (int other = 0; other < work->n_bodies + contact->n_walls; ++other) {
-            if (other == own || inverse_mass(contact, own) + inverse_mass(contact, other) == 0.0) {
+            if (other == own ||
+                mor_contact_inverse_mass(contact, own) + mor_contact_inverse_mass(contact, other) == 0.0) {
                 continue;
             }
             const bool is_wall = other >= work->n_bodies;

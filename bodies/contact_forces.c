@@ -33,11 +33,10 @@ static void solve_symmetric(int dimension, const double *m, const double *b, dou
         x[2] = m[MOR_ZZ] > 0.0 ? b[2] / m[MOR_ZZ] : 0.0;
         return;
     }
-    const double r[6] = {m[1] * m[2] - m[4] * m[4], m[0] * m[2] - m[5] * m[5], m[0] * m[1] - m[3] * m[3],
-                         m[5] * m[4] - m[3] * m[2], m[3] * m[5] - m[0] * m[4], m[3] * m[4] - m[5] * m[1]};
-    const double determinant = m[0] * r[0] + m[3] * r[3] + m[5] * r[5];
+    double cofactors[6];
+    const double determinant = mor_symmetric_cofactors(m, cofactors);
     if (determinant > 0.0) {
-        mor_symmetric_apply(r, b, x);
+        mor_symmetric_apply(cofactors, b, x);
         for (int a = 0; a < 3; ++a) {
             x[a] /= determinant;
         }
@@ -110,16 +109,6 @@ static void whole_velocity(const mor_contact *contact, int second, const double 
     for (int a = 0; a < 3; ++a) {
         velocity[a] += c->velocity[a];
     }
-}
-
-static double inverse_mass(const mor_contact *contact, int second)
-{
-    if (second >= contact->work->n_bodies) {
-        return 0.0;
-    }
-    const mor_contact_body *c = &contact->work->bodies[second];
-    const mor_body *body = &c->group->bodies[c->body];
-    return body->is_held ? 0.0 : 1.0 / body->mass;
 }
 
 /* Force at a place on a whole body: an elastic one is accelerated as if it were rigid. */
@@ -226,7 +215,8 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
 {
     const mor_contact_work *work = contact->work;
     const mor_contact_near *near = sums->near;
-    const double inverse = inverse_mass(contact, near->first) + inverse_mass(contact, near->second);
+    const double inverse =
+        mor_contact_inverse_mass(contact, near->first) + mor_contact_inverse_mass(contact, near->second);
     const double y = work->rebound[work->law_of[near->pair]];
     double *impact = &contact->impacts[near->pair];
     double own[3], other[3];
@@ -278,7 +268,7 @@ static int find_slot(const double *partners, double partner)
 /* Mass that a friction spring moves on one side, inverted: a share of a rigid body, the layer under an elastic node. */
 static double inverse_share(const mor_contact *contact, const pair_sums *sums, int second, double stiffness)
 {
-    const double inverse = inverse_mass(contact, second);
+    const double inverse = mor_contact_inverse_mass(contact, second);
     if (inverse == 0.0) {
         return 0.0;
     }

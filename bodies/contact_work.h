@@ -110,6 +110,19 @@ static inline int64_t mor_contact_pair_index(const mor_contact *contact, int fir
     return (int64_t)first * n - (int64_t)first * (first + 1) / 2 + (second - first - 1);
 }
 
+/** How easily a body is moved by a force: one over its mass, zero for a held one and for walls; unit 1/kg (m/kg).
+ *  @param contact [in]  one object
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
+static inline double mor_contact_inverse_mass(const mor_contact *contact, int second)
+{
+    if (second >= contact->work->n_bodies) {
+        return 0.0;
+    }
+    const mor_contact_body *c = &contact->work->bodies[second];
+    const mor_body *body = &c->group->bodies[c->body];
+    return body->is_held ? 0.0 : 1.0 / body->mass;
+}
+
 /** Stiffness of a pair per area: harmonic mean of contact modulus over spacing; against a wall the body's own.
  *  @param contact [in]  one object
  *  @param first   [in]  index of a body

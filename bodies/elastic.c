@@ -6,7 +6,6 @@
 #include "core/base/parallel.h"
 #include "core/sph/kernel.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define BIT(name) MOR_BIT(MOR_FIELD_##name)
@@ -62,20 +61,11 @@ static mor_status add_fields(mor_context *context, mor_elastic *elastic)
                                             "deformation gradient, row a column b = dx_a/dX_b"};
     static const mor_field_info rate = {
         "deformation_rate", 9, "1/s", "deformation rate", MOR_FIELD_EVOLVES, "rate of the deformation gradient"};
-    const mor_schema *state = elastic->material->material->state;
     mor_set *set = &elastic->group.set;
     MOR_TRY(context, mor_set_add_field(context, set, &gradient, &elastic->field_gradient));
     MOR_TRY(context, mor_set_add_field(context, set, &rate, &elastic->field_rate));
-    for (int k = 0; k < elastic->material->n_state; ++k) {
-        mor_field_info info = {.n_components = state[k].n_components,
-                               .unit = state[k].unit,
-                               .writer = "stress",
-                               .flags = MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT,
-                               .text = state[k].text};
-        snprintf(info.name, sizeof info.name, "%s", state[k].key);
-        MOR_TRY(context, mor_set_add_field(context, set, &info, &elastic->work->state_fields[k]));
-    }
-    return MOR_OK;
+    return mor_set_add_state(context, set, elastic->material->material->state, elastic->material->n_state,
+                             elastic->work->state_fields);
 }
 
 /* Calls an operation for [first, first + n) with everything a material may ask for. */

@@ -66,6 +66,20 @@ static inline void mor_symmetric_apply(const double *tensor, const double *a, do
     out[2] = tensor[MOR_ZX] * a[0] + tensor[MOR_YZ] * a[1] + tensor[MOR_ZZ] * a[2];
 }
 
+/** Cofactors of a symmetric tensor, both shape [6], not aliased; unit: square of the tensor's. Returns its determinant,
+ *  unit: cube of the tensor's; cofactors / determinant is the inverse. */
+static inline double mor_symmetric_cofactors(const double *tensor, double *cofactors)
+{
+    const double *m = tensor;
+    cofactors[MOR_XX] = m[MOR_YY] * m[MOR_ZZ] - m[MOR_YZ] * m[MOR_YZ];
+    cofactors[MOR_YY] = m[MOR_XX] * m[MOR_ZZ] - m[MOR_ZX] * m[MOR_ZX];
+    cofactors[MOR_ZZ] = m[MOR_XX] * m[MOR_YY] - m[MOR_XY] * m[MOR_XY];
+    cofactors[MOR_XY] = m[MOR_ZX] * m[MOR_YZ] - m[MOR_XY] * m[MOR_ZZ];
+    cofactors[MOR_YZ] = m[MOR_XY] * m[MOR_ZX] - m[MOR_XX] * m[MOR_YZ];
+    cofactors[MOR_ZX] = m[MOR_XY] * m[MOR_YZ] - m[MOR_ZX] * m[MOR_YY];
+    return m[MOR_XX] * cofactors[MOR_XX] + m[MOR_XY] * cofactors[MOR_XY] + m[MOR_ZX] * cofactors[MOR_ZX];
+}
+
 /** Trace of a symmetric tensor, shape [6]; unit: that of the tensor. */
 static inline double mor_symmetric_trace(const double *tensor)
 {

@@ -5,6 +5,7 @@
 #include "core/base/memory.h"
 #include "core/base/random.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Room behind the last particle, so that vector code may read whole clusters. */
@@ -63,6 +64,20 @@ mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field
     set->fields[field] = *info;
     set->n_fields += 1;
     *index = field;
+    return MOR_OK;
+}
+
+mor_status mor_set_add_state(mor_context *context, mor_set *set, const mor_schema *state, int n_state, int *fields)
+{
+    for (int k = 0; k < n_state; ++k) {
+        mor_field_info info = {.n_components = state[k].n_components,
+                               .unit = state[k].unit,
+                               .writer = "stress",
+                               .flags = MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT,
+                               .text = state[k].text};
+        snprintf(info.name, sizeof info.name, "%s", state[k].key);
+        MOR_TRY(context, mor_set_add_field(context, set, &info, &fields[k]));
+    }
     return MOR_OK;
 }
 

@@ -4,6 +4,7 @@
 #define MOR_CORE_PARTICLE_SET_H
 
 #include "core/base/context.h"
+#include "core/base/schema.h"
 #include "core/particle/field.h"
 
 /** @file
@@ -47,6 +48,15 @@ void mor_set_clear(mor_context *context, mor_set *set);
  *  @param index   [out]     one number; the index of the field in set->data
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when the name is taken or the table is full; MOR_ERROR_MEMORY. */
 mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field_info *info, int *index);
+
+/** Adds the state of a material as fields that evolve, are written by the stage "stress" and come out.
+ *  @param context [in,out]  one object
+ *  @param set     [in,out]  one object
+ *  @param state   [in]      shape [n_state]
+ *  @param n_state [in]      number of variables
+ *  @param fields  [out]     shape [n_state]; indices of the fields in set->data
+ *  Returns: as mor_set_add_field. */
+mor_status mor_set_add_state(mor_context *context, mor_set *set, const mor_schema *state, int n_state, int *fields);
 
 /** Returns the index of a field by name, or -1.
  *  @param set  [in]  one object

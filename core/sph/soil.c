@@ -7,7 +7,6 @@
 #include "core/base/parallel.h"
 #include "core/sph/kernel.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define BIT(name) MOR_BIT(MOR_FIELD_##name)
@@ -118,21 +117,6 @@ static void set_constants(mor_soil *soil)
     }
 }
 
-static mor_status add_state_fields(mor_context *context, mor_soil *soil)
-{
-    const mor_schema *state = soil->material->material->state;
-    for (int k = 0; k < soil->material->n_state; ++k) {
-        mor_field_info info = {.n_components = state[k].n_components,
-                               .unit = state[k].unit,
-                               .writer = "stress",
-                               .flags = MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT,
-                               .text = state[k].text};
-        snprintf(info.name, sizeof info.name, "%s", state[k].key);
-        MOR_TRY(context, mor_set_add_field(context, &soil->set, &info, &soil->state_fields[k]));
-    }
-    return MOR_OK;
-}
-
 /* The wave speed of the unstressed material; it sets the step and the impedance, eq. 22. */
 static mor_status find_sound_speed(mor_context *context, mor_soil *soil)
 {
@@ -203,7 +187,8 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     fields &= settings->has_reconstruction ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
-        status = add_state_fields(context, soil);
+        status =
+            mor_set_add_state(context, &soil->set, material->material->state, material->n_state, soil->state_fields);
     }
     if (status == MOR_OK) {
         status = find_sound_speed(context, soil);

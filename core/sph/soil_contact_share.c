@@ -93,16 +93,12 @@ static bool find_turn(const double *inertia, const double *moment, int dimension
         turn[2] = m[MOR_ZZ] > 0.0 ? moment[2] / m[MOR_ZZ] : 0.0;
         return m[MOR_ZZ] > 0.0;
     }
-    const double cofactor[6] = {
-        m[MOR_YY] * m[MOR_ZZ] - m[MOR_YZ] * m[MOR_YZ], m[MOR_ZZ] * m[MOR_XX] - m[MOR_ZX] * m[MOR_ZX],
-        m[MOR_XX] * m[MOR_YY] - m[MOR_XY] * m[MOR_XY], m[MOR_YZ] * m[MOR_ZX] - m[MOR_XY] * m[MOR_ZZ],
-        m[MOR_XY] * m[MOR_ZX] - m[MOR_YZ] * m[MOR_XX], m[MOR_XY] * m[MOR_YZ] - m[MOR_ZX] * m[MOR_YY]};
-    const double determinant =
-        m[MOR_XX] * cofactor[MOR_XX] + m[MOR_XY] * cofactor[MOR_XY] + m[MOR_ZX] * cofactor[MOR_ZX];
+    double cofactors[6];
+    const double determinant = mor_symmetric_cofactors(m, cofactors);
     if (!(determinant > SMALLEST_INERTIA * trace * trace * trace)) {
         return false;
     }
-    mor_symmetric_apply(cofactor, moment, turn);
+    mor_symmetric_apply(cofactors, moment, turn);
     for (int a = 0; a < 3; ++a) {
         turn[a] /= determinant;
     }
