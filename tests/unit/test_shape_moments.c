@@ -272,6 +272,42 @@ static void polygon_has_the_moments_of_its_corners(void **state)
     }
 }
 
+/* A shape whose distances grow as fast as is allowed. */
+typedef struct steep_shape {
+    mor_shape base;
+    const mor_shape *inner;
+} steep_shape;
+
+static double steep_distance(const mor_shape *shape, const double *point)
+{
+    return MOR_SHAPE_SLOPE_MOST * mor_shape_distance(((const steep_shape *)shape)->inner, point);
+}
+
+static void steep_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    mor_shape_bounds(((const steep_shape *)shape)->inner, bounds);
+}
+
+static void steep_distances_lose_no_cell(void **state)
+{
+    (void)state;
+    static const mor_shape_operations operations = {"steep", steep_distance, steep_bounds, NULL, NULL};
+    const double center[3] = {0.3, -0.2, 0.1};
+    mor_context context;
+    mor_context_init(&context);
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        mor_shape *ball = new_sphere(&context, center, 0.7);
+        mor_shape_moments plain;
+        mor_shape_moments found;
+        const steep_shape steep = {{&operations}, ball};
+        assert_int_equal(mor_shape_find_moments(&context, ball, dimension, &plain), MOR_OK);
+        assert_int_equal(mor_shape_find_moments(&context, &steep.base, dimension, &found), MOR_OK);
+        assert_moments(&found, &plain, 0.7, PROMISED); /* promised; cells skipped too early miss 1.3e-5 in 2D */
+        mor_shape_free(&context, &ball);
+    }
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void unit_of_length_changes_no_bit(void **state)
 {
     (void)state;
@@ -340,6 +376,7 @@ int main(void)
         cmocka_unit_test(turned_box_agrees_with_the_placed_moments),
         cmocka_unit_test(difference_is_the_difference),
         cmocka_unit_test(polygon_has_the_moments_of_its_corners),
+        cmocka_unit_test(steep_distances_lose_no_cell),
         cmocka_unit_test(unit_of_length_changes_no_bit),
         cmocka_unit_test(endless_and_empty_shapes_are_refused),
     };
