@@ -357,8 +357,7 @@ static void find_turn(const double *map, double *turn)
     double r[9];
     double inverse[9];
     memcpy(r, map, sizeof r);
-    const double determinant =
-        r[0] * (r[4] * r[8] - r[5] * r[7]) + r[1] * (r[5] * r[6] - r[3] * r[8]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
+    const double determinant = mor_matrix_determinant(r);
     if (!mor_matrix_invert(r, inverse) || determinant < 0.0) {
         return;
     }

@@ -151,13 +151,7 @@ static bool invert_moment(int d, const double *m, double *inverse)
         inverse[MOR_XY] = -m[MOR_XY] / determinant;
         return determinant > SMALLEST_DETERMINANT * (mean * mean);
     }
-    inverse[MOR_XX] = m[MOR_YY] * m[MOR_ZZ] - m[MOR_YZ] * m[MOR_YZ];
-    inverse[MOR_YY] = m[MOR_ZZ] * m[MOR_XX] - m[MOR_ZX] * m[MOR_ZX];
-    inverse[MOR_ZZ] = m[MOR_XX] * m[MOR_YY] - m[MOR_XY] * m[MOR_XY];
-    inverse[MOR_XY] = m[MOR_YZ] * m[MOR_ZX] - m[MOR_XY] * m[MOR_ZZ];
-    inverse[MOR_YZ] = m[MOR_ZX] * m[MOR_XY] - m[MOR_YZ] * m[MOR_XX];
-    inverse[MOR_ZX] = m[MOR_XY] * m[MOR_YZ] - m[MOR_ZX] * m[MOR_YY];
-    const double determinant = m[MOR_XX] * inverse[MOR_XX] + m[MOR_XY] * inverse[MOR_XY] + m[MOR_ZX] * inverse[MOR_ZX];
+    const double determinant = mor_symmetric_cofactors(m, inverse);
     for (int a = 0; a < 6; ++a) {
         inverse[a] /= determinant;
     }

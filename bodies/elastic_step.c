@@ -113,8 +113,7 @@ static mor_status report_refusal(mor_context *context, const mor_elastic *elasti
     const int64_t i = elastic->work->chunk_failed[chunk];
     const double *x = group->set.data[MOR_FIELD_POSITION] + 3 * i;
     const double *f = group->set.data[elastic->field_gradient] + 9 * i;
-    const double determinant =
-        f[0] * (f[4] * f[8] - f[5] * f[7]) + f[1] * (f[5] * f[6] - f[3] * f[8]) + f[2] * (f[3] * f[7] - f[4] * f[6]);
+    const double determinant = mor_matrix_determinant(f);
     return MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
                     "material '%s' gives no stress for " PARTICLE
                     " at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu: its "

@@ -58,6 +58,12 @@ static inline void mor_matrix_apply_transposed(const double *matrix, const doubl
     }
 }
 
+/** Determinant of a matrix, shape [3,3]; unit: cube of the matrix's. */
+static inline double mor_matrix_determinant(const double *m)
+{
+    return m[0] * (m[4] * m[8] - m[5] * m[7]) + m[1] * (m[5] * m[6] - m[3] * m[8]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
 /** out = tensor * a; symmetric tensor shape [6], a and out shape [3], not aliased; unit of out: product of theirs. */
 static inline void mor_symmetric_apply(const double *tensor, const double *a, double *out)
 {

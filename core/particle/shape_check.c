@@ -55,9 +55,7 @@ mor_status mor_shape_check_turn(mor_context *context, const double *turn)
                       a + 1, b + 1, product, a == b);
         }
     }
-    const double determinant = turn[0] * (turn[4] * turn[8] - turn[5] * turn[7]) -
-                               turn[1] * (turn[3] * turn[8] - turn[5] * turn[6]) +
-                               turn[2] * (turn[3] * turn[7] - turn[4] * turn[6]);
+    const double determinant = mor_matrix_determinant(turn);
     MOR_CHECK(context, determinant > 0.0, MOR_ERROR_ARGUMENT,
               "the turn mirrors: its determinant is %g, not 1; give a rotation matrix", determinant);
     return MOR_OK;
