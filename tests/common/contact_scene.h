@@ -40,6 +40,7 @@ typedef struct contact_scene_body {
     double angular_velocity[3]; /* rad/s */
     bool is_held;               /* rigid: moves as given, whatever pushes it */
     double density;             /* kg/m3; 0: that of the scene */
+    double modulus;             /* of contact, Pa; 0: that of the scene */
 } contact_scene_body;
 
 /** A plane wall. */
@@ -162,7 +163,7 @@ static inline mor_body_request contact_scene_ask(contact_scene *it, int k)
                             .shape_turn = {1, 0, 0, 0, 1, 0, 0, 0, 1},
                             .density = body->density > 0.0 ? body->density : it->request.density,
                             .soil_friction = MOR_WALL_ROUGH,
-                            .contact_modulus = it->request.modulus};
+                            .contact_modulus = body->modulus > 0.0 ? body->modulus : it->request.modulus};
     const double length = mor_vector_length(body->axis);
     if (length > 0.0) {
         const double axis[3] = {body->axis[0] / length, body->axis[1] / length, body->axis[2] / length};

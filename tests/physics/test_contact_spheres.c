@@ -46,7 +46,8 @@ static double find_rebound(contact_scene *scene, const double *first_line)
     return mor_vector_dot(parting, line) / (2.0 * SPEED * line[0]);
 }
 
-static outcome meet(const meeting *it)
+/* With a law of the pair's own, one object, or without, NULL. */
+static outcome meet_by(const meeting *it, const mor_contact_pair *pair)
 {
     const double gap = 1.002 * RADIUS;
     const double rise = 0.5 * it->offset * RADIUS;
@@ -59,6 +60,8 @@ static outcome meet(const meeting *it)
                                            .bodies = balls,
                                            .n_bodies = 2,
                                            .law = {it->friction, it->restitution},
+                                           .pairs = pair,
+                                           .n_pairs = pair != NULL ? 1 : 0,
                                            .modulus = it->modulus,
                                            .poisson = 0.3,
                                            .density = 2500.0,
@@ -94,6 +97,11 @@ static outcome meet(const meeting *it)
     return o;
 }
 
+static outcome meet(const meeting *it)
+{
+    return meet_by(it, NULL);
+}
+
 static void expect_momenta_kept(const outcome *o)
 {
     const double momentum = o->mass * SPEED;
@@ -117,6 +125,15 @@ static void rigid_balls_give_back_half_the_speed(void **state)
 {
     (void)state;
     const outcome o = meet(&(meeting){MOR_BODY_RIGID, 3, 0.5, 0.0, 0.0, 1.0e7});
+    expect_momenta_kept(&o);
+    contact_scene_expect("speed after", o.velocity[1][0], 0.5 * SPEED, 0.03 * SPEED); /* as above */
+}
+
+static void balls_with_a_law_of_their_own_give_back_what_it_says(void **state)
+{
+    (void)state;
+    const mor_contact_pair pair = {.first = "b1", .second = "b0", .law = {0.0, 0.5}};
+    const outcome o = meet_by(&(meeting){MOR_BODY_RIGID, 3, 1.0, 0.0, 0.0, 1.0e7}, &pair);
     expect_momenta_kept(&o);
     contact_scene_expect("speed after", o.velocity[1][0], 0.5 * SPEED, 0.03 * SPEED); /* as above */
 }
@@ -213,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rigid_balls_give_back_the_speed_they_came_with),
         cmocka_unit_test(rigid_balls_give_back_half_the_speed),
+        cmocka_unit_test(balls_with_a_law_of_their_own_give_back_what_it_says),
         cmocka_unit_test(sliding_balls_follow_coulomb),
         cmocka_unit_test(sticking_balls_stay_under_the_cone),
         cmocka_unit_test(elastic_bodies_give_back_what_restitution_says),

@@ -111,7 +111,8 @@ static const bad_scene rock_scenes[] = {
     /* A ring of one layer: in its straight parts no neighbor lies aside. */
     {"bodies[0].shape={type=\"difference\"; from={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.3 m\";}; "
      "minus={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.24 m\";};}",
-     "body 'ball' is too thin at", "make the spacing (0.1 m) smaller or the body rigid", true},
+     "body 'ball' is too thin at", "make the spacing (0.1 m) smaller, the tip or edge blunter, or the body rigid",
+     true},
     {"bodies[0].shape={type=\"rotate\"; angle=\"45 deg\"; shape={type=\"box\"; min=(\"-0.5 m\", \"-0.03 m\"); "
      "max=(\"0.5 m\", \"0.03 m\");};}",
      "body 'ball' has too few particles near", "smaller spacing or make it rigid", true},

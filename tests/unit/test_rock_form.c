@@ -170,6 +170,133 @@ static void angular_rocks_have_sharper_corners_and_seeds_differ(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+/* Adds the squared logarithms of the radii of points, shape [n_points, d], of a rough rock over those of the smooth one
+ * of the same seed. */
+static double compare_radii(const double *smooth, const double *rough, int64_t n_points, int d)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < n_points; ++i) {
+        double squares[2] = {0.0, 0.0};
+        for (int a = 0; a < d; ++a) {
+            squares[0] += smooth[d * i + a] * smooth[d * i + a];
+            squares[1] += rough[d * i + a] * rough[d * i + a];
+        }
+        const double change = 0.5 * log(squares[1] / squares[0]);
+        sum += change * change / (double)n_points;
+    }
+    return sum;
+}
+
+/* Mean square of the logarithm of the radius that roughness adds, over some rocks of equal axes. */
+static double measure_roughness(mor_context *context, int dimension, double roughness)
+{
+    enum { SEEDS = 24 };
+    double sum = 0.0;
+    for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+        mor_rock_form form;
+        mor_outline outlines[2] = {{.n_points = 0}, {.n_points = 0}};
+        mor_mesh meshes[2] = {{.n_vertices = 0}, {.n_vertices = 0}};
+        mor_rock_form_init(&form);
+        form.elongation = form.flatness = 1.0;
+        form.angularity = 0.0;
+        form.seed = seed;
+        for (int k = 0; k < 2; ++k) {
+            form.roughness = k * roughness;
+            if (dimension == 2) {
+                assert_int_equal(mor_rock_outline(context, &form, 192, &outlines[k]), MOR_OK);
+            } else {
+                assert_int_equal(mor_rock_mesh(context, &form, 3, &meshes[k]), MOR_OK);
+            }
+        }
+        sum += dimension == 2 ? compare_radii(outlines[0].points, outlines[1].points, 192, 2)
+                              : compare_radii(meshes[0].vertices, meshes[1].vertices, meshes[0].n_vertices, 3);
+        for (int k = 0; k < 2; ++k) {
+            mor_outline_clear(context, &outlines[k]);
+            mor_mesh_clear(context, &meshes[k]);
+        }
+    }
+    return sum / SEEDS;
+}
+
+/* The waves of roughness 1 have an rms of 0.05 of the logarithm of the radius, and those of less in proportion. */
+static void roughness_is_the_strength_of_the_shortest_waves(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        for (int k = 1; k <= 2; ++k) {
+            const double rms = sqrt(measure_roughness(&context, dimension, 0.5 * k));
+            print_message("%dD, roughness %.1f: rms %.4f\n", dimension, 0.5 * k, rms);
+            assert_near(rms / (0.025 * k), 1.0, 0.1); /* 24 rocks of some 20 waves that count: deviation 0.03 */
+        }
+    }
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+static void find_face_normal(const mor_mesh *mesh, int64_t t, double *normal)
+{
+    double edges[2][3];
+    for (int k = 0; k < 2; ++k) {
+        for (int a = 0; a < 3; ++a) {
+            edges[k][a] = mesh->vertices[3 * (int64_t)mesh->triangles[3 * t + k + 1] + a] -
+                          mesh->vertices[3 * (int64_t)mesh->triangles[3 * t] + a];
+        }
+    }
+    mor_vector_cross(edges[0], edges[1], normal);
+    const double length = mor_vector_length(normal);
+    for (int a = 0; a < 3; ++a) {
+        normal[a] /= length;
+    }
+}
+
+/* Largest angle between two triangles that share an edge, rad. */
+static double find_sharpest_edge(const mor_mesh *mesh)
+{
+    double least = 1.0;
+    for (int64_t t = 0; t < mesh->n_triangles; ++t) {
+        double normal[3];
+        find_face_normal(mesh, t, normal);
+        for (int64_t u = 0; u < t; ++u) {
+            int n_shared = 0;
+            for (int k = 0; k < 9; ++k) {
+                n_shared += mesh->triangles[3 * t + k / 3] == mesh->triangles[3 * u + k % 3];
+            }
+            if (n_shared == 2) {
+                double other[3];
+                find_face_normal(mesh, u, other);
+                least = fmin(least, mor_vector_dot(normal, other));
+            }
+        }
+    }
+    return acos(least);
+}
+
+static void angular_rocks_have_sharper_edges_in_space(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    double sharpest[2] = {0.0, 0.0};
+    for (uint64_t seed = 0; seed < 8; ++seed) {
+        for (int k = 0; k < 2; ++k) {
+            mor_rock_form form;
+            mor_mesh mesh;
+            mor_rock_form_init(&form);
+            form.elongation = form.flatness = 1.0;
+            form.roughness = 0.0;
+            form.angularity = k;
+            form.seed = seed;
+            assert_int_equal(mor_rock_mesh(&context, &form, 3, &mesh), MOR_OK);
+            sharpest[k] += find_sharpest_edge(&mesh) / 8.0;
+            mor_mesh_clear(&context, &mesh);
+        }
+    }
+    print_message("sharpest edge: %.3f rad of rounded rocks, %.3f rad of angular ones\n", sharpest[0], sharpest[1]);
+    assert_true(sharpest[1] > 2.0 * sharpest[0]);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void size_by_a_power_of_two_changes_no_bit(void **state)
 {
     (void)state;
@@ -226,6 +353,8 @@ int main(void)
         cmocka_unit_test(mesh_has_exact_volume_center_and_axes),
         cmocka_unit_test(rock_passes_the_check_of_meshes),
         cmocka_unit_test(angular_rocks_have_sharper_corners_and_seeds_differ),
+        cmocka_unit_test(angular_rocks_have_sharper_edges_in_space),
+        cmocka_unit_test(roughness_is_the_strength_of_the_shortest_waves),
         cmocka_unit_test(size_by_a_power_of_two_changes_no_bit),
         cmocka_unit_test(wrong_numbers_are_refused_by_name),
     };
