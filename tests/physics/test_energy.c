@@ -87,6 +87,22 @@ static void elastic_bounce_loses_nothing(void **state)
     scene_free(it);
 }
 
+static const char *const thrown_and_smoothed[] = {
+    "soil[0].velocity=(0, -0.1, 0)", "numerics.stress_diffusion=0.2",
+    "walls=({name='floor'; friction='smooth'; shape={type='half_space'; point=(0, 0, 0); normal=(0, 1, 0);};})", NULL};
+
+/* What stress diffusion takes from an elastic soil is not plastic strain, whatever its share. */
+static void stress_diffusion_of_elastic_soil_is_no_plastic_strain(void **state)
+{
+    (void)state;
+    scene *it = make(block, thrown_and_smoothed);
+    const double start = scene_probe(it, "kinetic_energy");
+    advance(it, 0.02);
+    scene_expect_near("plastic", scene_probe(it, "plastic_energy"), 0.0, 1e-12 * start); /* rounding */
+    assert_true(scene_probe(it, "stress_diffusion_energy") > 1e-4 * start);
+    scene_free(it);
+}
+
 static const char *const sliding[] = {
     "gravity=(0, -9.81, 0)",
     "soil[0].velocity=(1, 0, 0)",
@@ -198,12 +214,14 @@ static const char *const elastic_rock[] = {
     "bodies[0].material={model='neo_hookean'; density='2400 kg/m3'; youngs_modulus='100 MPa'; poissons_ratio=0.25;}",
     NULL};
 
+static const char *const barrier[] = {"numerics.barrier_stiffness=1e4", "numerics.barrier_radius='15 mm'", NULL};
+
 /* Without gravity and contact all that a free rock has is what it began with and what the soil did on it. */
 static void rock_that_soil_hits_gets_what_the_soil_did(void **state)
 {
-    const char *const *const kinds[] = {nothing, elastic_rock};
+    const char *const *const kinds[] = {nothing, elastic_rock, barrier};
     (void)state;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 3; ++k) {
         scene *it = make(impact, kinds[k]);
         const double start = scene_probe(it, "bodies_kinetic_energy");
         const double turned = scene_probe(it, "kinetic_energy");
@@ -219,15 +237,41 @@ static void rock_that_soil_hits_gets_what_the_soil_did(void **state)
     }
 }
 
+static const char *const driven_rock[] = {"bodies[0].motion=prescribed",
+                                          "bodies[0].velocity=(-1.5, 0, 0)",
+                                          "bodies[0].angular_velocity=(0, 0, 0)",
+                                          "soil[0].velocity=(0, 0, 0)",
+                                          "probes=({type='body_impulse_soil_given'; body='rock'; direction=(1, 0, 0);},"
+                                          "{type='external_work';}, {type='soil_work_on_bodies';},"
+                                          "{type='energy_balance';})",
+                                          NULL};
+
+/* A rock that moves as prescribed is a piston of any shape: what it gives is the impulse on it times its speed, and no
+ * soil works on it. */
+static void driven_rock_gives_what_its_force_does_along_its_way(void **state)
+{
+    (void)state;
+    scene *it = make(impact, driven_rock);
+    advance(it, 0.03);
+    const double work = 1.5 * scene_probe(it, "body_impulse_soil_given");
+    assert_true(work > 0.0);
+    scene_expect_near("external work", scene_probe(it, "external_work"), work, 0.01 * work); /* sampling */
+    assert_true(scene_probe(it, "soil_work_on_bodies") == 0.0);
+    scene_expect_near("balance", scene_probe(it, "energy_balance"), 1.0, share_astray);
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(free_fall_turns_height_into_speed_and_nothing_else),
         cmocka_unit_test(elastic_bounce_loses_nothing),
+        cmocka_unit_test(stress_diffusion_of_elastic_soil_is_no_plastic_strain),
         cmocka_unit_test(friction_of_a_sliding_block_is_lost_at_the_floor),
         cmocka_unit_test(piston_gives_what_its_force_does_along_its_way),
         cmocka_unit_test(energy_of_a_collapse_is_accounted_for),
         cmocka_unit_test(rock_that_soil_hits_gets_what_the_soil_did),
+        cmocka_unit_test(driven_rock_gives_what_its_force_does_along_its_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
