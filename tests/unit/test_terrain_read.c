@@ -351,6 +351,30 @@ static void geotiff_keeps_place_and_datum(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+/* A raster may keep heights in other steps than meters: number times scale plus offset. */
+static void scale_and_offset_of_the_numbers_are_applied(void **state)
+{
+    (void)state;
+    static const char scaled[] = "<GDALMetadata><Item name=\"OFFSET\" sample=\"0\" role=\"offset\">100</Item>"
+                                 "<Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.5</Item></GDALMetadata>";
+    mor_context context;
+    mor_context_init(&context);
+    tiff file;
+    mor_terrain terrain;
+    mor_terrain_request request;
+    mor_terrain_request_init(&request);
+    make_tiff(&file, north_up, 32633, NULL);
+    add_entry(&file, 42112, 2, sizeof scaled, scaled);
+    put_number(file.bytes + 8, file.n_entries, 2);
+    assert_int_equal(read_bytes(&context, "raster.tif", file.bytes, file.end, &request, &terrain), MOR_OK);
+    assert_true(terrain.offset[2] == 100.0); /* the lowest height */
+    for (int n = 0; n < 20; ++n) {
+        assert_true(terrain.heights[n] == 0.5 * (10.0 * (n / 5) + n % 5));
+    }
+    mor_terrain_clear(&context, &terrain);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void geotiff_in_degrees_or_rotated_is_refused(void **state)
 {
     (void)state;
@@ -432,6 +456,7 @@ int main(void)
         cmocka_unit_test(bad_rasters_are_refused_with_the_reason),
         cmocka_unit_test(other_places_than_files_are_refused),
         cmocka_unit_test(geotiff_keeps_place_and_datum),
+        cmocka_unit_test(scale_and_offset_of_the_numbers_are_applied),
         cmocka_unit_test(heights_over_degrees_without_a_system_are_told_from_marks),
         cmocka_unit_test(geotiff_in_degrees_or_rotated_is_refused),
         cmocka_unit_test(reading_leaves_no_files),
