@@ -215,6 +215,11 @@ static void ground_distance_is_that_of_all_faces(void **state)
     assert_int_equal(mor_shape_new_terrain(&context, &terrain, thickness, 100.0, &shape), MOR_OK);
     mor_bounds bounds;
     mor_shape_bounds(shape, &bounds);
+    double lowest = INFINITY;
+    for (int n = 0; n < N_X * N_Y; ++n) {
+        lowest = fmin(lowest, terrain.heights[n]);
+    }
+    assert_true(bounds.minimum[2] == lowest - thickness);
     soup all;
     make_soup(&terrain, bounds.minimum[2], &all);
     int n_inside = 0;
