@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tests/common/scene.h"
 
-/* Probes that look for one outermost or nearest particle, against places known from the lattice. */
+/* Probes of where the soil lies: outermost and nearest particles against places known from the lattice, a heap against a
+ * triangle. */
 
 #define SOIL_AND_WALLS                                                                                                 \
     "dimension = 2; spacing = '0.1 m'; end = '1 s'; gravity = (0, -10, 0);"                                            \
@@ -92,10 +93,49 @@ static void wall_gap_follows_a_wall_that_moves(void **state)
     }
 }
 
+/* A heap with a slope of one half: beyond a place x lies the share (1 - x)^2 of it, above a height y (1 - 2 y)^2. */
+static const char heap[] =
+    "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, -10, 0);"
+    "domain = { min = (-2, -2, -1); max = (4, 3, 1); };"
+    "soil = ( { name = 'heap'; shape = { type = 'polygon'; points = ((0, 0), (1, 0), (0, 0.5)); };"
+    "  material = { model = 'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } );"
+    "probes = ( { name = 'reach'; type = 'run_out'; direction = (1, 0); percentile = 90; },"
+    "  { name = 'thick'; type = 'run_out'; direction = (1, 0); measure = 'thickness'; thickness = 0.1; },"
+    "  { name = 'strays'; type = 'stray_share'; direction = (1, 0); thickness = 0.1; },"
+    "  { name = 'front'; type = 'front_speed'; direction = (1, 0); percentile = 90; },"
+    "  { name = 'angle'; type = 'repose_angle'; direction = (1, 0); },"
+    "  { name = 'top'; type = 'height'; percentile = 50; },"
+    "  { name = 'center'; type = 'center_of_mass'; origin = (0.1, 0); direction = (1, 0); },"
+    "  { name = 'speed'; type = 'largest_speed'; percentile = 90; } );";
+
+static void probes_of_a_heap_are_those_of_a_triangle(void **state)
+{
+    (void)state;
+    const double spacing = 0.01;
+    scene *it = make(heap, as_it_is, as_it_is);
+    const mor_set *set = &it->simulation.soil.set;
+    for (int64_t i = 0; i < set->n_particles; ++i) { /* as fast as it is far */
+        set->data[MOR_FIELD_VELOCITY][3 * i] = set->data[MOR_FIELD_POSITION][3 * i];
+    }
+    const double reach = 1.0 - sqrt(0.1);
+    /* Steps of a lattice: one spacing of lengths, and what lies in it of the rest. */
+    scene_expect_near("reach", scene_probe(it, "reach"), reach, spacing);
+    scene_expect_near("speed", scene_probe(it, "speed"), reach, spacing);
+    scene_expect_near("front", scene_probe(it, "front"), reach, spacing);
+    scene_expect_near("thick", scene_probe(it, "thick"), 0.8,
+                      2.0 * spacing); /* where thickness falls by half as much */
+    scene_expect_near("strays", scene_probe(it, "strays"), 0.04, 0.4 * 2.0 * spacing); /* likewise, by its slope */
+    scene_expect_near("angle", scene_probe(it, "angle"), atan(0.5), spacing);
+    scene_expect_near("top", scene_probe(it, "top"), 0.5 * (1.0 - sqrt(0.5)), spacing);
+    scene_expect_near("center", scene_probe(it, "center"), 1.0 / 3.0 - 0.1, spacing);
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(toe_is_the_outermost_of_soil_and_rocks_above_its_origin),
+        cmocka_unit_test(probes_of_a_heap_are_those_of_a_triangle),
         cmocka_unit_test(wall_gap_is_the_least_distance_and_below_zero_inside),
         cmocka_unit_test(wall_gap_follows_a_wall_that_moves),
     };
