@@ -249,7 +249,10 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
     push_whole(contact, near->first, sums->center, force);
     push_whole(contact, near->second, sums->center, opposite);
     push_wall(contact, near, force);
-    contact->damping_energy += extra * closing * sums->length;
+    /* What the motion loses is force times the velocity in the middle of the kick; of that, the pair's own part, as
+     * if nothing turned. */
+    const double kick = (resultant + extra) * inverse * sums->length;
+    contact->damping_energy += extra * (closing - 0.5 * kick) * sums->length;
 }
 
 /* Place of a partner among the slots of a node: its own, else a free one, else -1. */

@@ -140,6 +140,31 @@ static void sliding_box_loses_friction_times_way(void **state)
     scene_free(it);
 }
 
+/* It falls 0.1 m, flat. */
+static const char bouncing[] =
+    BOX "  position = (0, 0.3); } );"
+        "contact = { friction_coefficient = 0.4; restitution = 0.5; };"
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"
+        "probes = ( { name = 'friction'; type = 'contact_friction_energy'; },"
+        "  { name = 'rebound'; type = 'contact_damping_energy'; }, { name = 'lost'; type = 'dissipated_energy'; },"
+        "  { name = 'balance'; type = 'bodies_energy_balance'; } );";
+
+static void bouncing_box_loses_what_restitution_says(void **state)
+{
+    (void)state;
+    const double fall = density * side * side * gravity * 0.1;
+    /* Hard, so that it sinks by 1 % of its fall only. */
+    static const char *const hard[] = {"bodies[0].contact_modulus='100 MPa'", NULL};
+    const scene_request request = {bouncing, (const char *const *[]){hard}, 1, 1};
+    scene *it = scene_new(&request);
+    advance(it, 0.2);
+    expect(it, "friction", 0.0, 1e-9 * fall);
+    expect(it, "rebound", 0.75 * fall, 0.01 * fall); /* 1 - 0.5 squared; weight while it touches */
+    expect(it, "lost", 0.75 * fall, 0.01 * fall);    /* likewise */
+    expect(it, "balance", 1.0, 0.003);               /* likewise, over three times the fall */
+    scene_free(it);
+}
+
 static const char driven[] =
     "dimension = 2; spacing = '20 mm'; end = '1 s'; gravity = (0, -10, 0);"
     "domain = { min = (-8, -8, -1); max = (8, 8, 1); };"
@@ -187,6 +212,7 @@ int main(void)
         cmocka_unit_test(motion_of_a_flying_box_is_that_of_a_throw),
         cmocka_unit_test(box_at_rest_presses_with_its_weight),
         cmocka_unit_test(sliding_box_loses_friction_times_way),
+        cmocka_unit_test(bouncing_box_loses_what_restitution_says),
         cmocka_unit_test(soil_pushes_a_ram_by_the_sum_over_its_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
