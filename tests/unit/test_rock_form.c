@@ -205,7 +205,7 @@ static double measure_roughness(mor_context *context, int dimension, double roug
             if (dimension == 2) {
                 assert_int_equal(mor_rock_outline(context, &form, 192, &outlines[k]), MOR_OK);
             } else {
-                assert_int_equal(mor_rock_mesh(context, &form, 3, &meshes[k]), MOR_OK);
+                assert_int_equal(mor_rock_mesh(context, &form, 2, &meshes[k]), MOR_OK);
             }
         }
         sum += dimension == 2 ? compare_radii(outlines[0].points, outlines[1].points, 192, 2)
@@ -287,7 +287,7 @@ static void angular_rocks_have_sharper_edges_in_space(void **state)
             form.roughness = 0.0;
             form.angularity = k;
             form.seed = seed;
-            assert_int_equal(mor_rock_mesh(&context, &form, 3, &mesh), MOR_OK);
+            assert_int_equal(mor_rock_mesh(&context, &form, 2, &mesh), MOR_OK);
             sharpest[k] += find_sharpest_edge(&mesh) / 4.0;
             mor_mesh_clear(&context, &mesh);
         }
