@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tests/common/scene.h"
 
-/* Probes of where the soil lies: outermost and nearest particles against places known from the lattice, a heap against a
- * triangle. */
+/* Probes of where the soil lies: outermost and nearest particles against places known from the lattice, a heap against
+ * a triangle. */
 
 #define SOIL_AND_WALLS                                                                                                 \
     "dimension = 2; spacing = '0.1 m'; end = '1 s'; gravity = (0, -10, 0);"                                            \
