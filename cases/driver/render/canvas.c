@@ -254,11 +254,14 @@ mor_status mor_canvas_write(mor_context *context, const mor_canvas *canvas, cons
     mor_durable_file file;
     MOR_TRY(context, mor_canvas_check(context, canvas));
     MOR_TRY(context, mor_durable_file_open(context, &file, path));
-    if (cairo_surface_write_to_png_stream(canvas->surface, write_bytes, file.stream) == CAIRO_STATUS_NO_MEMORY) {
+    const cairo_status_t written = cairo_surface_write_to_png_stream(canvas->surface, write_bytes, file.stream);
+    /* What the stream could not take, the commit reports with a reason. */
+    if (written != CAIRO_STATUS_SUCCESS && ferror(file.stream) == 0) {
         mor_durable_file_discard(&file);
-        return MOR_FAIL(context, MOR_ERROR_MEMORY, "%s: not enough memory to write the picture", path);
+        return MOR_FAIL(context, written == CAIRO_STATUS_NO_MEMORY ? MOR_ERROR_MEMORY : MOR_ERROR_IO,
+                        "%s: the picture cannot be made a PNG file: %s; draw a smaller one, or free some memory", path,
+                        cairo_status_to_string(written));
     }
-    /* What else went wrong, the stream remembers and the commit reports. */
     MOR_TRY(context, mor_durable_file_commit(context, &file));
     return MOR_OK;
 }
