@@ -48,12 +48,8 @@ static double find_gap(const mor_simulation *s, int wall)
     double nearest = INFINITY;
     for (int64_t i = 0; i < s->soil.set.n_particles; ++i) {
         const double *position = s->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
-        double moved[3];
         double local[3];
-        for (int a = 0; a < 3; ++a) {
-            moved[a] = position[a] - c->move[a];
-        }
-        mor_matrix_apply_transposed(c->turn, moved, local);
+        mor_simulation_take_point_back(c, position, local);
         nearest = fmin(nearest, shape->operations->distance(shape, local));
     }
     return nearest / c->spacing;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/picture_wall.h"
 
+#include "cases/driver/simulation.h"
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
 
@@ -90,16 +91,6 @@ static bool is_met(const mor_shape *shape, const double *from, const double *dir
     return false;
 }
 
-/* Into the frame of the case; a direction is only turned. */
-static void place_back(const mor_case *the_case, const double *placed, bool is_direction, double *own)
-{
-    double moved[3];
-    for (int a = 0; a < 3; ++a) {
-        moved[a] = placed[a] - (is_direction ? 0.0 : the_case->move[a]);
-    }
-    mor_matrix_apply_transposed(the_case->turn, moved, own);
-}
-
 bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds *moving, const double *toward)
 {
     const mor_shape *shape = the_case->walls[wall].shape;
@@ -109,7 +100,7 @@ bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds
     int n_free = 0;
     int n_hidden = 0;
     mor_shape_bounds(shape, &bounds);
-    place_back(the_case, toward, true, direction);
+    mor_matrix_apply_transposed(the_case->turn, toward, direction);
     for (int k = 0; k < PLACES * PLACES * PLACES; ++k) {
         const int index[3] = {k % PLACES, k / PLACES % PLACES, k / (PLACES * PLACES)};
         double placed[3];
@@ -119,7 +110,7 @@ bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds
             const double extent = moving->maximum[a] - moving->minimum[a];
             placed[a] = moving->minimum[a] + (index[a] + 0.5) / PLACES * extent;
         }
-        place_back(the_case, placed, false, from);
+        mor_simulation_take_point_back(the_case, placed, from);
         for (int a = 0; a < 3; ++a) {
             beyond[a] = (direction[a] > 0.0 ? bounds.maximum[a] : bounds.minimum[a]) - from[a];
         }

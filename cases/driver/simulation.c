@@ -164,13 +164,9 @@ static mor_status check_inside(mor_context *context, const mor_case *the_case, c
     int64_t n_outside = 0;
     double first[3] = {0.0, 0.0, 0.0};
     for (int64_t i = 0; i < points->n_points; ++i) {
-        double moved[3];
         double point[3];
         bool is_outside = false;
-        for (int a = 0; a < 3; ++a) {
-            moved[a] = points->positions[3 * i + a] - the_case->move[a];
-        }
-        mor_matrix_apply_transposed(the_case->turn, moved, point);
+        mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
         for (int a = 0; a < the_case->dimension; ++a) {
             is_outside = is_outside || point[a] < the_case->domain_minimum[a] || point[a] > the_case->domain_maximum[a];
         }

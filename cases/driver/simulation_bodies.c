@@ -4,6 +4,7 @@
 #include "cases/driver/simulation_bodies.h"
 
 #include "cases/driver/case_schema.h"
+#include "cases/driver/simulation.h"
 #include "cases/driver/simulation_fill.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -31,10 +32,7 @@ void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *bo
             turn[k] += the_case->turn[3 * (k / 3) + a] * own[3 * a + k % 3];
         }
     }
-    mor_matrix_apply(the_case->turn, body->position, move);
-    for (int a = 0; a < 3; ++a) {
-        move[a] += the_case->move[a];
-    }
+    mor_simulation_place_point(the_case, body->position, move);
 }
 
 double mor_simulation_placed_distance(const mor_shape *shape, const double *turn, const double *move,

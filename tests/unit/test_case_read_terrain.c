@@ -89,16 +89,6 @@ static void terrain_survives_writing_and_scaling(void **state)
     }
 }
 
-/* Into the frame of the case file. */
-static void unplace(const mor_case *the_case, const double *placed, double *point)
-{
-    double moved[3];
-    for (int a = 0; a < 3; ++a) {
-        moved[a] = placed[a] - the_case->move[a];
-    }
-    mor_matrix_apply_transposed(the_case->turn, moved, point);
-}
-
 /* The way a simulation is made of the case, walls one by one. */
 static void check_particles(case_reading *f)
 {
@@ -109,7 +99,7 @@ static void check_particles(case_reading *f)
     const double *position = simulation.soil.set.data[MOR_FIELD_POSITION];
     for (int64_t i = 0; i < simulation.soil.set.n_particles; ++i) {
         double x[3];
-        unplace(&f->first, position + 3 * i, x);
+        mor_simulation_take_point_back(&f->first, position + 3 * i, x);
         const double gap = x[2] - mor_terrain_height(terrain, x[0], x[1]);
         assert_true(fabs(remainder(gap - 0.5, 1.0)) < 1e-12 && gap > 0.0); /* whole layers, to rounding of 30 */
     }
@@ -120,7 +110,7 @@ static void check_particles(case_reading *f)
         assert_true(points.n_points > 0);
         for (int64_t i = 0; i < points.n_points; ++i) {
             double x[3];
-            unplace(&f->first, points.positions + 3 * i, x);
+            mor_simulation_take_point_back(&f->first, points.positions + 3 * i, x);
             assert_true((mor_shape_distance(hill, x) < 0.0) ==
                         (w == 0)); /* what stands in the ground leaves it whole */
             assert_true(mor_shape_distance(f->first.walls[w].shape, x) < 0.0);
