@@ -130,7 +130,7 @@ static void run_row(bench *all, const void *chosen)
 {
     const soil_row *row = chosen;
     const scene_request request = {row->case_path, (const char *const *[]){row->settings}, 1, mor_parallel_cores()};
-    soil_bench it = {.scene = scene_new(&request), .timings = {{mor_parallel_cores()}, {1}}};
+    soil_bench it = {.scene = scene_new(&request), .timings = {{.n_threads = mor_parallel_cores()}, {.n_threads = 1}}};
     mor_soil *soil = &it.scene->simulation.soil;
     it.n_timings = row->has_one_thread && mor_parallel_cores() > 1 ? 2 : 1;
     it.sort_interval = soil->settings.sort_interval;
