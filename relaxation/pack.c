@@ -349,8 +349,8 @@ static mor_status find_region_volume(mor_context *context, const mor_pack_reques
         *volume = moments.volume;
     }
     MOR_CHECK(context, isfinite(*volume) && *volume > 0.0, MOR_ERROR_ARGUMENT,
-              "the volume of the packing's region is %g: give a number above zero, or NaN for a bounded shape",
-              *volume);
+              "the volume of the packing's region is %g %s: give a number above zero, or NaN for a bounded shape",
+              *volume, request->dimension == 2 ? "m2" : "m3");
     return MOR_OK;
 }
 

@@ -14,7 +14,8 @@
 typedef struct mor_shape mor_shape;
 
 /** The distance that a shape tells changes by at most so much along any way, m per m, 1: exact distances by 1, those
- *  told between the nodes of a grid by up to a tenth more. Whoever skips what lies far away counts on it. */
+ *  told between the nodes of a grid by up to a tenth more over two of its cells and more (over less, by up to 1.4 at a
+ *  kink). Whoever skips what lies far away counts on it. */
 #define MOR_SHAPE_SLOPE_MOST 1.1
 
 /** Axis-aligned bounds; a component is -INFINITY or INFINITY where the shape is unbounded. */

@@ -70,12 +70,29 @@ static void tensor_times_its_cofactors_is_its_determinant(void **state)
     }
 }
 
+/* The volume between the rows, with the sign of their handedness: six for rows that are 1, 2 and 3 long. */
+static void determinant_is_the_triple_product_of_the_rows(void **state)
+{
+    (void)state;
+    const double stretch[9] = {0.0, 0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 3.0, 0.0}; /* z, x, y: right-handed */
+    assert_true(mor_matrix_determinant(stretch) == 6.0);                     /* exact */
+    for (uint64_t id = 0; id < 100; ++id) {
+        double matrix[9];
+        double normal[3];
+        draw(id, 9, matrix);
+        mor_vector_cross(matrix + 3, matrix + 6, normal);
+        const double volume = mor_vector_dot(matrix, normal);
+        assert_true(mor_matrix_determinant(matrix) == volume); /* exact: the same operations */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(vector_product_is_the_area_of_the_parallelogram),
         cmocka_unit_test(adding_a_vector_product_adds_that_product),
         cmocka_unit_test(tensor_times_its_cofactors_is_its_determinant),
+        cmocka_unit_test(determinant_is_the_triple_product_of_the_rows),
     };
     return CLOUD_RUN(tests);
 }

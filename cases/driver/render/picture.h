@@ -67,7 +67,8 @@ typedef struct mor_picture {
     int height;        /* pixels; 0: in space from the width, or MOR_CANVAS_HEIGHT; in the plane what the
                                         axes need, at most that, so that a series wants a frame */
     bool has_frame;    /* frame is given; otherwise all particles but those of ground groups are framed */
-    mor_bounds frame;  /* m; what the camera frames: the same box gives the same camera */
+    mor_bounds frame;  /* m; what the camera frames, together with groups that are framed: where these stand still, the
+                                        same box gives the same camera */
     bool hides_ground; /* no ground plane; otherwise one lies under the particles even without a group */
 } mor_picture;
 
