@@ -69,7 +69,8 @@ mor_status mor_durable_file_commit(mor_context *context, mor_durable_file *file)
     MOR_CHECK(context, file->stream != NULL, MOR_ERROR_ARGUMENT, "a file that is not open was to be committed");
     int error = 0;
     if (ferror(file->stream) != 0) {
-        error = EIO;
+        /* Why an earlier write failed is not kept; one more byte of a file that is lost anyway tells. */
+        error = putc(0, file->stream) == EOF || fflush(file->stream) != 0 ? errno : EIO;
     } else if (fflush(file->stream) != 0 || fsync(fileno(file->stream)) != 0) {
         error = errno;
     }

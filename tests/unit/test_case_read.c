@@ -3,9 +3,9 @@
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
 #include "tests/common/case_reading.h"
+#include "tests/common/full_disk.h"
 
-#include <signal.h>
-#include <sys/resource.h>
+#include <errno.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -318,19 +318,17 @@ static void a_written_case_marks_defaults_and_only_them(void **state)
 static void check_full_disk(case_reading *f, const char *path)
 {
     char temporary[600];
-    struct rlimit before;
+    full_disk disk;
     struct stat old;
     struct stat now;
     snprintf(temporary, sizeof temporary, "%s.tmp", path);
     assert_int_equal(stat(path, &old), 0);
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
-    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &(struct rlimit){64, before.rlim_max});
+    full_disk_begin(&disk, 64);
     const mor_status status = mor_case_write(&f->context, &f->first, f->registry, path);
-    setrlimit(RLIMIT_FSIZE, &before);
-    signal(SIGXFSZ, handler);
+    full_disk_end(&disk);
     assert_int_equal(status, MOR_ERROR_IO);
     assert_non_null(strstr(f->context.message, path));
+    assert_non_null(strstr(f->context.message, strerror(EFBIG)));
     assert_int_equal(stat(path, &now), 0);
     assert_true(now.st_ino == old.st_ino && now.st_size == old.st_size && old.st_size > 64);
     assert_int_not_equal(access(temporary, F_OK), 0);

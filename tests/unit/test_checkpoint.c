@@ -2,10 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/random.h"
 #include "core/io/checkpoint.h"
+#include "tests/common/full_disk.h"
 #include "tests/common/run_folder.h"
-
-#include <signal.h>
-#include <sys/resource.h>
 
 enum { N_SOIL = 37, N_ROCK = 5, N_CLOCK = 4 };
 
@@ -54,8 +52,8 @@ static void fill_sample(sample *state, uint64_t salt)
 static void make_sample(mor_context *context, sample *state, int64_t n_soil, uint64_t salt)
 {
     memset(state, 0, sizeof *state);
-    const uint64_t mask = 1u << MOR_FIELD_POSITION | 1u << MOR_FIELD_STRESS | 1u << MOR_FIELD_MASS |
-                          1u << MOR_FIELD_ACCELERATION;
+    const uint64_t mask =
+        1u << MOR_FIELD_POSITION | 1u << MOR_FIELD_STRESS | 1u << MOR_FIELD_MASS | 1u << MOR_FIELD_ACCELERATION;
     assert_int_equal(mor_set_init(context, &state->soil, "soil", n_soil, mask), MOR_OK);
     assert_int_equal(mor_set_init(context, &state->rock, "rock two", N_ROCK, 1u << MOR_FIELD_VELOCITY), MOR_OK);
     const mor_field_info strain = {"plastic_strain", 1, "1", "material", MOR_FIELD_EVOLVES, "plastic strain"};
@@ -320,18 +318,15 @@ static void full_disk_leaves_the_last_checkpoint_alone(void **state)
     make_sample(&folder->context, &saved, N_SOIL, 1);
     make_sample(&folder->context, &loaded, N_SOIL, 2);
     assert_int_equal(mor_checkpoint_write(&folder->context, folder->path, &saved.view), MOR_OK);
-    struct rlimit before;
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
-    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
     for (rlim_t limit = 0; limit < 8000; limit += 1000) {
-        setrlimit(RLIMIT_FSIZE, &(struct rlimit){limit, before.rlim_max});
+        full_disk disk;
+        full_disk_begin(&disk, limit);
         const mor_status status = mor_checkpoint_write(&folder->context, folder->path, &loaded.view);
-        setrlimit(RLIMIT_FSIZE, &before);
+        full_disk_end(&disk);
         assert_int_equal(status, MOR_ERROR_IO);
         run_folder_file(folder, path, MOR_CHECKPOINT_FILE ".tmp");
         assert_int_not_equal(access(path, F_OK), 0);
     }
-    signal(SIGXFSZ, handler);
     assert_int_equal(mor_checkpoint_read_latest(&folder->context, folder->path, &loaded.view), MOR_OK);
     assert_true(same_sample(&saved, &loaded));
     assert_int_equal(folder->n_logged, 0);

@@ -5,9 +5,11 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
+#include "tests/common/full_disk.h"
 #include "tests/common/pile.h"
 #include "tests/common/run_folder.h"
 
+#include <errno.h>
 #include <math.h>
 
 static double distance_between(const double *a, const double *b)
@@ -343,6 +345,33 @@ static void a_folder_that_is_missing_is_an_error_with_its_path(void **state)
     assert_non_null(strstr(folder->context.message, "no/such/folder/a.png"));
 }
 
+static void a_full_disk_leaves_the_picture_of_before(void **state)
+{
+    run_folder *folder = *state;
+    pile p;
+    full_disk disk;
+    size_t n_bytes[2];
+    char path[MOR_PATH_BYTES];
+    pile_fill(&p);
+    mor_picture_group group = pile_group(&p);
+    const mor_picture picture = pile_picture(&group, 1, 2);
+    run_folder_file(folder, path, "a.png");
+    assert_int_equal(mor_picture_write(&folder->context, &picture, path), MOR_OK);
+    uint8_t *before = run_folder_load(path, &n_bytes[0]);
+    for (rlim_t limit = 0; limit < 6000; limit += 2000) { /* all that is buffered, and more */
+        full_disk_begin(&disk, limit);
+        const mor_status status = mor_picture_write(&folder->context, &picture, path);
+        full_disk_end(&disk);
+        assert_int_equal(status, MOR_ERROR_IO);
+        assert_non_null(strstr(folder->context.message, strerror(EFBIG)));
+    }
+    uint8_t *after = run_folder_load(path, &n_bytes[1]);
+    assert_true(n_bytes[0] > 6000 && n_bytes[0] == n_bytes[1] && memcmp(before, after, n_bytes[0]) == 0);
+    assert_int_not_equal(access(run_folder_file(folder, path, "a.png.tmp"), F_OK), 0);
+    free(before);
+    free(after);
+}
+
 /* Surveys, fits and builds; the caller clears the model. */
 static void build_model(run_folder *folder, const mor_picture *picture, mor_model *model)
 {
@@ -528,6 +557,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(bad_settings_are_refused_with_what_is_allowed, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_folder_that_is_missing_is_an_error_with_its_path, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_full_disk_leaves_the_picture_of_before, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_cut_takes_a_quarter_from_the_near_side, run_folder_setup,
                                         run_folder_teardown),
