@@ -98,17 +98,33 @@ static mor_status find_volume(mor_context *context, const mor_relax_request *req
     return MOR_OK;
 }
 
+/* The thickness that a refused shape has, spacings, or where none of its places was found inside the most it may have:
+ * the least side of the box around it. */
+static mor_status refuse_thin(mor_context *context, const mor_relax_request *request, const mor_relax_frame *frame,
+                              double depth)
+{
+    const bool is_found = depth > 0.0;
+    double thickness = is_found ? 2.0 * depth : INFINITY;
+    for (int a = 0; a < frame->dimension && !is_found; ++a) {
+        thickness = fmin(thickness, 2.0 * frame->half[a]);
+    }
+    return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
+                    "the shape (%s) is %s%.4g m thick at its thickest: at a spacing of %g m that is %.4g spacings; "
+                    "allowed are %g at "
+                    "least: use a spacing of at most %.4g m, or make it larger or thicker",
+                    request->shape->operations->kind, is_found ? "" : "at most ", thickness * request->spacing,
+                    request->spacing, thickness, THICKNESS_LEAST,
+                    0.999 * thickness * request->spacing / THICKNESS_LEAST); /* digits round up, too */
+}
+
 static mor_status count_particles(mor_context *context, const mor_relax_request *request, relaxation *it)
 {
     double volume = 0.0;
     double depth = 0.0;
     const bool is_thick = mor_relax_frame_holds(&it->frame, 0.5 * THICKNESS_LEAST * (1.0 - 1e-6), &depth);
-    const double thickness = 2.0 * depth;
-    MOR_CHECK(context, is_thick, MOR_ERROR_ARGUMENT,
-              "the shape (%s) is %.4g spacings thick at its thickest (%.4g m at a spacing of %g m); allowed are %g at "
-              "least: use a spacing of at most %.4g m, or a thicker shape",
-              request->shape->operations->kind, thickness, thickness * request->spacing, request->spacing,
-              THICKNESS_LEAST, 0.999 * thickness * request->spacing / THICKNESS_LEAST); /* the digits round up, too */
+    if (!is_thick) {
+        return refuse_thin(context, request, &it->frame, depth);
+    }
     MOR_TRY(context, find_volume(context, request, &volume));
     MOR_CHECK(context, volume < MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
               "the shape (%s) holds %g particles at a spacing of %g m; allowed are %g: use a larger spacing",

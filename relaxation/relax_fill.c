@@ -138,9 +138,8 @@ static bool is_ball_inside(const mor_relax_frame *frame, const double *middle, d
 }
 
 /* Uphill from the deepest place found, in ever smaller steps. */
-static void climb(const mor_relax_frame *frame, double *best, double *deepest)
+static void climb(const mor_relax_frame *frame, double step, double *best, double *deepest)
 {
-    double step = 1.0;
     for (int level = 0; level < CLIMB_LEVELS; ++level, step *= 0.5) {
         for (int k = 0; k < 2 * frame->dimension; ++k) {
             double place[3] = {best[0], best[1], best[2]};
@@ -158,9 +157,13 @@ bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *
 {
     double best[3] = {0.0, 0.0, 0.0};
     int64_t n[3] = {1, 1, 1};
+    double pitch = 1.0; /* of the probes; finer in a thin shape, whose thickness is to be told even so */
     *depth = mor_relax_frame_depth(frame, best);
     for (int a = 0; a < frame->dimension; ++a) {
-        n[a] = (int64_t)fmin(ceil(2.0 * frame->half[a]), PROBES_MOST);
+        pitch = fmin(pitch, 0.5 * frame->half[a]);
+    }
+    for (int a = 0; a < frame->dimension; ++a) {
+        n[a] = (int64_t)fmin(ceil(2.0 * frame->half[a] / pitch), PROBES_MOST);
     }
     for (int64_t k = 0; k < n[0] * n[1] * n[2] && *depth < radius; ++k) {
         const int64_t index[3] = {k % n[0], k / n[0] % n[1], k / (n[0] * n[1])};
@@ -178,7 +181,7 @@ bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *
             memcpy(best, place, sizeof best);
         }
     }
-    climb(frame, best, depth);
+    climb(frame, pitch, best, depth);
     return *depth >= radius;
 }
 

@@ -28,6 +28,11 @@
 #define CELLS_PER_SPACING 2.0
 #define BAND_SPACINGS 4.0
 
+/* That of a mesh too thin for its spacing: cells across its thinnest side, so that how thick it is found to be does not
+ * hang on the spacing, and most cells along its longest. */
+#define THIN_CELLS 8.0
+#define LONG_CELLS 256.0
+
 /* What is made on the way. */
 typedef struct filling {
     const char *name; /* of the file, without its folder */
@@ -93,10 +98,25 @@ static mor_status read_options(mor_command *command, filling *it)
     return status;
 }
 
+static mor_level_set_request find_fineness(const mor_mesh *mesh, double spacing)
+{
+    mor_bounds bounds;
+    double sides[3];
+    mor_mesh_bounds(mesh, &bounds);
+    for (int a = 0; a < 3; ++a) {
+        sides[a] = bounds.maximum[a] - bounds.minimum[a];
+    }
+    const double least = fmin(sides[0], fmin(sides[1], sides[2]));
+    const double longest = fmax(sides[0], fmax(sides[1], sides[2]));
+    const double thin_cell = fmax(least / THIN_CELLS, longest / LONG_CELLS);
+    return thin_cell * CELLS_PER_SPACING < spacing
+               ? (mor_level_set_request){3, thin_cell, THIN_CELLS * thin_cell}
+               : (mor_level_set_request){3, spacing / CELLS_PER_SPACING, BAND_SPACINGS * spacing};
+}
+
 static mor_status shape_mesh(mor_command *command, filling *it)
 {
     mor_context *context = command->context;
-    const mor_level_set_request fineness = {3, it->spacing / CELLS_PER_SPACING, BAND_SPACINGS * it->spacing};
     mor_mesh mesh;
     mor_mesh_report report;
     char text[1024];
@@ -111,6 +131,7 @@ static mor_status shape_mesh(mor_command *command, filling *it)
         }
     }
     if (status == MOR_OK) {
+        const mor_level_set_request fineness = find_fineness(&mesh, it->spacing);
         mor_mesh_moments(&mesh, &it->moments);
         status = mor_shape_new_mesh(context, &mesh, &fineness, &it->shape);
         if (isnan(it->sizes[MOR_MESH_LENGTH]) && isnan(it->sizes[MOR_MESH_VOLUME]) &&
@@ -303,7 +324,10 @@ static mor_status fill_shape(mor_command *command, filling *it)
     it->request.spacing = it->spacing;
     it->request.volume = it->moments.volume;
     const double start = mor_clock_now();
-    MOR_TRY(context, blame_input(context, mor_point_cache_relax(context, &it->cache, &it->request, &it->points), ""));
+    char place[256];
+    snprintf(place, sizeof place, "%.250s: ", it->name);
+    MOR_TRY(context,
+            blame_input(context, mor_point_cache_relax(context, &it->cache, &it->request, &it->points), place));
     it->seconds = mor_clock_now() - start;
     MOR_TRY(context, MOR_NEW(context, &it->depths, it->points.n_points, "depths of particles"));
     for (int64_t i = 0; i < it->points.n_points; ++i) {

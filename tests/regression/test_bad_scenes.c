@@ -119,7 +119,7 @@ static const bad_scene rock_scenes[] = {
     {"bodies[0].clamp={type=\"box\"; min=(\"4 m\", \"0 m\"); max=(\"5 m\", \"1 m\");}",
      "a clamp of body 'ball' that holds none of its", "move the clamp", true},
     {PACKED("-0.3 m", "0.8 m", "0.9 m"), "overlapping wall '", "raise 'margin' or shrink 'region'", false},
-    {PACKED("0.1 m", "0.45 m", "0.5 m"), "spacings thick at its thickest", "use a spacing of at most", false},
+    {PACKED("0.1 m", "0.45 m", "0.5 m"), "m thick at its thickest", "use a spacing of at most", false},
     /* Of many sizes the thinnest rock is told, and a spacing for all that may be drawn. */
     {PACKED("0.1 m", "0.45 m", "0.9 m"), "it is the thinnest of the rocks", "does for all that the sizes allow", false},
     {"soil[0].shape={type=\"box\"; min=(\"2.9 m\", \"0.2 m\"); max=(\"3.1 m\", \"0.4 m\");}",

@@ -127,7 +127,10 @@ static void relax_refuses_what_it_cannot_fill(void **state)
         {{"relax", "cube.obj", "--spacing", "1 kg", NULL}, "--spacing '1 kg'"},
         {{"relax", "cube.obj", "--spacing", "1", "--length", "1", "--diameter", "1", NULL},
          "more than one of --length"},
-        {{"relax", "cube.obj", "--spacing", "3", NULL}, "use a spacing of at most"},
+        /* The same advice at any spacing: a quarter of the cube's side, less a thousandth for the digits. */
+        {{"relax", "cube.obj", "--spacing", "0.3", NULL}, "cube.obj: the shape (level set) is 1 m thick"},
+        {{"relax", "cube.obj", "--spacing", "0.3", NULL}, "use a spacing of at most 0.2497 m, or make it larger"},
+        {{"relax", "cube.obj", "--spacing", "300", NULL}, "use a spacing of at most 0.2497 m, or make it larger"},
         {{"relax", "cube.csv", "--spacing", "1", NULL}, "an outline from .txt"},
         {{"relax", "cube.obj", "--spacing", "0.001", NULL}, "as its file is taken in meters"},
         {{"check", "cube.obj", "--spacing", "1", NULL}, "belong to moraine relax"},

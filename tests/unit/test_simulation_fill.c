@@ -111,7 +111,7 @@ static void body_that_is_too_thin_is_an_error_of_the_case(void **state)
     mor_point_cache_init(&cache, "");
     assert_int_equal(mor_simulation_fill_body(&context, new_case(), &body, &cache, &placed), MOR_ERROR_CONFIG);
     assert_non_null(strstr(context.message, "a.cfg:12"));
-    assert_non_null(strstr(context.message, "3 spacings thick"));
+    assert_non_null(strstr(context.message, "that is 3 spacings"));
     assert_null(placed.positions);
     mor_point_cache_clear(&context, &cache);
     mor_shape_free(&context, &shell);
