@@ -94,7 +94,8 @@ static mor_status judge_edges(mor_context *context, const mor_mesh_work *work)
               "the mesh there",
               work->name, at[0], at[1], at[2]);
     MOR_CHECK(context, report->n_open_edges == 0, MOR_ERROR_ARGUMENT,
-              "%s: the surface is open: %lld edges have one triangle, one of them near (%g, %g, %g); holes of up to %d "
+              "%s: the surface is open: %lld edges have one triangle, one of them near (%g, %g, %g) in the units of "
+              "the file; holes of up to %d "
               "edges are filled, larger ones must be closed by hand",
               work->name, (long long)report->n_open_edges, at[0], at[1], at[2], MOR_MESH_HOLE_EDGES_MAX);
     return MOR_OK;

@@ -163,7 +163,7 @@ static mor_status load_head(mor_context *context, const char *path, char *head, 
 {
     struct stat about;
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    MOR_CHECK(context, file >= 0, MOR_ERROR_IO, "%s: cannot be read: %s", path, strerror(errno));
+    MOR_CHECK(context, file >= 0, MOR_ERROR_IO, "%s: cannot be read: %s; check the path", path, strerror(errno));
     const bool is_file = fstat(file, &about) == 0 && S_ISREG(about.st_mode);
     int64_t n = 0;
     while (is_file && n < MOR_MESH_HEAD_BYTES) {

@@ -63,11 +63,19 @@ static mor_status blame_input(mor_context *context, mor_status status, const cha
 static mor_status read_length(mor_context *context, const mor_units *units, const char *option, const char *text,
                               const char *unit, double *value)
 {
+    const char *example = strcmp(unit, "m") == 0 ? "0.05 or '5 cm'" : strcmp(unit, "m2") == 0 ? "'2 m2'" : "'2 m3'";
     char place[256];
+    char allowed[64];
     snprintf(place, sizeof place, "%s '%s': ", option, text);
-    MOR_TRY(context, blame_input(context, mor_units_convert(context, units, text, unit, value), place));
-    MOR_CHECK(context, isfinite(*value) && *value > 0.0, MOR_ERROR_CONFIG, "found %s '%s'; it must be above zero",
-              option, text);
+    snprintf(allowed, sizeof allowed, "allowed: > 0 %s, such as %s", unit, example);
+    const mor_status status = mor_units_convert(context, units, text, unit, value);
+    if (status == MOR_ERROR_ARGUMENT) {
+        char why[MOR_CONTEXT_MESSAGE_BYTES];
+        memcpy(why, context->message, sizeof why);
+        return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s%.500s; %s", place, why, allowed);
+    }
+    MOR_TRY(context, blame_input(context, status, place));
+    MOR_CHECK(context, isfinite(*value) && *value > 0.0, MOR_ERROR_CONFIG, "found %s '%s'; %s", option, text, allowed);
     return MOR_OK;
 }
 
@@ -288,7 +296,8 @@ static mor_status write_snapshot(mor_command *command, const filling *it, const 
     return status;
 }
 
-/* Colored by depth, in space with a quarter left out. */
+/* Colored by depth, in space with a quarter left out. The depth in a mesh is known within the band of its level set
+ * only: the colors end just below, so that an arrow tells where it is more. */
 static mor_status draw_points(mor_command *command, const filling *it, const char *folder)
 {
     char path[MOR_PATH_BYTES];
@@ -300,6 +309,11 @@ static mor_status draw_points(mor_command *command, const filling *it, const cha
                                      .value = it->depths};
     snprintf(title, sizeof title, "%.400s at a spacing of %g m", it->name, it->spacing);
     snprintf(count, sizeof count, "%lld particles", (long long)it->points.n_points);
+    const double known = 0.999 * BAND_SPACINGS * it->spacing;
+    bool is_deeper = false;
+    for (int64_t i = 0; i < it->points.n_points && it->request.dimension == 3; ++i) {
+        is_deeper = is_deeper || it->depths[i] > known;
+    }
     const mor_picture picture = {.dimension = it->request.dimension,
                                  .groups = &group,
                                  .n_groups = 1,
@@ -307,6 +321,8 @@ static mor_status draw_points(mor_command *command, const filling *it, const cha
                                  .time_text = count,
                                  .value_name = "depth",
                                  .value_unit = "m",
+                                 .has_range = is_deeper,
+                                 .range = {0.0, known},
                                  .has_cut = true,
                                  .swelling = 1.0};
     MOR_TRY(command->context, mor_durable_file_join(command->context, path, folder, "images/particles.png"));

@@ -121,10 +121,12 @@ static void relax_refuses_what_it_cannot_fill(void **state)
         const char *message;
     } refusals[] = {
         {{"relax", "cube.obj", NULL}, "needs the spacing"},
-        {{"relax", "none.obj", "--spacing", "1", NULL}, "none.obj: cannot be read"},
+        {{"relax", "none.obj", "--spacing", "1", NULL},
+         "none.obj: cannot be read: No such file or directory; check the path"},
         {{"relax", "open.obj", "--spacing", "1", NULL}, "open.obj: is no mesh"},
-        {{"relax", "cube.obj", "--spacing", "-1", NULL}, "it must be above zero"},
-        {{"relax", "cube.obj", "--spacing", "1 kg", NULL}, "--spacing '1 kg'"},
+        {{"relax", "cube.obj", "--spacing", "-1", NULL},
+         "found --spacing '-1'; allowed: > 0 m, such as 0.05 or '5 cm'"},
+        {{"relax", "cube.obj", "--spacing", "1 kg", NULL}, "(kg); allowed: > 0 m, such as 0.05 or '5 cm'"},
         {{"relax", "cube.obj", "--spacing", "1", "--length", "1", "--diameter", "1", NULL},
          "more than one of --length"},
         /* The same advice at any spacing: a quarter of the cube's side, less a thousandth for the digits. */
