@@ -63,6 +63,7 @@ static void print_usage(FILE *stream)
 static void show_log(void *user, mor_log_level level, const char *text)
 {
     if (level >= MOR_LOG_WARNING) {
+        fflush(stdout); /* what was said before comes first, also where both go into one file */
         fprintf((FILE *)user, "moraine: %s: %s\n", level == MOR_LOG_WARNING ? "warning" : "error", text);
     }
 }
@@ -238,11 +239,12 @@ int mor_command_main(int argc, char **argv, const volatile sig_atomic_t *stop)
     int exit_code = MOR_EXIT_OK;
     const mor_status status = run_command(command, argc, argv, &exit_code);
     if (status != MOR_OK) {
+        fflush(stdout); /* as for the log */
         fprintf(stderr, "moraine: %s\n", context.message);
         exit_code = status == MOR_ERROR_CONFIG ? MOR_EXIT_BAD_INPUT : MOR_EXIT_FAILED;
     }
     free(command);
-    if (fflush(stdout) != 0 && exit_code == MOR_EXIT_OK) {
+    if ((fflush(stdout) != 0 || ferror(stdout)) && exit_code == MOR_EXIT_OK) {
         exit_code = MOR_EXIT_FAILED;
     }
     return exit_code;
