@@ -30,6 +30,30 @@ bool mor_simulation_fill_is_relaxed(const mor_case_body *body)
                                                           : body->particles == MOR_CASE_PARTICLES_RELAXED;
 }
 
+/* Of the axes the one along which the body is shortest is told, so that the spacing told does for all. */
+static mor_status check_extents(mor_context *context, const mor_case *c, const mor_case_body *it,
+                                const mor_bounds *bounds)
+{
+    double least = INFINITY;
+    int axis = 0;
+    for (int a = 0; a < c->dimension; ++a) {
+        const double extent = bounds->maximum[a] - bounds->minimum[a];
+        MOR_CHECK(context, isfinite(extent) && extent > 0.0, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' without end along its own %c; allowed are bounded shapes; use a box, "
+                  "sphere, cylinder, or cut the shape off",
+                  it->place.file, it->place.line, it->name, "xyz"[a]);
+        axis = extent < least ? a : axis;
+        least = fmin(least, extent);
+    }
+    const double n = floor(least / c->spacing + 0.5);
+    MOR_CHECK(context, n >= ACROSS, MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' %g m long along its own %c, which is %g particle%s at a spacing of %g m; allowed "
+              "are at least %d particles across; use a spacing of at most %.3g m, or a larger body",
+              it->place.file, it->place.line, it->name, least, "xyz"[axis], n, n == 1.0 ? "" : "s", c->spacing, ACROSS,
+              0.995 * least / (ACROSS - 0.5)); /* n rounds, and so do the three digits, up too */
+    return MOR_OK;
+}
+
 /* As many whole cells as fit best along each axis of the body's own frame. */
 static mor_status find_lattice(mor_context *context, const mor_case *c, const mor_case_body *it,
                                mor_lattice_request *request)
@@ -40,17 +64,9 @@ static mor_status find_lattice(mor_context *context, const mor_case *c, const mo
     request->dimension = c->dimension;
     request->spacing = c->spacing;
     it->shape->operations->bounds(it->shape, &bounds);
+    MOR_TRY(context, check_extents(context, c, it, &bounds));
     for (int a = 0; a < c->dimension; ++a) {
-        const double extent = bounds.maximum[a] - bounds.minimum[a];
-        const double n = floor(extent / c->spacing + 0.5);
-        MOR_CHECK(context, isfinite(extent) && extent > 0.0, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' without end along its own %c; allowed are bounded shapes; use a box, "
-                  "sphere, cylinder, or cut the shape off",
-                  it->place.file, it->place.line, it->name, "xyz"[a]);
-        MOR_CHECK(context, n >= ACROSS, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' %g m long along its own %c, which is %g particles at a spacing of %g m; "
-                  "allowed are at least %d particles across; use a smaller spacing or a larger body",
-                  it->place.file, it->place.line, it->name, extent, "xyz"[a], n, c -> spacing, ACROSS);
+        const double n = floor((bounds.maximum[a] - bounds.minimum[a]) / c->spacing + 0.5);
         request->origin[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]) - 0.5 * n * c->spacing;
     }
     mor_simulation_body_frame(c, it, request->turn, request->move);

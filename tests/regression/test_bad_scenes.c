@@ -100,7 +100,7 @@ static const bad_scene rock_scenes[] = {
     {"bodies[1].position=(\"3 m\", \"-40 m\")", "body 'block' reaching out of the domain", "enlarge 'domain' or move",
      true},
     {"bodies[1].shape.max=(\"0.3 m\", \"0 m\")", "0.3 m long along its own y, which is 3 particles",
-     "smaller spacing or a larger body", true},
+     "use a spacing of at most 0.0853 m, or a larger body", true}, /* 0.3 m / 3.5, less half a percent */
     {"bodies[0].shape.radius=0.1 m", "0.2 m long along its own x, which is 2 particles", "at least 4 particles across",
      true},
     {"bodies[1].shape={type=\"half_space\"; point=(\"0 m\", \"0 m\"); normal=(0, 1);}", "no end along x",
