@@ -339,8 +339,7 @@ static void move_walls(gallery *g, double time)
 
 static mor_picture_group show_layer(const gallery *g, const layer *l, int tone)
 {
-    const bool is_alone = g->has_soil && g->n_layers == 1;
-    mor_picture_group group = {.name = is_alone ? NULL : l->label,
+    mor_picture_group group = {.name = l->label,
                                .position = l->position,
                                .n_particles = l->set->n_particles,
                                .radius = 0.5 * g->the_case->spacing,

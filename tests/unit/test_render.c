@@ -487,6 +487,23 @@ static void color_range_leaves_out_a_runaway_particle(void **state)
     assert_true(model.range.low >= 0.0 && model.range.high < 130.0); /* values reach 110 */
 }
 
+static void a_field_of_zeros_has_no_color_bar(void **state)
+{
+    run_folder *folder = *state;
+    pile p;
+    pile_fill(&p);
+    memset(p.value, 0, sizeof p.value);
+    mor_picture_group group = pile_group(&p);
+    mor_picture picture = pile_picture(&group, 1, 3);
+    mor_model model;
+    assert_int_equal(mor_model_survey(&folder->context, &picture, &model), MOR_OK);
+    assert_false(model.range.is_shown);
+    picture.has_range = true; /* one of a series, whose others have values */
+    picture.range[1] = 1.0;
+    assert_int_equal(mor_model_survey(&folder->context, &picture, &model), MOR_OK);
+    assert_true(model.range.is_shown);
+}
+
 static void pieces_in_the_plane_lie_on_levels_of_their_own_each_upon_a_dark_copy(void **state)
 {
     run_folder *folder = *state;
@@ -567,6 +584,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(one_frame_gives_one_camera_and_one_ground, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test(ground_lies_on_top_of_an_inclined_floor),
+        cmocka_unit_test_setup_teardown(a_field_of_zeros_has_no_color_bar, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(color_range_leaves_out_a_runaway_particle, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(pieces_in_the_plane_lie_on_levels_of_their_own_each_upon_a_dark_copy,

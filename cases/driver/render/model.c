@@ -144,7 +144,7 @@ static int64_t collect_values(const mor_picture *picture, double *values)
 static mor_status find_range(mor_context *context, const mor_picture *picture, mor_model_range *range)
 {
     const int64_t n = collect_values(picture, NULL);
-    range->is_shown = n > 0;
+    range->is_shown = false;
     if (n == 0) {
         return MOR_OK;
     }
@@ -158,6 +158,8 @@ static mor_status find_range(mor_context *context, const mor_picture *picture, m
     if (!picture->has_range) {
         mor_ticks_round_out(&range->low, &range->high, MOR_MODEL_COLOR_TICKS);
     }
+    /* Zero everywhere, as before the first step, is no range. */
+    range->is_shown = picture->has_range || values[0] != 0.0 || values[n - 1] != 0.0;
     const double slack = 1e-6 * (range->high - range->low);
     range->has_below = values[0] < range->low - slack;
     range->has_above = values[n - 1] > range->high + slack;

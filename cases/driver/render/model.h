@@ -18,7 +18,7 @@ enum { MOR_MODEL_COLOR_TICKS = 7 }; /* most ticks along the color bar */
 typedef struct mor_model_range {
     double low, high;          /* ends, in the picture's value_unit, [1] */
     bool has_below, has_above; /* some values lie outside */
-    bool is_shown;             /* some group has values */
+    bool is_shown;             /* some group has values, and they are not all zero */
 } mor_model_range;
 
 /** Spheres of one layer; owned by the model. */
