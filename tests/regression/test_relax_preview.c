@@ -147,6 +147,26 @@ static void relax_refuses_what_it_cannot_fill(void **state)
     }
 }
 
+static void what_was_read_is_said_before_what_is_wrong_with_it(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char command[2 * MOR_PATH_BYTES];
+    char text[4096];
+    store_inputs(folder);
+    snprintf(command, sizeof command, "'%s' relax '%s' --spacing 3 2>&1", PROGRAM_PATH,
+             run_folder_file(folder, path, "cube.obj"));
+    FILE *both = popen(command, "r");
+    assert_non_null(both);
+    text[fread(text, 1, sizeof text - 1, both)] = '\0';
+    assert_int_equal(WEXITSTATUS(pclose(both)), 2);
+    const char *read = strstr(text, "triangles read");
+    const char *refusal = strstr(text, "moraine: ");
+    assert_non_null(read);
+    assert_non_null(refusal);
+    assert_true(read < refusal);
+}
+
 static void preview_draws_the_first_state_and_spares_runs(void **state)
 {
     run_folder *folder = *state;
@@ -208,6 +228,7 @@ int main(void)
         TEST(relax_fills_a_mesh_with_its_volume_and_repeats_itself),
         TEST(relax_fills_an_outline_with_its_area),
         TEST(relax_refuses_what_it_cannot_fill),
+        TEST(what_was_read_is_said_before_what_is_wrong_with_it),
         TEST(preview_draws_the_first_state_and_spares_runs),
         TEST(the_log_of_a_run_holds_what_was_said_before_there_was_a_folder),
     };
