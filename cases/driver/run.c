@@ -143,6 +143,31 @@ static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
     return MOR_OK;
 }
 
+/* Particles, steps and speed of a run that has reached its end. */
+static void print_end(const mor_run_files *files, const pace *p, double speed)
+{
+    const mor_simulation *s = files->simulation;
+    FILE *out = files->options->output;
+    fprintf(out, "%s\n", s->the_case->title);
+    if (p->n_loop_steps == 0) {
+        fprintf(out, "the run was complete at t = %.6g s; nothing was computed, results%s are drawn anew\n",
+                mor_schedule_time(&s->schedule), s->the_case->output.has_pictures ? " and pictures" : "");
+    }
+    fprintf(out, "%lld particles, %llu steps", (long long)mor_simulation_particles(s),
+            (unsigned long long)s->schedule.n_steps);
+    if (p->n_loop_steps > 0) {
+        fprintf(out, ", %.3g M particle-steps/s", 1e-6 * speed);
+    }
+    if (s->bodies.n_groups > 0 && p->n_loop_steps > 0) {
+        const double mean = (double)p->n_sub_steps / (double)p->n_loop_steps;
+        fprintf(out, ", %.3g sub-step%s of bodies per step in the mean", mean, fabs(mean - 1.0) < 0.005 ? "" : "s");
+    }
+    if (s->has_soil) {
+        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+    }
+    fprintf(out, "\n");
+}
+
 static mor_status finish_run(mor_context *context, mor_run_files *files, const pace *p, mor_run_outcome *outcome)
 {
     const mor_simulation *s = files->simulation;
@@ -161,17 +186,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
                 mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
         return MOR_OK;
     }
-    fprintf(options->output, "%s\n%lld particles, %llu steps, %.3g M particle-steps/s", s->the_case->title,
-            (long long)mor_simulation_particles(s), (unsigned long long)s->schedule.n_steps, 1e-6 * speed);
-    if (s->bodies.n_groups > 0 && p->n_loop_steps > 0) {
-        const double mean = (double)p->n_sub_steps / (double)p->n_loop_steps;
-        fprintf(options->output, ", %.3g sub-step%s of bodies per step in the mean", mean,
-                fabs(mean - 1.0) < 0.005 ? "" : "s");
-    }
-    if (s->has_soil) {
-        fprintf(options->output, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
-    }
-    fprintf(options->output, "\n");
+    print_end(files, p, speed);
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, &outcome->n_missed));
     if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));

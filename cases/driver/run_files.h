@@ -116,7 +116,8 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
 /** Evaluates all probes and expectations, prints the table, writes summary.json.
  *  @param context                   [in,out]  one object
  *  @param files                     [in,out]  one object
- *  @param particle_steps_per_second [in]      speed of the time loop, unit 1/s
+ *  @param particle_steps_per_second [in]      speed of the time loop, unit 1/s; NaN: no step was taken, the
+ *                                             speed in a summary that is there already is kept
  *  @param n_missed                  [out]     one number; expectations missed
  *  Returns: MOR_OK; MOR_ERROR_IO; what a probe returns. */
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,

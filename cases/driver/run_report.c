@@ -83,6 +83,15 @@ static void fill_summary(mor_run_files *files, mor_summary *summary)
     summary->command = files->options->command;
 }
 
+/* The speed in the summary of an earlier end of the same run; NaN when there is none that can be read. */
+static double find_old_speed(const char *path)
+{
+    mor_context context; /* of its own: an old file that is missing or damaged is no error, it is replaced */
+    double speed = NAN;
+    mor_context_init(&context);
+    return mor_summary_read_speed(&context, path, &speed) == MOR_OK ? speed : NAN;
+}
+
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
                                   int *n_missed)
 {
@@ -125,6 +134,9 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     }
     fill_summary(files, &summary);
     MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, MOR_SUMMARY_FILE));
+    if (isnan(particle_steps_per_second)) {
+        summary.particle_steps_per_second = find_old_speed(path);
+    }
     MOR_TRY(context, mor_summary_write(context, path, &summary));
     print_results(files->options->output, &summary);
     print_expectations(files->options->output, c, &summary);

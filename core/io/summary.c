@@ -36,8 +36,8 @@ static mor_status check_texts(mor_context *context, const mor_summary *summary)
                   "two results of a summary are named '%s'; rename one probe", result->probe);
     }
     for (int k = 0; k < summary->n_inputs; ++k) {
-        MOR_CHECK(context, summary->inputs[k].path != NULL, MOR_ERROR_ARGUMENT,
-                  "input %d of a summary has no path", k + 1);
+        MOR_CHECK(context, summary->inputs[k].path != NULL, MOR_ERROR_ARGUMENT, "input %d of a summary has no path",
+                  k + 1);
     }
     return MOR_OK;
 }
@@ -52,8 +52,8 @@ static mor_status check_expectations(mor_context *context, const mor_summary *su
         MOR_CHECK(context, result != NULL, MOR_ERROR_ARGUMENT,
                   "expectation %d of a summary is about '%s', which is not among the results", k + 1,
                   expectation->probe);
-        const bool is_same = result->value == expectation->measured ||
-                             (isnan(result->value) && isnan(expectation->measured));
+        const bool is_same =
+            result->value == expectation->measured || (isnan(result->value) && isnan(expectation->measured));
         MOR_CHECK(context, is_same, MOR_ERROR_ARGUMENT,
                   "expectation %d of a summary has measured %.17g for '%s', whose result is %.17g", k + 1,
                   expectation->measured, expectation->probe, result->value);
@@ -265,7 +265,8 @@ static mor_status check_results(mor_context *context, const char *path, json_t *
     }
     const char *name = NULL;
     json_t *result = NULL;
-    json_object_foreach(results, name, result) {
+    json_object_foreach(results, name, result)
+    {
         if (!is_number_or_null(json_object_get(result, "value")) || !json_is_string(json_object_get(result, "unit"))) {
             return fail_member(context, path, name, "an object with a number or null as value and a text as unit");
         }
@@ -319,7 +320,8 @@ static mor_status check_provenance(mor_context *context, const char *path, const
     }
     const char *name = NULL;
     json_t *hash = NULL;
-    json_object_foreach(inputs, name, hash) {
+    json_object_foreach(inputs, name, hash)
+    {
         if (!is_hash(hash)) {
             return fail_member(context, path, name, "16 hexadecimal digits");
         }
@@ -379,8 +381,23 @@ mor_status mor_summary_check(mor_context *context, const char *path)
     return MOR_OK;
 }
 
-mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value,
-                                   char *unit, size_t n_bytes)
+static double read_number(const json_t *number)
+{
+    return json_is_null(number) ? NAN : json_number_value(number);
+}
+
+mor_status mor_summary_read_speed(mor_context *context, const char *path, double *speed)
+{
+    *speed = NAN;
+    json_t *document = NULL;
+    MOR_TRY(context, load_document(context, path, &document));
+    *speed = read_number(json_object_get(json_object_get(document, "speed"), "particle_steps_per_second"));
+    json_decref(document);
+    return MOR_OK;
+}
+
+mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value, char *unit,
+                                   size_t n_bytes)
 {
     *value = NAN;
     unit[0] = '\0';
@@ -395,8 +412,7 @@ mor_status mor_summary_read_result(mor_context *context, const char *path, const
         status = MOR_FAIL(context, MOR_ERROR_IO, "the unit '%s' of result '%s' in '%s' is longer than %zu bytes", found,
                           probe, path, n_bytes - 1);
     } else {
-        const json_t *number = json_object_get(result, "value");
-        *value = json_is_null(number) ? NAN : json_number_value(number);
+        *value = read_number(json_object_get(result, "value"));
         memcpy(unit, found, strlen(found) + 1);
     }
     json_decref(document);

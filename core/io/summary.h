@@ -92,7 +92,14 @@ mor_status mor_summary_check(mor_context *context, const char *path);
  *  @param unit    [out]     shape [n_bytes]; zero-terminated
  *  @param n_bytes [in]      room for the unit
  *  Returns: MOR_OK; MOR_ERROR_IO, also when there is no such probe or the unit has no room. */
-mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value,
-                                   char *unit, size_t n_bytes);
+mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value, char *unit,
+                                   size_t n_bytes);
+
+/** Reads the speed from a summary after checking the file.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated
+ *  @param speed   [out]     particle-steps per second, 1/s; NaN where the file has null, and after a failure
+ *  Returns: MOR_OK; MOR_ERROR_IO. */
+mor_status mor_summary_read_speed(mor_context *context, const char *path, double *speed);
 
 #endif

@@ -1,0 +1,55 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tests/common/finished_run.h"
+#include "tests/common/program.h"
+
+#include <math.h>
+
+/* What `moraine run` says when a run cannot go on as the user thought. */
+
+/* The speed in the summary of a run. */
+static double read_speed(run_folder *folder, const char *run)
+{
+    char path[MOR_PATH_BYTES];
+    double speed = NAN;
+    finished_run_file(folder, path, run, MOR_SUMMARY_FILE);
+    assert_int_equal(mor_summary_read_speed(&folder->context, path, &speed), MOR_OK);
+    return speed;
+}
+
+static void complete_run_resumed_says_so_and_keeps_its_speed(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const first[] = {"run", path, "-t", "1", "-o", "mine", NULL};
+    const char *const again[] = {"run", path, "-t", "1", "-o", "mine", "--resume", NULL};
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, first, 0);
+    program_expect_text(outcome.output, "particle-steps/s");
+    program_clear(&outcome);
+    const double speed = read_speed(folder, "mine");
+    assert_true(speed > 0.0);
+    outcome = program_run(folder, again, 0);
+    program_expect_text(outcome.output,
+                        "the run was complete at t = 0.06 s; nothing was computed, results are drawn anew");
+    assert_null(strstr(outcome.output, "steps/s"));
+    assert_null(strstr(outcome.output, "nan"));
+    program_clear(&outcome);
+    assert_true(read_speed(folder, "mine") == speed);
+    /* Without a summary there is no speed to keep. */
+    assert_int_equal(remove(finished_run_file(folder, path, "mine", MOR_SUMMARY_FILE)), 0);
+    finished_run_store_case(folder, path);
+    outcome = program_run(folder, again, 0);
+    program_clear(&outcome);
+    assert_true(isnan(read_speed(folder, "mine")));
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(complete_run_resumed_says_so_and_keeps_its_speed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
