@@ -280,9 +280,9 @@ mor_status mor_command_print_explanation(mor_command *command, mor_simulation *s
     if (s->has_soil) {
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
     }
-    const int64_t n = s->has_soil ? s->soil.set.n_particles : mor_simulation_particles(s);
-    fprintf(out, "\n  speed now               %.2f M particle-steps/s with %d thread%s (%s)\n",
-            1e-6 * (double)n / seconds, command->context->n_threads, command->context->n_threads == 1 ? "" : "s",
+    fprintf(out, "\n  speed now               %.2f M %s/s with %d thread%s (%s)\n",
+            1e-6 * (double)mor_simulation_counted_particles(s) / seconds, mor_simulation_counted_unit(s),
+            command->context->n_threads, command->context->n_threads == 1 ? "" : "s",
             mor_pair_select(NULL)->instruction_set);
     print_expected_time(out, s, &now, &touching, is_same);
     print_warnings(out, s);

@@ -49,12 +49,6 @@ static void find_next_outputs(const mor_simulation *s, pace *p)
     }
 }
 
-/* Particles of the unit of account: those that take the common step. */
-static int64_t count_leading(const mor_simulation *s)
-{
-    return s->has_soil ? s->soil.set.n_particles : mor_simulation_particles(s);
-}
-
 static void show_progress(const mor_run_options *options, const mor_simulation *s, pace *p)
 {
     const double now = mor_clock_now();
@@ -67,12 +61,11 @@ static void show_progress(const mor_run_options *options, const mor_simulation *
     const double seconds_per_step = p->loop_seconds / (double)p->n_loop_steps;
     const double steps_left = (double)(schedule->end - schedule->now) * schedule->tick / schedule->step_length;
     const double left = steps_left * seconds_per_step;
-    fprintf(
-        options->progress,
-        "\r%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  sub-steps %d  %.2f M particle-steps/s  %d min %02d s left   ",
-        100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
-        mor_schedule_rate_ratio(schedule), 1e-6 * (double)count_leading(s) / seconds_per_step, (int)(left / 60.0),
-        (int)fmod(left, 60.0));
+    fprintf(options->progress,
+            "\r%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  sub-steps %d  %.2f M %s/s  %d min %02d s left   ",
+            100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
+            mor_schedule_rate_ratio(schedule), 1e-6 * (double)mor_simulation_counted_particles(s) / seconds_per_step,
+            mor_simulation_counted_unit(s), (int)(left / 60.0), (int)fmod(left, 60.0));
     fflush(options->progress);
 }
 
@@ -156,7 +149,7 @@ static void print_end(const mor_run_files *files, const pace *p, double speed)
     fprintf(out, "%lld particles, %llu steps", (long long)mor_simulation_particles(s),
             (unsigned long long)s->schedule.n_steps);
     if (p->n_loop_steps > 0) {
-        fprintf(out, ", %.3g M particle-steps/s", 1e-6 * speed);
+        fprintf(out, ", %.3g M %s/s", 1e-6 * speed, mor_simulation_counted_unit(s));
     }
     if (s->bodies.n_groups > 0 && p->n_loop_steps > 0) {
         const double mean = (double)p->n_sub_steps / (double)p->n_loop_steps;
@@ -172,8 +165,9 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
 {
     const mor_simulation *s = files->simulation;
     const mor_run_options *options = files->options;
-    const double speed =
-        p->loop_seconds > 0.0 ? (double)count_leading(s) * (double)p->n_loop_steps / p->loop_seconds : NAN;
+    const double speed = p->loop_seconds > 0.0
+                             ? (double)mor_simulation_counted_particles(s) * (double)p->n_loop_steps / p->loop_seconds
+                             : NAN;
     outcome->is_finished = s->schedule.now >= s->schedule.end;
     if (options->progress != NULL) {
         fprintf(options->progress, "\r%*s\r", 126, "");

@@ -106,6 +106,21 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
  *  @param simulation [in]  one object */
 int64_t mor_simulation_particles(const mor_simulation *simulation);
 
+/** Number of particles that speeds are counted in: those that take the common step, the soil's where there is soil.
+ *  @param simulation [in]  one object */
+static inline int64_t mor_simulation_counted_particles(const mor_simulation *simulation)
+{
+    return simulation->has_soil ? simulation->soil.set.n_particles : mor_simulation_particles(simulation);
+}
+
+/** What speeds are counted in, in words: it says so where rocks are left out.
+ *  @param simulation [in]  one object
+ *  Returns: a static text. */
+static inline const char *mor_simulation_counted_unit(const mor_simulation *simulation)
+{
+    return simulation->has_soil && simulation->bodies.n_groups > 0 ? "steps of soil particles" : "particle-steps";
+}
+
 /** All particle sets: the soil, the groups of bodies, what their contact remembers.
  *  @param simulation [in]   one object
  *  @param sets       [out]  shape [MOR_BODY_GROUPS_MAX + 2]; borrowed
