@@ -118,7 +118,7 @@ static mor_status report_refusal(mor_context *context, const mor_elastic *elasti
                     "material '%s' gives no stress for " PARTICLE
                     " at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu: its "
                     "volume has changed by the factor %.4g, which must be positive. A smaller 'body_courant' or a "
-                    "stiffer body may help; the last checkpoint is kept",
+                    "stiffer body may help",
                     elastic->material->material->name, PARTICLE_NAMES(group, i), x[0], x[1], x[2],
                     step->time + 0.5 * step->length, (unsigned long long)step->number, determinant);
 }
@@ -204,7 +204,7 @@ static mor_status report_runaway(mor_context *context, const mor_elastic *elasti
             return MOR_FAIL(context, MOR_ERROR_NUMERIC,
                             PARTICLE " has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, t = %.6g s, step "
                                      "%llu; speeds must stay below that of sound, %.4g m/s. A stiffer body, a smaller "
-                                     "'body_courant' or a smaller spacing may help; the last checkpoint is kept",
+                                     "'body_courant' or a smaller spacing may help",
                             PARTICLE_NAMES(group, i), v[0], v[1], v[2], x[0], x[1], x[2], step->time + step->length,
                             (unsigned long long)step->number, elastic->sound_speed);
         }

@@ -20,6 +20,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { SENTENCE_BYTES = 256 };
+
 /* A registry with the built-in materials. */
 static mor_status make_registry(mor_context *context, mor_registry **registry)
 {
@@ -82,6 +84,10 @@ static mor_status print_check(mor_command *command, scene *it)
     fprintf(command->output, "%d wall%s, %d probe%s, %d expectation%s\n", it->the_case.n_walls,
             it->the_case.n_walls == 1 ? "" : "s", it->the_case.n_probes, it->the_case.n_probes == 1 ? "" : "s",
             it->the_case.n_expectations, it->the_case.n_expectations == 1 ? "" : "s");
+    char softness[SENTENCE_BYTES];
+    if (mor_simulation_describe_softness(&it->simulation, softness, sizeof softness)) {
+        fprintf(command->output, "warning: %s\n", softness);
+    }
     return MOR_OK;
 }
 

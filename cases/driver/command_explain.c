@@ -10,7 +10,10 @@
 #include "cases/driver/simulation.h"
 #include "core/base/math.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+enum { SENTENCE_BYTES = 256 };
 
 static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *set)
 {
@@ -94,12 +97,27 @@ static void print_warnings(FILE *out, const mor_simulation *s)
         }
     }
     print_gaps(out, s);
+    char softness[SENTENCE_BYTES];
+    if (mor_simulation_describe_softness(s, softness, sizeof softness)) {
+        fprintf(out, "warning: %s\n", softness);
+    }
     if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {
         fprintf(out, "warning: there is no wall; everything falls freely\n");
     }
     if (c->n_probes == 0) {
         fprintf(out, "warning: there is no probe; the run will report no result\n");
     }
+}
+
+/* What is to be warned of, to be printed later: the steps that are timed spoil the state. The caller frees the text. */
+static mor_status find_warnings(mor_context *context, const mor_simulation *s, char **text)
+{
+    size_t n_bytes = 0;
+    FILE *stream = open_memstream(text, &n_bytes);
+    MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
+    print_warnings(stream, s);
+    MOR_CHECK(context, fclose(stream) == 0, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
+    return MOR_OK;
 }
 
 /* Times a few steps on a state that is thrown away. */
@@ -255,6 +273,45 @@ static void print_expected_time(FILE *out, const mor_simulation *s, const pace *
     fprintf(out, "\n");
 }
 
+static mor_status time_paces(mor_context *context, mor_simulation *s, pace *now, pace *touching, bool is_same)
+{
+    MOR_TRY(context, time_steps(context, s, &now->seconds));
+    touching->seconds = now->seconds;
+    if (!is_same) {
+        let_touch(s, true);
+        const mor_status status = time_steps(context, s, &touching->seconds);
+        let_touch(s, false);
+        MOR_TRY(context, status);
+    }
+    return MOR_OK;
+}
+
+/* Speed and expected time. A scene that comes to grief within the steps that are timed is told so: to explain it is
+ * still what was asked for. */
+static mor_status print_speed(mor_command *command, mor_simulation *s, pace *now, pace *touching, bool is_same)
+{
+    FILE *out = command->output;
+    const mor_context *context = command->context;
+    const mor_status status = time_paces(command->context, s, now, touching, is_same);
+    fprintf(out, "  memory                  %.1f MiB", (double)context->memory_peak_bytes / 1048576.0);
+    if (s->has_soil) {
+        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+    }
+    fprintf(out, "\n");
+    if (status == MOR_ERROR_NUMERIC) {
+        fprintf(out, "  speed now               not measured\nwarning: a run would stop within its first steps: %s\n",
+                context->message);
+        mor_context_clear_error(command->context);
+        return MOR_OK;
+    }
+    MOR_TRY(command->context, status);
+    fprintf(out, "  speed now               %.2f M %s/s with %d thread%s (%s)\n",
+            1e-6 * (double)mor_simulation_counted_particles(s) / now->seconds, mor_simulation_counted_unit(s),
+            context->n_threads, context->n_threads == 1 ? "" : "s", mor_pair_select(NULL)->instruction_set);
+    print_expected_time(out, s, now, touching, is_same);
+    return MOR_OK;
+}
+
 mor_status mor_command_print_explanation(mor_command *command, mor_simulation *s)
 {
     FILE *out = command->output;
@@ -268,24 +325,12 @@ mor_status mor_command_print_explanation(mor_command *command, mor_simulation *s
         touching.length == now.length && memcmp(touching.substeps, now.substeps, sizeof now.substeps) == 0;
     print_sizes(out, s);
     print_clocks(out, s, &now, &touching);
-    MOR_TRY(command->context, time_steps(command->context, s, &now.seconds));
-    touching.seconds = now.seconds;
-    if (!is_same) {
-        let_touch(s, true);
-        MOR_TRY(command->context, time_steps(command->context, s, &touching.seconds));
-        let_touch(s, false);
-    }
-    const double seconds = now.seconds;
-    fprintf(out, "  memory                  %.1f MiB", (double)command->context->memory_peak_bytes / 1048576.0);
-    if (s->has_soil) {
-        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
-    }
-    fprintf(out, "\n  speed now               %.2f M %s/s with %d thread%s (%s)\n",
-            1e-6 * (double)mor_simulation_counted_particles(s) / seconds, mor_simulation_counted_unit(s),
-            command->context->n_threads, command->context->n_threads == 1 ? "" : "s",
-            mor_pair_select(NULL)->instruction_set);
-    print_expected_time(out, s, &now, &touching, is_same);
-    print_warnings(out, s);
+    char *warnings = NULL;
+    MOR_TRY(command->context, find_warnings(command->context, s, &warnings));
+    const mor_status status = print_speed(command, s, &now, &touching, is_same);
+    fputs(status == MOR_OK ? warnings : "", out);
+    free(warnings);
+    MOR_TRY(command->context, status);
     for (int k = 0; k < s->schedule.n_steppers; ++k) {
         print_stages(out, &s->schedule.steppers[k], set_of(s, k));
     }

@@ -15,6 +15,8 @@
 /* Seconds between two lines of progress. */
 #define PROGRESS_SECONDS 0.5
 
+enum { SENTENCE_BYTES = 256 };
+
 /* The clockwork of a run beside the simulation itself. */
 typedef struct pace {
     double loop_seconds;   /* wall time spent in steps, s */
@@ -24,6 +26,8 @@ typedef struct pace {
     double last_progress;  /* wall time of the last line of progress, s */
     int64_t next_row;      /* number of the next row of the series */
     int64_t next_snapshot; /* number of the next snapshot */
+    double fastest;        /* largest speed of the soil in these steps, m/s */
+    double fastest_time;   /* when that was, s */
 } pace;
 
 static int64_t snapshot_tick(const mor_simulation *s, int64_t number)
@@ -104,6 +108,10 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         p->loop_seconds += mor_clock_now() - before;
         p->n_loop_steps += 1;
         p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
+        if (s->soil.largest_speed > p->fastest) {
+            p->fastest = s->soil.largest_speed;
+            p->fastest_time = mor_schedule_time(&s->schedule);
+        }
         MOR_TRY(context, mor_probe_follow(context, s));
         MOR_TRY(context, write_outputs(context, files, p));
         show_progress(files->options, s, p);
@@ -134,6 +142,19 @@ static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
     find_next_outputs(files->simulation, p);
     p->last_save = mor_clock_now();
     return MOR_OK;
+}
+
+/* The method takes soil to be hardly compressible, which needs speeds far below that of sound. */
+static void warn_of_speed(mor_context *context, const mor_simulation *s, const pace *p)
+{
+    const double advisable = 0.1;
+    if (s->has_soil && p->fastest > advisable * s->soil.sound_speed) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "the largest speed was %.2f of the speed of sound (at t = %.4g s); below %g is advisable: raise "
+            "youngs_modulus",
+            p->fastest / s->soil.sound_speed, p->fastest_time, advisable);
+    }
 }
 
 /* Particles, steps and speed of a run that has reached its end. */
@@ -181,11 +202,20 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
         return MOR_OK;
     }
     print_end(files, p, speed);
+    warn_of_speed(context, s, p);
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, &outcome->n_missed));
     if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
     }
     return MOR_OK;
+}
+
+/* Adds what the folder of the run means to an error: the library that found it knows nothing of runs. */
+static void add_advice(mor_context *context, mor_status status)
+{
+    const size_t length = strlen(context->message);
+    snprintf(context->message + length, sizeof context->message - length, "%s",
+             status == MOR_ERROR_NUMERIC ? "; the last checkpoint is kept" : "");
 }
 
 /* The message, and where in the program it arose, for whoever mends the program. */
@@ -211,6 +241,10 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
         status = mor_pictures_check(context, files->the_case, sets, n_sets);
     }
     const bool is_refused = status != MOR_OK;
+    char softness[SENTENCE_BYTES];
+    if (!is_refused && mor_simulation_describe_softness(files->simulation, softness, sizeof softness)) {
+        mor_context_log(context, MOR_LOG_WARNING, "%s", softness);
+    }
     if (status == MOR_OK) {
         status = start_run(context, files, &p);
     }
@@ -224,6 +258,9 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
         fprintf(files->options->progress, "\n");
     }
     if (status != MOR_OK) {
+        if (files->series.stream != NULL) { /* before that there is nothing to go on from */
+            add_advice(context, status);
+        }
         log_reason(context, files->log);
     }
     if (is_refused) {

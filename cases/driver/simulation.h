@@ -31,6 +31,7 @@ typedef struct mor_simulation {
     mor_schedule schedule;
     double up[3];                         /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
     double surface_height;                /* of the initial soil along up over the placed origin, m */
+    double soil_depth;                    /* height of the highest column of the initial soil along up, m; 0 without */
     double initial_energies[3];           /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     double extremes[MOR_CASE_PROBES_MAX]; /* largest value so far of probes that ask for it, unit of the probe */
 } mor_simulation;
@@ -83,8 +84,16 @@ void mor_simulation_find_up(const mor_case *the_case, double *up);
  *  @param soil     [in]  one object */
 double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil);
 
-/** Sets the surface height and the initial stress of all regions: vertical stress from the weight of the soil straight
- *  above, of whatever region, lateral stress by the region's ratio.
+/** Says so when the soil is so soft that its own weight, rho g H over Young's modulus with H the height of its highest
+ *  column, compresses it by more than 2 %. The method takes soil to be hardly compressible.
+ *  @param simulation [in]   one object, as it begins
+ *  @param text       [out]  shape [n_bytes]; zero-terminated; a sentence without a stop, "" when there is nothing to say
+ *  @param n_bytes    [in]   room
+ *  Returns: whether there is something to say; not without gravity, soil or a modulus. */
+bool mor_simulation_describe_softness(const mor_simulation *simulation, char *text, size_t n_bytes);
+
+/** Sets the surface height, the depth of the soil and the initial stress of all regions: vertical stress from the
+ *  weight of the soil straight above, of whatever region, lateral stress by the region's ratio.
  *  @param context    [in,out]  one object
  *  @param simulation [in,out]  one object; particles in the order of the regions
  *  @param regions    [in]      shape [regions of the case]; their points

@@ -85,6 +85,9 @@ static void set_region(mor_simulation *simulation, const surface *s, const mor_c
         const double *x = position + 3 * i;
         const double top = isnan(level) ? s->top[column_of(s, x)] + 0.5 * s->spacing : level;
         simulation->surface_height = fmax(simulation->surface_height, top);
+        /* Both halves of a spacing: above the highest center and below the lowest. */
+        simulation->soil_depth =
+            fmax(simulation->soil_depth, s->top[column_of(s, x)] - mor_vector_dot(x, up) + s->spacing);
         if (it->initial_stress == MOR_CASE_STRESS_NONE) {
             continue;
         }

@@ -44,12 +44,36 @@ static void complete_run_resumed_says_so_and_keeps_its_speed(void **state)
     assert_true(isnan(read_speed(folder, "mine")));
 }
 
+/* Soil thrown at a third of the speed of sound, c = sqrt((K + 4 G / 3) / rho) or less: 37 m/s here. */
+static void run_warns_of_speeds_near_that_of_sound(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const slow[] = {"run", path, "-t", "1", "-o", "slow", NULL};
+    const char *const fast[] = {"run",   path,
+                                "-t",    "1",
+                                "-o",    "fast",
+                                "--set", "soil[0].velocity=(\"12 m/s\", \"0 m/s\")",
+                                "--set", "domain.max[0]=4",
+                                "--set", "soil[0].material.friction_angle=0",
+                                NULL};
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, slow, 0);
+    assert_string_equal(outcome.errors, "");
+    program_clear(&outcome);
+    outcome = program_run(folder, fast, 0);
+    program_expect_text(outcome.errors, "warning: the largest speed was 0.");
+    program_expect_text(outcome.errors, "below 0.1 is advisable: raise youngs_modulus");
+    program_clear(&outcome);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(complete_run_resumed_says_so_and_keeps_its_speed),
+        TEST(run_warns_of_speeds_near_that_of_sound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

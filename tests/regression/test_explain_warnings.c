@@ -45,6 +45,50 @@ static void soil_off_a_wall_is_warned_of(void **state)
     }
 }
 
+/* 50 particles of 20 mm stand on each other, so H = 1 m, and rho g H = 2100 * 9.81 * 1 Pa = 20.6 kPa, which is 1 % of
+ * 2.06 MPa and 1.98 % of 1.04 MPa. */
+static void soil_too_soft_for_its_weight_is_warned_of(void **state)
+{
+    static const char *const commands[] = {"check", "explain"};
+    static const struct {
+        const char *setting;
+        const char *warning;
+    } soils[] = {
+        {"soil[0].material.youngs_modulus=1.04 MPa", NULL},
+        {"soil[0].material.youngs_modulus=0.75 MPa", "by about 2.75 % (rho g H / E); below 1 % is advisable: raise "
+                                                     "youngs_modulus to 2.06 MPa or more"},
+        {"soil[0].material.youngs_modulus=5", "by about 4.12e+05 % (rho g H / E)"}, /* 5 MPa were meant */
+        {"gravity=(0.0, 0.0, 0.0)", NULL},
+    };
+    run_folder *folder = *state;
+    for (size_t k = 0; k < 2 * sizeof soils / sizeof *soils; ++k) {
+        const char *const arguments[] = {commands[k % 2],      COLUMN, "-t", "1", "-s", "spacing=20 mm", "-s",
+                                         soils[k / 2].setting, MOVED,  NULL};
+        program_outcome outcome = program_run(folder, arguments, 0);
+        if (soils[k / 2].warning != NULL) {
+            program_expect_text(outcome.output, soils[k / 2].warning);
+        } else {
+            assert_null(strstr(outcome.output, "so soft"));
+        }
+        assert_string_equal(outcome.errors, "");
+        program_clear(&outcome);
+    }
+}
+
+/* To explain a scene is not to run it: its first steps may fail, and nothing is said of checkpoints. */
+static void scene_that_cannot_take_a_step_is_explained(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const arguments[] = {
+        "explain", COLUMN, "-t", "1", "-s", "spacing=20 mm", "-s", "soil[0].velocity=(\"0 m/s\", \"-200 m/s\")", NULL};
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.output, "warning: a run would stop within its first steps: particle");
+    program_expect_text(outcome.output, "speeds must stay below that of sound");
+    program_expect_text(outcome.output, "Stages of a step of 'soil'");
+    assert_null(strstr(outcome.output, "checkpoint"));
+    program_clear(&outcome);
+}
+
 static void ground_and_the_clocks_of_touching_bodies_are_told(void **state)
 {
     run_folder *folder = *state;
@@ -73,6 +117,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(soil_off_a_wall_is_warned_of, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(soil_too_soft_for_its_weight_is_warned_of, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(scene_that_cannot_take_a_step_is_explained, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(ground_and_the_clocks_of_touching_bodies_are_told, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(one_body_is_counted_in_the_singular, run_folder_setup, run_folder_teardown),
