@@ -28,6 +28,20 @@ void mor_terrain_range(const mor_terrain *terrain, double *lowest, double *highe
     }
 }
 
+mor_status mor_terrain_check_point(mor_context *context, const mor_terrain *terrain, const char *name, int index,
+                                   const double *point)
+{
+    for (int a = 0; a < 2; ++a) {
+        const double end = mor_terrain_end(terrain, a);
+        MOR_CHECK(
+            context, point[a] >= terrain->origin[a] && point[a] <= end, MOR_ERROR_ARGUMENT,
+            "%s %d at (%g, %g) m lies beside the ground, which reaches from %g m to %g m along %c: move it, or read "
+            "more of the raster",
+            name, index + 1, point[0], point[1], terrain->origin[a], end, "xy"[a]);
+    }
+    return MOR_OK;
+}
+
 mor_status mor_terrain_check(mor_context *context, const mor_terrain *terrain)
 {
     MOR_CHECK(context, terrain->heights != NULL && terrain->n_x >= 2 && terrain->n_y >= 2, MOR_ERROR_ARGUMENT,

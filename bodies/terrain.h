@@ -51,6 +51,16 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
  *  @param terrain [in,out]  one object */
 void mor_terrain_clear(mor_context *context, mor_terrain *terrain);
 
+/** Refuses a point beside the ground.
+ *  @param context [in,out]  one object
+ *  @param terrain [in]      one object
+ *  @param name    [in]      zero-terminated; what such points are, for the message
+ *  @param index   [in]      of the point in its list; the message counts from 1
+ *  @param point   [in]      shape [2], unit m; seen from above
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT with the reach of the ground. */
+mor_status mor_terrain_check_point(mor_context *context, const mor_terrain *terrain, const char *name, int index,
+                                   const double *point);
+
 /** Height of the surface, unit m. Beyond the edge the height of the nearest place of the edge.
  *  @param terrain [in]  one object
  *  @param x       [in]  unit m

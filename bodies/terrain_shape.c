@@ -159,13 +159,7 @@ static void find_limits(release_shape *release)
 static mor_status check_polygon(mor_context *context, const mor_terrain *terrain, const double *points, int n_points)
 {
     for (int i = 0; i < n_points; ++i) {
-        for (int a = 0; a < 2; ++a) {
-            const double end = mor_terrain_end(terrain, a);
-            MOR_CHECK(context, points[2 * i + a] >= terrain->origin[a] && points[2 * i + a] <= end, MOR_ERROR_ARGUMENT,
-                      "point %d of the release, (%g, %g) m, lies beside the ground, which reaches from %g m to %g m "
-                      "along %c: move the point, or read more of the raster",
-                      i + 1, points[2 * i], points[2 * i + 1], terrain->origin[a], end, "xy"[a]);
-        }
+        MOR_TRY(context, mor_terrain_check_point(context, terrain, "release point", i, &points[2 * i]));
     }
     return MOR_OK;
 }

@@ -166,7 +166,10 @@ static mor_status build_posts(const mor_case_reader *reader, const mor_case_shap
     MOR_TRY(reader->context, MOR_NEW(reader->context, &parts, outline->n_points, "posts"));
     mor_status status = MOR_OK;
     for (int k = 0; k < outline->n_points && status == MOR_OK; ++k) {
-        status = build_post(reader, terrain, &outline->ground, &outline->points[2 * k], &parts[k]);
+        status = mor_terrain_check_point(reader->context, terrain, "post", k, &outline->points[2 * k]);
+        if (status == MOR_OK) {
+            status = build_post(reader, terrain, &outline->ground, &outline->points[2 * k], &parts[k]);
+        }
     }
     if (status == MOR_OK) {
         status = mor_shape_new_union(reader->context, parts, outline->n_points, shape);

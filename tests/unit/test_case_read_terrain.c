@@ -160,16 +160,19 @@ static void wrong_terrain_is_refused_with_its_place(void **state)
     static const struct {
         const char *setting;
         const char *fragment;
-    } wrong[] = {{"walls[0].shape.file=\"no/such.tif\"", "no/such.tif"},
-                 {"walls[0].shape.crop_max=(107, 300)", "widen the crop"},
-                 {"walls[0].shape.cell=-1", "cell"},
-                 {"walls[0].shape.fill=true", "fill"},
-                 {"soil[0].shape.ground=\"hil\"", "did you mean 'hill'"},
-                 {"soil[0].shape.points=((0, 4), (26, 4), (26, 16))", "lies beside the ground"},
-                 {"soil[0].shape.thickness=0", "thickness"},
-                 {"walls[1].shape.top=3", "both height and top"},
-                 {"walls[2].shape.top=1", "under the ground"},
-                 {"walls[0].shape.type=\"sphere\"", "no wall has a shape of type"}};
+    } wrong[] = {
+        {"walls[0].shape.file=\"no/such.tif\"", "no/such.tif"},
+        {"walls[0].shape.crop_max=(107, 300)", "widen the crop"},
+        {"walls[0].shape.cell=-1", "cell"},
+        {"walls[0].shape.fill=true", "fill"},
+        {"soil[0].shape.ground=\"hil\"", "did you mean 'hill'"},
+        {"soil[0].shape.points=((0, 4), (26, 4), (26, 16))",
+         "release point 1 at (0, 4) m lies beside the ground, which reaches "},
+        {"walls[2].shape.at=((13, 11), (600, 10))", "post 2 at (600, 10) m lies beside the ground, which reaches "},
+        {"soil[0].shape.thickness=0", "thickness"},
+        {"walls[1].shape.top=3", "both height and top"},
+        {"walls[2].shape.top=1", "under the ground"},
+        {"walls[0].shape.type=\"sphere\"", "no wall has a shape of type"}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         const char *const settings[] = {wrong[k].setting, NULL};
         case_reading_refuse(f, text, settings, "", wrong[k].fragment);
