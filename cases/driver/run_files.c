@@ -37,6 +37,15 @@ static bool is_present(mor_context *context, const char *folder, const char *nam
     return mor_durable_file_join(context, path, folder, name) == MOR_OK && access(path, F_OK) == 0;
 }
 
+/* The user chose the folder, so it is the user's input that is refused. */
+static mor_status make_folder(mor_context *context, const char *path)
+{
+    const mor_status status = mor_durable_file_make_folder(context, path);
+    return status != MOR_ERROR_IO
+               ? status
+               : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s; choose the folder with -o", context->message);
+}
+
 mor_status mor_run_files_make_folders(mor_context *context, const char *path)
 {
     char part[MOR_PATH_BYTES];
@@ -45,10 +54,10 @@ mor_status mor_run_files_make_folders(mor_context *context, const char *path)
     strcpy(part, path);
     for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
-        MOR_TRY(context, mor_durable_file_make_folder(context, part));
+        MOR_TRY(context, make_folder(context, part));
         *slash = '/';
     }
-    return mor_durable_file_make_folder(context, part);
+    return make_folder(context, part);
 }
 
 mor_status mor_run_files_refuse_run(mor_context *context, const char *folder, const char *advice)
@@ -97,7 +106,7 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     files->is_folder_new = access(options->folder, F_OK) != 0;
     MOR_TRY(context, mor_run_files_make_folders(context, options->folder));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, IMAGES_FOLDER));
-    MOR_TRY(context, mor_durable_file_make_folder(context, path));
+    MOR_TRY(context, make_folder(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
     FILE *log = fopen(path, "a");
     MOR_CHECK(context, log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);

@@ -67,7 +67,7 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
 /** Makes a folder and the folders it lies in.
  *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for a path that is too long; MOR_ERROR_IO. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for a path that is too long or cannot be made. */
 mor_status mor_run_files_make_folders(mor_context *context, const char *path);
 
 /** Refuses a folder that holds a run.

@@ -133,7 +133,12 @@ mor_status mor_durable_file_make_folder(mor_context *context, const char *path)
     }
     const int error = errno;
     struct stat properties;
-    MOR_CHECK(context, error == EEXIST && stat(path, &properties) == 0 && S_ISDIR(properties.st_mode), MOR_ERROR_IO,
-              "cannot make folder '%s': %s", path, strerror(error));
-    return MOR_OK;
+    if (error == EEXIST && stat(path, &properties) == 0 && S_ISDIR(properties.st_mode)) {
+        return MOR_OK;
+    }
+    const int is_refused = error == EACCES || error == EPERM || error == EROFS;
+    return MOR_FAIL(context, MOR_ERROR_IO, "cannot make folder '%s': %s; %s", path, strerror(error),
+                    error == EEXIST ? "a file of that name is there: give another name"
+                    : is_refused    ? "the folder it would lie in may not be written: give another"
+                                    : "give another name, or check the disk");
 }

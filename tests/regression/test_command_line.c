@@ -43,6 +43,10 @@ static const refusal refusals[] = {
     {{"check", COLUMN, "--set", "spacing", NULL}, "--set 'spacing'"},
     {{"check", COLUMN, "--set", "soil[0].shape.max=(\"0.2 m\", \"-0.01 m\")", NULL}, "found a box that cannot be made"},
     {{"check", COLUMN, "--set", "soil[0].shape.min=(\"-5 mm\", \"0 m\")", NULL}, "overlapping wall 'back'"},
+    {{"run", COLUMN, "-o", "errors.txt", NULL},
+     "a file of that name is there: give another name; choose the folder with"},
+    {{"run", COLUMN, "-o", "errors.txt/mine", NULL}, "cannot make folder 'errors.txt': File exists"},
+    {{"preview", COLUMN, "-o", "/proc/mine", NULL}, "cannot make folder '/proc/mine'"},
     {{"render", ".", NULL}, "is not the folder of a run"},
 };
 
