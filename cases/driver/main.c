@@ -41,5 +41,8 @@ int main(int argc, char **argv)
     struct sigaction action = {.sa_handler = request_stop};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    /* A file beyond the limit of the shell (ulimit -f) is told as a full disk is: the write fails, with a message. */
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &action, NULL);
     return mor_command_main(argc, argv, &stop_requested);
 }

@@ -215,7 +215,9 @@ static void add_advice(mor_context *context, mor_status status)
 {
     const size_t length = strlen(context->message);
     snprintf(context->message + length, sizeof context->message - length, "%s",
-             status == MOR_ERROR_NUMERIC ? "; the last checkpoint is kept" : "");
+             status == MOR_ERROR_NUMERIC ? "; the last checkpoint is kept"
+             : status == MOR_ERROR_IO    ? "; then go on with the same command and --resume"
+                                         : "");
 }
 
 /* The message, and where in the program it arose, for whoever mends the program. */

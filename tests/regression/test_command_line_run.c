@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tests/common/finished_run.h"
+#include "tests/common/full_disk.h"
 #include "tests/common/program.h"
 
 #include <math.h>
@@ -67,12 +68,38 @@ static void run_warns_of_speeds_near_that_of_sound(void **state)
     program_clear(&outcome);
 }
 
+/* Room for the case and the log, not for a snapshot. The limit alone would end the program by a signal. */
+static void full_disk_is_told_and_the_run_goes_on(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const whole[] = {"run", path, "-t", "1", "-o", "whole", NULL};
+    const char *const first[] = {"run", path, "-t", "1", "-o", "mine", NULL};
+    const char *const again[] = {"run", path, "-t", "1", "-o", "mine", "--resume", NULL};
+    full_disk disk;
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, whole, 0);
+    program_clear(&outcome);
+    full_disk_begin(&disk, 16384);
+    signal(SIGXFSZ, SIG_DFL);
+    outcome = program_finish(folder, program_start(folder, first));
+    full_disk_end(&disk);
+    assert_int_equal(outcome.exit_code, 1);
+    program_expect_text(outcome.errors, "check the free space");
+    program_expect_text(outcome.errors, "; then go on with the same command and --resume");
+    program_clear(&outcome);
+    outcome = program_run(folder, again, 0);
+    program_clear(&outcome);
+    finished_run_compare(folder, "whole", "mine");
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(complete_run_resumed_says_so_and_keeps_its_speed),
+        TEST(full_disk_is_told_and_the_run_goes_on),
         TEST(run_warns_of_speeds_near_that_of_sound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
