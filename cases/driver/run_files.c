@@ -19,6 +19,8 @@
 #define LOG_FILE "log.txt"
 #define IMAGES_FOLDER "images"
 
+enum { DIFFERENCE_BYTES = 128 };
+
 /* Everything goes into log.txt; warnings and errors reach the terminal as well. */
 static void log_line(void *user, mor_log_level level, const char *text)
 {
@@ -133,19 +135,52 @@ static mor_status print_case(mor_context *context, const mor_case *the_case, con
     return status;
 }
 
-/* Whether a file holds exactly these bytes. */
-static bool has_content(const char *path, const char *text, size_t n_bytes)
+/* The first line in which two texts differ, as people read it. */
+typedef struct difference {
+    int line;                        /* counted from 1; 0: there is none */
+    char found[DIFFERENCE_BYTES];    /* in the first text */
+    char expected[DIFFERENCE_BYTES]; /* in the second */
+} difference;
+
+/* A line without its indent and its end; what is beyond the room is left out. */
+static void show_line(const char *line, size_t length, char *out)
+{
+    const size_t indent = strspn(line, " ");
+    while (length > indent && (line[length - 1] == '\n' || line[length - 1] == ';')) {
+        --length;
+    }
+    snprintf(out, DIFFERENCE_BYTES, "%.*s", length > indent ? (int)(length - indent) : 0, line + indent);
+    if (out[0] == '\0') {
+        snprintf(out, DIFFERENCE_BYTES, "nothing");
+    }
+}
+
+/* Compares a text, zero-terminated, with a file; one that cannot be read is empty. */
+static void find_difference(const char *text, const char *path, difference *it)
 {
     FILE *file = fopen(path, "rb");
-    size_t k = 0;
-    int c = EOF;
-    while (file != NULL && (c = getc(file)) != EOF && k < n_bytes && (unsigned char)text[k] == c) {
-        ++k;
+    char *line = NULL;
+    size_t room = 0;
+    *it = (difference){.line = 0};
+    for (int number = 1; it->line == 0; ++number) {
+        const ssize_t n_read = file == NULL ? -1 : getline(&line, &room, file);
+        const size_t n_before = n_read > 0 ? (size_t)n_read : 0;
+        const size_t to_end = strcspn(text, "\n");
+        const size_t n_now = to_end + (text[to_end] == '\n');
+        if (n_before == 0 && n_now == 0) {
+            break;
+        }
+        if (n_before != n_now || memcmp(line, text, n_now) != 0) {
+            it->line = number;
+            show_line(text, n_now, it->found);
+            show_line(n_before > 0 ? line : "", n_before, it->expected);
+        }
+        text += n_now;
     }
+    free(line);
     if (file != NULL) {
         fclose(file);
     }
-    return file != NULL && c == EOF && k == n_bytes;
 }
 
 mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry)
@@ -160,11 +195,17 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
         return mor_case_write(context, files->the_case, registry, path);
     }
     mor_status status = print_case(context, files->the_case, registry, &text, &n_bytes);
-    if (status == MOR_OK && !has_content(path, text, n_bytes)) {
-        status = MOR_FAIL(context, MOR_ERROR_CONFIG,
-                          "the case '%s' with its --set values is not the one that '%s' was started with (see %s); "
-                          "resume with the same case and values, or start a new run in another folder",
-                          files->options->case_path, folder, path);
+    difference first = {.line = 0};
+    if (status == MOR_OK) {
+        find_difference(text, path, &first);
+    }
+    if (first.line > 0) {
+        status =
+            MOR_FAIL(context, MOR_ERROR_CONFIG,
+                     "the case '%s' with its --set values is not the one that '%s' was started with; first "
+                     "difference: %s, was %s (line %d of %s); resume with the same case and values, or start a new "
+                     "run in another folder",
+                     files->options->case_path, folder, first.found, first.expected, first.line, path);
     }
     free(text);
     return status;

@@ -167,7 +167,8 @@ static void run_does_not_overwrite_a_run(void **state)
     program_expect_text(outcome.errors, "the folder 'mine' already holds a run");
     program_clear(&outcome);
     outcome = program_run(folder, resumed, 2);
-    program_expect_text(outcome.errors, "is not the one that 'mine' was started with");
+    program_expect_text(outcome.errors, "is not the one that 'mine' was started with; first difference: "
+                                        "spacing = \"0.008 m\", was spacing = \"0.01 m\" (line 5 of ");
     program_clear(&outcome);
     finished_run_read_hash(folder, "mine", after);
     assert_string_equal(before, after);
