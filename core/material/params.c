@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/material/params.h"
 
+#include "core/base/math.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -77,25 +79,43 @@ void mor_params_defaults(const mor_schema *schema, double *values)
     }
 }
 
-void mor_params_range(const mor_schema *entry, char *text, size_t text_bytes)
+/* Bounds in multiples of a size, with its name. */
+static void print_bounds(const mor_schema *entry, double size, const char *unit, char *text, size_t text_bytes)
 {
-    const char *unit = strcmp(entry->unit, "1") == 0 ? "" : entry->unit;
     const char *space = unit[0] == '\0' ? "" : " ";
     const int has_minimum = isfinite(entry->minimum);
     const int has_maximum = isfinite(entry->maximum);
+    const double minimum = entry->minimum / size;
+    const double maximum = entry->maximum / size;
+    if (has_minimum && has_maximum) {
+        snprintf(text, text_bytes, "in %c%g, %g%c%s%s", entry->excludes_minimum ? '(' : '[', minimum, maximum,
+                 entry->excludes_maximum ? ')' : ']', space, unit);
+    } else if (has_minimum) {
+        snprintf(text, text_bytes, "%s %g%s%s", entry->excludes_minimum ? ">" : ">=", minimum, space, unit);
+    } else if (has_maximum) {
+        snprintf(text, text_bytes, "%s %g%s%s", entry->excludes_maximum ? "<" : "<=", maximum, space, unit);
+    } else {
+        snprintf(text, text_bytes, "any finite number%s%s", space, unit);
+    }
+}
+
+void mor_params_range(const mor_schema *entry, char *text, size_t text_bytes)
+{
+    const double degree = MOR_PI / 180.0;
+    const int is_bounded = isfinite(entry->minimum) || isfinite(entry->maximum);
     if (entry->kind == MOR_SCHEMA_CHOICE) {
         snprintf(text, text_bytes, "one of %s", entry->choices);
     } else if (entry->kind == MOR_SCHEMA_BOOLEAN) {
         snprintf(text, text_bytes, "0 or 1");
-    } else if (has_minimum && has_maximum) {
-        snprintf(text, text_bytes, "in %c%g, %g%c%s%s", entry->excludes_minimum ? '(' : '[', entry->minimum,
-                 entry->maximum, entry->excludes_maximum ? ')' : ']', space, unit);
-    } else if (has_minimum) {
-        snprintf(text, text_bytes, "%s %g%s%s", entry->excludes_minimum ? ">" : ">=", entry->minimum, space, unit);
-    } else if (has_maximum) {
-        snprintf(text, text_bytes, "%s %g%s%s", entry->excludes_maximum ? "<" : "<=", entry->maximum, space, unit);
+    } else if (strcmp(entry->unit, "rad") == 0 && is_bounded) {
+        /* People write degrees; a number without a unit is in radians. */
+        char degrees[RANGE_BYTES];
+        char radians[RANGE_BYTES];
+        print_bounds(entry, degree, "deg", degrees, sizeof degrees);
+        print_bounds(entry, 1.0, "rad", radians, sizeof radians);
+        snprintf(text, text_bytes, "%s, or %s", degrees, radians);
     } else {
-        snprintf(text, text_bytes, "any finite number%s%s", space, unit);
+        print_bounds(entry, 1.0, strcmp(entry->unit, "1") == 0 ? "" : entry->unit, text, text_bytes);
     }
 }
 

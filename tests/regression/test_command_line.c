@@ -47,6 +47,8 @@ static const refusal refusals[] = {
      "a file of that name is there: give another name; choose the folder with"},
     {{"run", COLUMN, "-o", "errors.txt/mine", NULL}, "cannot make folder 'errors.txt': File exists"},
     {{"preview", COLUMN, "-o", "/proc/mine", NULL}, "cannot make folder '/proc/mine'"},
+    {{"check", COLUMN, "--set", "soil[0].material.friction_angle=-15 deg", NULL},
+     "friction_angle = \"-15 deg\", out of range; allowed: in [0, 90) deg, or in [0, 1.5708) rad"},
     {{"render", ".", NULL}, "is not the folder of a run"},
 };
 
