@@ -114,10 +114,36 @@ static mor_status read_real(const mor_case_reader *reader, const mor_case_node *
     return check_range(reader, node, schema, *value);
 }
 
+/* A list whose values have units without quotes is taken for a text; shows how it is meant. */
+static mor_status refuse_bare_list(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema)
+{
+    char advice[ALLOWED_BYTES];
+    char meant[RANGE_BYTES] = "";
+    size_t used = 0;
+    const char *item = node->text + 1;
+    while (*item != '\0' && *item != ')' && used + 4 < sizeof meant) {
+        item += strspn(item, " \t,");
+        size_t length = strcspn(item, ",)");
+        const char *end = item + length;
+        while (length > 0 && (item[length - 1] == ' ' || item[length - 1] == '\t')) {
+            --length;
+        }
+        const int n =
+            snprintf(meant + used, sizeof meant - used, "%s\"%.*s\"", used > 0 ? ", " : "", (int)length, item);
+        used += n > 0 ? (size_t)n : 0;
+        item = end;
+    }
+    snprintf(advice, sizeof advice, "put each value with a unit in quotes: (%s)", meant);
+    return fail_value(reader, node, schema, "", advice);
+}
+
 static mor_status read_vector(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema,
                               double *values)
 {
     const bool may_be_flat = reader->dimension == 2 && schema->n_components == 3;
+    if (node->kind == MOR_CASE_NODE_TEXT && node->text[0] == '(' && strchr(node->text, '"') == NULL) {
+        return refuse_bare_list(reader, node, schema);
+    }
     if (node->kind != MOR_CASE_NODE_LIST ||
         (node->n_children != schema->n_components && !(may_be_flat && node->n_children == 2))) {
         return fail_value(reader, node, schema, "", "write one number for each direction");

@@ -4,6 +4,7 @@
 
 #include "core/base/nearest.h"
 #include "core/base/parallel.h"
+#include "core/base/units.h"
 #include "moraine_build.h"
 #include "relaxation/mesh.h"
 
@@ -41,7 +42,7 @@ static const char options_text[] =
     "  -s, --set KEY=VALUE   overrides a key of the case, such as --set spacing='2 mm' or --set "
     "'soil[0].material.cohesion=1 kPa'\n"
     "      --resume          go on from the last good checkpoint of the folder\n"
-    "      --stop-at T       stop with a checkpoint once the simulated time reaches T seconds\n"
+    "      --stop-at T       stop with a checkpoint once the simulated time reaches T, such as 0.5 or '20 ms'\n"
     "      --spacing L       relax: spacing of the particles, such as 0.05 or '5 cm'\n"
     "      --diameter L, --length L, --volume V\n"
     "                        relax: equivalent diameter, longest side or volume to scale the mesh to\n"
@@ -80,10 +81,15 @@ static mor_status set_threads(mor_command *command, const char *text)
 
 static mor_status set_stop(mor_command *command, const char *text)
 {
-    char *end = NULL;
-    command->stop_at = strtod(text, &end);
-    MOR_CHECK(command->context, *text != '\0' && *end == '\0' && command->stop_at >= 0.0, MOR_ERROR_CONFIG,
-              "found --stop-at '%s'; allowed is a time in seconds that is not negative", text);
+    mor_context *context = command->context;
+    mor_units *units = NULL;
+    MOR_TRY(context, mor_units_new(context, &units));
+    const mor_status status = mor_units_convert(context, units, text, "s", &command->stop_at);
+    mor_units_free(context, &units);
+    MOR_CHECK(context, status == MOR_OK, MOR_ERROR_CONFIG,
+              "found --stop-at '%s': %s; allowed is a time, such as 0.5 or '20 ms'", text, context->message);
+    MOR_CHECK(context, isfinite(command->stop_at) && command->stop_at >= 0.0, MOR_ERROR_CONFIG,
+              "found --stop-at '%s'; allowed is a time that is not negative, such as 0.5 or '20 ms'", text);
     return MOR_OK;
 }
 

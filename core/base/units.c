@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include <udunits2.h>
 
@@ -240,6 +241,22 @@ static const char *find_spelling_fault(const char *unit)
     return NULL;
 }
 
+/* A unit that people mean by the same letters in another case; NULL when there is none. Where two differ only in case,
+ * as MPa and mPa do, it is the one of soils. */
+static const char *find_other_case(const char *unit)
+{
+    static const char *const known[] = {
+        "Pa",  "kPa", "MPa", "GPa", "m",     "mm",    "cm",   "km",    "m2",    "m3",   "mm2", "cm2", "s", "ms",
+        "min", "h",   "kg",  "g",   "t",     "kg/m3", "t/m3", "g/cm3", "kN/m3", "N",    "kN",  "MN",  "J", "kJ",
+        "MJ",  "Hz",  "deg", "rad", "rad/s", "deg/s", "m/s",  "mm/s",  "km/h",  "m/s2", "1/s", "Pa s"};
+    for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
+        if (strcasecmp(unit, known[k]) == 0 && strcmp(unit, known[k]) != 0) {
+            return known[k];
+        }
+    }
+    return NULL;
+}
+
 static mor_status take_apart(mor_context *context, const mor_units *units, const char *unit, unit_parts *parts)
 {
     *parts = (unit_parts){.visitor = {visit_basic, visit_product, visit_galilean, visit_timestamp, visit_logarithmic},
@@ -254,7 +271,12 @@ static mor_status take_apart(mor_context *context, const mor_units *units, const
     const ut_status walked = parsed == NULL ? UT_UNKNOWN : ut_accept_visitor(parsed, &parts->visitor, parts);
     ut_free(parsed);
     leave_quiet(previous);
-    MOR_CHECK(context, parsed != NULL, MOR_ERROR_ARGUMENT, "'%s' is not a unit", unit);
+    if (parsed == NULL) {
+        const char *meant = find_other_case(unit);
+        return meant == NULL
+                   ? MOR_FAIL(context, MOR_ERROR_ARGUMENT, "'%s' is not a unit", unit)
+                   : MOR_FAIL(context, MOR_ERROR_ARGUMENT, "'%s' is not a unit; did you mean '%s'?", unit, meant);
+    }
     MOR_CHECK(context, walked == UT_SUCCESS, MOR_ERROR_ARGUMENT,
               "'%s' is a unit with a shifted zero, a logarithm or a date, which cannot be used", unit);
     MOR_CHECK(context, isfinite(parts->factor) && parts->factor > 0.0, MOR_ERROR_ARGUMENT,

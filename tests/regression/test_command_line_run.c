@@ -93,6 +93,21 @@ static void full_disk_is_told_and_the_run_goes_on(void **state)
     finished_run_compare(folder, "whole", "mine");
 }
 
+static void run_stops_at_a_time_with_its_unit(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const in_seconds[] = {"run", path, "-t", "1", "-o", "seconds", "--stop-at", "0.02", NULL};
+    const char *const in_milliseconds[] = {"run", path, "-t", "1", "-o", "milliseconds", "--stop-at", "20 ms", NULL};
+    finished_run_store_case(folder, path);
+    program_outcome one = program_run(folder, in_seconds, 0);
+    program_outcome other = program_run(folder, in_milliseconds, 0);
+    program_expect_text(one.output, "stopped at t = 0.02");
+    assert_string_equal(one.output, other.output);
+    program_clear(&one);
+    program_clear(&other);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
 
 int main(void)
@@ -100,6 +115,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(complete_run_resumed_says_so_and_keeps_its_speed),
         TEST(full_disk_is_told_and_the_run_goes_on),
+        TEST(run_stops_at_a_time_with_its_unit),
         TEST(run_warns_of_speeds_near_that_of_sound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

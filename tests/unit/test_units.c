@@ -118,6 +118,8 @@ static void wrong_values_are_refused_with_the_reason(void **state)
                 {"0x10 m", "m", "does not start with a number"},
                 {"--5 m", "m", "does not start with a number"},
                 {"5 quux", "m", "'quux' is not a unit"},
+                {"5 Mpa", "Pa", "'Mpa' is not a unit; did you mean 'MPa'?"},
+                {"5 KG/M3", "kg/m3", "did you mean 'kg/m3'?"},
                 {"5 m/", "m", "is not a unit"},
                 {"5 degC", "K", "shifted zero"},
                 {"5 lg(re mm)", "m", "cannot be used"},
