@@ -355,8 +355,8 @@ static mor_status check_walls(mor_context *context, const mor_case *c, const mor
     for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
         const double depth = -mor_simulation_placed_distance(c->walls[w].shape, c->turn, c->move, point);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' overlapping wall '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
-                  "%s",
+                  "%s:%d: found body '%s' overlapping wall '%s' by about %.2g m at (%g, %g, %g) m; allowed is less "
+                  "than %g m; %s",
                   it->place.file, it->place.line, it->name, c->walls[w].name, depth, point[0], point[1], point[2],
                   TOUCHING * c->spacing, advise_place(it, "move the body or the wall"));
     }
@@ -367,12 +367,14 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
                              const mor_simulation_frame *frame, const mor_bounds *boxes, int number, const double *node)
 {
     const mor_case_body *it = &c->bodies[number];
+    const double *low = frame->domain_minimum;
+    const double *high = frame->domain_maximum;
     for (int a = 0; a < c->dimension; ++a) {
-        MOR_CHECK(context, node[a] >= frame->domain_minimum[a] && node[a] <= frame->domain_maximum[a], MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; allowed are bodies inside it; "
-                  "%s",
-                  it->place.file, it->place.line, it->name, node[0], node[1], node[2],
-                  advise_place(it, "enlarge 'domain' or move the body"));
+        MOR_CHECK(context, node[a] >= low[a] && node[a] <= high[a], MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; the domain is (%g, %g, %g) to "
+                  "(%g, %g, %g) m; allowed are bodies inside it; %s",
+                  it->place.file, it->place.line, it->name, node[0], node[1], node[2], low[0], low[1], low[2], high[0],
+                  high[1], high[2], advise_place(it, "enlarge 'domain' or move the body"));
     }
     for (int b = 0; b < c->n_bodies; ++b) {
         if (b == number || !mor_simulation_body_may_hold(&boxes[b], node)) {
@@ -381,8 +383,8 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
         const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
         const double depth = -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, node);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' overlapping body '%s' by %g m at (%g, %g, %g) m; allowed is less than %g m; "
-                  "move one of them",
+                  "%s:%d: found body '%s' overlapping body '%s' by about %.2g m at (%g, %g, %g) m; allowed is less "
+                  "than %g m; move one of them",
                   it->place.file, it->place.line, it->name, c->bodies[b].name, depth, node[0], node[1], node[2],
                   TOUCHING * c->spacing);
     }
