@@ -87,7 +87,7 @@ double mor_simulation_lateral_ratio(const mor_material *material, const mor_case
 /** Says so when the soil is so soft that its own weight, rho g H over Young's modulus with H the height of its highest
  *  column, compresses it by more than 2 %. The method takes soil to be hardly compressible.
  *  @param simulation [in]   one object, as it begins
- *  @param text       [out]  shape [n_bytes]; zero-terminated; a sentence without a stop, "" when there is nothing to say
+ *  @param text       [out]  shape [n_bytes]; zero-terminated; a sentence without its stop; "" for nothing to say
  *  @param n_bytes    [in]   room
  *  Returns: whether there is something to say; not without gravity, soil or a modulus. */
 bool mor_simulation_describe_softness(const mor_simulation *simulation, char *text, size_t n_bytes);

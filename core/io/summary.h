@@ -98,7 +98,7 @@ mor_status mor_summary_read_result(mor_context *context, const char *path, const
 /** Reads the speed from a summary after checking the file.
  *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
- *  @param speed   [out]     one number, particle-steps per second, 1/s; NaN where the file has null, and after a failure
+ *  @param speed   [out]     one number, particle-steps per second, 1/s; NaN where the file has null or it fails
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_summary_read_speed(mor_context *context, const char *path, double *speed);
 

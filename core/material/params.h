@@ -64,7 +64,7 @@ mor_status mor_params_verify_schema(mor_context *context, const mor_schema *sche
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT with owner, key, value found and the allowed range. */
 mor_status mor_params_check(mor_context *context, const mor_schema *schema, const char *owner, const double *values);
 
-/** Writes the allowed range of an entry for people, as "> 0 Pa" or "in (-1, 0.5)"; of an angle in degrees and in radians.
+/** Writes the allowed range of an entry for people, as "> 0 Pa" or "in (-1, 0.5)"; of an angle in degrees and radians.
  *  @param entry      [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
