@@ -218,6 +218,7 @@ mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_
     }
     char why[MOR_CONTEXT_MESSAGE_BYTES];
     snprintf(why, sizeof why, "%.1500s", reader->context->message);
-    return MOR_CASE_NODE_FAIL(reader->context, node, "found a %s that cannot be made: %s; correct its numbers",
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found a shape of type %s that cannot be made: %s; correct its numbers",
                               mor_case_shape_groups[outline->kind].name, why);
 }
