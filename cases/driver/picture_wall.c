@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/picture_wall.h"
 
+#include "cases/driver/render/picture.h"
 #include "cases/driver/simulation.h"
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
@@ -64,9 +65,10 @@ bool mor_picture_wall_is_structure(const mor_case *the_case, int wall, const mor
 {
     const mor_case_wall *it = &the_case->walls[wall];
     mor_bounds shape;
-    mor_bounds own = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    mor_bounds own;
     mor_bounds both = *moving;
     mor_shape_bounds(it->shape, &shape);
+    mor_picture_bounds_init(&own);
     if (points->n_points == 0 || !is_bounded(&shape, the_case->dimension) || mor_vector_length(it->velocity) > 0.0) {
         return false;
     }

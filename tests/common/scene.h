@@ -135,13 +135,14 @@ static inline void scene_step(scene *it, int n_steps)
     }
 }
 
-/** Steps until a time, unit s, is reached exactly. */
+/** Steps until a time, unit s, is reached exactly; as in a run, probes that remember are asked after each step. */
 static inline void scene_advance(scene *it, double time)
 {
     mor_schedule *schedule = &it->simulation.schedule;
     const int64_t until = mor_schedule_ticks(schedule, time);
     while (schedule->now < until) {
         scene_require(it, mor_schedule_step(&it->context, schedule, until));
+        scene_require(it, mor_probe_follow(&it->context, &it->simulation));
     }
 }
 

@@ -80,6 +80,12 @@ static double run_bed(mor_wall_stress stress, mor_wall_friction friction, double
 {
     rock_scene *it = open_bed(stress, friction, coefficient);
     const double ratio = drag_over_load(it);
+    if (getenv("MOR_TEST_SHOW") != NULL) {
+        print_message("%-6s stress, %-7s %.1f: drag over load %.6f\n",
+                      stress == MOR_WALL_STRESS_LINEAR ? "linear" : "along",
+                      friction == MOR_WALL_COULOMB ? "coulomb" : (friction == MOR_WALL_ROUGH ? "rough" : "smooth"),
+                      coefficient, ratio);
+    }
     rock_scene_close(it);
     free(it);
     return ratio;

@@ -14,16 +14,6 @@
 
 static const double share_astray = 0.02; /* of the energy turned over, that may be lost sight of */
 
-static void advance(scene *it, double time)
-{
-    mor_schedule *schedule = &it->simulation.schedule;
-    const int64_t until = mor_schedule_ticks(schedule, time);
-    while (schedule->now < until) {
-        scene_require(it, mor_schedule_step(&it->context, schedule, until));
-        scene_require(it, mor_probe_follow(&it->context, &it->simulation));
-    }
-}
-
 static scene *make(const char *text, const char *const *settings)
 {
     const scene_request request = {text, (const char *const *[]){settings}, 1, 1};
@@ -44,7 +34,7 @@ static void free_fall_turns_height_into_speed_and_nothing_else(void **state)
     (void)state;
     scene *it = make(block, falling);
     const double before = scene_probe(it, "potential_energy");
-    advance(it, 0.2);
+    scene_advance(it, 0.2);
     const double released = before - scene_probe(it, "potential_energy");
     static const char *const others[] = {"plastic_energy", "numerical_dissipation", "boundary_dissipation",
                                          "external_work"};
@@ -73,7 +63,7 @@ static void elastic_bounce_loses_nothing(void **state)
     const double start = scene_probe(it, "kinetic_energy");
     double stored = 0.0;
     for (int k = 1; k <= 40; ++k) {
-        advance(it, 0.0005 * k);
+        scene_advance(it, 0.0005 * k);
         stored = fmax(stored, scene_probe(it, "elastic_energy"));
         scene_expect_near("plastic", scene_probe(it, "plastic_energy"), 0.0, 1e-12 * start); /* rounding */
         /* Of (S7), what pressure and impedance do together is left: a part of density's change, here 1 %. */
@@ -97,7 +87,7 @@ static void stress_diffusion_of_elastic_soil_is_no_plastic_strain(void **state)
     (void)state;
     scene *it = make(block, thrown_and_smoothed);
     const double start = scene_probe(it, "kinetic_energy");
-    advance(it, 0.02);
+    scene_advance(it, 0.02);
     scene_expect_near("plastic", scene_probe(it, "plastic_energy"), 0.0, 1e-12 * start); /* rounding */
     assert_true(scene_probe(it, "stress_diffusion_energy") > 1e-4 * start);
     scene_free(it);
@@ -128,7 +118,7 @@ static void friction_of_a_sliding_block_is_lost_at_the_floor(void **state)
             center[k] += x[3 * i] / (double)n;
         }
         if (k == 0) {
-            advance(it, 0.3);
+            scene_advance(it, 0.3);
         }
     }
     const double work = 0.2 * mass * 9.81 * (center[1] - center[0]);
@@ -156,7 +146,7 @@ static void piston_gives_what_its_force_does_along_its_way(void **state)
 {
     (void)state;
     scene *it = make(block, pushed);
-    advance(it, 0.1);
+    scene_advance(it, 0.1);
     const double work = -0.3 * it->simulation.soil.wall_impulse[0][0];
     assert_true(work > 0.0);
     scene_expect_near("external work", scene_probe(it, "external_work"), work, 0.01 * work); /* sampling */
@@ -169,7 +159,7 @@ static void check_case(const char *path, const char *const *settings, double unt
 {
     scene *it = make(path, settings);
     for (int k = 1; k <= 4; ++k) {
-        advance(it, 0.25 * k * until);
+        scene_advance(it, 0.25 * k * until);
         scene_expect_near("balance", scene_probe(it, "energy_balance"), 1.0, share_astray);
         assert_true(scene_probe(it, "riemann_energy") > 0.0);
         assert_true(scene_probe(it, "stress_diffusion_energy") > 0.0);
@@ -225,7 +215,7 @@ static void rock_that_soil_hits_gets_what_the_soil_did(void **state)
         scene *it = make(impact, kinds[k]);
         const double start = scene_probe(it, "bodies_kinetic_energy");
         const double turned = scene_probe(it, "kinetic_energy");
-        advance(it, 0.05);
+        scene_advance(it, 0.05);
         double e[3];
         const double origin[3] = {0.0, 0.0, 0.0};
         mor_simulation_bodies_energy(&it->simulation.bodies, origin, &e[0], &e[1], &e[2]);
@@ -252,7 +242,7 @@ static void driven_rock_gives_what_its_force_does_along_its_way(void **state)
 {
     (void)state;
     scene *it = make(impact, driven_rock);
-    advance(it, 0.03);
+    scene_advance(it, 0.03);
     const double work = 1.5 * scene_probe(it, "body_impulse_soil_given");
     assert_true(work > 0.0);
     scene_expect_near("external work", scene_probe(it, "external_work"), work, 0.01 * work); /* sampling */

@@ -38,6 +38,21 @@ static void test_body_one_layer_thin_is_refused(void **state)
     elastic_close(&it);
 }
 
+/* The body of the scene with other particles. */
+static mor_body_request describe_spiked(const elastic_bodies *it, const char *name, const double *points,
+                                        int64_t n_points)
+{
+    const mor_body *body = &it->elastic.group.bodies[0];
+    return (mor_body_request){.name = name,
+                              .positions = points,
+                              .n_particles = n_points,
+                              .shape = body->shape,
+                              .shape_turn = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
+                              .shape_move = {1.0, 2.0, 3.0},
+                              .density = 1000.0,
+                              .geometry = body->geometry};
+}
+
 /* A cube with a thread of single particles: at its end all neighbors lie on a line. */
 static void test_thread_of_particles_is_refused_with_name_and_place(void **state)
 {
@@ -54,15 +69,7 @@ static void test_thread_of_particles_is_refused_with_name_and_place(void **state
         points[3 * (CUBE + k) + 1] = 2.05;
         points[3 * (CUBE + k) + 2] = 3.05;
     }
-    const mor_body *body = &it.elastic.group.bodies[0];
-    const mor_body_request threaded = {.name = "kite",
-                                       .positions = points,
-                                       .n_particles = CUBE + THREAD,
-                                       .shape = body->shape,
-                                       .shape_turn = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
-                                       .shape_move = {1.0, 2.0, 3.0},
-                                       .density = 1000.0,
-                                       .geometry = body->geometry};
+    const mor_body_request threaded = describe_spiked(&it, "kite", points, CUBE + THREAD);
     mor_elastic elastic;
     assert_int_equal(mor_elastic_init(&it.context, &elastic, "rocks", &settings, it.material, 3, 0.1, &threaded, 1),
                      MOR_ERROR_ARGUMENT);
@@ -144,15 +151,8 @@ static void test_pointed_tip_is_refused_and_a_blunter_one_accepted(void **state)
         const int n_cube = (int)it.elastic.group.set.n_particles;
         const double *cube_points = it.elastic.group.reference;
         const double half_width = find_half_width(dimension, is_blunt ? 2e-2 : 2e-3, cube_points, n_cube);
-        const mor_body *body = &it.elastic.group.bodies[0];
-        const mor_body_request pointed = {.name = "shard",
-                                          .positions = points,
-                                          .n_particles = add_tip(dimension, half_width, cube_points, n_cube, points),
-                                          .shape = body->shape,
-                                          .shape_turn = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
-                                          .shape_move = {1.0, 2.0, 3.0},
-                                          .density = 1000.0,
-                                          .geometry = body->geometry};
+        const mor_body_request pointed =
+            describe_spiked(&it, "shard", points, add_tip(dimension, half_width, cube_points, n_cube, points));
         mor_elastic elastic;
         const mor_status status =
             mor_elastic_init(&it.context, &elastic, "rocks", &settings, it.material, dimension, 0.1, &pointed, 1);

@@ -46,6 +46,15 @@ static bool judge(const mor_case *the_case, const double *low, const double *hig
     return mor_picture_wall_is_structure(the_case, 0, &points, &moving, up);
 }
 
+/* A screen half a meter thick beside all that moves, up to a height. */
+static void set_screen(mor_context *context, mor_case *the_case, double top)
+{
+    const double low[3] = {5.0, -1.0, -1.0};
+    const double high[3] = {5.5, 4.0, top};
+    mor_context_init(context);
+    set_wall(the_case, new_box(context, low, high));
+}
+
 static bool judge_box(mor_context *context, const double *low, const double *high)
 {
     static mor_case the_case; /* large */
@@ -97,13 +106,10 @@ static void a_screen_hides_what_is_behind_it_and_not_what_is_before_it(void **st
     static mor_case the_case; /* large */
     mor_context context;
     (void)state;
-    mor_context_init(&context);
-    const double low[3] = {5.0, -1.0, -1.0};
-    const double high[3] = {5.5, 4.0, 3.0};
     const double front[3] = {1.0, 0.0, 0.0};
     const double back[3] = {-1.0, 0.0, 0.0};
     const double steep[3] = {0.1, 0.0, sqrt(0.99)}; /* over the screen from nearly all places */
-    set_wall(&the_case, new_box(&context, low, high));
+    set_screen(&context, &the_case, 3.0);
     assert_true(mor_picture_wall_hides(&the_case, 0, &moving, front));
     assert_false(mor_picture_wall_hides(&the_case, 0, &moving, back));
     assert_false(mor_picture_wall_hides(&the_case, 0, &moving, steep));
@@ -115,13 +121,10 @@ static void the_share_that_a_low_wall_hides_decides(void **state)
     static mor_case the_case; /* large */
     mor_context context;
     (void)state;
-    mor_context_init(&context);
-    const double low[3] = {5.0, -1.0, -1.0};
     const double front[3] = {1.0, 0.0, 0.0};
     for (int k = 0; k < 2; ++k) {
-        const double high[3] = {5.5, 4.0,
-                                k == 0 ? 0.45 : 0.7}; /* of 2 m: less than two of eight rows, less than three */
-        set_wall(&the_case, new_box(&context, low, high));
+        /* Of 2 m: less than two of eight rows, less than three. */
+        set_screen(&context, &the_case, k == 0 ? 0.45 : 0.7);
         assert_true(mor_picture_wall_hides(&the_case, 0, &moving, front) == (k == 1));
         mor_shape_free(&context, &the_case.walls[0].shape);
     }
@@ -132,13 +135,10 @@ static void a_placed_case_hides_as_the_unplaced_one(void **state)
     static mor_case the_case; /* large */
     mor_context context;
     (void)state;
-    mor_context_init(&context);
-    const double low[3] = {5.0, -1.0, -1.0};
-    const double high[3] = {5.5, 4.0, 3.0};
     const double front[3] = {0.0, 1.0, 0.0}; /* x of the case, turned by 90 degrees about z */
     const double turn[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     const mor_bounds placed = {{-3.0 + 7.0, 0.0, 0.0}, {0.0 + 7.0, 4.0, 2.0}};
-    set_wall(&the_case, new_box(&context, low, high));
+    set_screen(&context, &the_case, 3.0);
     memcpy(the_case.turn, turn, sizeof turn);
     the_case.move[0] = 7.0;
     assert_true(mor_picture_wall_hides(&the_case, 0, &placed, front));

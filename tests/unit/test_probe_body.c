@@ -40,17 +40,6 @@ static void expect(scene *it, const char *name, double expected, double toleranc
     scene_expect_near(name, scene_probe(it, name), expected, tolerance);
 }
 
-/* Steps to a time, unit s; probes that remember are asked after each. */
-static void advance(scene *it, double time)
-{
-    mor_schedule *schedule = &it->simulation.schedule;
-    const int64_t until = mor_schedule_ticks(schedule, time);
-    while (schedule->now < until) {
-        scene_require(it, mor_schedule_step(&it->context, schedule, until));
-        scene_require(it, mor_probe_follow(&it->context, &it->simulation));
-    }
-}
-
 /* At the start, and a time later. */
 static void check_flight(scene *it, double time)
 {
@@ -81,10 +70,10 @@ static void motion_of_a_flying_box_is_that_of_a_throw(void **state)
     scene *it = make(flying);
     check_flight(it, 0.0);
     scene_require(it, mor_probe_follow(&it->context, &it->simulation));
-    advance(it, 0.25);
+    scene_advance(it, 0.25);
     check_flight(it, 0.25);
     expect(it, "deepest", 3.0 - (2.0 - 0.5 * side), 1e-6 * side); /* at the start: it rises faster than corners turn */
-    advance(it, 1.5);
+    scene_advance(it, 1.5);
     check_flight(it, 1.5); /* more than a full turn */
     assert_true(scene_probe(it, "deepest") == scene_probe(it, "depth"));
     scene_free(it);
@@ -106,7 +95,7 @@ static void box_at_rest_presses_with_its_weight(void **state)
     const double weight = density * side * side * gravity;
     const double sink = density * gravity * side / (1.0e6 / 0.05);
     scene *it = make(resting);
-    advance(it, 0.3);
+    scene_advance(it, 0.3);
     expect(it, "on_floor", -weight, 1e-3 * weight); /* what still swings */
     expect(it, "on_box", weight, 1e-3 * weight);    /* likewise */
     expect(it, "depth", sink, 0.125 * sink); /* the corners carry half a cell of the sides, too: one cell of eight */
@@ -130,7 +119,7 @@ static void sliding_box_loses_friction_times_way(void **state)
     (void)state;
     const double weight = density * side * side * gravity;
     scene *it = make(sliding);
-    advance(it, 0.3);
+    scene_advance(it, 0.3);
     const double way = scene_probe(it, "way");
     scene_expect_near("way", way, 2.0 * 0.3 - 0.5 * 0.4 * gravity * 0.09, 0.01 * way); /* it tips a little first */
     expect(it, "friction", 0.4 * weight * way, 0.01 * weight * way);                   /* likewise */
@@ -157,7 +146,7 @@ static void bouncing_box_loses_what_restitution_says(void **state)
     static const char *const hard[] = {"bodies[0].contact_modulus='100 MPa'", NULL};
     const scene_request request = {bouncing, (const char *const *[]){hard}, 1, 1};
     scene *it = scene_new(&request);
-    advance(it, 0.2);
+    scene_advance(it, 0.2);
     expect(it, "friction", 0.0, 1e-9 * fall);
     expect(it, "rebound", 0.75 * fall, 0.01 * fall); /* 1 - 0.5 squared; weight while it touches */
     expect(it, "lost", 0.75 * fall, 0.01 * fall);    /* likewise */
@@ -184,7 +173,7 @@ static void soil_pushes_a_ram_by_the_sum_over_its_points(void **state)
 {
     (void)state;
     scene *it = make(driven);
-    advance(it, 0.02);
+    scene_advance(it, 0.02);
     const mor_body_group *group = it->simulation.bodies.groups[0];
     const mor_boundary *boundary = &group->boundary;
     const double *center = group->bodies[0].center;
