@@ -9,6 +9,7 @@
 #include "cases/driver/rocks_report.h"
 #include "cases/driver/run.h"
 #include "cases/driver/run_files.h"
+#include "cases/driver/simulation_warnings.h"
 #include "core/io/durable_file.h"
 #include "core/io/snapshot.h"
 #include "materials/builtin.h"
@@ -19,8 +20,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-enum { SENTENCE_BYTES = 256 };
 
 /* A registry with the built-in materials. */
 static mor_status make_registry(mor_context *context, mor_registry **registry)
@@ -84,11 +83,7 @@ static mor_status print_check(mor_command *command, scene *it)
     fprintf(command->output, "%d wall%s, %d probe%s, %d expectation%s\n", it->the_case.n_walls,
             it->the_case.n_walls == 1 ? "" : "s", it->the_case.n_probes, it->the_case.n_probes == 1 ? "" : "s",
             it->the_case.n_expectations, it->the_case.n_expectations == 1 ? "" : "s");
-    char softness[SENTENCE_BYTES];
-    if (mor_simulation_describe_softness(&it->simulation, softness, sizeof softness)) {
-        fprintf(command->output, "warning: %s\n", softness);
-    }
-    return MOR_OK;
+    return mor_simulation_print_warnings(command->context, &it->simulation, command->output);
 }
 
 mor_status mor_command_check(mor_command *command, int *exit_code)

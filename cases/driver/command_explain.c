@@ -7,13 +7,11 @@
 #include "bodies/terrain.h"
 #include "cases/driver/clock.h"
 #include "cases/driver/rocks_report.h"
-#include "cases/driver/simulation.h"
-#include "core/base/math.h"
+#include "cases/driver/simulation_warnings.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { SENTENCE_BYTES = 256 };
 
 static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *set)
 {
@@ -43,81 +41,15 @@ static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *s
     }
 }
 
-/* Smallest distance of a soil particle from the face of a wall, in spacings. */
-static double find_gap(const mor_simulation *s, int wall)
-{
-    const mor_case *c = s->the_case;
-    const mor_shape *shape = c->walls[wall].shape;
-    double nearest = INFINITY;
-    for (int64_t i = 0; i < s->soil.set.n_particles; ++i) {
-        const double *position = s->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
-        double local[3];
-        mor_simulation_take_point_back(c, position, local);
-        nearest = fmin(nearest, shape->operations->distance(shape, local));
-    }
-    return nearest / c->spacing;
-}
-
-/* Soil that rests on a wall begins half a spacing off its face; nearer it is thrown off, farther it falls first. Soil
- * more than a spacing off, and a little for rounding, is not meant to touch. */
-static void print_gaps(FILE *out, const mor_simulation *s)
-{
-    const double allowed = 0.2;
-    const double touching = 1.01;
-    for (int w = 0; w < s->the_case->n_walls && s->has_soil; ++w) {
-        const double gap = find_gap(s, w);
-        if (gap <= touching && fabs(gap - 0.5) > allowed) {
-            fprintf(out,
-                    "warning: the soil begins %.2f spacings off wall '%s', not 0.5, and will %s; put faces of walls "
-                    "and soil a whole number of spacings from lattice.origin\n",
-                    gap, s->the_case->walls[w].name, gap < 0.5 ? "be pushed away" : "fall against it");
-        }
-    }
-}
-
-/* Thinnest extent of the soil in spacings; warnings about what the method cannot resolve. */
-static void print_warnings(FILE *out, const mor_simulation *s)
-{
-    enum { THIN = 8 };
-    const mor_case *c = s->the_case;
-    const double *position = s->soil.set.data[MOR_FIELD_POSITION];
-    double low[3] = {INFINITY, INFINITY, INFINITY};
-    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (int64_t k = 0; k < 3 * s->soil.set.n_particles; ++k) {
-        low[k % 3] = fmin(low[k % 3], position[k]);
-        high[k % 3] = fmax(high[k % 3], position[k]);
-    }
-    for (int a = 0; a < c->dimension && s->has_soil; ++a) {
-        const double n = (high[a] - low[a]) / c->spacing + 1.0;
-        if (n < THIN) {
-            fprintf(out,
-                    "warning: the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
-                    "smaller spacing\n",
-                    n, "xyz"[a], THIN);
-        }
-    }
-    print_gaps(out, s);
-    char softness[SENTENCE_BYTES];
-    if (mor_simulation_describe_softness(s, softness, sizeof softness)) {
-        fprintf(out, "warning: %s\n", softness);
-    }
-    if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {
-        fprintf(out, "warning: there is no wall; everything falls freely\n");
-    }
-    if (c->n_probes == 0) {
-        fprintf(out, "warning: there is no probe; the run will report no result\n");
-    }
-}
-
 /* What is to be warned of, to be printed later: the steps that are timed spoil the state. The caller frees the text. */
 static mor_status find_warnings(mor_context *context, const mor_simulation *s, char **text)
 {
     size_t n_bytes = 0;
     FILE *stream = open_memstream(text, &n_bytes);
     MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
-    print_warnings(stream, s);
+    const mor_status status = mor_simulation_print_warnings(context, s, stream);
     MOR_CHECK(context, fclose(stream) == 0, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
-    return MOR_OK;
+    return status;
 }
 
 /* Times a few steps on a state that is thrown away. */

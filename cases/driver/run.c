@@ -7,6 +7,7 @@
 #include "cases/driver/pictures.h"
 #include "cases/driver/probe.h"
 #include "cases/driver/rocks_report.h"
+#include "cases/driver/simulation_warnings.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,8 +15,6 @@
 
 /* Seconds between two lines of progress. */
 #define PROGRESS_SECONDS 0.5
-
-enum { SENTENCE_BYTES = 256 };
 
 /* The clockwork of a run beside the simulation itself. */
 typedef struct pace {
@@ -194,6 +193,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
         fprintf(options->progress, "\r%*s\r", 126, "");
     }
     MOR_TRY(context, mor_run_files_save(context, files));
+    warn_of_speed(context, s, p); /* of this part of the run: one that goes on begins anew */
     if (!outcome->is_finished) {
         outcome->is_interrupted = options->stop != NULL && *options->stop != 0;
         fprintf(options->output,
@@ -202,7 +202,6 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
         return MOR_OK;
     }
     print_end(files, p, speed);
-    warn_of_speed(context, s, p);
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, &outcome->n_missed));
     if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
@@ -243,9 +242,8 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
         status = mor_pictures_check(context, files->the_case, sets, n_sets);
     }
     const bool is_refused = status != MOR_OK;
-    char softness[SENTENCE_BYTES];
-    if (!is_refused && mor_simulation_describe_softness(files->simulation, softness, sizeof softness)) {
-        mor_context_log(context, MOR_LOG_WARNING, "%s", softness);
+    if (status == MOR_OK) {
+        status = mor_simulation_warn(context, files->simulation);
     }
     if (status == MOR_OK) {
         status = start_run(context, files, &p);

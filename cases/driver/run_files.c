@@ -28,6 +28,9 @@ static void log_line(void *user, mor_log_level level, const char *text)
     mor_run_files *files = user;
     fprintf(files->log, "%s: %s\n", names[level], text);
     fflush(files->log);
+    if (level == MOR_LOG_WARNING) {
+        mor_run_warnings_add(&files->warnings, text);
+    }
     if (level >= MOR_LOG_WARNING && files->previous_sink != NULL) {
         files->previous_sink(files->previous_user, level, text);
     }
@@ -110,6 +113,9 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, IMAGES_FOLDER));
     MOR_TRY(context, make_folder(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
+    if (options->is_resume) {
+        mor_run_warnings_load(&files->warnings, path);
+    }
     FILE *log = fopen(path, "a");
     MOR_CHECK(context, log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -285,6 +291,7 @@ void mor_run_files_close(mor_context *context, mor_run_files *files)
     }
     free(files->early_text);
     files->early_text = NULL;
+    mor_run_warnings_clear(&files->warnings);
 }
 
 mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)

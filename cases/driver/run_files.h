@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_RUN_FILES_H
 
 #include "cases/driver/run.h"
+#include "cases/driver/run_warnings.h"
 #include "core/io/checkpoint.h"
 #include "core/io/snapshot.h"
 #include "core/io/table.h"
@@ -22,6 +23,7 @@ typedef struct mor_run_files {
     FILE *log;                      /* log.txt; before it is open, early_text */
     char *early_text;               /* lines of the log before there was a folder; NULL: written */
     size_t n_early_bytes;           /* length of early_text */
+    mor_run_warnings warnings;      /* what was warned of, before a resume as well */
     mor_log_sink previous_sink;     /* where warnings and errors go as well */
     void *previous_user;            /* its argument */
     bool is_folder_new;             /* there was no such folder before */

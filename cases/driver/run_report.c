@@ -66,6 +66,13 @@ static void print_expectations(FILE *out, const mor_case *the_case, const mor_su
     }
 }
 
+static void print_warnings(FILE *out, const mor_run_warnings *warnings)
+{
+    for (int k = 0; k < warnings->n; ++k) {
+        fprintf(out, "%swarning: %s\n", k == 0 ? "\n" : "", warnings->texts[k]);
+    }
+}
+
 static void fill_summary(mor_run_files *files, mor_summary *summary)
 {
     mor_simulation *simulation = files->simulation;
@@ -81,6 +88,8 @@ static void fill_summary(mor_run_files *files, mor_summary *summary)
     summary->commit = files->options->commit;
     summary->seed = files->the_case->seed;
     summary->command = files->options->command;
+    summary->warnings = (const char *const *)files->warnings.texts;
+    summary->n_warnings = files->warnings.n;
 }
 
 /* The speed in the summary of an earlier end of the same run; NaN when there is none that can be read. */
@@ -140,5 +149,6 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     MOR_TRY(context, mor_summary_write(context, path, &summary));
     print_results(files->options->output, &summary);
     print_expectations(files->options->output, c, &summary);
+    print_warnings(files->options->output, &files->warnings);
     return MOR_OK;
 }

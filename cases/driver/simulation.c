@@ -255,8 +255,8 @@ static mor_status check_materials(mor_context *context, const mor_case *the_case
     return MOR_OK;
 }
 
-/* Value of a parameter by name, or a fallback where the model has none of that name. */
-static double find_parameter(const mor_material *material, const double *parameters, const char *key, double fallback)
+double mor_simulation_parameter(const mor_material *material, const double *parameters, const char *key,
+                                double fallback)
 {
     int at = 0;
     for (const mor_schema *schema = material->parameters; schema->key != NULL; ++schema) {
@@ -271,38 +271,9 @@ static double find_parameter(const mor_material *material, const double *paramet
 /* Jaky's ratio for frictional models, hydrostatic for others. */
 double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil)
 {
-    return soil->lateral_ratio >= 0.0 ? soil->lateral_ratio
-                                      : 1.0 - sin(find_parameter(material, soil->parameters, "friction_angle", 0.0));
-}
-
-bool mor_simulation_describe_softness(const mor_simulation *simulation, char *text, size_t n_bytes)
-{
-    static const struct {
-        double size;
-        const char *name;
-    } units[] = {{1.0e9, "GPa"}, {1.0e6, "MPa"}, {1.0e3, "kPa"}, {1.0, "Pa"}};
-    const double advisable = 0.01;
-    const double largest = 0.02;
-    const mor_case *c = simulation->the_case;
-    text[0] = '\0';
-    if (!simulation->has_soil) {
-        return false;
-    }
-    const mor_case_soil *it = &c->soils[0];
-    const double stiffness = find_parameter(simulation->material->material, it->parameters, "youngs_modulus", INFINITY);
-    const double weight = it->density * mor_vector_length(c->gravity) * simulation->soil_depth;
-    if (!(weight > largest * stiffness)) {
-        return false;
-    }
-    int k = 0;
-    while (k < 3 && weight / advisable < units[k].size) {
-        ++k;
-    }
-    snprintf(text, n_bytes,
-             "the soil is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% is "
-             "advisable: raise youngs_modulus to %.3g %s or more",
-             100.0 * weight / stiffness, weight / advisable / units[k].size, units[k].name);
-    return true;
+    return soil->lateral_ratio >= 0.0
+               ? soil->lateral_ratio
+               : 1.0 - sin(mor_simulation_parameter(material, soil->parameters, "friction_angle", 0.0));
 }
 
 static void set_settings(const mor_simulation *simulation, const mor_material *material, mor_soil_settings *s)

@@ -84,13 +84,14 @@ void mor_simulation_find_up(const mor_case *the_case, double *up);
  *  @param soil     [in]  one object */
 double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil);
 
-/** Says so when the soil is so soft that its own weight, rho g H over Young's modulus with H the height of its highest
- *  column, compresses it by more than 2 %. The method takes soil to be hardly compressible.
- *  @param simulation [in]   one object, as it begins
- *  @param text       [out]  shape [n_bytes]; zero-terminated; a sentence without its stop; "" for nothing to say
- *  @param n_bytes    [in]   room
- *  Returns: whether there is something to say; not without gravity, soil or a modulus. */
-bool mor_simulation_describe_softness(const mor_simulation *simulation, char *text, size_t n_bytes);
+/** Value of a parameter of a soil by name.
+ *  @param material   [in]  one object; the model
+ *  @param parameters [in]  shape of the model's parameters, in its order; SI
+ *  @param key        [in]  zero-terminated
+ *  @param fallback   [in]  unit of the parameter; returned where the model has none of that name
+ *  Returns: unit of the parameter. */
+double mor_simulation_parameter(const mor_material *material, const double *parameters, const char *key,
+                                double fallback);
 
 /** Sets the surface height, the depth of the soil and the initial stress of all regions: vertical stress from the
  *  weight of the soil straight above, of whatever region, lateral stress by the region's ratio.

@@ -35,6 +35,10 @@ static mor_status check_texts(mor_context *context, const mor_summary *summary)
         MOR_CHECK(context, find_result(summary, result->probe) == result, MOR_ERROR_ARGUMENT,
                   "two results of a summary are named '%s'; rename one probe", result->probe);
     }
+    for (int k = 0; k < summary->n_warnings; ++k) {
+        MOR_CHECK(context, summary->warnings[k] != NULL, MOR_ERROR_ARGUMENT, "warning %d of a summary has no text",
+                  k + 1);
+    }
     for (int k = 0; k < summary->n_inputs; ++k) {
         MOR_CHECK(context, summary->inputs[k].path != NULL, MOR_ERROR_ARGUMENT, "input %d of a summary has no path",
                   k + 1);
@@ -178,6 +182,18 @@ static json_t *make_expectations(mor_context *context, const mor_summary *summar
     return list;
 }
 
+static json_t *make_warnings(mor_context *context, const mor_summary *summary)
+{
+    json_t *list = json_array();
+    for (int k = 0; k < summary->n_warnings; ++k) {
+        if (json_array_append_new(list, make_text(context, summary->warnings[k])) != 0) {
+            json_decref(list);
+            return NULL;
+        }
+    }
+    return list;
+}
+
 static json_t *make_provenance(mor_context *context, const mor_summary *summary)
 {
     json_t *provenance = json_object();
@@ -209,6 +225,7 @@ static json_t *make_document(mor_context *context, const mor_summary *summary)
     error |= add_member(document, "version", json_integer(MOR_SUMMARY_VERSION));
     error |= add_member(document, "results", make_results(context, summary));
     error |= add_member(document, "expect", make_expectations(context, summary));
+    error |= add_member(document, "warnings", make_warnings(context, summary));
     error |= add_member(document, "state_hash", make_hash(summary->state_hash));
     error |= add_member(document, "speed", speed);
     error |= add_member(document, "memory", memory);
@@ -299,6 +316,15 @@ static mor_status check_expectation(mor_context *context, const char *path, cons
     return MOR_OK;
 }
 
+static mor_status check_warnings(mor_context *context, const char *path, const json_t *warnings)
+{
+    bool is_good = json_is_array(warnings);
+    for (size_t k = 0; k < json_array_size(warnings); ++k) {
+        is_good = is_good && json_is_string(json_array_get(warnings, k));
+    }
+    return is_good ? MOR_OK : fail_member(context, path, "warnings", "an array of texts");
+}
+
 static mor_status check_provenance(mor_context *context, const char *path, const json_t *provenance)
 {
     static const char *const texts[] = {"version", "commit", "command"};
@@ -344,6 +370,7 @@ static mor_status check_document(mor_context *context, const char *path, const j
     for (size_t k = 0; k < json_array_size(expectations); ++k) {
         MOR_TRY(context, check_expectation(context, path, json_array_get(expectations, k), results));
     }
+    MOR_TRY(context, check_warnings(context, path, json_object_get(document, "warnings")));
     if (!is_hash(json_object_get(document, "state_hash"))) {
         return fail_member(context, path, "state_hash", "16 hexadecimal digits");
     }

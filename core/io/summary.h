@@ -14,6 +14,7 @@
  *        "results": { "<probe>": { "value": number, "unit": text }, ... },
  *        "expect": [ { "probe", "measured", "reference", "tolerance", "tolerance_low", "tolerance_kind", "unit",
  *                      "pass", "source" }, ... ],
+ *        "warnings": [ text, ... ],
  *        "state_hash": "16 hexadecimal digits",
  *        "speed": { "particle_steps_per_second": number },
  *        "memory": { "bytes_per_fine_particle": number },
@@ -57,6 +58,8 @@ typedef struct mor_summary {
     int n_results;
     const mor_summary_expectation *expectations; /* shape [n_expectations] */
     int n_expectations;
+    const char *const *warnings; /* shape [n_warnings]; zero-terminated; what was warned of, in order */
+    int n_warnings;
     uint64_t state_hash;              /* over all evolving fields of all sets at the end */
     double particle_steps_per_second; /* fine particles times fine steps per wall second of the time loop, 1/s */
     double bytes_per_fine_particle;   /* largest memory / number of fine particles, 1 */

@@ -13,9 +13,12 @@ static const mor_summary_expectation expectations[] = {
 };
 static const mor_summary_input inputs[] = {{"case.cfg", 0x0123456789ABCDEFu}, {"a \"b\".stl", 1}};
 
+static const char *const warnings[] = {"the soil is \"soft\"", "deep \xFF"};
+
 static mor_summary make_summary(void)
 {
     return (mor_summary){.results = results, .n_results = 3, .expectations = expectations, .n_expectations = 3,
+                         .warnings = warnings, .n_warnings = 2,
                          .state_hash = 0xFEDCBA9876543210u, .particle_steps_per_second = 1234567.5,
                          .bytes_per_fine_particle = 400.25, .version = "0.1.0", .commit = "", .seed = 42,
                          .command = "moraine run case.cfg", .n_threads = 2, .inputs = inputs, .n_inputs = 2};
@@ -41,6 +44,7 @@ static void members_are_written_as_documented(void **state)
         "\"tolerance\": null,\n      \"tolerance_low\": 1.0,\n      \"tolerance_kind\": \"absolute\"",
         "\"pass\": true",
         "\"source\": \"Lube et al. 2004\"",
+        "\"warnings\": [\n    \"the soil is \\\"soft\\\"\",\n    \"deep ?\"\n  ]",
         "\"state_hash\": \"fedcba9876543210\"",
         "\"speed\": {\n    \"particle_steps_per_second\": 1234567.5\n  }",
         "\"memory\": {\n    \"bytes_per_fine_particle\": 400.25\n  }",

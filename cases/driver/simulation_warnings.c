@@ -1,0 +1,127 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/simulation_warnings.h"
+
+#include "core/base/math.h"
+
+#include <stdio.h>
+
+/* The soil is hardly compressible in the method: compression by its own weight that is advisable, and at most. */
+static const double compression_advisable = 0.01;
+static const double compression_largest = 0.02;
+
+static void warn_of_softness(mor_context *context, const mor_simulation *s)
+{
+    static const struct {
+        double size;
+        const char *name;
+    } units[] = {{1.0e9, "GPa"}, {1.0e6, "MPa"}, {1.0e3, "kPa"}, {1.0, "Pa"}};
+    const mor_case *c = s->the_case;
+    if (!s->has_soil) {
+        return;
+    }
+    const mor_case_soil *it = &c->soils[0];
+    const double stiffness =
+        mor_simulation_parameter(s->material->material, it->parameters, "youngs_modulus", INFINITY);
+    const double weight = it->density * mor_vector_length(c->gravity) * s->soil_depth;
+    if (!(weight > compression_largest * stiffness)) {
+        return;
+    }
+    int k = 0;
+    while (k < 3 && weight / compression_advisable < units[k].size) {
+        ++k;
+    }
+    mor_context_log(context, MOR_LOG_WARNING,
+                    "the soil is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% "
+                    "is advisable: raise youngs_modulus to %.3g %s or more",
+                    100.0 * weight / stiffness, weight / compression_advisable / units[k].size, units[k].name);
+}
+
+/* Smallest distance of a soil particle from the face of a wall, in spacings. */
+static double find_gap(const mor_simulation *s, int wall)
+{
+    const mor_case *c = s->the_case;
+    const mor_shape *shape = c->walls[wall].shape;
+    double nearest = INFINITY;
+    for (int64_t i = 0; i < s->soil.set.n_particles; ++i) {
+        const double *position = s->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
+        double local[3];
+        mor_simulation_take_point_back(c, position, local);
+        nearest = fmin(nearest, shape->operations->distance(shape, local));
+    }
+    return nearest / c->spacing;
+}
+
+/* Soil that rests on a wall begins half a spacing off its face; nearer it is thrown off, farther it falls first. Soil
+ * more than a spacing off, and a little for rounding, is not meant to touch. */
+static void warn_of_gaps(mor_context *context, const mor_simulation *s)
+{
+    const double allowed = 0.2;
+    const double touching = 1.01;
+    for (int w = 0; w < s->the_case->n_walls && s->has_soil; ++w) {
+        const double gap = find_gap(s, w);
+        if (gap <= touching && fabs(gap - 0.5) > allowed) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "the soil begins %.2f spacings off wall '%s', not 0.5, and will %s; put faces of walls "
+                            "and soil a whole number of spacings from lattice.origin",
+                            gap, s->the_case->walls[w].name, gap < 0.5 ? "be pushed away" : "fall against it");
+        }
+    }
+}
+
+/* Soil that is too thin for the method. */
+static void warn_of_thinness(mor_context *context, const mor_simulation *s)
+{
+    enum { THIN = 8 };
+    const mor_case *c = s->the_case;
+    const double *position = s->soil.set.data[MOR_FIELD_POSITION];
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 3 * s->soil.set.n_particles; ++k) {
+        low[k % 3] = fmin(low[k % 3], position[k]);
+        high[k % 3] = fmax(high[k % 3], position[k]);
+    }
+    for (int a = 0; a < c->dimension && s->has_soil; ++a) {
+        const double n = (high[a] - low[a]) / c->spacing + 1.0;
+        if (n < THIN) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
+                            "smaller spacing",
+                            n, "xyz"[a], THIN);
+        }
+    }
+}
+
+mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    warn_of_thinness(context, simulation);
+    warn_of_gaps(context, simulation);
+    warn_of_softness(context, simulation);
+    if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {
+        mor_context_log(context, MOR_LOG_WARNING, "there is no wall; everything falls freely");
+    }
+    if (c->n_probes == 0) {
+        mor_context_log(context, MOR_LOG_WARNING, "there is no probe; the run will report no result");
+    }
+    return MOR_OK;
+}
+
+static void print_line(void *user, mor_log_level level, const char *text)
+{
+    if (level == MOR_LOG_WARNING) {
+        fprintf(user, "warning: %s\n", text);
+    }
+}
+
+mor_status mor_simulation_print_warnings(mor_context *context, const mor_simulation *simulation, FILE *stream)
+{
+    const mor_log_sink sink = context->log_sink;
+    void *user = context->log_user;
+    context->log_sink = print_line;
+    context->log_user = stream;
+    const mor_status status = mor_simulation_warn(context, simulation);
+    context->log_sink = sink;
+    context->log_user = user;
+    return status;
+}

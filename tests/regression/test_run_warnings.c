@@ -1,0 +1,100 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Whatever a run warns of stands beside its results. */
+#include "cases/driver/run_warnings.h"
+#include "tests/common/finished_run.h"
+#include "tests/common/program.h"
+
+/* The summary of a run as text, which the caller frees. */
+static char *load_summary(run_folder *folder, const char *run)
+{
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    finished_run_file(folder, path, run, MOR_SUMMARY_FILE);
+    assert_int_equal(mor_summary_check(&folder->context, path), MOR_OK);
+    char *text = (char *)run_folder_load(path, &n_bytes);
+    assert_non_null(text);
+    return text;
+}
+
+static int count(const char *text, const char *part)
+{
+    int n = 0;
+    for (const char *at = strstr(text, part); at != NULL; at = strstr(at + 1, part)) {
+        ++n;
+    }
+    return n;
+}
+
+static void run_without_warnings_says_so(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const arguments[] = {"run", path, "-t", "1", "-o", "mine", NULL};
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, arguments, 0);
+    assert_null(strstr(outcome.output, "warning"));
+    program_clear(&outcome);
+    char *text = load_summary(folder, "mine");
+    program_expect_text(text, "\"warnings\": []");
+    free(text);
+}
+
+/* rho g H / E = 2000 * 9.81 * 0.12 / 5e4 = 4.7 %. The warning arises before the first step, the run is stopped and
+ * resumed, and the summary still has it, once. */
+static void warnings_stand_in_the_summary_also_after_a_resume(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const first[] = {"run",       path,    "-t", "1",
+                                 "-o",        "mine",  "-s", "soil[0].material.youngs_modulus=50 kPa",
+                                 "--stop-at", "20 ms", NULL};
+    const char *const again[] = {
+        "run", path, "-t", "1", "-o", "mine", "-s", "soil[0].material.youngs_modulus=50 kPa", "--resume", NULL};
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, first, 0);
+    program_clear(&outcome);
+    outcome = program_run(folder, again, 0);
+    program_expect_text(outcome.output, "\nwarning: the soil is so soft");
+    program_clear(&outcome);
+    char *text = load_summary(folder, "mine");
+    program_expect_text(text, "\"warnings\": [\n    \"the soil is so soft");
+    assert_int_equal(count(text, "the soil is so soft"), 1);
+    free(text);
+}
+
+/* A log of an earlier part tells what was warned of then; info lines and texts known already add nothing. */
+static void warnings_are_read_from_a_log_each_once(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    static const char log[] = "info: moraine\nwarning: deep\nwarning: fast\nerror: no\nwarning: deep\n";
+    mor_run_warnings warnings = {.n = 0};
+    run_folder_store(run_folder_file(folder, path, "log.txt"), log, strlen(log));
+    assert_true(mor_run_warnings_add(&warnings, "fast"));
+    mor_run_warnings_load(&warnings, path);
+    mor_run_warnings_load(&warnings, "/nowhere/log.txt");
+    assert_int_equal(warnings.n, 2);
+    assert_string_equal(warnings.texts[0], "fast");
+    assert_string_equal(warnings.texts[1], "deep");
+    for (int k = 0; k < 2 * MOR_RUN_WARNINGS_MAX; ++k) {
+        char text[16];
+        snprintf(text, sizeof text, "number %d", k);
+        mor_run_warnings_add(&warnings, text);
+    }
+    assert_int_equal(warnings.n, MOR_RUN_WARNINGS_MAX);
+    program_expect_text(warnings.texts[MOR_RUN_WARNINGS_MAX - 1], "there are more warnings: see log.txt");
+    mor_run_warnings_clear(&warnings);
+    assert_int_equal(warnings.n, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(run_without_warnings_says_so, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(warnings_stand_in_the_summary_also_after_a_resume, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(warnings_are_read_from_a_log_each_once, run_folder_setup, run_folder_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
