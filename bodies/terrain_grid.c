@@ -4,11 +4,7 @@
 
 #include "core/base/memory.h"
 
-#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
-#include <strings.h>
 
 /* Holes are solved until no height changes by more than this share of the relief, or for so many sweeps. */
 #define HOLE_CHANGE 1e-7
@@ -155,52 +151,4 @@ mor_status mor_terrain_resample(mor_context *context, mor_terrain *terrain, doub
     terrain->cell[0] = cell;
     terrain->cell[1] = cell;
     return MOR_OK;
-}
-
-/* Reads the next word, cut at `size` bytes. */
-static bool read_word(FILE *file, char *word, size_t size)
-{
-    int c = fgetc(file);
-    while (c != EOF && isspace(c)) {
-        c = fgetc(file);
-    }
-    size_t n = 0;
-    while (c != EOF && !isspace(c)) {
-        if (n + 1 < size) {
-            word[n++] = (char)c;
-        }
-        c = fgetc(file);
-    }
-    word[n] = '\0';
-    return n > 0;
-}
-
-/* Keys of ESRI headers are bare words, those of GRASS end in a colon. */
-static bool is_key(const char *word)
-{
-    const bool is_number = strncasecmp(word, "nan", 3) == 0 || strncasecmp(word, "inf", 3) == 0;
-    return isalpha((unsigned char)word[0]) && (!is_number || strchr(word, ':') != NULL);
-}
-
-long long mor_terrain_count_numbers(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        return -1;
-    }
-    char word[64];
-    long long n = 0;
-    bool is_header = true;
-    while (read_word(file, word, sizeof word)) {
-        /* Header lines are a key and its value; the first word that is no key begins the numbers. */
-        is_header = is_header && is_key(word);
-        if (is_header) {
-            (void)read_word(file, word, sizeof word);
-        } else {
-            ++n;
-        }
-    }
-    const bool is_read = !ferror(file);
-    (void)fclose(file);
-    return is_read ? n : -1;
 }

@@ -80,10 +80,22 @@ mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when fewer than 2 x 2 nodes are left, or too many; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_resample(mor_context *context, mor_terrain *terrain, double cell);
 
-/** Counts the numbers of an ESRI or GRASS ASCII file behind its header.
- *  @param path     [in]   zero-terminated
- *  Returns: the count; -1 when the file cannot be read. */
-long long mor_terrain_count_numbers(const char *path);
+/** Rasters that are text. */
+typedef enum mor_terrain_format {
+    MOR_TERRAIN_BINARY, /* no text */
+    MOR_TERRAIN_ESRI,
+    MOR_TERRAIN_GRASS,
+    MOR_TERRAIN_SURFER
+} mor_terrain_format;
+
+/** Checks a raster of text word by word: each key of the header is known and given once, each value is a number of its
+ *  range, and as many numbers follow as the header promises.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated
+ *  @param format  [in]      not binary
+ *  @param n       [in]      shape [2]; columns and rows as they were read otherwise
+ *  Returns: MOR_OK; MOR_ERROR_IO with line and column. */
+mor_status mor_terrain_check_text(mor_context *context, const char *path, mor_terrain_format format, const int *n);
 
 /** Nodes a terrain may have, so that it fits into memory beside the particles on it. */
 #define MOR_TERRAIN_NODES_MAX 67108864.0

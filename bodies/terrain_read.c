@@ -37,7 +37,7 @@ typedef struct raster {
     double cell[2];   /* m */
     int n[2];         /* nodes */
     int window[2][2]; /* first and last node kept, along x and upwards */
-    bool is_text;     /* ESRI or GRASS ASCII */
+    mor_terrain_format format;
     bool is_downward; /* row 0 of the file has the largest y */
 } raster;
 
@@ -93,6 +93,14 @@ static mor_status check_file(mor_context *context, const char *path)
     return MOR_OK;
 }
 
+static mor_terrain_format find_format(const char *driver)
+{
+    return strcmp(driver, "AAIGrid") == 0          ? MOR_TERRAIN_ESRI
+           : strcmp(driver, "GRASSASCIIGrid") == 0 ? MOR_TERRAIN_GRASS
+           : strcmp(driver, "GSAG") == 0           ? MOR_TERRAIN_SURFER
+                                                   : MOR_TERRAIN_BINARY;
+}
+
 static mor_status open_raster(mor_context *context, raster *it)
 {
     CPLErrorReset();
@@ -102,8 +110,7 @@ static mor_status open_raster(mor_context *context, raster *it)
               "and Surfer grids: convert it with gdal_translate",
               it->path, CPLGetLastErrorMsg()[0] != '\0' ? CPLGetLastErrorMsg() : "no known format");
     MOR_CHECK(context, GDALGetRasterCount(it->dataset) >= 1, MOR_ERROR_IO, "%s: the raster holds no band", it->path);
-    const char *driver = GDALGetDriverShortName(GDALGetDatasetDriver(it->dataset));
-    it->is_text = strcmp(driver, "AAIGrid") == 0 || strcmp(driver, "GRASSASCIIGrid") == 0;
+    it->format = find_format(GDALGetDriverShortName(GDALGetDatasetDriver(it->dataset)));
     it->band = GDALGetRasterBand(it->dataset, 1);
     it->n[0] = GDALGetRasterXSize(it->dataset);
     it->n[1] = GDALGetRasterYSize(it->dataset);
@@ -196,19 +203,6 @@ static mor_status find_window(mor_context *context, const mor_terrain_request *r
     return MOR_OK;
 }
 
-/* An ASCII header with a wrong number of columns would shear the ground unnoticed. */
-static mor_status check_count(mor_context *context, const raster *it)
-{
-    if (!it->is_text) {
-        return MOR_OK;
-    }
-    const long long n = mor_terrain_count_numbers(it->path);
-    MOR_CHECK(context, n == (long long)it->n[0] * it->n[1], MOR_ERROR_IO,
-              "%s: its header promises %d columns in %d rows, but %lld numbers follow; correct the header", it->path,
-              it->n[0], it->n[1], n);
-    return MOR_OK;
-}
-
 /* One row of the file into one row of the terrain, in meters, NaN where there is no data. */
 static mor_status read_row(mor_context *context, const raster *it, int file_row, double *heights)
 {
@@ -228,8 +222,12 @@ static mor_status read_row(mor_context *context, const raster *it, int file_row,
     for (int k = 0; k < n; ++k) {
         /* Rasters in single precision hold the mark rounded to it. */
         const bool is_mark = has_mark && (heights[k] == mark || (float)heights[k] == (float)mark);
-        heights[k] =
-            is_mark || !isfinite(heights[k]) ? NAN : heights[k] * (has_scale ? scale : 1.0) + (has_shift ? shift : 0.0);
+        const double height = heights[k] * (has_scale ? scale : 1.0) + (has_shift ? shift : 0.0);
+        MOR_CHECK(context, is_mark || !isinf(height), MOR_ERROR_ARGUMENT,
+                  "%s: row %d, column %d: found an infinite height; allowed are finite ones: correct it, or declare "
+                  "infinity as the mark of missing data with gdal_edit.py -a_nodata",
+                  it->path, file_row + 1, it->window[0][0] + k + 1);
+        heights[k] = is_mark ? NAN : height;
     }
     return MOR_OK;
 }
@@ -240,7 +238,7 @@ static mor_status read_heights(mor_context *context, const raster *it, mor_terra
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
     MOR_TRY(context, MOR_NEW(context, &terrain->heights, n_nodes, "terrain heights"));
     const int first = it->is_downward ? it->n[1] - 1 - it->window[1][1] : it->window[1][0];
-    for (int file_row = it->is_text ? 0 : first; file_row < first + terrain->n_y; ++file_row) {
+    for (int file_row = it->format != MOR_TERRAIN_BINARY ? 0 : first; file_row < first + terrain->n_y; ++file_row) {
         /* A row before the window is read into the place of the first one of the window, which comes later. */
         const int place = file_row > first ? file_row - first : 0;
         const int row = it->is_downward ? terrain->n_y - 1 - place : place;
@@ -249,7 +247,8 @@ static mor_status read_heights(mor_context *context, const raster *it, mor_terra
     return MOR_OK;
 }
 
-static mor_status mend_holes(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain)
+static mor_status mend_holes(mor_context *context, const mor_terrain_request *request, const raster *it,
+                             mor_terrain *terrain)
 {
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
     int64_t n_holes = 0;
@@ -259,15 +258,17 @@ static mor_status mend_holes(mor_context *context, const mor_terrain_request *re
             first = n;
         }
     }
+    const int row = it->window[1][0] + (int)(first / terrain->n_x); /* upwards; of no meaning without holes */
     MOR_CHECK(context, n_holes < n_nodes, MOR_ERROR_ARGUMENT,
               "%s: none of the %lld nodes kept has data; move the crop, or correct the raster's NoData value",
               request->path, (long long)n_nodes);
     MOR_CHECK(context, n_holes == 0 || request->fills_no_data, MOR_ERROR_ARGUMENT,
-              "%s: %lld of %lld nodes have no data, the first at (%g, %g) m; allowed are none: crop them off, or have "
-              "holes filled from their rims: fill_no_data = true",
+              "%s: %lld of %lld nodes have no data, the first at (%g, %g) m (row %d, column %d of the file); allowed "
+              "are none: crop them off, or have holes filled from their rims: fill_no_data = true",
               request->path, (long long)n_holes, (long long)n_nodes,
               terrain->origin[0] + (double)(first % terrain->n_x) * terrain->cell[0],
-              terrain->origin[1] + (double)(first / terrain->n_x) * terrain->cell[1]);
+              terrain->origin[1] + (double)(first / terrain->n_x) * terrain->cell[1],
+              it->is_downward ? it->n[1] - row : row + 1, it->window[0][0] + (int)(first % terrain->n_x) + 1);
     MOR_TRY(context, mor_terrain_fill_holes(context, terrain));
     return MOR_OK;
 }
@@ -342,10 +343,12 @@ static mor_status read_terrain(mor_context *context, const mor_terrain_request *
                                mor_terrain *terrain)
 {
     MOR_TRY(context, open_raster(context, it));
+    if (it->format != MOR_TERRAIN_BINARY) {
+        MOR_TRY(context, mor_terrain_check_text(context, it->path, it->format, it->n));
+    }
     MOR_TRY(context, place_raster(context, it));
     MOR_TRY(context, read_datum(context, it, terrain->datum, sizeof terrain->datum));
     MOR_TRY(context, find_window(context, request, it));
-    MOR_TRY(context, check_count(context, it));
     terrain->n_x = it->window[0][1] - it->window[0][0] + 1;
     terrain->n_y = it->window[1][1] - it->window[1][0] + 1;
     for (int a = 0; a < 2; ++a) {
@@ -353,7 +356,7 @@ static mor_status read_terrain(mor_context *context, const mor_terrain_request *
         terrain->origin[a] = it->first[a] + it->window[a][0] * it->cell[a];
     }
     MOR_TRY(context, read_heights(context, it, terrain));
-    MOR_TRY(context, mend_holes(context, request, terrain));
+    MOR_TRY(context, mend_holes(context, request, it, terrain));
     MOR_TRY(context, check_steps(context, request, terrain));
     if (!isnan(request->cell)) {
         MOR_TRY(context, mor_terrain_resample(context, terrain, request->cell));

@@ -45,12 +45,19 @@ static mor_status check_is_text(const head *it)
 
 /* ---- STL --------------------------------------------------------------------------------------------------------- */
 
+enum { HEADER_BYTES = 84, TRIANGLE_BYTES = 50 };
+
+bool mor_mesh_is_binary_stl(const char *text, int64_t n_bytes)
+{
+    return n_bytes >= HEADER_BYTES &&
+           n_bytes == HEADER_BYTES + TRIANGLE_BYTES * (int64_t)read_word(text + HEADER_BYTES - 4);
+}
+
 static mor_status check_stl(const head *it)
 {
-    enum { HEADER_BYTES = 84, TRIANGLE_BYTES = 50 };
     if (it->n_bytes >= HEADER_BYTES) {
         const int64_t n = read_word(it->text + HEADER_BYTES - 4);
-        if (it->n_bytes == HEADER_BYTES + TRIANGLE_BYTES * n) {
+        if (mor_mesh_is_binary_stl(it->text, it->n_bytes)) {
             MOR_CHECK(it->context, n > 0, MOR_ERROR_IO, "%s: found a binary STL file of no triangles", it->path);
             return MOR_OK;
         }
@@ -153,8 +160,8 @@ static mor_status check_gltf(const head *it)
 
 static mor_status check_glb(const head *it)
 {
-    enum { HEADER_BYTES = 20 };
-    const bool has_header = it->n_bytes >= HEADER_BYTES && memcmp(it->text, "glTF", 4) == 0;
+    enum { GLB_HEADER_BYTES = 20 };
+    const bool has_header = it->n_bytes >= GLB_HEADER_BYTES && memcmp(it->text, "glTF", 4) == 0;
     const int64_t n_said = has_header ? read_word(it->text + 8) : 0;
     MOR_CHECK(it->context, has_header && n_said == it->n_bytes, MOR_ERROR_IO,
               "%s: found %lld bytes with a glTF header of %lld; this is no GLB file, or it is cut off", it->path,

@@ -69,4 +69,11 @@ mor_status mor_mesh_find_crossings(mor_context *context, mor_mesh_work *work);
 mor_status mor_mesh_check_head(mor_context *context, const char *path, const char *ending, const char *text,
                                int64_t n_text, int64_t n_bytes);
 
+/* Whether a file that starts like this, and is n_bytes long, is a binary STL. */
+bool mor_mesh_is_binary_stl(const char *text, int64_t n_bytes);
+
+/* mesh_text.c: whether places and corners in a file of text are numbers; other files pass. */
+mor_status mor_mesh_check_text(mor_context *context, const char *path, const char *ending, const char *text,
+                               int64_t n_bytes);
+
 #endif

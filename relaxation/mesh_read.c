@@ -257,6 +257,9 @@ mor_status mor_mesh_read(mor_context *context, const char *path, mor_mesh *mesh,
     if (status == MOR_OK) {
         status = mor_mesh_check_head(context, path, ending, head, n_head, n_bytes);
     }
+    if (status == MOR_OK) {
+        status = mor_mesh_check_text(context, path, ending, head, n_bytes);
+    }
     MOR_FREE(context, &head);
     if (status == MOR_OK) {
         status = load_mesh(context, path, n_bytes, mesh, &reach);

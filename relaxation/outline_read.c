@@ -1,12 +1,12 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/memory.h"
+#include "core/base/number.h"
 #include "relaxation/outline_internal.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LINE_BYTES = 512, FIRST_ROOM = 256 };
@@ -48,9 +48,11 @@ static mor_status read_line(mor_context *context, outline_reader *reader, bool *
     return MOR_OK;
 }
 
+static const char separators[] = " \t\r\v\f,;";
+
 static const char *skip_separators(const char *text)
 {
-    return text + strspn(text, " \t\r\v\f,;");
+    return text + strspn(text, separators);
 }
 
 static mor_status make_room(mor_context *context, outline_reader *reader)
@@ -92,17 +94,17 @@ static mor_status read_corner(mor_context *context, outline_reader *reader)
         return MOR_OK;
     }
     while (*text != '\0') {
-        char *end = NULL;
-        const double number = strtod(text, &end);
-        const bool is_number = end != text && *end != '\0' ? strchr(" \t\r\v\f,;", *end) != NULL : end != text;
-        MOR_CHECK(context, is_number && isfinite(number), MOR_ERROR_IO,
-                  "%s, line %d: \"%.20s\" is no number; give one corner \"x y\" per line, '#' before a comment",
-                  reader->path, reader->line, text);
+        double number;
+        const size_t n_bytes = strcspn(text, separators);
+        MOR_CHECK(context, mor_number_read(text, n_bytes, &number) && isfinite(number), MOR_ERROR_IO,
+                  "%s, line %d, column %d: \"%.*s\" is no number; give one corner \"x y\" per line, '#' before a "
+                  "comment",
+                  reader->path, reader->line, (int)(text - reader->text) + 1, n_bytes < 20 ? (int)n_bytes : 20, text);
         if (n_numbers < 2) {
             place[n_numbers] = number;
         }
         ++n_numbers;
-        text = skip_separators(end);
+        text = skip_separators(text + n_bytes);
     }
     MOR_CHECK(context, n_numbers == 2, MOR_ERROR_IO,
               "%s, line %d: %d %s; give one corner \"x y\" per line, with points as decimal marks", reader->path,

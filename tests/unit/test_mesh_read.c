@@ -255,9 +255,48 @@ static void files_without_an_inside_are_refused(void **state)
     append_text(&it, "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\n");
     expect_refusal(folder, "two.obj", &it, MOR_ERROR_ARGUMENT, "2 parts");
     it.n_bytes = 0;
-    append_text(&it, "v 0 0 0\nv 1 nan 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
-    expect_refusal(folder, "nan.obj", &it, MOR_ERROR_ARGUMENT, "is no place");
+    const float not_a_number = NAN;
+    write_stl_binary(&it, &cube);
+    memcpy(it.bytes + 84 + 12, &not_a_number, sizeof not_a_number); /* the first corner, behind header and normal */
+    expect_refusal(folder, "nan.stl", &it, MOR_ERROR_ARGUMENT, "is no place");
     mor_mesh_clear(&folder->context, &cube);
+}
+
+/* A word that is no number, at a place that a reader of meshes takes for 0 or for its first digits. */
+static void places_that_are_no_numbers_are_refused(void **state)
+{
+    static const struct {
+        const char *name, *text, *word;
+    } all[] = {
+        {"a.obj", "v abc 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+         "line 1, column 3: found 'abc'"},
+        {"b.obj", "v 0 0 0\nv 1,5 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+         "line 2, column 3: found '1,5'"},
+        {"c.obj", "v 0 0 0\nv 1.5m 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+         "found '1.5m', which is no number"},
+        {"d.obj", "v 0 0 0\nv 1 0 0\nv 0 1e999 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+         "line 3, column 5: found '1e999', which is beyond the range"},
+        {"e.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n", "fewer than three numbers"},
+        {"f.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4x\nf 2 3 4\nf 3 1 4\n",
+         "line 6, column 7: found '4x'"},
+        {"g.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 5\n",
+         "names vertex 5, but there are 4"},
+        {"h.stl", "solid rock of vertex x\nfacet normal 0 0 0\nouter loop\nvertex 0 x 0\n",
+         "line 4, column 10: found 'x'"},
+        {"i.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+         "end_header\n0 #N/A 0\n",
+         "line 8, column 3: found '#N/A'"},
+        {"j.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+         "end_header\n0 0 0\n5\n",
+         "line 9, column 1: found '5'"},
+    };
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
+        written it = {.n_bytes = 0};
+        append_text(&it, "%s", all[k].text);
+        expect_refusal(*state, all[k].name, &it, MOR_ERROR_IO, all[k].word);
+    }
 }
 
 static void meshes_too_far_away_for_single_precision_are_refused(void **state)
@@ -438,6 +477,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(polygons_are_divided_into_triangles, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(what_is_mended_is_logged, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(files_without_an_inside_are_refused, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(places_that_are_no_numbers_are_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(meshes_too_far_away_for_single_precision_are_refused, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(nodes_too_deep_in_each_other_are_refused, run_folder_setup,

@@ -77,9 +77,10 @@ static void bad_files_say_file_and_line(void **state)
         mor_status status;
         const char *message; /* part of it */
     } bad[] = {
-        {"0 0\n1 0\n1 x\n", MOR_ERROR_IO, "line 3: \"x\" is no number"},
-        {"0 0\n1 0\n\n1 1e999\n", MOR_ERROR_IO, "line 4: \"1e999\" is no number"},
-        {"0 0\n1 nan\n", MOR_ERROR_IO, "line 2: \"nan\" is no number"},
+        {"0 0\n1 0\n1 x\n", MOR_ERROR_IO, "line 3, column 3: \"x\" is no number"},
+        {"0 0\n1 0\n\n1 1e999\n", MOR_ERROR_IO, "line 4, column 3: \"1e999\" is no number"},
+        {"0 0\n1 nan\n", MOR_ERROR_IO, "line 2, column 3: \"nan\" is no number"},
+        {"0 0\n1 0\n1 0x2\n", MOR_ERROR_IO, "line 3, column 3: \"0x2\" is no number"},
         {"0 0\n1 0 3\n1 1\n", MOR_ERROR_IO, "line 2: 3 numbers"},
         {"0 0\n7\n1 1\n", MOR_ERROR_IO, "line 2: 1 number;"},
         {"0,5 0,5\n", MOR_ERROR_IO, "line 1: 4 numbers"},

@@ -176,6 +176,8 @@ typedef struct bad_text {
 
 #define HEADER(columns, rows) "ncols " columns "\nnrows " rows "\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
 
+#define GRASS(columns, rows) "north: 4\nsouth: 0\neast: 4\nwest: 0\nrows: " rows "\ncols: " columns "\n"
+
 static void bad_rasters_are_refused_with_the_reason(void **state)
 {
     (void)state;
@@ -186,13 +188,48 @@ static void bad_rasters_are_refused_with_the_reason(void **state)
         {HEADER("3", "3") "1 2 3\n4 5 6\n7 8\n", MOR_ERROR_IO, "8 numbers"},
         {HEADER("2", "3") "1 2 3\n4 5 6\n7 8 9\n", MOR_ERROR_IO, "9 numbers"},
         {HEADER("2147483647", "2147483647") "1 2 3\n", MOR_ERROR_IO, "gdal_translate"},
-        {HEADER("60000", "60000") "1 2 3\n", MOR_ERROR_ARGUMENT, "crop"},
+        {HEADER("60000", "60000") "1 2 3\n", MOR_ERROR_IO, "3 numbers follow"},
         {HEADER("-3", "3") "1 2 3\n", MOR_ERROR_IO, "gdal_translate"},
         {HEADER("4", "1") "1 2 3 4\n", MOR_ERROR_ARGUMENT, "two or more"},
         {HEADER("2", "2") "NODATA_value 7\n7 7 7 7\n", MOR_ERROR_ARGUMENT, "none of the 4 nodes"},
         {HEADER("2", "2") "1 nan\n1 1\n", MOR_ERROR_ARGUMENT, "1 of 4 nodes"},
         {HEADER("2", "2") "1 1\n1 -99999\n", MOR_ERROR_ARGUMENT, "a_nodata"},
-        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2\n3 4\n", MOR_ERROR_ARGUMENT, "without size"},
+        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2\n3 4\n", MOR_ERROR_IO, "line 5, column 10"},
+        /* a word that is no number is none, wherever it stands; GDAL takes most of these for 0 */
+        {HEADER("3", "2") "1 2 3\n4 abc 6\n", MOR_ERROR_IO, "line 7, column 3: found 'abc'"},
+        {HEADER("3", "2") "1 2 3\n4 5 #N/A\n", MOR_ERROR_IO, "line 7, column 5: found '#N/A'"},
+        {HEADER("3", "2") "1 2 3\n 4\t5 1.5m\n", MOR_ERROR_IO, "line 7, column 6: found '1.5m'"},
+        {HEADER("3", "2") "abc 2 3\n4 5 6\n", MOR_ERROR_IO, "line 6, column 1: found 'abc'"},
+        {HEADER("3", "2") "1 2 3\n4 - 6\n", MOR_ERROR_IO, "found '-'"},
+        {HEADER("3", "2") "1 2 3\n4 1,5 6\n", MOR_ERROR_IO, "numbers with a point"},
+        {HEADER("3", "2") "1 2 3\n4 0x10 6\n", MOR_ERROR_IO, "'0x10', which is no number"},
+        {HEADER("3", "2") "1 2 3\n4 1e 6\n", MOR_ERROR_IO, "'1e', which is no number"},
+        {HEADER("3", "2") "1 2 3\n4 1e999 6\n", MOR_ERROR_IO, "'1e999', which is beyond the range"},
+        {HEADER("3", "2") "1 2 3\n4 inf 6\n", MOR_ERROR_IO, "'inf', which is no number"},
+        {HEADER("3", "2") "1 2 3\n4 -1.#IND 6\n", MOR_ERROR_IO, "'-1.#IND', which is no number"},
+        {HEADER("3", "2") "1 2 3\n4 5 6\nend\n", MOR_ERROR_IO, "line 8, column 1: found 'end'"},
+        {HEADER("3", "2") "1 2 3 4\n4 5 6\n", MOR_ERROR_IO, "7 numbers follow"},
+        /* exchanged sizes give as many numbers */
+        {HEADER("3", "2") "1 2\n3 4\n5 6\n", MOR_ERROR_IO, "exchange"},
+        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nncols 3\n1 2\n3 4\n", MOR_ERROR_IO,
+         "line 6, column 1: found 'ncols', which says again"},
+        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndy 1\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "says again"},
+        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2\n3 4\n", MOR_ERROR_IO, "above zero"},
+        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1m\n1 2\n3 4\n", MOR_ERROR_IO, "found '1m'"},
+        {"ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "whole numbers"},
+        /* GDAL puts these at the origin */
+        {"ncols 2\nnrows 2\nxllcorner 9\nyllcenter 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "a center along"},
+        {"ncols 2\nnrows 2\nxllcorner 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "no line 'yllcorner'"},
+        {"ncols 2\nnrows 2\nxllcorner 9\nylcorner 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "found 'ylcorner'"},
+        {HEADER("2", "2") "NODATA_value none\n1 2\n3 4\n", MOR_ERROR_IO, "found 'none'"},
+        {GRASS("2", "2") "1 2\n3 x4\n", MOR_ERROR_IO, "line 8, column 3: found 'x4'"},
+        {GRASS("2", "2") "multiplier: 10\n1 2\n3 4\n", MOR_ERROR_IO, "found 'multiplier:'"},
+        {GRASS("2", "2") "1 2\n3 4 5\n", MOR_ERROR_IO, "5 numbers follow"},
+        {GRASS("2", "2") "1 2\n3 *\n", MOR_ERROR_IO, "line 8, column 3: found '*'"}, /* read as 0 without a word */
+        {GRASS("2", "2") "null: 9\n1 2\n3 9\n", MOR_ERROR_ARGUMENT,
+         "the first at (3, 1) m (row 2, column 2 of the file)"},
+        {"DSAA\n2 2\n0 1\n0 1\n1 4\n1 2\n3 4x\n", MOR_ERROR_IO, "line 7, column 3: found '4x'"},
+        {"DSAA\n2 2\n0 1\n0 1\n1 4\n1 2\n3 4 5\n", MOR_ERROR_IO, "5 numbers follow"},
     };
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
         mor_context context;
@@ -206,6 +243,37 @@ static void bad_rasters_are_refused_with_the_reason(void **state)
         assert_non_null(strstr(context.message, all[k].word));
         assert_null(terrain.heights);
         assert_int_equal(context.memory_bytes, 0);
+    }
+}
+
+/* What is missing is said by a mark or by nan; all formats of text give the same ground. */
+static void words_for_missing_data_are_no_heights(void **state)
+{
+    (void)state;
+    static const char *const all[] = {
+        HEADER("3", "3") "NODATA_value -9999\n6 7 8\n3 -9999.0 5\n0 1 2\n", HEADER("3", "3") "6 7 8\n3 nan 5\n0 1 2\n",
+        HEADER("3", "3") "NODATA_value NaN\n6 7 8\n3 NaN 5\n0 1 2\n",
+        "north: 3\nsouth: 0\neast: 3\nwest: 0\nrows: 3\ncols: 3\nnull: -1\n6 7 8\n3 -1 5\n0 1 2\n",
+        "DSAA\n3 3\n0.5 2.5\n0.5 2.5\n0 8\n0 1 2\n3 1.70141e+38 5\n6 7 8\n"};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
+        mor_context context;
+        mor_context_init(&context);
+        mor_terrain terrain;
+        mor_terrain_request request;
+        mor_terrain_request_init(&request);
+        request.fills_no_data = true;
+        const mor_status status = read_bytes(&context, "raster.asc", all[k], strlen(all[k]), &request, &terrain);
+        if (status != MOR_OK) {
+            print_message("raster %d: %s\n", (int)k, context.message);
+        }
+        assert_int_equal(status, MOR_OK);
+        for (int n = 0; n < 9; ++n) {
+            if (terrain.heights[n] != n) {
+                print_message("raster %d: %g at node %d\n", (int)k, terrain.heights[n], n);
+            }
+            assert_true(fabs(terrain.heights[n] - n) < 8e-7); /* a filled hole: 1e-7 of the relief */
+        }
+        mor_terrain_clear(&context, &terrain);
     }
 }
 
@@ -404,6 +472,34 @@ static void geotiff_in_degrees_or_rotated_is_refused(void **state)
     }
 }
 
+/* A height that is not a number is missing; an infinite one is a mistake, unless it is declared as missing. */
+static void heights_of_geotiff_that_are_not_finite_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        float height;
+        const char *missing, *words;
+    } all[] = {{INFINITY, NULL, "row 1, column 2: found an infinite height"},
+               {INFINITY, "inf", "1 of 20 nodes have no data, the first at (500003, 5.00001e+06) m (row 1, column 2"},
+               {NAN, NULL, "1 of 20 nodes have no data, the first at (500003, 5.00001e+06) m (row 1, column 2"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
+        mor_context context;
+        mor_context_init(&context);
+        tiff file;
+        mor_terrain terrain;
+        mor_terrain_request request;
+        mor_terrain_request_init(&request);
+        const size_t n_bytes = make_tiff(&file, north_up, 32633, all[k].missing);
+        memcpy(file.bytes + TIFF_DATA + sizeof all[k].height, &all[k].height, sizeof all[k].height);
+        assert_int_equal(read_bytes(&context, "raster.tif", file.bytes, n_bytes, &request, &terrain),
+                         MOR_ERROR_ARGUMENT);
+        if (strstr(context.message, all[k].words) == NULL) {
+            print_message("%s\n", context.message);
+        }
+        assert_non_null(strstr(context.message, all[k].words));
+    }
+}
+
 static void reading_leaves_no_files(void **state)
 {
     (void)state;
@@ -454,11 +550,13 @@ int main(void)
         cmocka_unit_test(crop_cell_and_offset_are_kept),
         cmocka_unit_test(holes_are_refused_or_filled_harmonically),
         cmocka_unit_test(bad_rasters_are_refused_with_the_reason),
+        cmocka_unit_test(words_for_missing_data_are_no_heights),
         cmocka_unit_test(other_places_than_files_are_refused),
         cmocka_unit_test(geotiff_keeps_place_and_datum),
         cmocka_unit_test(scale_and_offset_of_the_numbers_are_applied),
         cmocka_unit_test(heights_over_degrees_without_a_system_are_told_from_marks),
         cmocka_unit_test(geotiff_in_degrees_or_rotated_is_refused),
+        cmocka_unit_test(heights_of_geotiff_that_are_not_finite_are_refused),
         cmocka_unit_test(reading_leaves_no_files),
         cmocka_unit_test(volcano_has_its_known_range),
     };
