@@ -58,6 +58,14 @@ typedef enum mor_mesh_size {
  *  uses the context's; the result does not depend on them. */
 mor_status mor_mesh_read(mor_context *context, const char *path, mor_mesh *mesh, mor_mesh_report *report);
 
+/** Computes the hash of the content of a mesh: of its file; of a glTF file that keeps buffers in files of their own, of
+ *  the hashes of all of them, so that a change of any is noticed. Textures and materials do not count.
+ *  @param context [in,out]  one object
+ *  @param path    [in]      zero-terminated
+ *  @param hash    [out]     one number
+ *  Returns: MOR_OK; MOR_ERROR_IO when one of the files cannot be read; MOR_ERROR_MEMORY. */
+mor_status mor_mesh_hash(mor_context *context, const char *path, uint64_t *hash);
+
 /** Makes a mesh from arrays, at any distance from the origin, and checks and mends it as mor_mesh_read does.
  *  @param context     [in,out]  one object
  *  @param vertices    [in]      shape [n_vertices, 3]; unit m; copied

@@ -81,7 +81,7 @@ mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_
                                   "found %s that is a device or a pipe, '%s'; allowed: a file; correct the path", what,
                                   file);
     }
-    if (mor_hash_file(reader->context, file, hash) != MOR_OK) {
+    if (mor_mesh_hash(reader->context, file, hash) != MOR_OK) {
         char why[MOR_CONTEXT_MESSAGE_BYTES];
         snprintf(why, sizeof why, "%.1500s", reader->context->message);
         return MOR_CASE_NODE_FAIL(reader->context, node,

@@ -132,6 +132,9 @@ static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
             return MOR_OK;
         }
     }
+    if (is_restored) {
+        MOR_TRY(context, mor_run_files_renew_case(context, files));
+    }
     MOR_TRY(context, mor_run_files_start(context, files, is_restored));
     if (!is_restored) {
         MOR_TRY(context, mor_run_files_add_row(context, files));

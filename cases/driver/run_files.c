@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/run_files.h"
 
-#include "cases/driver/case_read.h"
+#include "cases/driver/case_compare.h"
 #include "cases/driver/probe.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
@@ -15,11 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define CASE_FILE "case.resolved.cfg"
 #define LOG_FILE "log.txt"
 #define IMAGES_FOLDER "images"
-
-enum { DIFFERENCE_BYTES = 128 };
 
 /* Everything goes into log.txt; warnings and errors reach the terminal as well. */
 static void log_line(void *user, mor_log_level level, const char *text)
@@ -36,7 +33,7 @@ static void log_line(void *user, mor_log_level level, const char *text)
     }
 }
 
-static bool is_present(mor_context *context, const char *folder, const char *name)
+bool mor_run_files_has(mor_context *context, const char *folder, const char *name)
 {
     char path[MOR_PATH_BYTES];
     return mor_durable_file_join(context, path, folder, name) == MOR_OK && access(path, F_OK) == 0;
@@ -67,9 +64,9 @@ mor_status mor_run_files_make_folders(mor_context *context, const char *path)
 
 mor_status mor_run_files_refuse_run(mor_context *context, const char *folder, const char *advice)
 {
-    const bool holds_run = is_present(context, folder, MOR_CHECKPOINT_FILE) ||
-                           is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
-                           is_present(context, folder, MOR_SUMMARY_FILE);
+    const bool holds_run = mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
+                           mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
+                           mor_run_files_has(context, folder, MOR_SUMMARY_FILE);
     MOR_CHECK(context, !holds_run, MOR_ERROR_CONFIG, "the folder '%s' already holds a run; %s", folder, advice);
     return MOR_OK;
 }
@@ -129,94 +126,6 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     return MOR_OK;
 }
 
-/* The case as text, to compare it with the one the folder was started with. The caller frees it. */
-static mor_status print_case(mor_context *context, const mor_case *the_case, const mor_registry *registry, char **text,
-                             size_t *n_bytes)
-{
-    FILE *stream = open_memstream(text, n_bytes);
-    MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory to print the case");
-    const mor_status status = mor_case_write_stream(context, the_case, registry, stream);
-    const int is_bad = fclose(stream);
-    MOR_CHECK(context, status != MOR_OK || is_bad == 0, MOR_ERROR_MEMORY, "no memory to print the case");
-    return status;
-}
-
-/* The first line in which two texts differ, as people read it. */
-typedef struct difference {
-    int line;                        /* counted from 1; 0: there is none */
-    char found[DIFFERENCE_BYTES];    /* in the first text */
-    char expected[DIFFERENCE_BYTES]; /* in the second */
-} difference;
-
-/* A line without its indent and its end; what is beyond the room is left out. */
-static void show_line(const char *line, size_t length, char *out)
-{
-    const size_t indent = strspn(line, " ");
-    while (length > indent && (line[length - 1] == '\n' || line[length - 1] == ';')) {
-        --length;
-    }
-    snprintf(out, DIFFERENCE_BYTES, "%.*s", length > indent ? (int)(length - indent) : 0, line + indent);
-    if (out[0] == '\0') {
-        snprintf(out, DIFFERENCE_BYTES, "nothing");
-    }
-}
-
-/* Compares a text, zero-terminated, with a file; one that cannot be read is empty. */
-static void find_difference(const char *text, const char *path, difference *it)
-{
-    FILE *file = fopen(path, "rb");
-    char *line = NULL;
-    size_t room = 0;
-    *it = (difference){.line = 0};
-    for (int number = 1; it->line == 0; ++number) {
-        const ssize_t n_read = file == NULL ? -1 : getline(&line, &room, file);
-        const size_t n_before = n_read > 0 ? (size_t)n_read : 0;
-        const size_t to_end = strcspn(text, "\n");
-        const size_t n_now = to_end + (text[to_end] == '\n');
-        if (n_before == 0 && n_now == 0) {
-            break;
-        }
-        if (n_before != n_now || memcmp(line, text, n_now) != 0) {
-            it->line = number;
-            show_line(text, n_now, it->found);
-            show_line(n_before > 0 ? line : "", n_before, it->expected);
-        }
-        text += n_now;
-    }
-    free(line);
-    if (file != NULL) {
-        fclose(file);
-    }
-}
-
-mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry)
-{
-    char path[MOR_PATH_BYTES];
-    char *text = NULL;
-    size_t n_bytes = 0;
-    const char *folder = files->options->folder;
-    MOR_TRY(context, mor_hash_file(context, files->options->case_path, &files->case_hash));
-    MOR_TRY(context, mor_durable_file_join(context, path, folder, CASE_FILE));
-    if (!files->options->is_resume || access(path, F_OK) != 0) {
-        return mor_case_write(context, files->the_case, registry, path);
-    }
-    mor_status status = print_case(context, files->the_case, registry, &text, &n_bytes);
-    difference first = {.line = 0};
-    if (status == MOR_OK) {
-        find_difference(text, path, &first);
-    }
-    if (first.line > 0) {
-        status =
-            MOR_FAIL(context, MOR_ERROR_CONFIG,
-                     "the case '%s' with its --set values is not the one that '%s' was started with; first "
-                     "difference: %s, was %s (line %d of %s); resume with the same case and values, or start a new "
-                     "run in another folder",
-                     files->options->case_path, folder, first.found, first.expected, first.line, path);
-    }
-    free(text);
-    return status;
-}
-
 static void add_column(mor_run_files *files, const char *name, const char *unit)
 {
     files->columns[files->n_columns++] = (mor_table_column){name, unit};
@@ -265,7 +174,7 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
 
 void mor_run_files_discard(mor_context *context, mor_run_files *files)
 {
-    static const char *const names[] = {LOG_FILE, CASE_FILE, IMAGES_FOLDER};
+    static const char *const names[] = {LOG_FILE, MOR_RUN_CASE_FILE, IMAGES_FOLDER};
     char path[MOR_PATH_BYTES];
     for (size_t k = 0; k < sizeof names / sizeof *names && files->is_folder_new; ++k) {
         if (mor_durable_file_join(context, path, files->options->folder, names[k]) == MOR_OK) {
@@ -292,6 +201,9 @@ void mor_run_files_close(mor_context *context, mor_run_files *files)
     free(files->early_text);
     files->early_text = NULL;
     mor_run_warnings_clear(&files->warnings);
+    free(files->case_text);
+    files->case_text = NULL;
+    MOR_FREE(context, &files->saved_text);
 }
 
 mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
@@ -359,7 +271,7 @@ static void list_state(mor_simulation *s, saved_state *state)
 {
     const mor_checkpoint_value list[] = {
         {"schedule_now", MOR_HDF5_INT64, 1, &s->schedule.now},
-        {"schedule_end", MOR_HDF5_INT64, 1, &s->schedule.end},
+        {"schedule_tick", MOR_HDF5_DOUBLE, 1, &s->schedule.tick},
         {"schedule_steps", MOR_HDF5_UINT64, 1, &s->schedule.n_steps},
         {"schedule_particle_steps", MOR_HDF5_UINT64, 1, &s->schedule.n_particle_steps},
         {"schedule_step_length", MOR_HDF5_DOUBLE, 1, &s->schedule.step_length},
@@ -386,39 +298,64 @@ static void list_state(mor_simulation *s, saved_state *state)
         add_value(state, "soil", "energy_audit", MOR_SOIL_ENERGY_STATE, s->soil.energy->state);
     }
     const int n_sets = mor_simulation_sets(s, true, state->sets);
-    state->checkpoint = (mor_checkpoint){state->sets, n_sets, state->values, state->n_values};
+    state->checkpoint = (mor_checkpoint){state->sets, n_sets, state->values, state->n_values, NULL};
 }
 
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
 {
     saved_state state;
     list_state(files->simulation, &state);
+    state.checkpoint.identity = files->case_text;
     MOR_TRY(context, mor_simulation_bodies_pack(context, &files->simulation->bodies, true));
     MOR_TRY(context, mor_table_sync(context, &files->series));
     return mor_checkpoint_write(context, files->options->folder, &state.checkpoint);
+}
+
+/* Why a state cannot be taken up though the case may go on: what the domain cuts off became more. */
+static mor_status explain_refusal(mor_context *context, const mor_run_files *files, mor_status status)
+{
+    if (status != MOR_ERROR_CONFIG || !mor_case_compare_domains(files->case_text, files->saved_text)) {
+        return status;
+    }
+    return MOR_FAIL(
+        context, status,
+        "%s; or: the domain was enlarged, and soil without end on a side goes as far as the domain, so that "
+        "it cannot be enlarged there",
+        context->message);
+}
+
+/* The state stands at its time, counted in the ticks of the run that it comes from; the end may be another. */
+static mor_status set_clock(mor_context *context, mor_simulation *s)
+{
+    mor_schedule *schedule = &s->schedule;
+    MOR_TRY(context, mor_schedule_set_end(context, schedule, s->the_case->end));
+    MOR_CHECK(context, schedule->end >= schedule->now, MOR_ERROR_CONFIG,
+              "found end = %.9g s, but the run stands at t = %.9g s; allowed: an end at that time or later; give a "
+              "later 'end'",
+              s->the_case->end, mor_schedule_time(schedule));
+    return MOR_OK;
 }
 
 mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored)
 {
     saved_state state;
     const char *folder = files->options->folder;
-    *is_restored =
-        is_present(context, folder, MOR_CHECKPOINT_FILE) || is_present(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
+    mor_simulation *s = files->simulation;
+    *is_restored = mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
+                   mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
     if (!*is_restored) {
         mor_context_log(context, MOR_LOG_WARNING, "'%s' holds no checkpoint yet; the run starts from the beginning",
                         folder);
         return MOR_OK;
     }
-    const int64_t end = files->simulation->schedule.end;
-    list_state(files->simulation, &state);
-    MOR_TRY(context, mor_checkpoint_read_latest(context, folder, &state.checkpoint));
-    MOR_CHECK(context, files->simulation->schedule.end == end, MOR_ERROR_CONFIG,
-              "the checkpoint in '%s' belongs to a run of another length; resume it with the same 'end'", folder);
-    files->simulation->soil.has_lists = false;
-    files->simulation->bodies.contact.time = mor_schedule_time(&files->simulation->schedule);
-    MOR_TRY(context, mor_simulation_bodies_pack(context, &files->simulation->bodies, false));
-    mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu",
-                    mor_schedule_time(&files->simulation->schedule),
-                    (unsigned long long)files->simulation->schedule.n_steps);
+    list_state(s, &state);
+    const mor_status status = mor_checkpoint_read_latest(context, folder, &state.checkpoint);
+    MOR_TRY(context, status == MOR_OK ? status : explain_refusal(context, files, status));
+    MOR_TRY(context, set_clock(context, s));
+    s->soil.has_lists = false;
+    s->bodies.contact.time = mor_schedule_time(&s->schedule);
+    MOR_TRY(context, mor_simulation_bodies_pack(context, &s->bodies, false));
+    mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu", mor_schedule_time(&s->schedule),
+                    (unsigned long long)s->schedule.n_steps);
     return MOR_OK;
 }

@@ -13,6 +13,9 @@
  *  The files of a run's folder as the run loop uses them: what goes into a checkpoint, a row of the series, the
  *  summary. The formats are those of core/io. */
 
+/** The case as it was used, in the folder of a run. */
+#define MOR_RUN_CASE_FILE "case.resolved.cfg"
+
 enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16 };
 
 /** Open files of a run and the numbers that go into them. Owner: the run. */
@@ -33,6 +36,8 @@ typedef struct mor_run_files {
     char seed_text[24]; /* seed as text, for the provenance */
     char hash_text[24]; /* hash of the case file as text */
     uint64_t case_hash; /* of the case file */
+    char *case_text;    /* zero-terminated; the case as it is used, which every checkpoint carries; freed by close */
+    char *saved_text;   /* zero-terminated; the case the folder was started with; NULL: a new run; likewise */
     mor_table series;
     mor_table_column columns[MOR_RUN_COLUMNS_MAX]; /* shape [n_columns] */
     int n_columns;
@@ -52,12 +57,26 @@ mor_status mor_run_files_listen(mor_context *context, mor_run_files *files);
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_CONFIG when a new run would overwrite an old one. */
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options);
 
-/** Writes case.resolved.cfg, or on a resume checks that the case is still the same.
+/** Prints the case. Of a new run it becomes case.resolved.cfg; on a resume it is compared with the case that the
+ *  newest checkpoint carries, or, before the first checkpoint, with case.resolved.cfg: what a resume may not change
+ *  (cases/driver/case_compare.h) must be the same, the content of files included.
  *  @param context  [in,out]  one object
  *  @param files    [in,out]  one object
  *  @param registry [in]      one object
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when the case has changed; MOR_ERROR_IO. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG naming the first difference; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry);
+
+/** Writes case.resolved.cfg of a run that goes on, where it is missing or no longer tells the case.
+ *  @param context  [in,out]  one object
+ *  @param files    [in,out]  one object; with the case
+ *  Returns: MOR_OK; MOR_ERROR_IO. */
+mor_status mor_run_files_renew_case(mor_context *context, mor_run_files *files);
+
+/** Whether a folder has a file.
+ *  @param context [in,out]  one object
+ *  @param folder  [in]      zero-terminated
+ *  @param name    [in]      zero-terminated */
+bool mor_run_files_has(mor_context *context, const char *folder, const char *name);
 
 /** Opens snapshots and series, for a new run or behind the restored state.
  *  @param context   [in,out]  one object

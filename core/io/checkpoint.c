@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/io/checkpoint.h"
 
+#include "core/base/memory.h"
 #include "core/io/durable_file.h"
 
 #include <inttypes.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #define CHECKPOINT_WHAT "checkpoint"
+#define IDENTITY "/identity"
 
 enum { NAME_BYTES = 256, UNIT_BYTES = 64 };
 
@@ -35,9 +37,10 @@ static bool is_saved(const mor_set *set, int field)
     return (set->fields[field].flags & MOR_FIELD_EVOLVES) != 0 && set->data[field] != NULL;
 }
 
-static mor_hdf5_shape shape_of_field(const mor_set *set, int field)
+/* Of a field of n particles. */
+static mor_hdf5_shape shape_of_field(const mor_set *set, int field, int64_t n)
 {
-    return (mor_hdf5_shape){MOR_HDF5_DOUBLE, set->n_particles, set->fields[field].n_components};
+    return (mor_hdf5_shape){MOR_HDF5_DOUBLE, n, set->fields[field].n_components};
 }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
@@ -50,6 +53,7 @@ static mor_status write_set(mor_context *context, mor_hdf5_file *file, const mor
     MOR_TRY(context, mor_hdf5_file_make_group(context, file, name));
     MOR_TRY(context,
             mor_hdf5_file_set_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
+    MOR_TRY(context, mor_hdf5_file_set_number(context, file, name, "n_created", MOR_HDF5_INT64, &set->n_created));
     MOR_TRY(context, join_name(context, name, "sets", set->name, "id"));
     const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, set->n_particles, 1};
     MOR_TRY(context, mor_hdf5_file_write(context, file, name, &id_shape, set->id));
@@ -58,7 +62,7 @@ static mor_status write_set(mor_context *context, mor_hdf5_file *file, const mor
         if (!is_saved(set, field)) {
             continue;
         }
-        const mor_hdf5_shape shape = shape_of_field(set, field);
+        const mor_hdf5_shape shape = shape_of_field(set, field, set->n_particles);
         MOR_TRY(context, check_name(context, "field", info->name));
         MOR_CHECK(context, strcmp(info->name, "id") != 0, MOR_ERROR_ARGUMENT,
                   "set '%s' has a field named 'id', which is the name of the particle numbers; rename the field",
@@ -74,6 +78,13 @@ static mor_status write_set(mor_context *context, mor_hdf5_file *file, const mor
     return MOR_OK;
 }
 
+static mor_status write_identity(mor_context *context, mor_hdf5_file *file, const char *identity)
+{
+    const char *text = identity != NULL ? identity : "";
+    const mor_hdf5_shape shape = {MOR_HDF5_BYTE, (int64_t)strlen(text), 1};
+    return mor_hdf5_file_write(context, file, IDENTITY, &shape, text);
+}
+
 static mor_status write_state(mor_context *context, mor_hdf5_file *file, const mor_checkpoint *state)
 {
     MOR_TRY(context, mor_hdf5_file_make_group(context, file, "/sets"));
@@ -85,14 +96,14 @@ static mor_status write_state(mor_context *context, mor_hdf5_file *file, const m
         const mor_checkpoint_value *value = &state->values[k];
         const mor_hdf5_shape shape = {value->kind, value->n, 1};
         char name[NAME_BYTES];
-        MOR_CHECK(context, value->kind != MOR_HDF5_FLOAT && value->n >= 0, MOR_ERROR_ARGUMENT,
+        MOR_CHECK(context, value->kind <= MOR_HDF5_DOUBLE && value->n >= 0, MOR_ERROR_ARGUMENT,
                   "value '%s' has kind %d and length %lld; 64-bit kinds and lengths >= 0 can be saved", value->name,
                   (int)value->kind, (long long)value->n);
         MOR_TRY(context, check_name(context, "value", value->name));
         MOR_TRY(context, join_name(context, name, "values", value->name, NULL));
         MOR_TRY(context, mor_hdf5_file_write(context, file, name, &shape, value->data));
     }
-    return MOR_OK;
+    return write_identity(context, file, state->identity);
 }
 
 static mor_status write_sealed(mor_context *context, const char *temporary, const mor_checkpoint *state)
@@ -169,12 +180,13 @@ static mor_status check_array(mor_context *context, mor_hdf5_file *file, const c
     return MOR_OK;
 }
 
-static mor_status check_field(mor_context *context, mor_hdf5_file *file, const mor_set *set, int field,
+/* Of a set of which the file holds n particles. */
+static mor_status check_field(mor_context *context, mor_hdf5_file *file, const mor_set *set, int field, int64_t n,
                               const char *path)
 {
     char name[NAME_BYTES];
     char unit[UNIT_BYTES];
-    const mor_hdf5_shape shape = shape_of_field(set, field);
+    const mor_hdf5_shape shape = shape_of_field(set, field, n);
     MOR_TRY(context, join_name(context, name, "sets", set->name, set->fields[field].name));
     MOR_TRY(context, check_array(context, file, name, &shape, path));
     MOR_TRY(context, mor_hdf5_file_get_text(context, file, name, "unit", unit, sizeof unit));
@@ -191,19 +203,22 @@ static mor_status check_set(mor_context *context, mor_hdf5_file *file, const mor
     MOR_CHECK(context, mor_hdf5_file_has(file, name), MOR_ERROR_CONFIG,
               "'%s' belongs to another case: it has no set '%s'; use the case it was written by", path, set->name);
     int64_t n_particles = 0;
+    int64_t n_created = 0;
     MOR_TRY(context, mor_hdf5_file_get_number(context, file, name, "n_particles", MOR_HDF5_INT64, &n_particles));
-    MOR_CHECK(context, n_particles == set->n_particles, MOR_ERROR_CONFIG,
-              "'%s' belongs to another case: its set '%s' has %lld particles, this case makes %lld; "
-              "use the case it was written by", path, set->name, (long long)n_particles, (long long)set->n_particles);
+    MOR_TRY(context, mor_hdf5_file_get_number(context, file, name, "n_created", MOR_HDF5_INT64, &n_created));
+    MOR_CHECK(context, n_created == set->n_created && n_particles >= 0 && n_particles <= n_created, MOR_ERROR_CONFIG,
+              "'%s' belongs to another case: its set '%s' was made with %lld particles, of which it has %lld; this "
+              "case makes %lld; use the case it was written by", path, set->name, (long long)n_created,
+              (long long)n_particles, (long long)set->n_created);
     int64_t n_arrays = 1;
     for (int field = 0; field < set->n_fields; ++field) {
         if (is_saved(set, field)) {
-            MOR_TRY(context, check_field(context, file, set, field, path));
+            MOR_TRY(context, check_field(context, file, set, field, n_particles, path));
             n_arrays += 1;
         }
     }
     MOR_TRY(context, check_count(context, file, name, n_arrays, path));
-    const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, set->n_particles, 1};
+    const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, n_particles, 1};
     MOR_TRY(context, join_name(context, name, "sets", set->name, "id"));
     MOR_TRY(context, check_array(context, file, name, &id_shape, path));
     return MOR_OK;
@@ -228,13 +243,16 @@ static mor_status check_state(mor_context *context, mor_hdf5_file *file, const m
 static mor_status load_set(mor_context *context, mor_hdf5_file *file, mor_set *set)
 {
     char name[NAME_BYTES];
-    const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, set->n_particles, 1};
     set->generation += 1;
+    MOR_TRY(context, join_name(context, name, "sets", set->name, NULL));
+    MOR_TRY(context,
+            mor_hdf5_file_get_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
+    const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, set->n_particles, 1};
     MOR_TRY(context, join_name(context, name, "sets", set->name, "id"));
     MOR_TRY(context, mor_hdf5_file_read(context, file, name, &id_shape, set->id));
     for (int field = 0; field < set->n_fields; ++field) {
         if (is_saved(set, field)) {
-            const mor_hdf5_shape shape = shape_of_field(set, field);
+            const mor_hdf5_shape shape = shape_of_field(set, field, set->n_particles);
             MOR_TRY(context, join_name(context, name, "sets", set->name, set->fields[field].name));
             MOR_TRY(context, mor_hdf5_file_read(context, file, name, &shape, set->data[field]));
         }
@@ -269,27 +287,73 @@ mor_status mor_checkpoint_read(mor_context *context, const char *path, const mor
     return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
 }
 
-mor_status mor_checkpoint_read_latest(mor_context *context, const char *folder, const mor_checkpoint *state)
+/* What is to be done with one file of a folder. */
+typedef mor_status (*file_reader)(mor_context *context, const char *path, void *target);
+
+/* Reads the newest file, or the one before where the newest is missing or damaged. */
+static mor_status read_newest(mor_context *context, const char *folder, file_reader read, void *target, bool is_told)
 {
     char path[MOR_PATH_BYTES];
     char previous[MOR_PATH_BYTES];
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_CHECKPOINT_FILE));
     MOR_TRY(context, mor_durable_file_join(context, previous, folder, MOR_CHECKPOINT_PREVIOUS_FILE));
-    mor_status status = mor_checkpoint_read(context, path, state);
+    mor_status status = read(context, path, target);
     if (status != MOR_ERROR_IO) {
         return status;
     }
     char reason[MOR_CONTEXT_MESSAGE_BYTES];
     memcpy(reason, context->message, sizeof reason);
     mor_context_clear_error(context);
-    status = mor_checkpoint_read(context, previous, state);
+    status = read(context, previous, target);
     if (status == MOR_ERROR_IO) {
         return MOR_FAIL(context, MOR_ERROR_IO,
                         "no checkpoint can be used: %.700s; and the one before: %.700s; run without --resume to start "
                         "again", reason, context->message);
     }
-    if (status == MOR_OK) {
+    if (status == MOR_OK && is_told) {
         mor_context_log(context, MOR_LOG_WARNING, "%s; resumed from the checkpoint before it, '%s'", reason, previous);
     }
     return status;
+}
+
+static mor_status read_state(mor_context *context, const char *path, void *target)
+{
+    const mor_checkpoint *const *state = target;
+    return mor_checkpoint_read(context, path, *state);
+}
+
+mor_status mor_checkpoint_read_latest(mor_context *context, const char *folder, const mor_checkpoint *state)
+{
+    return read_newest(context, folder, read_state, &state, true);
+}
+
+static mor_status load_identity(mor_context *context, mor_hdf5_file *file, char **text)
+{
+    mor_hdf5_shape shape;
+    MOR_TRY(context, mor_hdf5_file_shape(context, file, IDENTITY, &shape));
+    MOR_CHECK(context, shape.kind == MOR_HDF5_BYTE && shape.n_columns == 1, MOR_ERROR_IO,
+              "a checkpoint holds an identity that is no text");
+    MOR_TRY(context, MOR_NEW(context, text, shape.n_rows + 1, "identity of a checkpoint"));
+    return shape.n_rows > 0 ? mor_hdf5_file_read(context, file, IDENTITY, &shape, *text) : MOR_OK;
+}
+
+static mor_status read_identity(mor_context *context, const char *path, void *target)
+{
+    char **text = target;
+    mor_hdf5_file *file = NULL;
+    MOR_TRY(context, mor_hdf5_file_open(context, &file, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION,
+                                        MOR_SEAL_CHECK_ALL));
+    const mor_status status = load_identity(context, file, text);
+    mor_hdf5_file_discard(context, &file);
+    if (status != MOR_OK) {
+        MOR_FREE(context, text);
+        return mor_context_pass(context, status, MOR_HERE);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_checkpoint_read_identity(mor_context *context, const char *folder, char **identity)
+{
+    *identity = NULL;
+    return read_newest(context, folder, read_identity, identity, false);
 }

@@ -20,7 +20,7 @@
 #define MOR_CHECKPOINT_FILE "checkpoint.h5"
 #define MOR_CHECKPOINT_PREVIOUS_FILE "checkpoint.previous.h5"
 
-enum { MOR_CHECKPOINT_VERSION = 1 };
+enum { MOR_CHECKPOINT_VERSION = 2 };
 
 /** A named number or array that belongs to the state: step, scheduler clock, ... */
 typedef struct mor_checkpoint_value {
@@ -36,6 +36,7 @@ typedef struct mor_checkpoint {
     int n_sets;                         /* number of sets */
     const mor_checkpoint_value *values; /* shape [n_values] */
     int n_values;                       /* number of values */
+    const char *identity;               /* zero-terminated; what the state belongs to, such as the case; NULL: none */
 } mor_checkpoint;
 
 /** Saves the state as checkpoint.h5 of a folder and keeps the one before.
@@ -48,7 +49,8 @@ typedef struct mor_checkpoint {
 mor_status mor_checkpoint_write(mor_context *context, const char *folder, const mor_checkpoint *state);
 
 /** Restores the state from one file, bit for bit. The sets and values must be those that were saved: same names,
- *  numbers of particles, fields, components, units, kinds and lengths. Everything is checked before anything changes.
+ *  numbers of particles at creation, fields, components, units, kinds and lengths. A set gets the number of particles
+ *  that were left when it was saved. Everything is checked before anything changes. The identity is not looked at.
  *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated path of the file
  *  @param state   [in]      one object; the arrays it points to are overwritten
@@ -57,6 +59,16 @@ mor_status mor_checkpoint_write(mor_context *context, const char *folder, const 
  *           version; MOR_ERROR_CONFIG when it holds the state of another case; MOR_ERROR_MEMORY.
  *  Cost: reads the file twice; allocates. */
 mor_status mor_checkpoint_read(mor_context *context, const char *path, const mor_checkpoint *state);
+
+/** Reads the identity that the newest intact checkpoint of a folder was saved with, so that a state can be refused
+ *  before anything is made for it.
+ *  @param context  [in,out]  one object
+ *  @param folder   [in]      zero-terminated path of the folder
+ *  @param identity [out]     the address of one pointer; zero-terminated text; owned by the caller, who frees it with
+ *                            MOR_FREE; "" when it was saved without one
+ *  Returns: as mor_checkpoint_read_latest.
+ *  Cost: reads the file twice; allocates. */
+mor_status mor_checkpoint_read_identity(mor_context *context, const char *folder, char **identity);
 
 /** Restores the newest intact state of a folder: checkpoint.h5, or checkpoint.previous.h5 when the former is missing or
  *  damaged, which is logged as a warning.

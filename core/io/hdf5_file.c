@@ -44,6 +44,8 @@ static hid_t memory_type(mor_hdf5_kind kind)
         return H5T_NATIVE_INT64;
     case MOR_HDF5_UINT64:
         return H5T_NATIVE_UINT64;
+    case MOR_HDF5_BYTE:
+        return H5T_NATIVE_UINT8;
     case MOR_HDF5_DOUBLE:
     case MOR_HDF5_FLOAT:
         break;
@@ -58,6 +60,8 @@ static hid_t disk_type(mor_hdf5_kind kind)
         return H5T_STD_I64LE;
     case MOR_HDF5_UINT64:
         return H5T_STD_U64LE;
+    case MOR_HDF5_BYTE:
+        return H5T_STD_U8LE;
     case MOR_HDF5_DOUBLE:
         return H5T_IEEE_F64LE;
     case MOR_HDF5_FLOAT:
@@ -69,7 +73,7 @@ static hid_t disk_type(mor_hdf5_kind kind)
 /* Finds which kind a type on the disk is; false for types this door does not write. */
 static bool find_kind(hid_t type, mor_hdf5_kind *kind)
 {
-    for (int candidate = MOR_HDF5_INT64; candidate <= MOR_HDF5_FLOAT; ++candidate) {
+    for (int candidate = MOR_HDF5_INT64; candidate <= MOR_HDF5_BYTE; ++candidate) {
         if (H5Tequal(type, disk_type((mor_hdf5_kind)candidate)) > 0) {
             *kind = (mor_hdf5_kind)candidate;
             return true;

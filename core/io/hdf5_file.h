@@ -18,7 +18,13 @@
  *  Creating or opening a file turns off HDF5's own error printing in the calling process. Not thread-safe. */
 
 /** Type of the numbers of an array. In memory, MOR_HDF5_FLOAT is double; the file holds single precision. */
-typedef enum mor_hdf5_kind { MOR_HDF5_INT64, MOR_HDF5_UINT64, MOR_HDF5_DOUBLE, MOR_HDF5_FLOAT } mor_hdf5_kind;
+typedef enum mor_hdf5_kind {
+    MOR_HDF5_INT64,
+    MOR_HDF5_UINT64,
+    MOR_HDF5_DOUBLE,
+    MOR_HDF5_FLOAT,
+    MOR_HDF5_BYTE /* texts */
+} mor_hdf5_kind;
 
 /** Type and shape of an array. */
 typedef struct mor_hdf5_shape {
@@ -86,10 +92,10 @@ mor_status mor_hdf5_file_link(mor_context *context, mor_hdf5_file *file, const c
  *  @param file    [in,out]  one object
  *  @param name    [in]      zero-terminated absolute path; its group must exist, the array must not
  *  @param shape   [in]      one object
- *  @param data    [in]      shape [n_rows, n_columns] of int64_t, uint64_t or double as shape->kind says
+ *  @param data    [in]      shape [n_rows, n_columns] of int64_t, uint64_t, double or char as shape->kind says
  *  Returns: MOR_OK; MOR_ERROR_IO. */
-mor_status mor_hdf5_file_write(mor_context *context, mor_hdf5_file *file, const char *name,
-                               const mor_hdf5_shape *shape, const void *data);
+mor_status mor_hdf5_file_write(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
+                               const void *data);
 
 /** Tells type and shape of an array.
  *  @param context [in,out]  one object
@@ -104,7 +110,7 @@ mor_status mor_hdf5_file_shape(mor_context *context, mor_hdf5_file *file, const 
  *  @param file    [in]      one object
  *  @param name    [in]      zero-terminated absolute path
  *  @param shape   [in]      one object; must be that of the array in the file
- *  @param data    [out]     shape [n_rows, n_columns] of int64_t, uint64_t or double as shape->kind says
+ *  @param data    [out]     shape [n_rows, n_columns] of int64_t, uint64_t, double or char as shape->kind says
  *  Returns: MOR_OK; MOR_ERROR_IO, also when the shape differs. */
 mor_status mor_hdf5_file_read(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
                               void *data);
@@ -130,8 +136,8 @@ mor_status mor_hdf5_file_count(mor_context *context, mor_hdf5_file *file, const 
  *  @param name    [out]     shape [n_bytes]; zero-terminated
  *  @param n_bytes [in]      room for the name
  *  Returns: MOR_OK; MOR_ERROR_IO, also when the name is longer than the room. */
-mor_status mor_hdf5_file_member(mor_context *context, mor_hdf5_file *file, const char *group, int64_t index,
-                                char *name, size_t n_bytes);
+mor_status mor_hdf5_file_member(mor_context *context, mor_hdf5_file *file, const char *group, int64_t index, char *name,
+                                size_t n_bytes);
 
 /** Writes a text attribute.
  *  @param context   [in,out]  one object

@@ -36,13 +36,19 @@ static bool has_first_line(FILE *stream)
     return has_line;
 }
 
-/* Reads exactly n_columns numbers separated by commas; values may be NULL to check only. */
+/* Reads exactly n_columns numbers separated by commas; an empty one, of a column that was added later, is NaN. values
+ * may be NULL to check only. */
 static bool parse_row(const char *line, int n_columns, double *first, double *values)
 {
     for (int column = 0; column < n_columns; ++column) {
         char *end = NULL;
-        const double value = strtod(line, &end);
-        if (end == line || *end != (column + 1 < n_columns ? ',' : '\0')) {
+        double value = strtod(line, &end);
+        const bool is_empty = column > 0 && (*line == ',' || *line == '\0');
+        if (is_empty) {
+            value = NAN;
+            end = (char *)line;
+        }
+        if ((end == line && !is_empty) || *end != (column + 1 < n_columns ? ',' : '\0')) {
             return false;
         }
         if (column == 0) {
@@ -174,11 +180,110 @@ static mor_status find_rows_to_keep(mor_context *context, mor_table *table, FILE
     return MOR_OK;
 }
 
+/* ---- more columns ------------------------------------------------------------------------------------------------ */
+
+enum { CELL_BYTES = 256 };
+
+/* Number of a cell in a header, -1: it is not there. */
+static int find_cell(const char *header, const char *cell)
+{
+    const size_t n_bytes = strlen(cell);
+    int number = 0;
+    for (const char *at = header; at != NULL; ++number) {
+        const char *comma = strchr(at, ',');
+        const size_t n_here = comma != NULL ? (size_t)(comma - at) : strlen(at);
+        if (n_here == n_bytes && memcmp(at, cell, n_bytes) == 0) {
+            return number;
+        }
+        at = comma != NULL ? comma + 1 : NULL;
+    }
+    return -1;
+}
+
+static int count_cells(const char *header)
+{
+    int n = 1;
+    for (const char *comma = strchr(header, ','); comma != NULL; comma = strchr(comma + 1, ',')) {
+        n += 1;
+    }
+    return n;
+}
+
+/* Finds which column of the file each column is, -1 for a new one; whether all columns of the file are still there. */
+static bool map_columns(const char *header, const mor_table_column *columns, int n_columns, int *source)
+{
+    int n_found = 0;
+    for (int column = 0; column < n_columns; ++column) {
+        char cell[CELL_BYTES];
+        snprintf(cell, sizeof cell, "%s [%s]", columns[column].name, columns[column].unit);
+        source[column] = find_cell(header, cell);
+        n_found += source[column] >= 0;
+    }
+    return source[0] == 0 && n_found == count_cells(header);
+}
+
+/* Copies a row digit by digit; a new column stays empty. */
+static void copy_row(const char *line, const int *source, int n_columns, FILE *out)
+{
+    for (int column = 0; column < n_columns; ++column) {
+        const char *at = source[column] >= 0 ? line : NULL;
+        for (int k = 0; k < source[column] && at != NULL; ++k) {
+            at = strchr(at, ',');
+            at = at != NULL ? at + 1 : NULL;
+        }
+        fprintf(out, "%s%.*s", column > 0 ? "," : "", at != NULL ? (int)strcspn(at, ",") : 0, at != NULL ? at : "");
+    }
+    fputc('\n', out);
+}
+
+/* Writes a table whose columns are some of those wanted anew, whole; leaves any other as it is. */
+static mor_status add_columns(mor_context *context, const char *path, FILE *stream, const mor_table_column *columns,
+                              int n_columns)
+{
+    char *line = NULL;
+    size_t capacity = 0;
+    int *source = NULL;
+    mor_durable_file file = {.stream = NULL};
+    mor_status status = MOR_NEW(context, &source, n_columns, "columns of a table");
+    const bool has_header = status == MOR_OK && read_line(stream, &line, &capacity);
+    if (has_header && !is_header(line, columns, n_columns) && map_columns(line, columns, n_columns, source)) {
+        const int n_old = count_cells(line);
+        status = mor_durable_file_open(context, &file, path);
+        if (status == MOR_OK) {
+            write_header(file.stream, columns, n_columns);
+            while (read_line(stream, &line, &capacity)) {
+                if (parse_row(line, n_old, &(double){0.0}, NULL)) {
+                    copy_row(line, source, n_columns, file.stream);
+                } else {
+                    fprintf(file.stream, "%s\n", line); /* damaged, and refused as such when it is to be kept */
+                }
+            }
+            status = mor_durable_file_commit(context, &file);
+        }
+    }
+    free(line);
+    MOR_FREE(context, &source);
+    return status;
+}
+
+/* As add_columns, of a file that may be missing. */
+static mor_status widen(mor_context *context, const char *path, const mor_table_column *columns, int n_columns)
+{
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL) {
+        return MOR_OK;
+    }
+    const mor_status status = add_columns(context, path, stream, columns, n_columns);
+    fclose(stream);
+    return status;
+}
+
 mor_status mor_table_resume(mor_context *context, mor_table *table, const char *path, const mor_table_column *columns,
                             int n_columns, double last_time)
 {
     memset(table, 0, sizeof *table);
     MOR_TRY(context, check_columns(context, columns, n_columns));
+    MOR_TRY(context, widen(context, path, columns, n_columns));
     FILE *stream = fopen(path, "r+b");
     const bool is_missing = stream == NULL && errno == ENOENT;
     if (is_missing || (stream != NULL && !has_first_line(stream))) {
@@ -262,10 +367,7 @@ static mor_status keep_header(mor_context *context, mor_table_data *data, const 
     const size_t n_bytes = strlen(line) + 1;
     MOR_TRY(context, MOR_NEW(context, &data->header, (int64_t)n_bytes, "the header of a table"));
     memcpy(data->header, line, n_bytes);
-    data->n_columns = 1;
-    for (const char *comma = strchr(line, ','); comma != NULL; comma = strchr(comma + 1, ',')) {
-        data->n_columns += 1;
-    }
+    data->n_columns = count_cells(line);
     return MOR_OK;
 }
 

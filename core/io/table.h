@@ -10,8 +10,9 @@
 /** @file
  *  A table of numbers that grows by rows, as comma-separated values: series.csv. The first line names the columns with
  *  their units, "time [s],kinetic_energy [J]"; the first column is the time and never falls. Numbers have 17 digits, so
- *  that they are read back exactly; not-a-number is nan, infinities are inf and -inf. Numbers are written and read with
- *  a decimal point, which is what a program has that does not change its locale. */
+ *  that they are read back exactly; not-a-number is nan, infinities are inf and -inf. A cell is empty where a column
+ *  was added later, which reads as not-a-number. Numbers are written and read with a decimal point, which is what a
+ *  program has that does not change its locale. */
 
 #define MOR_TABLE_SERIES_FILE "series.csv"
 
@@ -49,11 +50,12 @@ mor_status mor_table_create(mor_context *context, mor_table *table, const char *
                             int n_columns);
 
 /** Goes on with a table: rows later than a time are cut off, and so is a last line without its end, which a killed
- *  program leaves. A missing or empty file is started anew and logged as a warning.
+ *  program leaves. A missing or empty file is started anew and logged as a warning. A file with some of the columns is
+ *  written anew, whole, with empty cells in the columns that it did not have.
  *  @param context   [in,out]  one object
  *  @param table     [out]     one object; storage supplied by the caller; closed on failure
  *  @param path      [in]      zero-terminated; copied
- *  @param columns   [in]      shape [n_columns]; must be those of the file
+ *  @param columns   [in]      shape [n_columns]; those of the file must be among them
  *  @param n_columns [in]      number of columns, >= 1
  *  @param last_time [in]      time of the state the run goes on from, s; rows up to and including it stay
  *  Returns: MOR_OK; MOR_ERROR_IO, also when the columns differ or a row that would stay is damaged; the file is then

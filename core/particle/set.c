@@ -18,6 +18,7 @@ mor_status mor_set_init(mor_context *context, mor_set *set, const char *name, in
               "a set of %lld particles was asked for; at most %d are allowed", (long long)n_particles, INT32_MAX - 64);
     strncpy(set->name, name, sizeof set->name - 1);
     set->n_particles = n_particles;
+    set->n_created = n_particles;
     set->n_fields = MOR_FIELD_CORE_COUNT;
     mor_status status = MOR_NEW(context, &set->id, n_particles + PADDING, "particle ids");
     for (int field = 0; field < MOR_FIELD_CORE_COUNT && status == MOR_OK; ++field) {
@@ -44,6 +45,7 @@ void mor_set_clear(mor_context *context, mor_set *set)
     }
     MOR_FREE(context, &set->id);
     set->n_particles = 0;
+    set->n_created = 0;
     set->n_fields = 0;
 }
 
@@ -113,6 +115,32 @@ void mor_set_permute(mor_set *set, const int32_t *order, double *scratch)
         id_scratch[i] = set->id[order[i]];
     }
     memcpy(set->id, id_scratch, (size_t)n * sizeof *set->id);
+    set->generation += 1;
+}
+
+/* Moves the rows between the removed ones to the front; rows of n_bytes. */
+static void close_gaps(void *rows, size_t n_bytes, int64_t n, const int32_t *removed, int64_t n_removed)
+{
+    char *bytes = rows;
+    for (int64_t k = 0; k < n_removed; ++k) {
+        const int64_t first = removed[k] + 1;
+        const int64_t last = k + 1 < n_removed ? removed[k + 1] : n;
+        memmove(bytes + (size_t)(removed[k] - k) * n_bytes, bytes + (size_t)first * n_bytes,
+                (size_t)(last - first) * n_bytes);
+    }
+}
+
+void mor_set_remove(mor_set *set, const int32_t *removed, int64_t n_removed)
+{
+    const int64_t n = set->n_particles;
+    for (int field = 0; field < set->n_fields; ++field) {
+        if (set->data[field] != NULL) {
+            close_gaps(set->data[field], (size_t)set->fields[field].n_components * sizeof(double), n, removed,
+                       n_removed);
+        }
+    }
+    close_gaps(set->id, sizeof *set->id, n, removed, n_removed);
+    set->n_particles = n - n_removed;
     set->generation += 1;
 }
 

@@ -18,6 +18,7 @@
 typedef struct mor_set {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_particles;                   /* number of particles */
+    int64_t n_created;                     /* number at creation, for which there is room; >= n_particles */
     int n_fields;                          /* declared fields; the built-in ones come first */
     mor_field_info fields[MOR_FIELDS_MAX]; /* shape [n_fields] */
     double *data[MOR_FIELDS_MAX];          /* shape [n_fields] of [n_particles, n_components], NULL for unused
@@ -69,6 +70,13 @@ int mor_set_find_field(const mor_set *set, const char *name);
  *  @param scratch [in,out]  shape [9 * n_particles]; overwritten; holds values of every field in turn, any unit
  *  Gives: generation + 1. Cost: O(n), allocates nothing. */
 void mor_set_permute(mor_set *set, const int32_t *order, double *scratch);
+
+/** Removes particles; the others keep their order and their ids. All fields follow, scratch included.
+ *  @param set       [in,out]  one object
+ *  @param removed   [in]      shape [n_removed]; indices of particles, rising
+ *  @param n_removed [in]      number of particles to remove
+ *  Gives: generation + 1. Cost: O(n), allocates nothing. */
+void mor_set_remove(mor_set *set, const int32_t *removed, int64_t n_removed);
 
 /** Returns a 64-bit hash of all evolving fields, bit patterns in particle-id order.
  *  @param set [in]  one object

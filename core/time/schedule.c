@@ -8,6 +8,9 @@
 /* A run has between 2^51 and 2^52 ticks, so that all times are exact in double precision. */
 enum { TICK_BITS = 52 };
 
+/* A run that is made longer may have more, as many as fit into 63 bits; its times are then rounded to a double. */
+#define LARGEST_TICKS 9.2e18
+
 /* Runs whose ticks are ordinary numbers, in s. */
 #define SHORTEST_RUN 1.0e-290
 #define LONGEST_RUN 1.0e300
@@ -25,6 +28,18 @@ mor_status mor_schedule_init(mor_context *context, mor_schedule *schedule, doubl
     schedule->tick = ldexp(1.0, exponent - TICK_BITS);
     schedule->end = (int64_t)llround(end / schedule->tick);
     schedule->limit = "the first step";
+    return MOR_OK;
+}
+
+mor_status mor_schedule_set_end(mor_context *context, mor_schedule *schedule, double end)
+{
+    const double n_ticks = end / schedule->tick;
+    MOR_CHECK(
+        context, n_ticks >= 1.0 && n_ticks < LARGEST_TICKS, MOR_ERROR_CONFIG,
+        "found end = %g s for a run that counts its time in ticks of %.3g s; allowed are at most %g s; start a new "
+        "run for a longer time",
+        end, schedule->tick, LARGEST_TICKS * schedule->tick);
+    schedule->end = (int64_t)llround(n_ticks);
     return MOR_OK;
 }
 

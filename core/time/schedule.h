@@ -48,6 +48,14 @@ typedef struct mor_schedule {
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_schedule_init(mor_context *context, mor_schedule *schedule, double end);
 
+/** Sets another end; the tick stays, so that every time of the run so far stays exact. A run that began with the longer
+ *  end has the same ticks when both ends lie between the same two powers of two of a second.
+ *  @param context  [in,out]  one object
+ *  @param schedule [in,out]  one object
+ *  @param end      [in]      simulated time, > 0, unit s; at most 2048 times the end that the tick was made for
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the end is too far for the tick. */
+mor_status mor_schedule_set_end(mor_context *context, mor_schedule *schedule, double end);
+
 /** Adds a stepper after checking its stages.
  *  @param context  [in,out]  one object
  *  @param schedule [in,out]  one object

@@ -58,7 +58,7 @@ static void make_fixture(fixture *base)
     require(mor_set_init(&base->context, &base->set, "soil", N_PARTICLES, 1u << MOR_FIELD_POSITION) == MOR_OK);
     base->sets[0] = &base->set;
     base->values[0] = (mor_checkpoint_value){"clock", MOR_HDF5_DOUBLE, 1, &base->clock};
-    base->view = (mor_checkpoint){base->sets, 1, base->values, 1};
+    base->view = (mor_checkpoint){base->sets, 1, base->values, 1, NULL};
     fill_state(base, 1.0);
     const char *parent = getenv("TMPDIR");
     snprintf(base->folder, sizeof base->folder, "%s", "/tmp/moraine_fuzz_XXXXXX");

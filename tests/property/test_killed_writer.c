@@ -29,7 +29,7 @@ static void make_run(mor_context *context, run *state)
     assert_int_equal(mor_set_init(context, &state->set, "soil", N_PARTICLES, 1u << MOR_FIELD_POSITION), MOR_OK);
     state->sets[0] = &state->set;
     state->values[0] = (mor_checkpoint_value){"step", MOR_HDF5_INT64, 1, &state->step};
-    state->view = (mor_checkpoint){state->sets, 1, state->values, 1};
+    state->view = (mor_checkpoint){state->sets, 1, state->values, 1, NULL};
 }
 
 static void set_step(run *state, int64_t step)

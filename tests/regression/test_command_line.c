@@ -174,7 +174,7 @@ static void run_does_not_overwrite_a_run(void **state)
     program_clear(&outcome);
     outcome = program_run(folder, resumed, 2);
     program_expect_text(outcome.errors, "is not the one that 'mine' was started with; first difference: "
-                                        "spacing = \"0.008 m\", was spacing = \"0.01 m\" (line 5 of ");
+                                        "spacing = \"0.008 m\", was spacing = \"0.01 m\"; resume with");
     program_clear(&outcome);
     finished_run_read_hash(folder, "mine", after);
     assert_string_equal(before, after);

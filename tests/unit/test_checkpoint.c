@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/memory.h"
 #include "core/base/random.h"
 #include "core/io/checkpoint.h"
 #include "tests/common/full_disk.h"
@@ -65,7 +66,7 @@ static void make_sample(mor_context *context, sample *state, int64_t n_soil, uin
     state->values[1] = (mor_checkpoint_value){"ticks", MOR_HDF5_UINT64, 2, state->ticks};
     state->values[2] = (mor_checkpoint_value){"clock", MOR_HDF5_DOUBLE, N_CLOCK, state->clock};
     state->values[3] = (mor_checkpoint_value){"nothing", MOR_HDF5_DOUBLE, 0, NULL};
-    state->view = (mor_checkpoint){state->sets, 2, state->values, 4};
+    state->view = (mor_checkpoint){state->sets, 2, state->values, 4, "case of a sample"};
     fill_sample(state, salt);
 }
 
@@ -109,6 +110,10 @@ static void round_trip_keeps_every_bit(void **state)
     assert_int_equal(mor_checkpoint_write(&folder->context, folder->path, &saved.view), MOR_OK);
     assert_int_equal(mor_checkpoint_read_latest(&folder->context, folder->path, &loaded.view), MOR_OK);
     assert_true(same_sample(&saved, &loaded)); /* exact: bit patterns */
+    char *identity = NULL;
+    assert_int_equal(mor_checkpoint_read_identity(&folder->context, folder->path, &identity), MOR_OK);
+    assert_string_equal(identity, saved.view.identity);
+    MOR_FREE(&folder->context, &identity);
     assert_int_equal(loaded.soil.generation, generation + 1);
     assert_int_equal(folder->n_logged, 0);
     clear_sample(&folder->context, &saved);

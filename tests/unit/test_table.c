@@ -131,7 +131,8 @@ static void missing_or_empty_series_starts_anew_with_a_warning(void **state)
 static void series_of_other_columns_is_refused_and_kept(void **state)
 {
     static const char *const headers[] = {
-        "time [s],kinetic_energy [J]\n0,1\n",
+        "time [s],kinetic_energy [kJ]\n0,1\n",
+        "kinetic_energy [J],time [s]\n0,1\n",
         "time [s],kinetic_energy [kJ],kappa [1]\n0,1,1\n",
         "time [s],kinetic_energy [J],kappa [1],more [1]\n0,1,1,1\n",
         "anything\n",
@@ -146,6 +147,27 @@ static void series_of_other_columns_is_refused_and_kept(void **state)
         assert_null(table.stream);
         expect_text(folder, headers[k]);
     }
+}
+
+/* Digits of earlier rows stay as they are; a damaged row is refused as in any other table. */
+static void added_column_is_empty_in_earlier_rows(void **state)
+{
+    run_folder *folder = *state;
+    mor_table table;
+    mor_table_data data;
+    char path[MOR_PATH_BYTES];
+    store_text(folder, path, "time [s],kappa [1]\n0,1.50\n1,2\n2,3\n");
+    assert_int_equal(mor_table_resume(&folder->context, &table, path, columns, 3, 1.0), MOR_OK);
+    assert_int_equal(mor_table_append(&folder->context, &table, (const double[]){2.0, 4.0, 5.0}), MOR_OK);
+    assert_int_equal(mor_table_close(&folder->context, &table), MOR_OK);
+    expect_text(folder, HEADER "0,,1.50\n1,,2\n2,4,5\n");
+    assert_int_equal(mor_table_data_read(&folder->context, &data, path), MOR_OK);
+    assert_int_equal(data.n_rows, 3);
+    assert_true(isnan(data.values[1]) && data.values[2] == 1.5 && data.values[7] == 4.0); /* exact */
+    mor_table_data_clear(&folder->context, &data);
+    store_text(folder, path, "time [s],kappa [1]\n0,1\n1,x\n");
+    assert_int_equal(mor_table_resume(&folder->context, &table, path, columns, 3, 1.0), MOR_ERROR_IO);
+    assert_non_null(strstr(folder->context.message, "line 3 is damaged"));
 }
 
 static void damaged_row_is_refused_by_line_and_kept(void **state)
@@ -207,6 +229,7 @@ int main(void)
         FOLDER_TEST(series_cut_at_any_byte_resumes_with_its_whole_rows),
         FOLDER_TEST(missing_or_empty_series_starts_anew_with_a_warning),
         FOLDER_TEST(series_of_other_columns_is_refused_and_kept),
+        FOLDER_TEST(added_column_is_empty_in_earlier_rows),
         FOLDER_TEST(damaged_row_is_refused_by_line_and_kept),
         FOLDER_TEST(times_must_not_fall_and_names_must_fit),
     };
