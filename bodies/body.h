@@ -3,6 +3,7 @@
 #ifndef MOR_BODIES_BODY_H
 #define MOR_BODIES_BODY_H
 
+#include "core/base/domain.h"
 #include "core/particle/set.h"
 #include "core/particle/shape.h"
 #include "core/sph/boundary.h"
@@ -88,7 +89,8 @@ typedef struct mor_body_group {
     double gravity[3];                           /* m/s2 */
     double gravity_ramp;                         /* time over which gravity grows from zero, s */
     double damping;                              /* rate of velocity damping, for settling, 1/s */
-    double domain_minimum[3], domain_maximum[3]; /* m */
+    double domain_minimum[3], domain_maximum[3]; /* m, before the placement */
+    const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither turned nor moved */
     /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Hung in by mor_contact_init. */
     double (*longest_contact_step)(const void *contact, const struct mor_body_group *group);
     const void *contact;    /* first argument of longest_contact_step; borrowed */

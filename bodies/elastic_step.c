@@ -294,8 +294,9 @@ mor_status mor_elastic_find_rate(mor_context *context, void *owner, const mor_st
 
 static bool is_inside(const mor_body_group *group, const double *x)
 {
-    return x[0] >= group->domain_minimum[0] && x[0] <= group->domain_maximum[0] && x[1] >= group->domain_minimum[1] &&
-           x[1] <= group->domain_maximum[1] && x[2] >= group->domain_minimum[2] && x[2] <= group->domain_maximum[2];
+    double local[3];
+    mor_domain_localize(group->placement, x, local);
+    return mor_domain_holds(group->domain_minimum, group->domain_maximum, 3, local);
 }
 
 static mor_status check_domain(mor_context *context, const mor_elastic *elastic, const mor_step *step)
@@ -314,12 +315,14 @@ static mor_status check_domain(mor_context *context, const mor_elastic *elastic,
     for (int64_t p = 0; p < group->n_pieces; ++p) {
         if (group->piece_values[p * MOR_BODY_PIECE_VALUES] >= 0.0) {
             const int64_t i = (int64_t)group->piece_values[p * MOR_BODY_PIECE_VALUES];
-            const double *x = position + 3 * i;
+            double x[3];
+            mor_domain_localize(group->placement, position + 3 * i, x);
             return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                            PARTICLE " left the domain: position (%.6g, %.6g, %.6g) m at t = %.6g s, step %llu; the "
+                            PARTICLE " left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step %llu; the "
                                      "domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain' or close "
                                      "the walls",
-                            PARTICLE_NAMES(group, i), x[0], x[1], x[2], step->time + step->length,
+                            PARTICLE_NAMES(group, i), x[0], x[1], x[2],
+                            group->placement != NULL ? " before 'placement'" : "", step->time + step->length,
                             (unsigned long long)step->number, group->domain_minimum[0], group->domain_minimum[1],
                             group->domain_minimum[2], group->domain_maximum[0], group->domain_maximum[1],
                             group->domain_maximum[2]);

@@ -13,11 +13,9 @@ enum { STRAY = 0 };
 
 static bool is_in_domain(const mor_body_group *group, const double *x)
 {
-    bool is_inside = true;
-    for (int a = 0; a < group->dimension; ++a) {
-        is_inside = is_inside && x[a] >= group->domain_minimum[a] && x[a] <= group->domain_maximum[a];
-    }
-    return is_inside;
+    double local[3];
+    mor_domain_localize(group->placement, x, local);
+    return mor_domain_holds(group->domain_minimum, group->domain_maximum, group->dimension, local);
 }
 
 /* Particles of a piece follow their body. Keeps the first one outside the domain, or -1. */
@@ -124,14 +122,17 @@ static mor_status report_stray(mor_context *context, const mor_rigid *rigid, int
               body->name, group->set.name, body->center[0], body->center[1], body->center[2], body->velocity[0],
               body->velocity[1], body->velocity[2], body->angular_velocity[0], body->angular_velocity[1],
               body->angular_velocity[2], time, (unsigned long long)step->number);
-    return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                    "particle %lld of rigid body '%s' of group '%s' left the domain: position (%.6g, %.6g, %.6g) m at "
-                    "t = %.6g s, step %llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge "
-                    "'domain' or close the walls",
-                    (long long)group->set.id[particle], body->name, group->set.name, x[0], x[1], x[2], time,
-                    (unsigned long long)step->number, group->domain_minimum[0], group->domain_minimum[1],
-                    group->domain_minimum[2], group->domain_maximum[0], group->domain_maximum[1],
-                    group->domain_maximum[2]);
+    double local[3];
+    mor_domain_localize(group->placement, x, local);
+    return MOR_FAIL(
+        context, MOR_ERROR_NUMERIC,
+        "particle %lld of rigid body '%s' of group '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at "
+        "t = %.6g s, step %llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge "
+        "'domain' or close the walls",
+        (long long)group->set.id[particle], body->name, group->set.name, local[0], local[1], local[2],
+        group->placement != NULL ? " before 'placement'" : "", time, (unsigned long long)step->number,
+        group->domain_minimum[0], group->domain_minimum[1], group->domain_minimum[2], group->domain_maximum[0],
+        group->domain_maximum[1], group->domain_maximum[2]);
 }
 
 mor_status mor_rigid_drift_second(mor_context *context, void *owner, const mor_step *step)

@@ -28,16 +28,27 @@ void mor_terrain_range(const mor_terrain *terrain, double *lowest, double *highe
     }
 }
 
+void mor_terrain_reach(const mor_terrain *terrain, double *minimum, double *maximum)
+{
+    for (int a = 0; a < 2; ++a) {
+        const int n_nodes = a == 0 ? terrain->n_x : terrain->n_y;
+        minimum[a] = terrain->origin[a] + terrain->added[a][0] * terrain->cell[a];
+        maximum[a] = terrain->origin[a] + (n_nodes - 1 - terrain->added[a][1]) * terrain->cell[a];
+    }
+}
+
 mor_status mor_terrain_check_point(mor_context *context, const mor_terrain *terrain, const char *name, int index,
                                    const double *point)
 {
+    double low[2];
+    double high[2];
+    mor_terrain_reach(terrain, low, high);
     for (int a = 0; a < 2; ++a) {
-        const double end = mor_terrain_end(terrain, a);
         MOR_CHECK(
-            context, point[a] >= terrain->origin[a] && point[a] <= end, MOR_ERROR_ARGUMENT,
+            context, point[a] >= low[a] && point[a] <= high[a], MOR_ERROR_ARGUMENT,
             "%s %d at (%g, %g) m lies beside the ground, which reaches from %g m to %g m along %c: move it, or read "
             "more of the raster",
-            name, index + 1, point[0], point[1], terrain->origin[a], end, "xy"[a]);
+            name, index + 1, point[0], point[1], low[a], high[a], "xy"[a]);
     }
     return MOR_OK;
 }

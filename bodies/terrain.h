@@ -20,6 +20,7 @@ typedef struct mor_terrain {
     double origin[2]; /* x and y of the first node, m, in the frame of the case (after `offset`) */
     double cell[2];   /* distance of nodes along x and y, m; > 0 */
     double offset[3]; /* what was subtracted from the raster's coordinates and heights, m */
+    int added[2][2];  /* nodes along x and y that mor_terrain_extend put before the first and behind the last one */
     char datum[128];  /* horizontal and vertical reference system in words; empty: not given */
 } mor_terrain;
 
@@ -51,13 +52,28 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
  *  @param terrain [in,out]  one object */
 void mor_terrain_clear(mor_context *context, mor_terrain *terrain);
 
-/** Refuses a point beside the ground.
+/** Continues the ground to cover a rectangle: whole cells are added beyond its edges, at the height of the nearest place
+ *  of the edge. Heights over the raster keep their values.
+ *  @param context [in,out]  one object
+ *  @param terrain [in,out]  one object; unchanged after a failure
+ *  @param minimum [in]      shape [2], unit m; of the rectangle
+ *  @param maximum [in]      shape [2], unit m
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when that makes too many nodes; MOR_ERROR_MEMORY. */
+mor_status mor_terrain_extend(mor_context *context, mor_terrain *terrain, const double *minimum, const double *maximum);
+
+/** Finds how far the raster reaches, without what was added.
+ *  @param terrain [in]   one object
+ *  @param minimum [out]  shape [2], unit m
+ *  @param maximum [out]  shape [2], unit m */
+void mor_terrain_reach(const mor_terrain *terrain, double *minimum, double *maximum);
+
+/** Refuses a point beside the raster.
  *  @param context [in,out]  one object
  *  @param terrain [in]      one object
  *  @param name    [in]      zero-terminated; what such points are, for the message
  *  @param index   [in]      of the point in its list; the message counts from 1
  *  @param point   [in]      shape [2], unit m; seen from above
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT with the reach of the ground. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT with the reach of the raster. */
 mor_status mor_terrain_check_point(mor_context *context, const mor_terrain *terrain, const char *name, int index,
                                    const double *point);
 

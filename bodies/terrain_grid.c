@@ -123,6 +123,51 @@ static double interpolate(const mor_terrain *terrain, double column, double row)
     return (1.0 - t) * lower + t * upper;
 }
 
+/* Cells to add before the first node and behind the last one. */
+static void count_cells(const mor_terrain *terrain, int axis, double minimum, double maximum, double *cells)
+{
+    cells[0] = ceil((terrain->origin[axis] - minimum) / terrain->cell[axis] - ON_NODE);
+    cells[1] = ceil((maximum - mor_terrain_end(terrain, axis)) / terrain->cell[axis] - ON_NODE);
+    cells[0] = fmax(cells[0], 0.0);
+    cells[1] = fmax(cells[1], 0.0);
+}
+
+mor_status mor_terrain_extend(mor_context *context, mor_terrain *terrain, const double *minimum, const double *maximum)
+{
+    double cells[2][2];
+    double n[2];
+    for (int a = 0; a < 2; ++a) {
+        count_cells(terrain, a, minimum[a], maximum[a], cells[a]);
+        n[a] = (a == 0 ? terrain->n_x : terrain->n_y) + cells[a][0] + cells[a][1];
+    }
+    if (n[0] == terrain->n_x && n[1] == terrain->n_y) {
+        return MOR_OK;
+    }
+    MOR_CHECK(context, n[0] * n[1] <= MOR_TERRAIN_NODES_MAX, MOR_ERROR_ARGUMENT,
+              "to cover the domain the raster is continued to %g x %g nodes; allowed are %g in all: use a smaller "
+              "domain or larger cells",
+              n[0], n[1], MOR_TERRAIN_NODES_MAX);
+    double *heights = NULL;
+    MOR_TRY(context, MOR_NEW(context, &heights, (int64_t)n[0] * (int64_t)n[1], "terrain heights"));
+    for (int row = 0; row < (int)n[1]; ++row) {
+        const int from_row = (int)fmin(fmax(row - cells[1][0], 0.0), terrain->n_y - 1.0);
+        for (int column = 0; column < (int)n[0]; ++column) {
+            const int from = (int)fmin(fmax(column - cells[0][0], 0.0), terrain->n_x - 1.0);
+            heights[(int64_t)row * (int)n[0] + column] = terrain->heights[(int64_t)from_row * terrain->n_x + from];
+        }
+    }
+    MOR_FREE(context, &terrain->heights);
+    terrain->heights = heights;
+    terrain->n_x = (int)n[0];
+    terrain->n_y = (int)n[1];
+    for (int a = 0; a < 2; ++a) {
+        terrain->origin[a] -= cells[a][0] * terrain->cell[a];
+        terrain->added[a][0] += (int)cells[a][0];
+        terrain->added[a][1] += (int)cells[a][1];
+    }
+    return MOR_OK;
+}
+
 mor_status mor_terrain_resample(mor_context *context, mor_terrain *terrain, double cell)
 {
     double n[2];

@@ -70,6 +70,7 @@ typedef struct mor_case_ground {
     double cell;                    /* m; NaN: as in the raster */
     double offset[3];               /* subtracted from the raster's coordinates and heights, m; NaN: chosen */
     bool fills_no_data;
+    bool extends_edge; /* the ground goes on level beyond the raster, as far as the domain reaches */
     double thickness; /* of the ground below its lowest point, or of a release, m */
     double rim;       /* of a release, m */
     double size[2];   /* of a post along x and y, m */

@@ -173,6 +173,8 @@ static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, 
     }
     complete_settings(the_case);
     MOR_TRY(reader->context, check_domain(reader, root, the_case));
+    memcpy(reader->domain.minimum, the_case->domain_minimum, sizeof reader->domain.minimum);
+    memcpy(reader->domain.maximum, the_case->domain_maximum, sizeof reader->domain.maximum);
     MOR_TRY(reader->context, check_plane(reader, root, the_case));
     MOR_TRY(reader->context, mor_case_reader_scene(reader, root, the_case));
     return mor_case_reader_results(reader, root, the_case);

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case_reader.h"
 
+#include "core/base/math.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -82,6 +84,35 @@ static mor_status read_soil(const mor_case_reader *reader, const mor_case_node *
 
 /* ---- Walls ------------------------------------------------------------------------------------------------------- */
 
+static bool has_terrain(const mor_case_shape *outline)
+{
+    bool has = outline->kind == MOR_CASE_SHAPE_TERRAIN;
+    for (int k = 0; k < outline->n_children && !has; ++k) {
+        has = has_terrain(&outline->children[k]);
+    }
+    return has;
+}
+
+/* Only the ground itself is followed by its particles and lies where the domain was compared with it. */
+static mor_status check_ground(const mor_case_reader *reader, const mor_case_node *node, const mor_case_wall *wall)
+{
+    const bool is_ground = wall->outline.kind == MOR_CASE_SHAPE_TERRAIN;
+    if (!is_ground && has_terrain(&wall->outline)) {
+        return MOR_CASE_NODE_FAIL(
+            reader->context, node,
+            "found a wall with a terrain inside a shape of type '%s'; allowed is a terrain alone; "
+            "move it with 'offset', turn the scene with 'placement', and list what stands in it "
+            "as walls of their own",
+            mor_case_shape_groups[wall->outline.kind].name);
+    }
+    if (is_ground && mor_vector_length(wall->velocity) > 0.0) {
+        return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(node, "velocity"),
+                                  "found a terrain that moves; allowed is ground at rest, whose edge stays outside the "
+                                  "domain; remove 'velocity', or give the soil the opposite one");
+    }
+    return MOR_OK;
+}
+
 static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case,
                             mor_case_wall *wall)
 {
@@ -93,6 +124,7 @@ static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, mor_case_reader_friction(reader, node, wall->friction));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &wall->outline, &wall->shape));
+    MOR_TRY(reader->context, check_ground(reader, node, wall));
     for (const mor_case_wall *other = the_case->walls; other < wall; ++other) {
         if (strcmp(other->name, wall->name) == 0) {
             return mor_case_reader_twin(reader, node, wall->name, &other->place);

@@ -4,6 +4,7 @@
 
 #include "bodies/terrain.h"
 #include "cases/driver/case_read.h"
+#include "cases/driver/simulation.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
 
@@ -15,6 +16,9 @@
 
 /* Default thickness of ground, and the reach of exact distances, in spacings: twice the layers of wall particles. */
 #define GROUND_SPACINGS 8.0
+
+/* A domain that ends on the raster's edge may miss it by this share of a cell. */
+#define ON_EDGE 1e-9
 
 /* Posts go this far below the lowest place of the ground under them, in spacings. */
 #define POST_SPACINGS 2.0
@@ -63,6 +67,45 @@ static mor_status read_raster(const mor_case_reader *reader, const mor_case_node
     return MOR_OK;
 }
 
+/* Where soil and rocks may come there must be ground: beyond the raster it is continued if that is asked for. Under the
+ * edge of the domain it goes on by the thickness of a wall, as walls do, so that soil there does not tilt off it. */
+static mor_status cover_domain(const mor_case_reader *reader, const mor_case_node *node, const mor_case_ground *ground,
+                               mor_terrain *terrain)
+{
+    double low[2];
+    double high[2];
+    double from[2];
+    double to[2];
+    double beyond = 0.0;
+    mor_terrain_reach(terrain, low, high);
+    for (int a = 0; a < 2; ++a) {
+        from[a] = reader->domain.minimum[a] - MOR_SIMULATION_WALL_LAYERS * reader->spacing;
+        to[a] = reader->domain.maximum[a] + MOR_SIMULATION_WALL_LAYERS * reader->spacing;
+        const double allowed = ON_EDGE * terrain->cell[a];
+        const double gap = fmax(low[a] - reader->domain.minimum[a], reader->domain.maximum[a] - high[a]);
+        beyond = gap > allowed ? fmax(beyond, gap) : beyond;
+    }
+    if (beyond > 0.0 && !ground->extends_edge) {
+        return MOR_CASE_NODE_FAIL(
+            reader->context, node,
+            "found a domain that reaches up to %g m beyond the ground: the raster covers x from %g to %g m and y from "
+            "%g "
+            "to %g m, the domain x from %g to %g m and y from %g to %g m; allowed is a domain over the raster; make it "
+            "smaller, read more of the raster, or let the ground go on at the height of its edge: extend_edge = true",
+            beyond, low[0], high[0], low[1], high[1], reader->domain.minimum[0], reader->domain.maximum[0],
+            reader->domain.minimum[1], reader->domain.maximum[1]);
+    }
+    if (beyond > 0.0) {
+        mor_context_log(
+            reader->context, MOR_LOG_WARNING,
+            "%s: ends up to %g m inside the domain; beyond its edge the ground goes on at the height of the "
+            "edge, which nobody has measured",
+            ground->file, beyond);
+    }
+    MOR_TRY(reader->context, mor_terrain_extend(reader->context, terrain, from, to));
+    return MOR_OK;
+}
+
 static mor_status build_terrain(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
                                 mor_shape **shape)
 {
@@ -73,8 +116,11 @@ static mor_status build_terrain(const mor_case_reader *reader, const mor_case_no
         ground->thickness = GROUND_SPACINGS * reader->spacing;
     }
     MOR_TRY(reader->context, read_raster(reader, node, ground, &terrain));
-    const mor_status status =
-        mor_shape_new_terrain(reader->context, &terrain, ground->thickness, GROUND_SPACINGS * reader->spacing, shape);
+    mor_status status = cover_domain(reader, node, ground, &terrain);
+    if (status == MOR_OK) {
+        status = mor_shape_new_terrain(reader->context, &terrain, ground->thickness, GROUND_SPACINGS * reader->spacing,
+                                       shape);
+    }
     mor_terrain_clear(reader->context, &terrain);
     return status;
 }

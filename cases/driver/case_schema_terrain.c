@@ -35,6 +35,11 @@ const mor_case_key mor_case_terrain_keys[] = {
       "whether holes without data are filled from their rims, instead of refused"},
      MOR_CASE_STORE_BOOL,
      AT(mor_case_shape, ground.fills_no_data)},
+    {{"extend_edge", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
+      "whether ground goes on at the height of its edge where the domain reaches beyond the raster, instead of "
+      "refused"},
+     MOR_CASE_STORE_BOOL,
+     AT(mor_case_shape, ground.extends_edge)},
     {{"thickness", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "of the solid below its lowest place"},
      SHAPE(ground.thickness),
      .computed = "8 * spacing"},

@@ -76,15 +76,19 @@ static void print_ground(FILE *out, const mor_case_wall *wall)
     }
     double lowest;
     double highest;
+    double from[2];
+    double to[2];
     mor_terrain_range(it, &lowest, &highest);
-    fprintf(out, "  ground '%s': %d x %d nodes of %g m", wall->name, it->n_x, it->n_y, it->cell[0]);
+    mor_terrain_reach(it, from, to);
+    fprintf(out, "  ground '%s': %.0f x %.0f nodes of %g m", wall->name, (to[0] - from[0]) / it->cell[0] + 1.0,
+            (to[1] - from[1]) / it->cell[1] + 1.0, it->cell[0]);
     if (it->cell[1] != it->cell[0]) {
         fprintf(out, " x %g m", it->cell[1]);
     }
-    fprintf(out, ", x %g to %g m, y %g to %g m, z %g to %g m; subtracted (%.10g, %.10g, %.10g) m; %s\n", it->origin[0],
-            it->origin[0] + (it->n_x - 1) * it->cell[0], it->origin[1], it->origin[1] + (it->n_y - 1) * it->cell[1],
-            lowest, highest, it->offset[0], it->offset[1], it->offset[2],
-            it->datum[0] != '\0' ? it->datum : "no reference system named, meters assumed");
+    fprintf(out, ", x %g to %g m, y %g to %g m, z %g to %g m; subtracted (%.10g, %.10g, %.10g) m; %s%s\n", from[0],
+            to[0], from[1], to[1], lowest, highest, it->offset[0], it->offset[1], it->offset[2],
+            it->datum[0] != '\0' ? it->datum : "no reference system named, meters assumed",
+            wall->outline.ground.extends_edge ? "; beyond it level from its edge on" : "");
 }
 
 static void print_sizes(FILE *out, const mor_simulation *s)

@@ -312,28 +312,18 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
     memcpy(s->gravity, frame->gravity, sizeof s->gravity);
     memcpy(s->domain_minimum, frame->domain_minimum, sizeof s->domain_minimum);
     memcpy(s->domain_maximum, frame->domain_maximum, sizeof s->domain_maximum);
+    s->placement = frame->is_placed ? &frame->placement : NULL;
 }
 
-/* Gravity and the box around the turned domain. */
+/* Gravity and the domain, which is turned with the scene. */
 static void find_frame(const mor_case *c, mor_simulation_frame *frame)
 {
     mor_matrix_apply(c->turn, c->gravity, frame->gravity);
-    for (int a = 0; a < 3; ++a) {
-        frame->domain_minimum[a] = INFINITY;
-        frame->domain_maximum[a] = -INFINITY;
-    }
-    for (int corner = 0; corner < 8; ++corner) {
-        double point[3];
-        double placed[3];
-        for (int a = 0; a < 3; ++a) {
-            point[a] = corner >> a & 1 ? c->domain_maximum[a] : c->domain_minimum[a];
-        }
-        mor_simulation_place_point(c, point, placed);
-        for (int a = 0; a < 3; ++a) {
-            frame->domain_minimum[a] = fmin(frame->domain_minimum[a], placed[a]);
-            frame->domain_maximum[a] = fmax(frame->domain_maximum[a], placed[a]);
-        }
-    }
+    memcpy(frame->domain_minimum, c->domain_minimum, sizeof frame->domain_minimum);
+    memcpy(frame->domain_maximum, c->domain_maximum, sizeof frame->domain_maximum);
+    memcpy(frame->placement.turn, c->turn, sizeof frame->placement.turn);
+    memcpy(frame->placement.move, c->move, sizeof frame->placement.move);
+    frame->is_placed = c->placement_angle != 0.0 || mor_vector_length(c->move) > 0.0;
 }
 
 /* Copies the regions' points into the set and gives them mass, density, velocity and stress. */

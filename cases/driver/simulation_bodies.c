@@ -369,13 +369,13 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
     const mor_case_body *it = &c->bodies[number];
     const double *low = frame->domain_minimum;
     const double *high = frame->domain_maximum;
-    for (int a = 0; a < c->dimension; ++a) {
-        MOR_CHECK(context, node[a] >= low[a] && node[a] <= high[a], MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; the domain is (%g, %g, %g) to "
-                  "(%g, %g, %g) m; allowed are bodies inside it; %s",
-                  it->place.file, it->place.line, it->name, node[0], node[1], node[2], low[0], low[1], low[2], high[0],
-                  high[1], high[2], advise_place(it, "enlarge 'domain' or move the body"));
-    }
+    double local[3];
+    mor_domain_localize(frame->is_placed ? &frame->placement : NULL, node, local);
+    MOR_CHECK(context, mor_domain_holds(low, high, c->dimension, local), MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; the domain is (%g, %g, %g) to "
+              "(%g, %g, %g) m; allowed are bodies inside it; %s",
+              it->place.file, it->place.line, it->name, local[0], local[1], local[2], low[0], low[1], low[2], high[0],
+              high[1], high[2], advise_place(it, "enlarge 'domain' or move the body"));
     for (int b = 0; b < c->n_bodies; ++b) {
         if (b == number || !mor_simulation_body_may_hold(&boxes[b], node)) {
             continue;
@@ -491,6 +491,7 @@ mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodie
         memcpy(group->gravity, frame->gravity, sizeof group->gravity);
         memcpy(group->domain_minimum, frame->domain_minimum, sizeof group->domain_minimum);
         memcpy(group->domain_maximum, frame->domain_maximum, sizeof group->domain_maximum);
+        group->placement = frame->is_placed ? &frame->placement : NULL;
         group->gravity_ramp = the_case->numerics.gravity_ramp;
         group->damping = the_case->numerics.damping;
         MOR_TRY(context, add_body_field(context, group));

@@ -43,9 +43,11 @@ typedef struct mor_simulation_bodies {
 
 /** What the bodies need to know of the case in the frame of the run. */
 typedef struct mor_simulation_frame {
-    double gravity[3];        /* m/s2 */
-    double domain_minimum[3]; /* box around the turned domain, m */
-    double domain_maximum[3]; /* m */
+    double gravity[3];          /* m/s2 */
+    double domain_minimum[3];   /* m, in the frame of the case */
+    double domain_maximum[3];   /* likewise */
+    mor_domain_frame placement; /* the placement of the case */
+    bool is_placed;             /* whether that turns or moves anything */
 } mor_simulation_frame;
 
 /** Builds the bodies and their contact: fills the shapes with particles, checks that nothing overlaps and that all of

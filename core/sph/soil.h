@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_SPH_SOIL_H
 #define MOR_CORE_SPH_SOIL_H
 
+#include "core/base/domain.h"
 #include "core/material/material.h"
 #include "core/particle/set.h"
 #include "core/sph/soil_contact.h"
@@ -44,8 +45,9 @@ typedef struct mor_soil_settings {
     double damping;                    /* rate of velocity damping, 1/s */
     double gravity_ramp;               /* time over which gravity grows from zero, s; 0: at once */
     double gravity[3];                 /* m/s2 */
-    double domain_minimum[3];          /* m */
-    double domain_maximum[3];          /* m */
+    double domain_minimum[3];          /* m, before the placement */
+    double domain_maximum[3];          /* likewise */
+    const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither turned nor moved */
     double reference_density;          /* rho_0, kg/m3 */
 } mor_soil_settings;
 

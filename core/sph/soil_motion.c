@@ -77,9 +77,9 @@ static mor_status check_domain(mor_context *context, const mor_soil *soil, const
         double stray = -1.0;
         for (int64_t i = mor_block_end(block, n) - 1; i >= block * MOR_BLOCK; --i) {
             const double *x = position + 3 * i;
-            const int is_inside = x[0] >= s->domain_minimum[0] && x[0] <= s->domain_maximum[0] &&
-                                  x[1] >= s->domain_minimum[1] && x[1] <= s->domain_maximum[1] &&
-                                  x[2] >= s->domain_minimum[2] && x[2] <= s->domain_maximum[2];
+            double local[3];
+            mor_domain_localize(s->placement, x, local);
+            const bool is_inside = mor_domain_holds(s->domain_minimum, s->domain_maximum, 3, local);
             stray = is_inside && density[i] > 0.0 ? stray : (double)i;
         }
         soil->block_values[block] = stray;
@@ -94,11 +94,14 @@ static mor_status check_domain(mor_context *context, const mor_soil *soil, const
                 "must be positive. A smaller 'courant' or 'density_reinitialization' more often may help",
                 (long long)soil->set.id[i], soil->set.name, density[i], x[0], x[1], x[2], step->time + step->length,
                 (unsigned long long)step->number);
+            double local[3];
+            mor_domain_localize(s->placement, x, local);
             return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                            "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m at t = %.6g s, "
+                            "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, "
                             "step %llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain' or "
                             "close the walls",
-                            (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2], step->time + step->length,
+                            (long long)soil->set.id[i], soil->set.name, local[0], local[1], local[2],
+                            s->placement != NULL ? " before 'placement'" : "", step->time + step->length,
                             (unsigned long long)step->number, s->domain_minimum[0], s->domain_minimum[1],
                             s->domain_minimum[2], s->domain_maximum[0], s->domain_maximum[1], s->domain_maximum[2]);
         }

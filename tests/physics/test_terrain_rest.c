@@ -19,7 +19,7 @@ enum { COLUMNS = 34, ROWS = 9, PATH_BYTES = 512 };
 
 static const char layer[] =
     "dimension = 3; spacing = '0.1 m'; end = '2.5 s'; gravity = (0, 0, -9.81);"
-    "domain = { min = (-0.5, -0.5, -1); max = (11.2, 3, 12); };"
+    "domain = { min = (0, -0.1, -1); max = (10.89, 2.54, 12); };"
     "soil = ( { name = 'layer'; shape = { type = 'release'; ground = 'slope'; thickness = '0.4 m';"
     "    points = ((7, 0.7), (10, 0.7), (10, 1.9), (7, 1.9)); };"
     "  initial_stress = { type = 'k0'; };"

@@ -13,7 +13,7 @@ enum { PATH_BYTES = 256, TEXT_BYTES = 4096 };
 /* Ground with a layer, posts, and a block that stands in it. The path of the raster goes to %s. */
 static const char scene[] =
     "dimension = 3; spacing = 1; end = 1; gravity = (0, 0, -9.81);\n"
-    "domain = { min = (0, 0, -5); max = (30, 20, 30); };\n"
+    "domain = { min = (6, 0, -5); max = (30, 20, 30); };\n"
     "soil = ( { name = \"layer\"; shape = { type = \"release\"; ground = \"hill\"; thickness = 3; rim = 1.2;\n"
     "      points = ((16, 4), (26, 4), (26, 16), (16, 16)); };\n"
     "    material = { model = \"drucker_prager\"; density = 2000; youngs_modulus = 1e6; poissons_ratio = 0.2;\n"
@@ -54,9 +54,16 @@ static void terrain_is_read_into_the_frame_of_the_case(void **state)
     case_reading_read(f, make_scene(text), NULL, &f->first);
     const mor_terrain *terrain = mor_terrain_view(f->first.walls[0].shape);
     assert_non_null(terrain);
-    assert_int_equal(terrain->n_x, 18); /* the crop leaves out 100, 102, 104 m */
-    assert_int_equal(terrain->n_y, 11);
-    assert_true(terrain->origin[0] == 6.0 && terrain->origin[1] == 0.0 && terrain->heights[0] == 1.5);
+    double low[2];
+    double high[2];
+    mor_terrain_reach(terrain, low, high);
+    assert_true(low[0] == 6.0 && high[0] == 40.0); /* the crop leaves out 100, 102, 104 m */
+    assert_true(low[1] == 0.0 && high[1] == 20.0);
+    /* the domain ends on three edges: beyond them the ground goes on by the 4 m of a wall, two cells */
+    assert_int_equal(terrain->n_x, 18 + 2);
+    assert_int_equal(terrain->n_y, 11 + 4);
+    assert_true(terrain->origin[0] == 2.0 && terrain->origin[1] == -4.0);
+    assert_true(mor_terrain_height(terrain, 2.5, -3.0) == 1.5 && mor_terrain_height(terrain, 8.0, -3.0) == 2.0);
     assert_true(f->first.walls[0].outline.ground.thickness == 8.0); /* 8 spacings */
     assert_true(f->first.walls[0].outline.file_hash != 0);
     mor_bounds bounds;
@@ -172,7 +179,13 @@ static void wrong_terrain_is_refused_with_its_place(void **state)
         {"soil[0].shape.thickness=0", "thickness"},
         {"walls[1].shape.top=3", "both height and top"},
         {"walls[2].shape.top=1", "under the ground"},
-        {"walls[0].shape.type=\"sphere\"", "no wall has a shape of type"}};
+        {"walls[0].shape.type=\"sphere\"", "no wall has a shape of type"},
+        {"domain.min=(5, 0, -5)",
+         "reaches up to 1 m beyond the ground: the raster covers x from 6 to 40 m and y from 0 "},
+        {"domain.max=(30, 22.5, 30)", "reaches up to 2.5 m beyond the ground"},
+        {"domain.max=(1e9, 20, 30)", "extend_edge = true"},
+        {"walls[0].velocity=(1, 0, 0)", "found a terrain that moves"},
+    };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         const char *const settings[] = {wrong[k].setting, NULL};
         case_reading_refuse(f, text, settings, "", wrong[k].fragment);
@@ -185,7 +198,55 @@ static void wrong_terrain_is_refused_with_its_place(void **state)
                         NULL, "t.cfg:2:", "polygon");
     char path[PATH_BYTES];
     make_path(path);
+    /* nested, the ground would be filled from the lattice, in another place than the domain was compared with */
+    static const char nested[] =
+        "dimension = 3; spacing = 1; end = 1; gravity = (0, 0, -9.81); domain = { min = (6, 0, -5); max = (30, 20, "
+        "30); "
+        "};\nwalls = ( { name = \"hill\"; shape = { type = \"translate\"; move = (0, 0, 1);\n"
+        "shape = { type = \"terrain\"; file = \"%s\"; offset = (100, 200, 10); }; }; } );\n"
+        "bodies = ( { name = \"ball\"; shape = { type = \"sphere\"; center = (0, 0, 0); radius = 3; };\n"
+        "  position = (9, 9, 20); material = { model = \"rigid\"; density = 2000; }; } );";
+    snprintf(text, sizeof text, nested, path);
+    case_reading_refuse(f, text, NULL, "t.cfg:2:", "a terrain inside a shape of type 'translate'");
     unlink(path);
+}
+
+static void keep_warning(void *user, mor_log_level level, const char *text)
+{
+    if (level >= MOR_LOG_WARNING) {
+        snprintf(user, TEXT_BYTES, "%s", text);
+    }
+}
+
+/* Asked for, ground that was not measured lies level from the edge on, as far as soil and rocks may come. */
+static void ground_goes_on_beyond_the_raster_when_that_is_asked_for(void **state)
+{
+    case_reading *f = *state;
+    char text[TEXT_BYTES];
+    char warning[TEXT_BYTES] = "";
+    static const char *const wide[] = {"domain.min=(-10, -20, -5)", "domain.max=(60, 30, 30)",
+                                       "walls[0].shape.extend_edge=true", NULL};
+    f->context.log_sink = keep_warning;
+    f->context.log_user = warning;
+    case_reading_read(f, make_scene(text), wide, &f->first);
+    f->context.log_sink = NULL;
+    assert_non_null(strstr(warning, "ends up to 20 m inside the domain"));
+    const mor_shape *hill = f->first.walls[0].shape;
+    const mor_terrain *terrain = mor_terrain_view(hill);
+    for (double x = -13.5; x < 64.0; x += 1.0) {
+        for (double y = -23.5; y < 34.0; y += 1.0) {
+            const double height = 0.25 * fmin(fmax(x, 6.0), 40.0);
+            const double below[3] = {x, y, height - 0.25};
+            assert_true(mor_terrain_height(terrain, x, y) == height); /* exact: quarters */
+            assert_true(mor_shape_distance(hill, below) < 0.0);
+        }
+    }
+    /* what is laid on the ground wants measured ground */
+    const char *const posts[] = {wide[0], wide[1], wide[2], "walls[1].shape.at=((45, 5), (8, 10))", NULL};
+    case_reading_refuse(f, text, posts, "",
+                        "post 1 at (45, 5) m lies beside the ground, which reaches from 6 m to 40 m");
+    const char *const layer[] = {wide[0], wide[1], wide[2], "soil[0].shape.points=((16, 4), (46, 4), (26, 16))", NULL};
+    case_reading_refuse(f, text, layer, "", "release point 2 at (46, 4) m lies beside the ground");
 }
 
 int main(void)
@@ -197,6 +258,8 @@ int main(void)
                                         case_reading_tear_down),
         cmocka_unit_test_setup_teardown(particles_follow_the_ground, case_reading_set_up, case_reading_tear_down),
         cmocka_unit_test_setup_teardown(a_raster_is_spoken_of_once, case_reading_set_up, case_reading_tear_down),
+        cmocka_unit_test_setup_teardown(ground_goes_on_beyond_the_raster_when_that_is_asked_for, case_reading_set_up,
+                                        case_reading_tear_down),
         cmocka_unit_test_setup_teardown(wrong_terrain_is_refused_with_its_place, case_reading_set_up,
                                         case_reading_tear_down),
     };
