@@ -52,8 +52,8 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
  *  @param terrain [in,out]  one object */
 void mor_terrain_clear(mor_context *context, mor_terrain *terrain);
 
-/** Continues the ground to cover a rectangle: whole cells are added beyond its edges, at the height of the nearest place
- *  of the edge. Heights over the raster keep their values.
+/** Continues the ground to cover a rectangle: whole cells are added beyond its edges, at the height of the nearest
+ *  place of the edge. Heights over the raster keep their values.
  *  @param context [in,out]  one object
  *  @param terrain [in,out]  one object; unchanged after a failure
  *  @param minimum [in]      shape [2], unit m; of the rectangle

@@ -275,7 +275,7 @@ static void what_is_no_rock_is_refused_with_the_reason(void **state)
     refuse_shape(f, plane_head, "type = \"mesh\"; file = \"@/cube.obj\";", "a mesh in a case of dimension 2");
     refuse_shape(f, plane_head, "type = \"outline\"; file = \"@/bow.txt\";",
                  "the edge from line 1 to line 2 and the edge from line 3 to line 4");
-    refuse_shape(f, plane_head, "type = \"outline\"; file = \"@/cube.obj\";", "line 1: \"v 4 4 4\" is no number");
+    refuse_shape(f, plane_head, "type = \"outline\"; file = \"@/cube.obj\";", "line 1, column 1: \"v\" is no number");
     refuse_shape(f, plane_head, "type = \"outline\"; file = \"@/profile.txt\"; scale = 1; diameter = 1;", "2 sizes");
     refuse_shape(f, plane_head, "type = \"rock\"; diameter = 1; angularity = 2;", "angularity = 2, out of range");
     refuse_shape(f, plane_head, "type = \"rock\"; diameter = 1; angularty = 0.2;", "did you mean 'angularity'?");
