@@ -36,14 +36,15 @@ DOORS = {
     r"(udunits2/)?udunits2?\.h": ("core/base/units.c",),
     r"(sundials|arkode|cvode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*": ("core/time/ode.c",),
     r"embree3/.*": ("cases/driver/render/scene.c", "relaxation/mesh_distance.c"),
+    r"(libpng\d*/)?png\.h": ("cases/driver/render/png_file.c",),
     r"cairo(/cairo)?(-\w+)?\.h": ("cases/driver/render/canvas.c",),
-    r"png\.h": (),
     r"jansson\.h": ("core/io/summary.c",),
     r"(gdal/)?(gdal|cpl_|ogr).*\.h": ("bodies/terrain_read.c",),
     r"assimp/.*": ("relaxation/mesh_read.c",),
     r"dlfcn\.h": ("core/material/plugin.c",),
     r"omp\.h": ("core/base/parallel.h",),
-    r"cmocka\.h|setjmp\.h": ("tests/",),
+    r"cmocka\.h": ("tests/",),
+    r"setjmp\.h": ("tests/", "cases/driver/render/png_file.c"),
     r"(x86|imm)intrin\.h|arm_neon\.h": ("core/base/", "core/sph/", "core/material/", "materials/"),
 }
 

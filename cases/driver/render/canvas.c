@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/render/canvas.h"
 
+#include "cases/driver/render/png_file.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/io/durable_file.h"
@@ -244,23 +245,19 @@ void mor_canvas_pixel(const mor_canvas *canvas, int column, int row, uint8_t *rg
     }
 }
 
-static cairo_status_t write_bytes(void *file, const unsigned char *bytes, unsigned int n_bytes)
-{
-    return fwrite(bytes, 1, n_bytes, file) == n_bytes ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
-}
-
 mor_status mor_canvas_write(mor_context *context, const mor_canvas *canvas, const char *path)
 {
     mor_durable_file file;
     MOR_TRY(context, mor_canvas_check(context, canvas));
     MOR_TRY(context, mor_durable_file_open(context, &file, path));
-    const cairo_status_t written = cairo_surface_write_to_png_stream(canvas->surface, write_bytes, file.stream);
-    /* What the stream could not take, the commit reports with a reason. */
-    if (written != CAIRO_STATUS_SUCCESS && ferror(file.stream) == 0) {
+    cairo_surface_flush(canvas->surface);
+    const int size[2] = {canvas->width, canvas->height};
+    const mor_status written =
+        mor_png_file_write(context, file.stream, path, size, cairo_image_surface_get_data(canvas->surface),
+                           cairo_image_surface_get_stride(canvas->surface));
+    if (written != MOR_OK) {
         mor_durable_file_discard(&file);
-        return MOR_FAIL(context, written == CAIRO_STATUS_NO_MEMORY ? MOR_ERROR_MEMORY : MOR_ERROR_IO,
-                        "%s: the picture cannot be made a PNG file: %s; draw a smaller one, or free some memory", path,
-                        cairo_status_to_string(written));
+        return mor_context_pass(context, written, MOR_HERE);
     }
     MOR_TRY(context, mor_durable_file_commit(context, &file));
     return MOR_OK;

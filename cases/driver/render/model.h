@@ -43,6 +43,7 @@ typedef struct mor_model {
     double level_step;      /* px; between the levels of parts, view space; set by the build */
     double outline;         /* px; width of the line around parts in the plane; set between survey and build */
     double low[3], high[3]; /* shape [3], px; box around all spheres, view space */
+    double least_radius;    /* px; of the smallest sphere */
 } mor_model;
 
 /** Radius a particle is drawn with, in m: its own times the picture's swelling.

@@ -111,6 +111,7 @@ static void add_sphere(mor_model *model, mor_model_layer *layer, const double *v
         model->high[a] = fmax(model->high[a], view[a] + box_slack * radius);
     }
     sphere[3] = (float)radius;
+    model->least_radius = fmin(model->least_radius, radius);
     layer->rim[layer->n_spheres] = (float)rim;
     layer->n_spheres += 1;
 }
@@ -299,6 +300,7 @@ mor_status mor_model_build(mor_context *context, const mor_picture *picture, con
         model->low[a] = DBL_MAX;
         model->high[a] = -DBL_MAX;
     }
+    model->least_radius = DBL_MAX;
     add_groups(picture, map, model);
     if (picture->dimension == 3 && !picture->hides_ground) {
         lay_ground(picture, model);

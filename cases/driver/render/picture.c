@@ -130,6 +130,7 @@ static mor_status render_block(mor_context *context, plate *p)
         .size = {p->block[2], p->block[3]},
         .low = {model->low[0], model->low[1], model->low[2]},
         .high = {model->high[0], model->high[1], model->high[2]},
+        .least_radius = model->least_radius,
         .ambient_reach = ambient_share * wide * model->camera.scale,
         .n_samples = is_plane ? 4 : 3,
         .n_ambient = 2,

@@ -45,6 +45,7 @@ typedef struct mor_shade {
     int size[2];          /* columns and rows of the block of pixels */
     double low[3];        /* shape [3], px; lower corner of a box around all spheres */
     double high[3];       /* shape [3], px; upper corner */
+    double least_radius;  /* px; of the smallest sphere; 0: not known, then every pixel takes all samples */
     double ambient_reach; /* px; things farther away do not darken a crevice */
     int n_samples;        /* samples per pixel along each axis, 1 to 8 */
     int n_ambient;        /* rays to the sky per sample, 1 to 64 */
@@ -55,7 +56,8 @@ typedef struct mor_shade {
  *  @param shade   [in]      one object
  *  @param rgb     [out]     shape [rows, columns, 3]; screen values
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for sample counts out of range.
- *  Cost: about n_samples^2 * (2 + n_ambient) rays for each pixel that shows something.
+ *  Cost: about n_samples^2 * (2 + n_ambient) rays for each pixel with an edge in it, 2 + n_ambient for each other one
+ *  that shows something.
  *  Threads: parallel inside. */
 mor_status mor_shade_render(mor_context *context, const mor_shade *shade, uint8_t *rgb);
 
