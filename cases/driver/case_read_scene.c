@@ -46,7 +46,21 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
     return MOR_OK;
 }
 
-static mor_status read_stress(const mor_case_reader *reader, const mor_case_node *soil_node, double end,
+/* Without weight there is no stress of rest, and nothing to settle under. */
+static mor_status check_stress_weight(const mor_case_reader *reader, const mor_case_node *node,
+                                      const mor_case *the_case, const mor_case_soil *soil)
+{
+    if (soil->initial_stress == MOR_CASE_STRESS_NONE || mor_vector_length(the_case->gravity) > 0.0) {
+        return MOR_OK;
+    }
+    const mor_case_node *type = mor_case_node_find(node, "type");
+    return MOR_CASE_NODE_FAIL(reader->context, type,
+                              "found an initial stress of type \"%s\" in a case without gravity, where it would be "
+                              "zero; allowed: with gravity, or \"none\"; correct 'gravity' or the type",
+                              type->text);
+}
+
+static mor_status read_stress(const mor_case_reader *reader, const mor_case_node *soil_node, const mor_case *the_case,
                               mor_case_soil *soil)
 {
     const mor_case_node *node = mor_case_node_find(soil_node, "initial_stress");
@@ -57,9 +71,10 @@ static mor_status read_stress(const mor_case_reader *reader, const mor_case_node
     }
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_stress_group, soil));
     if (!mor_case_reader_has(&mor_case_stress_group, soil->written_stress, "settle_time")) {
-        soil->settle_time = end;
+        soil->settle_time = the_case->end;
     }
-    return check_stress_keys(reader, node, soil->initial_stress);
+    MOR_TRY(reader->context, check_stress_keys(reader, node, soil->initial_stress));
+    return check_stress_weight(reader, node, the_case, soil);
 }
 
 static mor_status read_soil(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case,
@@ -71,7 +86,7 @@ static mor_status read_soil(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_soil_group, soil));
     MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", soil->velocity));
     MOR_TRY(reader->context, read_material(reader, node, soil));
-    MOR_TRY(reader->context, read_stress(reader, node, the_case->end, soil));
+    MOR_TRY(reader->context, read_stress(reader, node, the_case, soil));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &soil->outline, &soil->shape));
     for (const mor_case_soil *other = the_case->soils; other < soil; ++other) {

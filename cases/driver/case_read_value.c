@@ -7,6 +7,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Single values: from a node and a schema to numbers and members of a record. */
@@ -22,6 +23,8 @@ enum {
 /* Beyond these a number is a slip of the pen, and its powers come near the ends of double. */
 static const double largest_size = 1.0e30;
 static const double smallest_size = 1.0e-30;
+
+static const double full_turn = 6.283185307179586;
 
 /* What a key allows, for people. */
 static void describe_allowed(const mor_case_reader *reader, const mor_schema *schema, char *text, size_t text_bytes)
@@ -82,6 +85,27 @@ static mor_status convert_text(const mor_case_reader *reader, const mor_case_nod
     return fail_value(reader, node, schema, why, advice);
 }
 
+/* A number without a unit, in quotes or not. */
+static bool is_bare(const mor_case_node *node)
+{
+    if (node->kind != MOR_CASE_NODE_TEXT) {
+        return true;
+    }
+    char *end = NULL;
+    strtod(node->text, &end);
+    return end[strspn(end, " \t")] == '\0';
+}
+
+/* Nobody means radians by a bare angle beyond a full turn, and degrees taken for radians would turn the scene anyhow.
+ */
+static mor_status refuse_bare_angle(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema,
+                                    double value)
+{
+    char advice[ALLOWED_BYTES];
+    snprintf(advice, sizeof advice, "write \"%.6g deg\", or \"%.6g rad\" if radians are meant", value, value);
+    return fail_value(reader, node, schema, "an angle of more than a full turn, 2 pi, without its unit", advice);
+}
+
 static mor_status check_range(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema,
                               double value)
 {
@@ -93,8 +117,11 @@ static mor_status check_range(const mor_case_reader *reader, const mor_case_node
     }
     const bool is_above = schema->excludes_minimum ? value > schema->minimum : value >= schema->minimum;
     const bool is_below = schema->excludes_maximum ? value < schema->maximum : value <= schema->maximum;
+    const bool is_bare_angle = strcmp(schema->unit, "rad") == 0 && is_bare(node);
+    if (is_above && is_below && is_bare_angle && fabs(value) > full_turn) {
+        return refuse_bare_angle(reader, node, schema, value);
+    }
     if (!is_above || !is_below) {
-        const bool is_bare_angle = strcmp(schema->unit, "rad") == 0 && node->kind != MOR_CASE_NODE_TEXT;
         return fail_value(reader, node, schema, "out of range",
                           is_bare_angle ? "write degrees with their unit, as \"30 deg\"" : "correct the value");
     }

@@ -240,6 +240,13 @@ void mor_case_rocks_clear(mor_context *context, mor_case_rocks *rocks);
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
+/** Refuses settings that leave nothing of one another, and warns of those that have no effect in their company.
+ *  @param reader   [in]  one object
+ *  @param root     [in]  one object
+ *  @param the_case [in]  one object; read whole, but for probes and expectations
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);
+
 /** Reads the lists probes and expect.
  *  @param reader   [in]      one object
  *  @param root     [in]      one object

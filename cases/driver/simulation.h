@@ -98,7 +98,7 @@ double mor_simulation_parameter(const mor_material *material, const double *para
  *  @param context    [in,out]  one object
  *  @param simulation [in,out]  one object; particles in the order of the regions
  *  @param regions    [in]      shape [regions of the case]; their points
- *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for soil above its surface_level; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
                                      const mor_lattice_points *regions);
 

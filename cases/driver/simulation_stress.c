@@ -70,6 +70,44 @@ static mor_status find_surface(mor_context *context, const mor_simulation *simul
     return MOR_OK;
 }
 
+/* Soil above the level that is to be its surface would start free of stress, and soil far below it would be pressed by
+ * a weight that is not there. */
+static mor_status check_level(mor_context *context, const mor_simulation *simulation, const mor_case_soil *it,
+                              int64_t first, int64_t n)
+{
+    const double spacing = simulation->the_case->spacing;
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    double origin[3];
+    double highest = -INFINITY; /* center of a particle above the origin of the case, along up */
+    int64_t n_above = 0;
+    if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(it->surface_level)) {
+        return MOR_OK;
+    }
+    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    for (int64_t i = first; i < first + n; ++i) {
+        const double height =
+            mor_vector_dot(position + 3 * i, simulation->up) - mor_vector_dot(origin, simulation->up);
+        highest = fmax(highest, height);
+        n_above += height > it->surface_level;
+    }
+    MOR_CHECK(context, n_above == 0, MOR_ERROR_CONFIG,
+              "%s:%d: found surface_level = %g m of soil '%s', whose highest point is at %g m: %lld of its %lld particles "
+              "lie above the level and would start without stress; allowed: at or above the highest point of the soil; "
+              "raise the level, or leave it out for the surface of the soil as it is",
+              it->place.file, it->place.line, it->surface_level, it->name, highest + 0.5 * spacing, (long long)n_above,
+              (long long)n);
+    if (it->surface_level > highest + 1.5 * spacing) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: surface_level = %g m of soil '%s' is %g m above its highest point, so that even there it "
+                        "starts with a vertical stress of %.3g Pa, which nothing in the case holds",
+                        it->place.file, it->place.line, it->surface_level, it->name,
+                        it->surface_level - highest - 0.5 * spacing,
+                        it->density * mor_vector_length(simulation->soil.settings.gravity) *
+                            (it->surface_level - highest));
+    }
+    return MOR_OK;
+}
+
 /* Geostatic stress of one region. */
 static void set_region(mor_simulation *simulation, const surface *s, const mor_case_soil *it, int64_t first, int64_t n)
 {
@@ -107,10 +145,13 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
     MOR_TRY(context, find_surface(context, simulation, &s));
     int64_t first = 0;
     simulation->surface_height = -INFINITY;
-    for (int k = 0; k < simulation->the_case->n_soils; ++k) {
-        set_region(simulation, &s, &simulation->the_case->soils[k], first, regions[k].n_points);
+    mor_status status = MOR_OK;
+    for (int k = 0; k < simulation->the_case->n_soils && status == MOR_OK; ++k) {
+        const mor_case_soil *it = &simulation->the_case->soils[k];
+        status = check_level(context, simulation, it, first, regions[k].n_points);
+        set_region(simulation, &s, it, first, regions[k].n_points);
         first += regions[k].n_points;
     }
     MOR_FREE(context, &s.top);
-    return MOR_OK;
+    return status;
 }

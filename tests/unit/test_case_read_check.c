@@ -1,0 +1,138 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tests/common/case_reading.h"
+
+/* Settings that have no effect in their company are warned of, with their line, and those that have one are not. */
+
+static const char soil_text[] =
+    "title = \"soil\"; dimension = 2; spacing = 0.1; end = 1.0; gravity = (0, -9.81);\n"
+    "domain = { min = (-1, -1); max = (3, 3); };\n"
+    "soil = ( { name = \"sand\"; shape = { type = \"box\"; min = (0, 0); max = (1, 1); };\n"
+    "  material = { model = \"drucker_prager\"; density = 2000; youngs_modulus = 1e6; poissons_ratio = 0.3;\n"
+    "    friction_angle = 0.5; }; } );\n"
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (0, 0); normal = (0, 1); }; } );\n";
+
+static const char rock_text[] =
+    "title = \"rock\"; dimension = 2; spacing = 0.1; end = 1.0; gravity = (0, -9.81);\n"
+    "domain = { min = (-1, -1); max = (3, 3); };\n"
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (0, 0); normal = (0, 1); }; } );\n"
+    "bodies = ( { name = \"ball\"; shape = { type = \"sphere\"; center = (0, 0, 0); radius = 0.3; };\n"
+    "  position = (1, 1); spring = { anchor = (1, 2); stiffness = 0; damping = 1; };\n"
+    "  material = { model = \"rigid\"; density = 2000; }; } );\n";
+
+enum { LOG_BYTES = 4096 };
+
+static void keep_warning(void *user, mor_log_level level, const char *text)
+{
+    char *log = user;
+    if (level == MOR_LOG_WARNING) {
+        snprintf(log + strlen(log), LOG_BYTES - strlen(log), "%s\n", text);
+    }
+}
+
+typedef struct idle_row {
+    const char *text;
+    const char *setting;
+    const char *also;    /* a second setting; NULL: none */
+    const char *warning; /* NULL: none */
+} idle_row;
+
+static const idle_row rows[] = {
+    {soil_text, NULL, NULL, NULL},
+    {rock_text, NULL, NULL, NULL},
+    {soil_text, "numerics.artificial_stress_factor=0.3", NULL, "with artificial_stress = true"},
+    {soil_text, "numerics.artificial_stress_factor=0.3", "numerics.artificial_stress=true", NULL},
+    {soil_text, "numerics.artificial_stress_factor=0.5", NULL, NULL}, /* its default: nobody is deceived */
+    {soil_text, "numerics.stress_diffusion_limiter=motion", "numerics.stress_diffusion=0",
+     "with stress_diffusion above 0"},
+    {soil_text, "numerics.stress_diffusion_limiter=motion", NULL, NULL},
+    {soil_text, "numerics.reconstruction=linear", "numerics.dissipation_factor=0", "with dissipation_factor above 0"},
+    {soil_text, "numerics.dissipation_factor=40", NULL, NULL},
+    {soil_text, "numerics.barrier_radius=0.3", NULL, "in a case with bodies"},
+    {soil_text, "numerics.body_courant=0.2", NULL, "with elastic bodies"},
+    {soil_text, "numerics.single_rate=true", NULL, "in a case with bodies"},
+    {soil_text, "numerics.gravity_ramp=0.5", "gravity=(0, 0)", "with gravity"},
+    {soil_text, "numerics.gravity_ramp=0.5", NULL, NULL},
+    {soil_text, "placement.axis=(0, 0, -2)", NULL, "with an angle other than 0"},
+    {soil_text, "placement.axis=(0, 0, -2)", "placement.angle=0.5", NULL},
+    {rock_text, "numerics.courant=0.2", NULL, "'numerics.courant' has no effect here; it has one in a case with soil"},
+    {rock_text, "lattice.jitter=0.1", NULL, "in a case with soil"},
+    /* Whoever writes this believes that the ball slides on the floor without friction. */
+    {rock_text, "walls[0].friction=smooth", NULL, "'walls[0].friction' has no effect here"},
+    {rock_text, "bodies[0].friction=smooth", NULL, "'bodies[0].friction' has no effect here"},
+    {rock_text, "bodies[0].axis=(0, 0, -1)", NULL, "with an angle other than 0"},
+    {rock_text, "bodies[0].axis=(0, 0, -1)", "bodies[0].angle=0.1", NULL},
+    {rock_text, "bodies[0].spring.length=0.5", NULL, "with a stiffness above 0"},
+    {rock_text, "bodies[0].spring.length=0.5", "bodies[0].spring.stiffness=5", NULL},
+};
+
+static void settings_without_effect_are_warned_of(void **state)
+{
+    case_reading *f = *state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+        char log[LOG_BYTES] = "";
+        f->context.log_sink = keep_warning;
+        f->context.log_user = log;
+        case_reading_read(f, rows[k].text, (const char *[]){rows[k].setting, rows[k].also, NULL}, &f->first);
+        f->context.log_sink = NULL;
+        if (rows[k].warning == NULL ? log[0] != '\0' : strstr(log, rows[k].warning) == NULL) {
+            fail_msg("row %zu, '%s': warned: %s", k, rows[k].setting, log);
+        }
+        if (rows[k].warning != NULL && (strstr(log, ":") == NULL || strchr(log, '\n') != strrchr(log, '\n'))) {
+            fail_msg("row %zu, '%s': one warning with its place is due, not: %s", k, rows[k].setting, log);
+        }
+    }
+}
+
+/* Every setting of the method is in the table, or does something in any case it is allowed in. */
+static void settings_of_the_method_need_something_to_work_on(void **state)
+{
+    static const char *const always[] = {"damping", NULL}; /* of soil and bodies alike */
+    case_reading *f = *state;
+    const mor_case_group *numerics = mor_case_settings_groups;
+    while (strcmp(numerics->name, "numerics") != 0) {
+        ++numerics;
+    }
+    for (const mor_case_key *key = numerics->keys; key->schema.key != NULL; ++key) {
+        static const char *const of_bodies[] = {"single_rate", "body_", "hourglass", "barrier_", NULL};
+        char setting[128];
+        char log[LOG_BYTES] = "";
+        bool is_of_bodies = false;
+        for (int k = 0; of_bodies[k] != NULL; ++k) {
+            is_of_bodies = is_of_bodies || strncmp(key->schema.key, of_bodies[k], strlen(of_bodies[k])) == 0;
+        }
+        const bool is_choice = key->schema.kind == MOR_SCHEMA_CHOICE;
+        const bool is_switch = key->schema.kind == MOR_SCHEMA_BOOLEAN;
+        const bool is_whole = key->schema.kind == MOR_SCHEMA_INTEGER;
+        snprintf(setting, sizeof setting, "numerics.%s=%s", key->schema.key,
+                 is_switch                                        ? "true"
+                 : is_whole                                       ? "7"
+                 : !is_choice                                     ? "0.37"
+                 : strcmp(key->schema.key, "reconstruction") == 0 ? "linear"
+                 : strstr(key->schema.key, "limiter") != NULL     ? "motion"
+                 : strstr(key->schema.key, "dissipation") != NULL ? "both"
+                                                                  : "uniform");
+        if (strstr(setting, "smoothing_ratio") != NULL) {
+            snprintf(strchr(setting, '='), 8, "=1.37");
+        }
+        f->context.log_sink = keep_warning;
+        f->context.log_user = log;
+        case_reading_read(f, is_of_bodies ? soil_text : rock_text, (const char *[]){setting, "gravity=(0, 0)", NULL},
+                          &f->first);
+        f->context.log_sink = NULL;
+        if ((strstr(log, key->schema.key) == NULL) != (strcmp(key->schema.key, always[0]) == 0)) {
+            fail_msg("%s: warned: %s", setting, log);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(settings_without_effect_are_warned_of, case_reading_set_up,
+                                        case_reading_tear_down),
+        cmocka_unit_test_setup_teardown(settings_of_the_method_need_something_to_work_on, case_reading_set_up,
+                                        case_reading_tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
