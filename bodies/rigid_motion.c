@@ -122,6 +122,16 @@ static mor_status report_stray(mor_context *context, const mor_rigid *rigid, int
               body->name, group->set.name, body->center[0], body->center[1], body->center[2], body->velocity[0],
               body->velocity[1], body->velocity[2], body->angular_velocity[0], body->angular_velocity[1],
               body->angular_velocity[2], time, (unsigned long long)step->number);
+    /* Steps are so short that no body moves by more than a part of the spacing, unless its velocity jumps in one. */
+    const double way = mor_vector_length(body->velocity) * step->length;
+    MOR_CHECK(
+        context, way <= group->spacing, MOR_ERROR_NUMERIC,
+        "rigid body '%s' of group '%s' was thrown out of the domain, to (%.6g, %.6g, %.6g) m, by %.3g m in one step "
+        "of %.3g s at t = %.6g s, step %llu: the forces on it and its mass of %.3g kg (per meter of thickness in "
+        "plane strain) do not go together at steps of this length. A larger domain does not help; give it the "
+        "density it has in nature, or a smaller 'courant'",
+        body->name, group->set.name, x[0], x[1], x[2], way, step->length, time, (unsigned long long)step->number,
+        body->mass);
     double local[3];
     mor_domain_localize(group->placement, x, local);
     return MOR_FAIL(

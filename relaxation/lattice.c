@@ -222,6 +222,9 @@ mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *req
     MOR_TRY(context, check_request(context, request));
     MOR_TRY(context, find_index_box(context, request, &box));
     MOR_TRY(context, count_nodes(context, request, &box, &count));
+    MOR_CHECK(context, request->n_points_most == 0 || count <= request->n_points_most, MOR_ERROR_MEMORY,
+              "%.3g particles of %g m are needed, and there is room for %.3g: use a larger spacing or a smaller shape",
+              (double)count, request->spacing, (double)request->n_points_most);
     MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * count, "lattice positions"));
     for (int64_t k = box.first[2]; points->n_points < count; ++k) {
         for (int64_t j = box.first[1]; j < box.first[1] + box.count[1]; ++j) {

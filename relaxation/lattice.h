@@ -26,6 +26,7 @@ typedef struct mor_lattice_request {
     double origin[3];                 /* shape [3]; a corner of a lattice cell, unit m; z is not used in 2D */
     double depth;                     /* nodes deeper than this under the surface are left out, m; INFINITY: none */
     mor_bounds domain;                /* nodes outside are left out, unit m; infinite: no limit; z is not used in 2D */
+    int64_t n_points_most;            /* more are refused; 0: only by what an index of 32 bits can count */
     double jitter_ratio;              /* each coordinate moves by up to this times spacing, 1; 0 <= ratio < 0.5 */
     uint64_t seed;                    /* of the jitter, which depends on seed and (i, j, k) only */
     double turn[9];                   /* shape [3,3]; rotation matrix, unit 1; about z in 2D */
@@ -49,7 +50,8 @@ void mor_lattice_request_init(mor_lattice_request *request);
  *  @param request [in]      one object
  *  @param points  [out]     one object; owned by the caller; may come out empty
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong request, an unbounded region, a 2D shape that does not reach
- *  z = 0, or more than 2^31 - 64 points; MOR_ERROR_MEMORY. On failure points is empty.
+ *  z = 0, or more than 2^31 - 64 points; MOR_ERROR_MEMORY, also for more than n_points_most. On failure points is
+ *  empty.
  *  Cost: O(rows + points + surface nodes) distances, allocates the result only. Threads: neither. */
 mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points);
 

@@ -36,13 +36,21 @@ static int64_t snapshot_tick(const mor_simulation *s, int64_t number)
     return number >= n ? s->schedule.end : (int64_t)llround((double)s->schedule.end * ((double)number / n));
 }
 
+/* Rows closer than ticks would be a row in each step all the same. */
+static double row_interval(const mor_simulation *s)
+{
+    return fmax(s->the_case->output.series_interval, s->schedule.tick);
+}
+
 static int64_t row_tick(const mor_simulation *s, int64_t number)
 {
-    return mor_schedule_ticks(&s->schedule, (double)number * s->the_case->output.series_interval);
+    return mor_schedule_ticks(&s->schedule, (double)number * row_interval(s));
 }
 
 static void find_next_outputs(const mor_simulation *s, pace *p)
 {
+    const int64_t n_passed = (int64_t)(mor_schedule_time(&s->schedule) / row_interval(s));
+    p->next_row = n_passed > p->next_row ? n_passed : p->next_row; /* one by one would take as long as there are rows */
     while (row_tick(s, p->next_row) <= s->schedule.now) {
         ++p->next_row;
     }

@@ -3,10 +3,13 @@
 #include "cases/driver/simulation.h"
 
 #include "cases/driver/case_schema.h"
+#include "cases/driver/memory_room.h"
+#include "cases/driver/simulation_check.h"
 #include "cases/driver/simulation_terrain.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/material/params.h"
+#include "core/particle/shape_analytic.h"
 #include "core/sph/measure.h"
 
 #include <stdlib.h>
@@ -58,11 +61,32 @@ static void set_request(const mor_case *the_case, const mor_shape *shape, mor_la
 /* More lattice nodes than this along an axis are a slip of the pen, and counting them would take minutes. */
 #define NODES_ALONG 1.0e5
 
-static mor_status fill_shape(mor_context *context, const mor_case_place *place, const char *name,
-                             const mor_lattice_request *request, mor_lattice_points *points)
+static mor_status refuse_size(mor_context *context, const mor_case_place *place, const char *name, double bytes_each,
+                              const char *why)
 {
+    return MOR_FAIL(
+        context, MOR_ERROR_CONFIG,
+        "%s:%d: found '%s' too large for the memory: %s; allowed is what fits into %.3g GiB that are free, at "
+        "%.0f bytes a particle; use a larger spacing or a smaller shape",
+        place->file, place->line, name, why, mor_memory_room() / 1073741824.0, bytes_each);
+}
+
+/* What a shape is filled for: its place in the case, and the memory that particles take. */
+typedef struct filling {
+    const mor_case_place *place;
+    const char *name;
+    double bytes_each; /* of a particle, 1 */
+    double reserved;   /* bytes that particles found before will take, 1 */
+} filling;
+
+static mor_status fill_shape(mor_context *context, const filling *it, mor_lattice_request *request,
+                             mor_lattice_points *points)
+{
+    char why[MOR_CONTEXT_MESSAGE_BYTES];
     mor_bounds bounds;
-    request->shape->operations->bounds(request->shape, &bounds);
+    double n_rows = 1.0;
+    mor_shape_bounds(request->shape, &bounds);
+    request->n_points_most = mor_memory_room_particles(it->bytes_each, it->reserved);
     for (int a = 0; a < request->dimension; ++a) {
         const double extent =
             fmin(bounds.maximum[a], request->domain.maximum[a]) - fmax(bounds.minimum[a], request->domain.minimum[a]);
@@ -70,9 +94,19 @@ static mor_status fill_shape(mor_context *context, const mor_case_place *place, 
             context, !(extent > NODES_ALONG * request->spacing), MOR_ERROR_CONFIG,
             "%s:%d: found '%s' %g m long along %c at a spacing of %g m; allowed are %g particles along an axis; use "
             "a larger spacing",
-            place->file, place->line, name, extent, "xyz"[a], request -> spacing, NODES_ALONG);
+            it->place->file, it->place->line, it->name, extent, "xyz"[a], request -> spacing, NODES_ALONG);
+        n_rows *= a > 0 ? fmax(1.0, extent / request->spacing) : 1.0;
     }
-    return mor_lattice_fill(context, request, points);
+    if (n_rows > (double)request->n_points_most) { /* to count the particles would take minutes */
+        snprintf(why, sizeof why, "it has %.3g rows of particles at a spacing of %g m", n_rows, request->spacing);
+        return refuse_size(context, it->place, it->name, it->bytes_each, why);
+    }
+    const mor_status status = mor_lattice_fill(context, request, points);
+    if (status != MOR_ERROR_MEMORY) {
+        return status;
+    }
+    snprintf(why, sizeof why, "%.1500s", context->message);
+    return refuse_size(context, it->place, it->name, it->bytes_each, why);
 }
 
 /* A shape that cannot be filled is an error of the case, told with its place. */
@@ -93,6 +127,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
     const mor_case_wall *it = &the_case->walls[wall];
     mor_lattice_request request;
     set_request(the_case, it->shape, &request);
+    const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_WALL, 0.0};
     const double margin = MOR_SIMULATION_WALL_LAYERS * the_case->spacing;
     request.depth = layers * the_case->spacing;
     request.excluded = earlier;
@@ -104,7 +139,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
     }
     const mor_status status = it->outline.kind == MOR_CASE_SHAPE_TERRAIN
                                   ? mor_simulation_fill_terrain(context, the_case, wall, layers, points)
-                                  : fill_shape(context, &it->place, it->name, &request, points);
+                                  : fill_shape(context, &wanted, &request, points);
     MOR_TRY(context, tell_place(context, status, &it->place, it->name));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
@@ -211,16 +246,18 @@ static void leave_out_bodies(mor_context *context, const mor_case *the_case, con
     }
 }
 
-static mor_status fill_soil(mor_context *context, const mor_case *the_case, int soil, mor_lattice_points *points)
+static mor_status fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
+                            mor_lattice_points *points)
 {
     const mor_case_soil *it = &the_case->soils[soil];
+    const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_SOIL, MOR_MEMORY_ROOM_SOIL * (double)n_before};
     mor_lattice_request request;
     set_request(the_case, it->shape, &request);
     request.jitter_ratio = the_case->jitter_ratio;
     const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
     const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
                                   ? mor_simulation_fill_release(context, the_case, soil, points)
-                                  : fill_shape(context, &it->place, it->name, &request, points);
+                                  : fill_shape(context, &wanted, &request, points);
     MOR_TRY(context, tell_place(context, status, &it->place, it->name));
     leave_out_bodies(context, the_case, it->name, points);
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
@@ -389,7 +426,7 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation, c
                         context->message);
     }
     for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
-        status = fill_soil(context, c, k, &regions[k]);
+        status = fill_soil(context, c, k, n_particles, &regions[k]);
         n_particles += regions[k].n_points;
     }
     if (status == MOR_OK) {
@@ -447,6 +484,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     }
     if (status == MOR_OK) {
         status = build_schedule(context, simulation);
+    }
+    if (status == MOR_OK) {
+        status = mor_simulation_check(context, simulation);
     }
     if (status != MOR_OK) {
         mor_simulation_clear(context, simulation);

@@ -32,6 +32,7 @@ typedef struct mor_simulation {
     double up[3];                         /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
     double surface_height;                /* of the initial soil along up over the placed origin, m */
     double soil_depth;                    /* height of the highest column of the initial soil along up, m; 0 without */
+    double first_step;                    /* length of the first time step, s */
     double initial_energies[3];           /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     double extremes[MOR_CASE_PROBES_MAX]; /* largest value so far of probes that ask for it, unit of the probe */
 } mor_simulation;

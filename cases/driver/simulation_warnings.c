@@ -10,6 +10,9 @@
 static const double compression_advisable = 0.01;
 static const double compression_largest = 0.02;
 
+/* Rows and snapshots that a case has without asking; a short run has more of them than steps. */
+enum { ROWS_USUAL = 200, SNAPSHOTS_USUAL = 20 };
+
 static void warn_of_softness(mor_context *context, const mor_simulation *s)
 {
     static const struct {
@@ -92,12 +95,34 @@ static void warn_of_thinness(mor_context *context, const mor_simulation *s)
     }
 }
 
+/* What is written more often than there are steps. */
+static void warn_of_outputs(mor_context *context, const mor_simulation *s)
+{
+    const mor_case_output *output = &s->the_case->output;
+    const double n_steps = ceil(s->the_case->end / s->first_step);
+    if (output->series_interval < s->first_step && s->the_case->end / output->series_interval > ROWS_USUAL) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "output.series_interval = %g s is shorter than a time step (%.3g s), so that each of about %.3g "
+            "steps makes one row",
+            output->series_interval, s->first_step, n_steps);
+    }
+    if (output->n_snapshots > n_steps && output->n_snapshots > SNAPSHOTS_USUAL) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "output.snapshots = %d is more than the run has steps (about %.3g of %.3g s): the snapshots make "
+            "the steps, which takes %.3g times as long",
+            output->n_snapshots, n_steps, s->first_step, output->n_snapshots / n_steps);
+    }
+}
+
 mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
     warn_of_thinness(context, simulation);
     warn_of_gaps(context, simulation);
     warn_of_softness(context, simulation);
+    warn_of_outputs(context, simulation);
     if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {
         mor_context_log(context, MOR_LOG_WARNING, "there is no wall; everything falls freely");
     }

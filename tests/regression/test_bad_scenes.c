@@ -73,7 +73,17 @@ static const bad_scene scenes[] = {
     {"soil[0].material.dilation_angle=40 deg", "dilation", "friction", true},
     {"soil[1].initial_stress={type=\"k0\"; surface_level=\"0.5 m\";}",
      "surface_level = 0.5 m of soil 'cap', whose highest point is at 1.5 m: 50 of its 50", "raise the level", true},
-    {"soil[1].initial_stress={type=\"k0\"; surface_level=\"1.2 m\";}", "at 1.5 m: 30 of its 50", "raise the level", true},
+    {"soil[1].initial_stress={type=\"k0\"; surface_level=\"1.2 m\";}", "at 1.5 m: 30 of its 50", "raise the level",
+     true},
+    {"end=1e30", "end = 1e+30 s, which takes about", "shorten end", true},
+    {"numerics.damping=1e12", "under which nothing can move", "lower the damping to", true},
+    {"soil[0].velocity=(\"50 m/s\", 0.0)", "soil 'sand' with a velocity of 50 m/s, beyond the speed of sound",
+     "raise the stiffness", true},
+    {"walls[0].velocity=(\"50 m/s\", 0.0)", "wall 'floor' with a velocity of 50 m/s, beyond the speed of sound",
+     "lower the velocity", true},
+    {"soil[0].initial_stress={type=\"settled\"; settle_time=1e29;}", "settle_time = 1e+29 s, which takes about",
+     "shorten settle_time", true},
+    {"spacing=3e-5 m", "too large for the memory: 1.11e+09 particles", "larger spacing", true},
     {"output.color=sped", "output.color = \"sped\"", "use one of these", false},
     {"output.color=stress", "no number or vector", "use one of these", false},
     {"spacing=1e-9 m", "particles along an axis", "larger spacing", true},
@@ -130,6 +140,27 @@ static const bad_scene rock_scenes[] = {
 
 enum { N_SCENES = sizeof scenes / sizeof *scenes, N_ROCK_SCENES = sizeof rock_scenes / sizeof *rock_scenes };
 
+/* A ball without soil: it meets the shapes of walls, which have no particles. */
+static const char base_ball[] =
+    "title = \"ball\";\n"
+    "dimension = 2;\n"
+    "spacing = \"0.1 m\";\n"
+    "end = \"1 s\";\n"
+    "gravity = (\"0 m/s2\", \"-10 m/s2\");\n"
+    "domain = { min = (\"-1 m\", \"-1 m\"); max = (\"6 m\", \"3 m\"); };\n"
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (\"0 m\", \"0 m\"); normal = (0, 1); }; } "
+    ");\n"
+    "bodies = ( { name = \"ball\"; position = (\"2 m\", \"0.5 m\"); shape = { type = \"sphere\"; center = (\"0 m\", "
+    "\"0 m\"); "
+    "radius = \"0.3 m\"; }; material = { model = \"rigid\"; density = \"2400 kg/m3\"; }; } );\n";
+
+static const bad_scene ball_scenes[] = {
+    {NULL, NULL, NULL, false},
+    {"walls[0].shape.point=(\"0 m\", \"-20 m\")", "wall 'floor' outside the domain", "move the wall", true},
+    {"numerics.damping=1e12", "under which nothing can move", "lower the damping to", true},
+    {"end=1e29", "end = 1e+29 s, which takes about", "limited by the contact of a rigid body", true},
+};
+
 /* Reads and builds a scene; message receives what was said. */
 static mor_status build_scene(const char *source, const char *setting, char *message, size_t room)
 {
@@ -147,8 +178,9 @@ static mor_status build_scene(const char *source, const char *setting, char *mes
         status = mor_simulation_init(&context, &simulation, &the_case, registry);
     }
     if (status == MOR_OK) {
-        mor_set *const sets[] = {&simulation.soil.set};
-        status = mor_pictures_check(&context, &the_case, sets, 1);
+        mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+        const int n_sets = mor_simulation_sets(&simulation, false, sets);
+        status = mor_pictures_check(&context, &the_case, sets, n_sets);
     }
     snprintf(message, room, "%s", status == MOR_OK ? "" : context.message);
     mor_simulation_clear(&context, &simulation);
@@ -185,6 +217,12 @@ static void rock_that_cannot_be_built_is_refused_with_place_and_remedy(void **st
 {
     (void)state;
     expect_refusals(base_rocks, rock_scenes, N_ROCK_SCENES);
+}
+
+static void ball_that_cannot_be_computed_is_refused_with_the_cause(void **state)
+{
+    (void)state;
+    expect_refusals(base_ball, ball_scenes, sizeof ball_scenes / sizeof *ball_scenes);
 }
 
 /* The program ends with the code of bad input and says where to look. */
@@ -232,6 +270,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_that_cannot_be_built_is_refused_with_place_and_remedy),
         cmocka_unit_test(rock_that_cannot_be_built_is_refused_with_place_and_remedy),
+        cmocka_unit_test(ball_that_cannot_be_computed_is_refused_with_the_cause),
         cmocka_unit_test_setup_teardown(program_refuses_a_scene_as_bad_input, run_folder_setup, run_folder_teardown),
         cmocka_unit_test(geostatic_stress_counts_all_soil_straight_above),
     };

@@ -63,6 +63,27 @@ static void warnings_stand_in_the_summary_also_after_a_resume(void **state)
     free(text);
 }
 
+/* Rows closer together than steps: each step has one, and nothing is counted one by one up to 6e10. */
+static void series_finer_than_steps_has_a_row_for_each_step(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    const char *const arguments[] = {"run", path, "-t", "1", "-o", "mine", "-s", "output.series_interval=1e-12", NULL};
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.errors, "output.series_interval = 1e-12 s is shorter than a time step");
+    unsigned long long n_steps = 0;
+    const char *at = strstr(outcome.output, " particles, ");
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, " particles, %llu steps", &n_steps), 1);
+    program_clear(&outcome);
+    char *series = (char *)run_folder_load(finished_run_file(folder, path, "mine", MOR_TABLE_SERIES_FILE), &n_bytes);
+    assert_non_null(series);
+    assert_int_equal(count(series, "\n"), n_steps + 2); /* the names, the start, and the steps */
+    free(series);
+}
+
 /* A log of an earlier part tells what was warned of then; info lines and texts known already add nothing. */
 static void warnings_are_read_from_a_log_each_once(void **state)
 {
@@ -93,6 +114,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(run_without_warnings_says_so, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(warnings_stand_in_the_summary_also_after_a_resume, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(series_finer_than_steps_has_a_row_for_each_step, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(warnings_are_read_from_a_log_each_once, run_folder_setup, run_folder_teardown),
     };

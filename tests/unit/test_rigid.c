@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/rigid_internal.h"
 #include "tests/common/rigid_bodies.h"
 
 #include <float.h>
@@ -447,6 +448,22 @@ static void step_is_limited_by_way_spring_and_contact(void **state)
     rigid_close(it);
 }
 
+/* A velocity that no step has limited yet stands for a force that throws the body: 10 km in 0.01 s. */
+static void body_that_is_thrown_out_of_the_domain_is_told_from_one_that_leaves_it(void **state)
+{
+    (void)state;
+    const rigid_box box = {.sides = {2, 2, 2}, .density = 1e-3};
+    rigid_scene *it = rigid_open(&box, 1, 3, SPACING, 0.01, 10.0);
+    const mor_step step = {0.01, 0.0, 7, 0, 1};
+    it->rigid.group.domain_minimum[0] = -1.0;
+    it->rigid.states[0].velocity[0] = -1e6;
+    assert_int_equal(mor_rigid_drift_first(&it->context, &it->rigid, &step), MOR_OK);
+    assert_int_equal(mor_rigid_drift_second(&it->context, &it->rigid, &step), MOR_ERROR_NUMERIC);
+    assert_non_null(strstr(it->context.message, "was thrown out of the domain, to (-10000"));
+    assert_non_null(strstr(it->context.message, "A larger domain does not help"));
+    rigid_close(it);
+}
+
 static void body_that_leaves_the_domain_is_named(void **state)
 {
     (void)state;
@@ -539,6 +556,7 @@ int main(void)
         cmocka_unit_test(states_are_all_that_a_resume_needs),
         cmocka_unit_test(step_is_limited_by_way_spring_and_contact),
         cmocka_unit_test(body_that_leaves_the_domain_is_named),
+        cmocka_unit_test(body_that_is_thrown_out_of_the_domain_is_told_from_one_that_leaves_it),
         cmocka_unit_test(motion_that_is_not_a_number_is_named),
         cmocka_unit_test(impossible_motions_are_refused),
         cmocka_unit_test(sub_steps_allocate_nothing),
