@@ -85,25 +85,24 @@ static mor_status check_level(mor_context *context, const mor_simulation *simula
     }
     mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
     for (int64_t i = first; i < first + n; ++i) {
-        const double height =
-            mor_vector_dot(position + 3 * i, simulation->up) - mor_vector_dot(origin, simulation->up);
+        const double height = mor_vector_dot(position + 3 * i, simulation->up) - mor_vector_dot(origin, simulation->up);
         highest = fmax(highest, height);
         n_above += height > it->surface_level;
     }
-    MOR_CHECK(context, n_above == 0, MOR_ERROR_CONFIG,
-              "%s:%d: found surface_level = %g m of soil '%s', whose highest point is at %g m: %lld of its %lld particles "
-              "lie above the level and would start without stress; allowed: at or above the highest point of the soil; "
-              "raise the level, or leave it out for the surface of the soil as it is",
-              it->place.file, it->place.line, it->surface_level, it->name, highest + 0.5 * spacing, (long long)n_above,
-              (long long)n);
+    MOR_CHECK(
+        context, n_above == 0, MOR_ERROR_CONFIG,
+        "%s:%d: found surface_level = %g m of soil '%s', whose highest point is at %g m: %lld of its %lld particles "
+        "lie above the level and would start without stress; allowed: at or above the highest point of the soil; "
+        "raise the level, or leave it out for the surface of the soil as it is",
+        it->place.file, it->place.line, it->surface_level, it->name, highest + 0.5 * spacing, (long long)n_above,
+        (long long)n);
     if (it->surface_level > highest + 1.5 * spacing) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "%s:%d: surface_level = %g m of soil '%s' is %g m above its highest point, so that even there it "
-                        "starts with a vertical stress of %.3g Pa, which nothing in the case holds",
-                        it->place.file, it->place.line, it->surface_level, it->name,
-                        it->surface_level - highest - 0.5 * spacing,
-                        it->density * mor_vector_length(simulation->soil.settings.gravity) *
-                            (it->surface_level - highest));
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s:%d: surface_level = %g m of soil '%s' is %g m above its highest point, so that even there it "
+            "starts with a vertical stress of %.3g Pa, which nothing in the case holds",
+            it->place.file, it->place.line, it->surface_level, it->name, it->surface_level - highest - 0.5 * spacing,
+            it->density * mor_vector_length(simulation->soil.settings.gravity) * (it->surface_level - highest));
     }
     return MOR_OK;
 }
