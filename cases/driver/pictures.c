@@ -84,6 +84,8 @@ typedef struct layer {
 typedef struct gallery {
     const mor_case *the_case;
     const char *folder;
+    const char *when;  /* in front of the time; NULL: "t =" */
+    const char *image; /* path of the picture, whatever the snapshot; NULL: by step and color */
     mor_picture_color color;
     double up[3];
     mor_bounds frame;
@@ -412,8 +414,8 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     const double largest = fmax(fabs(g->range[0]), fabs(g->range[1]));
     MOR_TRY(context, read_layers(context, g, snapshot));
     mor_picture picture = {.dimension = c->dimension, .title = c->title, .has_frame = true, .frame = g->frame};
-    snprintf(time_text, sizeof time_text, "t = %.4g s", snapshot->time);
-    snprintf(value_name, sizeof value_name, "%s", c->output.color_field);
+    snprintf(time_text, sizeof time_text, "%s %.4g s", g->when != NULL ? g->when : "t =", snapshot->time);
+    snprintf(value_name, sizeof value_name, "%s", g->color.name);
     for (char *letter = value_name; *letter != '\0'; ++letter) {
         *letter = *letter == '_' ? ' ' : *letter;
     }
@@ -434,8 +436,9 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
         picture.gravity[a] = -g->up[a];
         picture.view[a] = c->output.view[a];
     }
-    const int n_written = snprintf(path, sizeof path, "%s/images/step_%06lld_%s.png", g->folder,
-                                   (long long)snapshot->step, c->output.color_field);
+    const int n_written = g->image != NULL ? snprintf(path, sizeof path, "%s", g->image)
+                                           : snprintf(path, sizeof path, "%s/images/step_%06lld_%s.png", g->folder,
+                                                      (long long)snapshot->step, g->color.name);
     MOR_CHECK(context, n_written > 0 && n_written < (int)sizeof path, MOR_ERROR_IO,
               "the path of a picture is too long");
     MOR_TRY(context, mor_picture_write(context, &picture, path));
@@ -478,6 +481,9 @@ static mor_status visit_snapshot(mor_context *context, gallery *g, int64_t step,
 
 static bool is_chosen(mor_pictures_choice choice, int64_t k, int64_t n)
 {
+    if (choice == MOR_PICTURES_LAST) {
+        return k == n - 1;
+    }
     return choice == MOR_PICTURES_ALL || k == 0 || (choice == MOR_PICTURES_KEY && (k == n / 2 || k == n - 1));
 }
 
@@ -499,22 +505,38 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
             MOR_TRY(context, visit_snapshot(context, g, list->items[k].step, output));
         }
     }
+    if (choice == MOR_PICTURES_LAST) {
+        return MOR_OK;
+    }
     MOR_TRY(context, mor_rocks_report_draw(context, g->the_case, g->folder, output));
     return choice == MOR_PICTURES_FIRST ? MOR_OK : mor_charts_render(context, g->folder, output);
+}
+
+static mor_status render_gallery(mor_context *context, gallery *g, mor_pictures_choice choice, FILE *output)
+{
+    mor_snapshot_list list;
+    mor_simulation_find_up(g->the_case, g->up);
+    MOR_TRY(context, mor_snapshot_list_init(context, &list, g->folder));
+    const mor_status status = render_list(context, g, &list, choice, output);
+    for (int w = 0; w < g->the_case->n_walls; ++w) {
+        mor_lattice_clear(context, &g->walls[w]);
+        MOR_FREE(context, &g->light[w]);
+    }
+    mor_snapshot_list_clear(context, &list);
+    return status;
 }
 
 mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, const char *folder,
                                mor_pictures_choice choice, FILE *output)
 {
     gallery g = {.the_case = the_case, .folder = folder, .color = mor_picture_color_find(the_case->output.color_field)};
-    mor_snapshot_list list;
-    mor_simulation_find_up(the_case, g.up);
-    MOR_TRY(context, mor_snapshot_list_init(context, &list, folder));
-    const mor_status status = render_list(context, &g, &list, choice, output);
-    for (int w = 0; w < the_case->n_walls; ++w) {
-        mor_lattice_clear(context, &g.walls[w]);
-        MOR_FREE(context, &g.light[w]);
-    }
-    mor_snapshot_list_clear(context, &list);
-    return status;
+    return render_gallery(context, &g, choice, output);
+}
+
+mor_status mor_pictures_draw_last(mor_context *context, const mor_case *the_case, const char *folder, const char *color,
+                                  const char *when, const char *path, FILE *output)
+{
+    gallery g = {
+        .the_case = the_case, .folder = folder, .when = when, .image = path, .color = mor_picture_color_find(color)};
+    return render_gallery(context, &g, MOR_PICTURES_LAST, output);
 }

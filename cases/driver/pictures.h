@@ -16,7 +16,8 @@
 typedef enum mor_pictures_choice {
     MOR_PICTURES_KEY, /* first, middle and last */
     MOR_PICTURES_ALL,
-    MOR_PICTURES_FIRST /* the first, and no charts */
+    MOR_PICTURES_FIRST, /* the first, and no charts */
+    MOR_PICTURES_LAST   /* the last, and no charts */
 } mor_pictures_choice;
 
 /** Checks before a run that its pictures can be colored as the case asks: by a field of the soil, or of some group of
@@ -38,5 +39,17 @@ mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, mo
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for a color that is not a field; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, const char *folder,
                                mor_pictures_choice choice, FILE *output);
+
+/** Draws the last snapshot of a folder, colored as one likes.
+ *  @param context  [in,out]  one object
+ *  @param the_case [in]      one object; the case of the snapshots
+ *  @param folder   [in]      zero-terminated; holds the snapshots
+ *  @param color    [in]      zero-terminated; as output.color
+ *  @param when     [in]      zero-terminated; stands in front of the time, as "settled for"
+ *  @param path     [in]      zero-terminated; of the picture
+ *  @param output   [in,out]  one open stream; the path is printed to it
+ *  Returns: as mor_pictures_render. */
+mor_status mor_pictures_draw_last(mor_context *context, const mor_case *the_case, const char *folder, const char *color,
+                                  const char *when, const char *path, FILE *output);
 
 #endif

@@ -7,6 +7,7 @@
 #include "cases/driver/pictures.h"
 #include "cases/driver/probe.h"
 #include "cases/driver/rocks_report.h"
+#include "cases/driver/run_settle.h"
 #include "cases/driver/simulation_warnings.h"
 
 #include <math.h>
@@ -134,7 +135,7 @@ static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, mor_run_files_restore(context, files, &is_restored));
     }
     if (!is_restored) {
-        MOR_TRY(context, mor_simulation_settle(context, files->simulation, files->options->stop));
+        MOR_TRY(context, mor_run_settle(context, files));
         if (files->options->stop != NULL && *files->options->stop != 0) {
             fprintf(files->options->output, "stopped while the initial stress settled; the next run starts over\n");
             return MOR_OK;

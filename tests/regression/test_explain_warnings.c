@@ -62,8 +62,18 @@ static void soil_too_soft_for_its_weight_is_warned_of(void **state)
     };
     run_folder *folder = *state;
     for (size_t k = 0; k < 2 * sizeof soils / sizeof *soils; ++k) {
-        const char *const arguments[] = {commands[k % 2],      COLUMN, "-t", "1", "-s", "spacing=20 mm", "-s",
-                                         soils[k / 2].setting, MOVED,  NULL};
+        const char *const arguments[] = {commands[k % 2],
+                                         COLUMN,
+                                         "-t",
+                                         "1",
+                                         "-s",
+                                         "spacing=20 mm",
+                                         "-s",
+                                         "soil[0].initial_stress={type=\"none\";}",
+                                         "-s",
+                                         soils[k / 2].setting,
+                                         MOVED,
+                                         NULL};
         program_outcome outcome = program_run(folder, arguments, 0);
         if (soils[k / 2].warning != NULL) {
             program_expect_text(outcome.output, soils[k / 2].warning);
@@ -79,8 +89,12 @@ static void soil_too_soft_for_its_weight_is_warned_of(void **state)
 static void scene_that_cannot_take_a_step_is_explained(void **state)
 {
     run_folder *folder = *state;
-    static const char *const arguments[] = {
-        "explain", COLUMN, "-t", "1", "-s", "spacing=20 mm", "-s", "soil[0].velocity=(\"0 m/s\", \"-200 m/s\")", NULL};
+    static const char *const arguments[] = {"explain", COLUMN,
+                                            "-t",      "1",
+                                            "-s",      "spacing=20 mm",
+                                            "-s",      "soil[0].initial_stress={type=\"none\";}",
+                                            "-s",      "gravity=(0, -1e8, 0)",
+                                            NULL};
     program_outcome outcome = program_run(folder, arguments, 0);
     program_expect_text(outcome.output, "warning: a run would stop within its first steps: particle");
     program_expect_text(outcome.output, "speeds must stay below that of sound");

@@ -1,0 +1,70 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/run_settle.h"
+
+#include "cases/driver/pictures.h"
+#include "core/io/durable_file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define SETTLING_FOLDER "settling"
+
+static const struct {
+    const char *color;
+    const char *image;
+    bool is_of_soil; /* a field that some materials do not have */
+} views[] = {{"speed", "images/settling-velocity.png", false},
+             {"plastic_strain", "images/settling-plastic-strain.png", true}};
+
+static mor_status keep_state(mor_context *context, mor_run_files *files, const char *folder)
+{
+    const mor_snapshot_fact facts[] = {
+        {"version", files->options->version}, {"commit", files->options->commit}, {"command", files->options->command}};
+    const mor_snapshot_options options = {.facts = facts, .n_facts = 3};
+    const mor_schedule *schedule = &files->simulation->schedule;
+    mor_snapshot_writer writer;
+    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+    const int n_sets = mor_simulation_sets(files->simulation, false, sets);
+    MOR_TRY(context, mor_run_files_make_folders(context, folder));
+    MOR_TRY(context, mor_snapshot_writer_init(context, &writer, folder, &options, -1));
+    const mor_status status = mor_snapshot_writer_add(context, &writer, sets, n_sets, (int64_t)schedule->n_steps,
+                                                      mor_schedule_time(schedule));
+    mor_snapshot_writer_clear(context, &writer);
+    return status;
+}
+
+static mor_status draw_state(mor_context *context, mor_run_files *files)
+{
+    char folder[MOR_PATH_BYTES];
+    char path[MOR_PATH_BYTES];
+    MOR_TRY(context, mor_durable_file_join(context, folder, files->options->folder, SETTLING_FOLDER));
+    MOR_TRY(context, keep_state(context, files, folder));
+    for (size_t k = 0; k < sizeof views / sizeof *views; ++k) {
+        if (views[k].is_of_soil && mor_set_find_field(&files->simulation->soil.set, views[k].color) < 0) {
+            continue;
+        }
+        MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, views[k].image));
+        MOR_TRY(context, mor_pictures_draw_last(context, files->the_case, folder, views[k].color, "after settling for",
+                                                path, files->options->output));
+    }
+    return MOR_OK;
+}
+
+mor_status mor_run_settle(mor_context *context, mor_run_files *files)
+{
+    const mor_status status = mor_simulation_settle(context, files->simulation, files->options->stop);
+    if (status != MOR_NOT_CONVERGED) {
+        return status;
+    }
+    const mor_context reason = *context;
+    if (draw_state(context, files) != MOR_OK) { /* the reason why there is a picture matters more than the picture */
+        mor_context_log(context, MOR_LOG_WARNING, "the soil at the end of settling could not be drawn: %s",
+                        context->message);
+    }
+    context->status = reason.status;
+    memcpy(context->message, reason.message, sizeof context->message);
+    memcpy(context->frames, reason.frames, sizeof context->frames);
+    context->n_frames = reason.n_frames;
+    return status;
+}
