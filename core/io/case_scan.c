@@ -23,6 +23,7 @@ typedef struct scan {
     char before; /* first byte of the last token, '\0' at the start */
     char open[MOR_CASE_SCAN_DEPTH_MAX];
     int open_line[MOR_CASE_SCAN_DEPTH_MAX];
+    int n_inside[MOR_CASE_SCAN_DEPTH_MAX + 1]; /* settings of the open bracket at each depth */
 } scan;
 
 #define SCAN_FAIL(s, at_line, format, ...)                                                                             \
@@ -110,6 +111,7 @@ static mor_status open_bracket(scan *s, char c)
     s->open[s->depth] = c;
     s->open_line[s->depth] = s->line;
     s->depth += 1;
+    s->n_inside[s->depth] = 0;
     step(s);
     return MOR_OK;
 }
@@ -226,6 +228,13 @@ static mor_status count_mark(scan *s, char c)
 {
     s->n_settings += c != ',';
     s->n_values += c == ',';
+    s->n_inside[s->depth] += c != ',';
+    if (s->n_inside[s->depth] > MOR_CASE_SCAN_GROUP_MAX) {
+        return SCAN_FAIL(s, s->line,
+                         "found more than %d settings in one group; allowed: at most these; is this a "
+                         "case file?",
+                         MOR_CASE_SCAN_GROUP_MAX);
+    }
     if (s->n_settings > MOR_CASE_SCAN_SETTINGS_MAX || s->n_values > MOR_CASE_SCAN_VALUES_MAX) {
         return SCAN_FAIL(s, s->line,
                          "found more than %d settings or %d list entries; allowed: at most these; is this a "

@@ -10,10 +10,11 @@
  *  silence or report without a hint is refused here. It does not check the grammar. */
 
 enum {
-    MOR_CASE_SCAN_BYTES_MAX = 1 << 20,  /* bytes of a case file */
-    MOR_CASE_SCAN_DEPTH_MAX = 64,       /* brackets inside brackets */
-    MOR_CASE_SCAN_SETTINGS_MAX = 10000, /* 'name = value' pairs */
-    MOR_CASE_SCAN_VALUES_MAX = 100000   /* commas */
+    MOR_CASE_SCAN_BYTES_MAX = 1 << 24,    /* bytes of a case file */
+    MOR_CASE_SCAN_DEPTH_MAX = 64,         /* brackets inside brackets */
+    MOR_CASE_SCAN_SETTINGS_MAX = 1 << 18, /* 'name = value' pairs in all: 64 for each of 4096 bodies */
+    MOR_CASE_SCAN_GROUP_MAX = 10000,      /* those of one group: the parser compares each name with all others */
+    MOR_CASE_SCAN_VALUES_MAX = 1 << 20    /* commas */
 };
 
 /** Checks size, bytes, brackets, strings, comments, @include and number literals.

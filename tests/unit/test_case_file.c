@@ -152,13 +152,19 @@ static void floods_are_refused(void **state)
     mor_case_file *file = NULL;
     assert_non_null(text);
     memset(text, ' ', (size_t)n_bytes);
-    expect_refusal(f, mor_case_file_parse(&f->context, "a.cfg", text, n_bytes, &file), "a.cfg:0: found 1048577 bytes",
-                   "at most 1048576");
+    expect_refusal(f, mor_case_file_parse(&f->context, "a.cfg", text, n_bytes, &file), "a.cfg:0: found 16777217 bytes",
+                   "at most 16777216");
     for (int64_t k = 0; k + 2 < n_bytes; k += 2) {
         memcpy(text + k, "x=", 2);
     }
     expect_refusal(f, mor_case_file_parse(&f->context, "a.cfg", text, n_bytes - 1, &file), "a.cfg:1: found more than",
-                   "is this a case file?");
+                   "settings in one group");
+    /* Groups of few settings each, but very many of them. */
+    for (int64_t k = 0; k + 8 < n_bytes; k += 8) {
+        memcpy(text + k, "{x=1;},,", 8);
+    }
+    expect_refusal(f, mor_case_file_parse(&f->context, "a.cfg", text, n_bytes - 1, &file), "a.cfg:1: found more than",
+                   "settings or");
     memset(text, ',', (size_t)n_bytes);
     expect_refusal(f, mor_case_file_parse(&f->context, "a.cfg", text, n_bytes - 1, &file), "a.cfg:1: found more than",
                    "is this a case file?");
