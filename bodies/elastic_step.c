@@ -320,7 +320,7 @@ static mor_status check_domain(mor_context *context, const mor_elastic *elastic,
             return MOR_FAIL(context, MOR_ERROR_NUMERIC,
                             PARTICLE " left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step %llu; the "
                                      "domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain' or close "
-                                     "the walls",
+                                     "the walls; only soil can be removed there",
                             PARTICLE_NAMES(group, i), x[0], x[1], x[2],
                             group->placement != NULL ? " before 'placement'" : "", step->time + step->length,
                             (unsigned long long)step->number, group->domain_minimum[0], group->domain_minimum[1],

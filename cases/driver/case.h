@@ -332,8 +332,9 @@ typedef struct mor_case {
     double lattice_origin[3]; /* a lattice node, m */
     double gravity[3];        /* m/s2 */
     double end;               /* simulated time, s */
-    double domain_minimum[3]; /* m; leaving the domain stops the run */
+    double domain_minimum[3]; /* m */
     double domain_maximum[3]; /* m */
+    int outflow;              /* of soil from the domain: 0 stops the run, 1 is removed */
     uint64_t seed;
     double jitter_ratio; /* random displacement of the lattice / spacing */
     /* Placement of the whole scene (geometry, lattice, gravity): x -> turn * x + move. */

@@ -52,6 +52,10 @@ const mor_case_group mor_case_root_group = {"", "Top level", root_keys, root_par
 static const mor_case_key domain_keys[] = {
     {{"min", VECTOR, "m", REQUIRED, ANY, NULL, "lowest corner"}, MOR_CASE_STORE_REALS, AT(mor_case, domain_minimum)},
     {{"max", VECTOR, "m", REQUIRED, ANY, NULL, "highest corner"}, MOR_CASE_STORE_REALS, AT(mor_case, domain_maximum)},
+    {{"outflow", CHOICE, "1", DEFAULT(0.0), ANY, "stop|remove",
+      "what becomes of soil that leaves: it stops the run, or is removed and counted; rocks always stop the run"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_case, outflow)},
     END};
 
 static const mor_case_key lattice_keys[] = {

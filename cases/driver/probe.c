@@ -208,10 +208,44 @@ static mor_status energy_left(mor_context *context, const view *v, double *value
     return MOR_OK;
 }
 
+/* Energy of the soil that has left the domain, J; its potential counts from a datum. */
+static double sum_outflow(const view *v, const double *datum)
+{
+    double energies[3];
+    mor_soil_outflow_energies(&v->simulation->soil, datum, energies);
+    return energies[0] + energies[1] + energies[2];
+}
+
 static mor_status dissipated_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
     *value = mor_simulation_initial_energy(v->simulation) - mor_simulation_energy(v->simulation, NULL);
+    if (v->simulation->has_soil) {
+        double origin[3];
+        mor_simulation_place_point(v->simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+        *value -= sum_outflow(v, origin);
+    }
+    return MOR_OK;
+}
+
+static mor_status outflow_mass(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = v->simulation->soil.outflow[MOR_SOIL_OUTFLOW_MASS];
+    return MOR_OK;
+}
+
+static mor_status outflow_momentum(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = mor_vector_dot(v->simulation->soil.outflow + MOR_SOIL_OUTFLOW_MOMENTUM, v->frame.direction);
+    return MOR_OK;
+}
+
+static mor_status outflow_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = sum_outflow(v, v->frame.origin);
     return MOR_OK;
 }
 
@@ -364,6 +398,9 @@ static const mor_probe_measure measures[] = {{"run_out", run_out},
                                              {"energy_left", energy_left},
                                              {"dissipated_energy", dissipated_energy},
                                              {"mass", mass},
+                                             {"outflow_mass", outflow_mass},
+                                             {"outflow_momentum", outflow_momentum},
+                                             {"outflow_energy", outflow_energy},
                                              {"momentum", momentum},
                                              {"center_of_mass", center_of_mass},
                                              {"wall_force", wall_force},

@@ -106,11 +106,21 @@ static double find_bodies_lost(const mor_simulation_bodies *bodies)
     return lost;
 }
 
+/* Energy of the soil that has left the domain, about the same origin as the simulation's. */
+static double find_outflow(const mor_simulation *s)
+{
+    double origin[3];
+    double energies[3];
+    mor_simulation_place_point(s->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    mor_soil_outflow_energies(&s->soil, origin, energies);
+    return energies[0] + energies[1] + energies[2];
+}
+
 /* What has changed since the start, entry by entry, J (J/m): their sum is the error, half the sum of their sizes the
  * energy that changed hands. */
 static mor_status find_changes(mor_context *context, const view *v, double *error, double *turned)
 {
-    enum { KINETIC, POTENTIAL, ELASTIC, PLASTIC, NUMERICAL, BOUNDARY, BODIES, EXTERNAL, ENTRIES };
+    enum { KINETIC, POTENTIAL, ELASTIC, PLASTIC, NUMERICAL, BOUNDARY, BODIES, EXTERNAL, OUTFLOW, ENTRIES };
     double passed_on = 0.0;
     double changes[ENTRIES] = {0.0};
     const mor_simulation *s = v->simulation;
@@ -126,6 +136,7 @@ static mor_status find_changes(mor_context *context, const view *v, double *erro
     changes[BOUNDARY] -= passed_on;
     changes[BODIES] = find_bodies_lost(&s->bodies);
     changes[EXTERNAL] = -changes[EXTERNAL];
+    changes[OUTFLOW] = find_outflow(s);
     *error = 0.0;
     *turned = 0.0;
     for (int k = 0; k < ENTRIES; ++k) {

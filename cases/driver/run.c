@@ -168,6 +168,20 @@ static void warn_of_speed(mor_context *context, const mor_simulation *s, const p
     }
 }
 
+/* Results are those of the soil that stayed. */
+static void warn_of_outflow(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 1.0e-3;
+    const double n_out = s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES];
+    const double share = s->has_soil ? n_out / (double)s->soil.set.n_created : 0.0;
+    if (share > advisable) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%.0f of %lld soil particles (%.3g %%) left the domain and were removed; results are those of "
+                        "the rest. Above %g %%, see whether the domain is large enough",
+                        n_out, (long long)s->soil.set.n_created, 100.0 * share, 100.0 * advisable);
+    }
+}
+
 /* Particles, steps and speed of a run that has reached its end. */
 static void print_end(const mor_run_files *files, const pace *p, double speed)
 {
@@ -191,6 +205,10 @@ static void print_end(const mor_run_files *files, const pace *p, double speed)
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
     }
     fprintf(out, "\n");
+    if (s->has_soil && s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES] > 0.0) {
+        fprintf(out, "%.0f particles, %.6g %s, left the domain\n", s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES],
+                s->soil.outflow[MOR_SOIL_OUTFLOW_MASS], s->the_case->dimension == 2 ? "kg/m" : "kg");
+    }
 }
 
 static mor_status finish_run(mor_context *context, mor_run_files *files, const pace *p, mor_run_outcome *outcome)
@@ -214,6 +232,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
         return MOR_OK;
     }
     print_end(files, p, speed);
+    warn_of_outflow(context, s);
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, &outcome->n_missed));
     if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));

@@ -294,6 +294,9 @@ static void list_state(mor_simulation *s, saved_state *state)
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         add_group_values(s, g, state);
     }
+    if (s->has_soil) {
+        add_value(state, "soil", "outflow", MOR_SOIL_OUTFLOW_STATE, s->soil.outflow);
+    }
     if (s->soil.energy != NULL) {
         add_value(state, "soil", "energy_audit", MOR_SOIL_ENERGY_STATE, s->soil.energy->state);
     }
@@ -352,7 +355,9 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
     const mor_status status = mor_checkpoint_read_latest(context, folder, &state.checkpoint);
     MOR_TRY(context, status == MOR_OK ? status : explain_refusal(context, files, status));
     MOR_TRY(context, set_clock(context, s));
-    s->soil.has_lists = false;
+    if (s->has_soil) {
+        mor_soil_fit(&s->soil);
+    }
     s->bodies.contact.time = mor_schedule_time(&s->schedule);
     MOR_TRY(context, mor_simulation_bodies_pack(context, &s->bodies, false));
     mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu", mor_schedule_time(&s->schedule),

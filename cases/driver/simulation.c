@@ -350,6 +350,7 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
     memcpy(s->domain_minimum, frame->domain_minimum, sizeof s->domain_minimum);
     memcpy(s->domain_maximum, frame->domain_maximum, sizeof s->domain_maximum);
     s->placement = frame->is_placed ? &frame->placement : NULL;
+    s->removes_outflow = c->outflow == 1;
 }
 
 /* Gravity and the domain, which is turned with the scene. */

@@ -235,6 +235,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         const double ramp = soil->settings.gravity_ramp;
         soil->settings.damping = SETTLE_DAMPING * soil->sound_speed / soil->smoothing_length;
         soil->settings.gravity_ramp = 0.0;
+        soil->settings.removes_outflow = false; /* what is to come to rest may not leave */
         double velocities[MOR_SOIL_WALLS_MAX][3];
         mor_contact *contact = &simulation->bodies.contact;
         for (int w = 0; w < soil->n_walls; ++w) {
@@ -257,6 +258,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         contact->time = 0.0;
         soil->settings.damping = damping;
         soil->settings.gravity_ramp = ramp;
+        soil->settings.removes_outflow = simulation->the_case->outflow == 1;
         const int64_t n = soil->set.n_particles;
         memset(soil->set.data[MOR_FIELD_VELOCITY], 0, (size_t)(3 * n) * sizeof(double));
         memset(soil->set.data[MOR_FIELD_DENSITY_RATE], 0, (size_t)n * sizeof(double));

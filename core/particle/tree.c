@@ -10,11 +10,16 @@
 /* Enough for the pending halves of 2^31 points. */
 enum { STACK = 64 };
 
+void mor_tree_resize(mor_tree *tree, int64_t n_points)
+{
+    tree->n_points = n_points;
+    tree->n_clusters = (n_points + MOR_CLUSTER - 1) / MOR_CLUSTER;
+}
+
 mor_status mor_tree_init(mor_context *context, mor_tree *tree, int64_t n_points)
 {
     memset(tree, 0, sizeof *tree);
-    tree->n_points = n_points;
-    tree->n_clusters = (n_points + MOR_CLUSTER - 1) / MOR_CLUSTER;
+    mor_tree_resize(tree, n_points);
     const int64_t n_nodes = tree->n_clusters > 0 ? 2 * tree->n_clusters - 1 : 0;
     return MOR_NEW(context, &tree->boxes, 6 * n_nodes, "bounding boxes of particle clusters");
 }

@@ -31,6 +31,12 @@ typedef struct mor_tree {
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_tree_init(mor_context *context, mor_tree *tree, int64_t n_points);
 
+/** Makes a tree smaller, or as large again as it was made.
+ *  @param tree     [in,out]  one object
+ *  @param n_points [in]      number of points, >= 0; at most those it was made for
+ *  Gives: boxes are to be fitted anew. */
+void mor_tree_resize(mor_tree *tree, int64_t n_points);
+
 /** Frees what the tree owns; accepts a zeroed tree.
  *  @param context [in,out]  one object
  *  @param tree    [in,out]  one object */

@@ -48,8 +48,20 @@ typedef struct mor_soil_settings {
     double domain_minimum[3];          /* m, before the placement */
     double domain_maximum[3];          /* likewise */
     const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither turned nor moved */
+    bool removes_outflow;              /* what leaves the domain is removed; else it stops the run */
     double reference_density;          /* rho_0, kg/m3 */
 } mor_soil_settings;
+
+/** What has left the domain since the start, as one array that a checkpoint saves. */
+enum {
+    MOR_SOIL_OUTFLOW_PARTICLES = 0, /* number of particles, 1 */
+    MOR_SOIL_OUTFLOW_MASS = 1,      /* kg (kg/m) */
+    MOR_SOIL_OUTFLOW_MOMENTUM = 2,  /* shape [3], kg m/s (kg/s) */
+    MOR_SOIL_OUTFLOW_MOMENT = 5,    /* mass times place, shape [3], kg m (kg) */
+    MOR_SOIL_OUTFLOW_KINETIC = 8,   /* J (J/m) */
+    MOR_SOIL_OUTFLOW_ELASTIC = 9,   /* J (J/m); NaN when the material cannot tell */
+    MOR_SOIL_OUTFLOW_STATE = 10
+};
 
 /** One soil. Owner: the run. */
 typedef struct mor_soil {
@@ -78,6 +90,8 @@ typedef struct mor_soil {
     double largest_speed;                       /* after the last kick, m/s */
     double largest_acceleration;                /* in the last step, m/s2 */
     double drift;                               /* bound of any particle's motion since the lists were built, m */
+    bool has_outflow;                           /* particles are to be removed at the end of the step */
+    double outflow[MOR_SOIL_OUTFLOW_STATE];     /* units of the enum above */
     bool has_lists;                             /* lists exist and belong to the present order */
     double gravity[3];                          /* in the last step, with the ramp, m/s2 */
     double wall_force[MOR_SOIL_WALLS_MAX][3];   /* of the soil on each wall in the last step, N (N/m in plane strain) */
@@ -136,6 +150,17 @@ mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
  *  @param soil [in,out]  one object
  *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
 void mor_soil_sort(mor_soil *soil);
+
+/** Makes everything follow the number of particles of the set, which a restored state may have changed.
+ *  @param soil [in,out]  one object; set.n_particles is at most set.n_created
+ *  Gives: the lists are rebuilt in the next step. */
+void mor_soil_fit(mor_soil *soil);
+
+/** Tells the energy of what has left the domain, each particle as it was when it left: kinetic, potential, elastic.
+ *  @param soil     [in]   one object
+ *  @param datum    [in]   shape [3]; potential energy counts from here, unit m
+ *  @param energies [out]  shape [3], unit J (J/m in plane strain) */
+void mor_soil_outflow_energies(const mor_soil *soil, const double *datum, double *energies);
 
 /** Returns the soil as a stepper: its stages and step limit.
  *  @param soil     [in]   one object; becomes the owner

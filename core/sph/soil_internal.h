@@ -28,6 +28,14 @@ mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_st
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_audit_forces(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_remove_outflow(mor_context *context, void *owner, const mor_step *step);
+
+/** Looks for particles outside the domain, with a position that is not a number, or without density.
+ *  @param context [in,out]  one object
+ *  @param soil    [in,out]  one object; is told whether particles are to be removed
+ *  @param step    [in]      one object
+ *  Returns: MOR_OK; MOR_ERROR_NUMERIC naming the first particle that stops the run. */
+mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, const mor_step *step);
 
 /** Part of gravity that acts in a step, 1: that of the ramp at the middle of the step. */
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);

@@ -66,54 +66,11 @@ mor_status mor_soil_drift_first(mor_context *context, void *owner, const mor_ste
     return MOR_OK;
 }
 
-/* Reports the first particle outside the domain, with a position that is not a number, or without density. */
-static mor_status check_domain(mor_context *context, const mor_soil *soil, const mor_step *step)
-{
-    const double *position = soil->set.data[MOR_FIELD_POSITION];
-    const double *density = soil->set.data[MOR_FIELD_DENSITY];
-    const mor_soil_settings *s = &soil->settings;
-    const int64_t n = soil->set.n_particles;
-    MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
-        double stray = -1.0;
-        for (int64_t i = mor_block_end(block, n) - 1; i >= block * MOR_BLOCK; --i) {
-            const double *x = position + 3 * i;
-            double local[3];
-            mor_domain_localize(s->placement, x, local);
-            const bool is_inside = mor_domain_holds(s->domain_minimum, s->domain_maximum, 3, local);
-            stray = is_inside && density[i] > 0.0 ? stray : (double)i;
-        }
-        soil->block_values[block] = stray;
-    }
-    for (int64_t block = 0; block < mor_block_count(n); ++block) {
-        if (soil->block_values[block] >= 0.0) {
-            const int64_t i = (int64_t)soil->block_values[block];
-            const double *x = position + 3 * i;
-            MOR_CHECK(
-                context, density[i] > 0.0, MOR_ERROR_NUMERIC,
-                "particle %lld of set '%s' has density %.4g kg/m3 at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu; it "
-                "must be positive. A smaller 'courant' or 'density_reinitialization' more often may help",
-                (long long)soil->set.id[i], soil->set.name, density[i], x[0], x[1], x[2], step->time + step->length,
-                (unsigned long long)step->number);
-            double local[3];
-            mor_domain_localize(s->placement, x, local);
-            return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                            "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, "
-                            "step %llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain' or "
-                            "close the walls",
-                            (long long)soil->set.id[i], soil->set.name, local[0], local[1], local[2],
-                            s->placement != NULL ? " before 'placement'" : "", step->time + step->length,
-                            (unsigned long long)step->number, s->domain_minimum[0], s->domain_minimum[1],
-                            s->domain_minimum[2], s->domain_maximum[0], s->domain_maximum[1], s->domain_maximum[2]);
-        }
-    }
-    return MOR_OK;
-}
-
 mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
     drift_half(context, soil, 0.5 * step->length);
-    return check_domain(context, soil, step);
+    return mor_soil_check_domain(context, soil, step);
 }
 
 void mor_soil_sort(mor_soil *soil)

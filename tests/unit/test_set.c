@@ -152,6 +152,37 @@ static void permute_goes_from_the_old_place_to_the_new(void **state)
     close_set(&context, &set);
 }
 
+static void removed_particles_leave_the_others_in_order(void **state)
+{
+    static const int32_t removed[] = {0, 1, 5, 17, N - 1};
+    enum { N_REMOVED = sizeof removed / sizeof *removed };
+    mor_context context;
+    mor_set set;
+    (void)state;
+    open_set(&context, &set);
+    const uint64_t generation = set.generation;
+    mor_set_remove(&set, removed, N_REMOVED);
+    assert_int_equal(set.n_particles, N - N_REMOVED);
+    assert_int_equal(set.n_created, N);
+    assert_int_equal(set.generation, generation + 1);
+    int at = 0;
+    for (int i = 0, k = 0; i < N; ++i) {
+        if (k < N_REMOVED && removed[k] == i) {
+            ++k;
+            continue;
+        }
+        assert_int_equal(set.id[at], i);
+        for (int field = 0; field < set.n_fields; ++field) {
+            for (int a = 0; a < set.fields[field].n_components; ++a) {
+                assert_true(set.data[field][at * set.fields[field].n_components + a] ==
+                            value_of(field, i, a)); /* exact */
+            }
+        }
+        ++at;
+    }
+    close_set(&context, &set);
+}
+
 static void checksum_does_not_depend_on_the_order_of_particles(void **state)
 {
     (void)state;
@@ -316,6 +347,7 @@ int main(void)
         cmocka_unit_test(core_fields_are_described_without_gaps),
         cmocka_unit_test(permute_moves_every_evolving_field_with_its_particle),
         cmocka_unit_test(permute_goes_from_the_old_place_to_the_new),
+        cmocka_unit_test(removed_particles_leave_the_others_in_order),
         cmocka_unit_test(checksum_does_not_depend_on_the_order_of_particles),
         cmocka_unit_test(checksum_sees_each_bit_of_evolving_fields_and_no_other),
         cmocka_unit_test(checksum_tells_particles_components_and_fields_apart),

@@ -1,0 +1,162 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Soil at the edge of the domain: it stops the run, or is taken out at the end of the step in which it left. */
+#include "core/sph/soil_internal.h"
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+
+static bool is_inside(const mor_soil_settings *s, const double *x)
+{
+    double local[3];
+    mor_domain_localize(s->placement, x, local);
+    return mor_domain_holds(s->domain_minimum, s->domain_maximum, 3, local);
+}
+
+static mor_status report_density(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t i)
+{
+    const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+    return MOR_FAIL(
+        context, MOR_ERROR_NUMERIC,
+        "particle %lld of set '%s' has density %.4g kg/m3 at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu; it "
+        "must be positive. A smaller 'courant' or 'density_reinitialization' more often may help",
+        (long long)soil->set.id[i], soil->set.name, soil->set.data[MOR_FIELD_DENSITY][i], x[0], x[1], x[2],
+        step->time + step->length, (unsigned long long)step->number);
+}
+
+static mor_status report_stray(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t i)
+{
+    const mor_soil_settings *s = &soil->settings;
+    double x[3];
+    mor_domain_localize(s->placement, soil->set.data[MOR_FIELD_POSITION] + 3 * i, x);
+    return MOR_FAIL(
+        context, MOR_ERROR_NUMERIC,
+        "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step "
+        "%llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain', close the walls, "
+        "or let soil leave with domain.outflow = \"remove\"",
+        (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2], s->placement != NULL ? " before 'placement'" : "",
+        step->time + step->length, (unsigned long long)step->number, s->domain_minimum[0], s->domain_minimum[1],
+        s->domain_minimum[2], s->domain_maximum[0], s->domain_maximum[1], s->domain_maximum[2]);
+}
+
+/* Sorts out what the quick look found, from one particle on: what stops the run, and what leaves. */
+static mor_status judge_particles(mor_context *context, mor_soil *soil, const mor_step *step, int64_t first)
+{
+    const double *position = soil->set.data[MOR_FIELD_POSITION];
+    const double *density = soil->set.data[MOR_FIELD_DENSITY];
+    for (int64_t i = first; i < soil->set.n_particles; ++i) {
+        const double *x = position + 3 * i;
+        if (!(density[i] > 0.0)) {
+            return report_density(context, soil, step, i);
+        }
+        if (!is_inside(&soil->settings, x)) {
+            const bool is_place = isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
+            if (!soil->settings.removes_outflow || !is_place) {
+                return report_stray(context, soil, step, i);
+            }
+            soil->has_outflow = true;
+        }
+    }
+    return MOR_OK;
+}
+
+mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, const mor_step *step)
+{
+    const double *position = soil->set.data[MOR_FIELD_POSITION];
+    const double *density = soil->set.data[MOR_FIELD_DENSITY];
+    const int64_t n = soil->set.n_particles;
+    MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
+        double stray = -1.0;
+        for (int64_t i = mor_block_end(block, n) - 1; i >= block * MOR_BLOCK; --i) {
+            stray = is_inside(&soil->settings, position + 3 * i) && density[i] > 0.0 ? stray : (double)i;
+        }
+        soil->block_values[block] = stray;
+    }
+    soil->has_outflow = false;
+    for (int64_t block = 0; block < mor_block_count(n); ++block) {
+        if (soil->block_values[block] >= 0.0) {
+            return judge_particles(context, soil, step, (int64_t)soil->block_values[block]);
+        }
+    }
+    return MOR_OK;
+}
+
+/* Stored energy of a particle by the material's own operation; NaN when the model cannot tell. */
+static double find_stored(const mor_soil *soil, int64_t i)
+{
+    double *const *data = soil->set.data;
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    double stored = NAN;
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        const int field = soil->state_fields[k];
+        state[k] = data[field] + i * soil->set.fields[field].n_components;
+    }
+    const mor_batch batch = {
+        .n = 1, .density = data[MOR_FIELD_DENSITY] + i, .stress_in = data[MOR_FIELD_STRESS] + 6 * i, .state_in = state};
+    const bool is_known = soil->material->operations.energy(soil->material, &batch, &stored) == MOR_OK;
+    return is_known ? stored * data[MOR_FIELD_MASS][i] / data[MOR_FIELD_DENSITY][i] : NAN;
+}
+
+/* Adds what a particle takes along. */
+static void count_out(mor_soil *soil, int64_t i)
+{
+    const double mass = soil->set.data[MOR_FIELD_MASS][i];
+    const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+    const double *v = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+    double *out = soil->outflow;
+    out[MOR_SOIL_OUTFLOW_PARTICLES] += 1.0;
+    out[MOR_SOIL_OUTFLOW_MASS] += mass;
+    out[MOR_SOIL_OUTFLOW_KINETIC] += 0.5 * mass * mor_vector_dot(v, v);
+    out[MOR_SOIL_OUTFLOW_ELASTIC] += find_stored(soil, i);
+    for (int a = 0; a < 3; ++a) {
+        out[MOR_SOIL_OUTFLOW_MOMENTUM + a] += mass * v[a];
+        out[MOR_SOIL_OUTFLOW_MOMENT + a] += mass * x[a];
+    }
+}
+
+void mor_soil_fit(mor_soil *soil)
+{
+    mor_tree_resize(&soil->tree, soil->set.n_particles);
+    soil->inner.n_clusters = soil->tree.n_clusters;
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact_at(soil, k)->relation.n_clusters = soil->tree.n_clusters;
+    }
+    soil->has_lists = false;
+}
+
+mor_status mor_soil_remove_outflow(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    int64_t n_out = 0;
+    if (!soil->has_outflow) {
+        return MOR_OK;
+    }
+    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+        if (!is_inside(&soil->settings, soil->set.data[MOR_FIELD_POSITION] + 3 * i)) {
+            soil->order[n_out++] = (int32_t)i; /* scratch of the sort */
+        }
+    }
+    MOR_CHECK(context, n_out < soil->set.n_particles, MOR_ERROR_NUMERIC,
+              "the last particle of set '%s' left the domain at t = %.6g s, step %llu; nothing is left to compute. "
+              "Enlarge 'domain', or let the run end before",
+              soil->set.name, step->time + step->length, (unsigned long long)step->number);
+    for (int64_t k = 0; k < n_out; ++k) {
+        count_out(soil, soil->order[k]);
+    }
+    mor_set_remove(&soil->set, soil->order, n_out);
+    mor_soil_fit(soil);
+    soil->has_outflow = false;
+    return MOR_OK;
+}
+
+void mor_soil_outflow_energies(const mor_soil *soil, const double *datum, double *energies)
+{
+    const double *out = soil->outflow;
+    energies[0] = out[MOR_SOIL_OUTFLOW_KINETIC];
+    energies[1] = 0.0;
+    energies[2] = out[MOR_SOIL_OUTFLOW_ELASTIC];
+    for (int a = 0; a < 3; ++a) {
+        energies[1] -=
+            soil->settings.gravity[a] * (out[MOR_SOIL_OUTFLOW_MOMENT + a] - out[MOR_SOIL_OUTFLOW_MASS] * datum[a]);
+    }
+}
