@@ -144,6 +144,12 @@ mor_status mor_terrain_fill(mor_context *context, const mor_terrain *terrain, do
 mor_status mor_terrain_fill_release(mor_context *context, const mor_shape *release, double spacing,
                                     const double *origin, double **points, int64_t *n_points);
 
+/** Finds the volume of a release from its thickness over a grid of columns.
+ *  @param shape  [in]   one object
+ *  @param volume [out]  one number, unit m3; 0 for any other shape
+ *  Returns: whether the shape is a release. Accuracy: 1e-3 relative or better. Cost: milliseconds. */
+bool mor_terrain_release_volume(const mor_shape *shape, double *volume);
+
 /** The terrain that a ground or a release follows; NULL for any other shape.
  *  @param shape [in]  one object
  *  Returns: borrowed, for the life of the shape. Threads: safe to call concurrently. */

@@ -96,6 +96,28 @@ double mor_terrain_release_thickness(const mor_shape *shape, double x, double y)
     return depth < release->rim ? release->thickness * (depth / release->rim) : release->thickness;
 }
 
+bool mor_terrain_release_volume(const mor_shape *shape, double *volume)
+{
+    enum { COLUMNS = 512 };
+    mor_bounds bounds;
+    double cell[2];
+    *volume = 0.0;
+    if (mor_terrain_release_surface(shape) == NULL) {
+        return false;
+    }
+    mor_shape_bounds(((const release_shape *)shape)->polygon, &bounds);
+    for (int a = 0; a < 2; ++a) {
+        cell[a] = (bounds.maximum[a] - bounds.minimum[a]) / COLUMNS;
+    }
+    for (int k = 0; k < COLUMNS * COLUMNS; ++k) {
+        const double x = bounds.minimum[0] + (k % COLUMNS + 0.5) * cell[0];
+        const double y = bounds.minimum[1] + ((double)(k / COLUMNS) + 0.5) * cell[1];
+        *volume += fmax(0.0, mor_terrain_release_thickness(shape, x, y));
+    }
+    *volume *= cell[0] * cell[1];
+    return true;
+}
+
 /* The layer is what lies above the surface, below the surface raised by the thickness, in the polygon, and, where the
  * rim is sloped, below the plane through the polygon's edge: the largest of four distances. */
 static double release_distance(const mor_shape *shape, const double *point)

@@ -374,6 +374,7 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
         const int64_t n = regions[k].n_points;
+        simulation->region_particles[k] = n;
         double velocity[3];
         mor_matrix_apply(c->turn, it->velocity, velocity);
         memcpy(data[MOR_FIELD_POSITION] + 3 * first, regions[k].positions, (size_t)(3 * n) * sizeof(double));

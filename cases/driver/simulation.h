@@ -29,11 +29,12 @@ typedef struct mor_simulation {
     mor_simulation_bodies bodies;
     mor_simulation_frame frame;
     mor_schedule schedule;
-    double up[3];                         /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
-    double surface_height;                /* of the initial soil along up over the placed origin, m */
-    double soil_depth;                    /* height of the highest column of the initial soil along up, m; 0 without */
-    double first_step;                    /* length of the first time step, s */
-    double initial_energies[3];           /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    double up[3];          /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
+    double surface_height; /* of the initial soil along up over the placed origin, m */
+    double soil_depth;     /* height of the highest column of the initial soil along up, m; 0 without */
+    int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
+    double first_step;                            /* length of the first time step, s */
+    double initial_energies[3];                   /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     double extremes[MOR_CASE_PROBES_MAX]; /* largest value so far of probes that ask for it, unit of the probe */
 } mor_simulation;
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/simulation_warnings.h"
 
+#include "cases/driver/simulation_resolution.h"
 #include "core/base/math.h"
 
 #include <stdio.h>
@@ -122,6 +123,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     warn_of_thinness(context, simulation);
     warn_of_gaps(context, simulation);
     warn_of_softness(context, simulation);
+    MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
     warn_of_outputs(context, simulation);
     if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {
         mor_context_log(context, MOR_LOG_WARNING, "there is no wall; everything falls freely");
