@@ -14,8 +14,8 @@
  *  @param simulation [in]      one object, as it begins
  *  @param soil       [in]      number of the region in the case
  *  @param volume     [out]     one number, unit m3 (m2)
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a region without end; MOR_ERROR_MEMORY. Accuracy: 1e-5 relative or better; 1e-3 of a
- *  layer on the ground.
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a region without end; MOR_ERROR_MEMORY.
+ *  Accuracy: 1e-5 relative or better; 1e-3 of a layer on the ground.
  *  Cost: milliseconds, and some more for each body across the surface of the region. */
 mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation *simulation, int soil, double *volume);
 

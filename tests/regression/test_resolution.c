@@ -142,7 +142,7 @@ static void linear_reconstruction_needs_fewer_particles(void **state)
     program_clear(&outcome);
 }
 
-/* Measured depths over the law at their spacings per radius, docs/validation/crater.md: none falls shorter than told. */
+/* Measured depths over the law by spacings per radius, docs/validation/crater.md: none falls shorter than told. */
 static void depth_error_covers_what_was_measured(void **state)
 {
     static const double measured[][2] = {{2.5, 0.48}, {2.5, 0.58},   {2.667, 0.57}, {3.333, 0.70}, {4.0, 0.70},
