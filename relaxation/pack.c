@@ -72,7 +72,9 @@ static mor_status check_request(mor_context *context, const mor_pack_request *re
         MOR_CHECK(context, request->forms[k] != NULL, MOR_ERROR_ARGUMENT, "form %d of %d is missing: give a shape",
                   k + 1, request->n_forms);
     }
-    MOR_CHECK(context, request->content > 0.0 && request->content < 1.0, MOR_ERROR_ARGUMENT,
+    MOR_CHECK(context, request->count >= 0 && request->count <= rocks_limit, MOR_ERROR_ARGUMENT,
+              "%d rocks are asked for: give 1 to %d, or 0 and a content", request->count, rocks_limit);
+    MOR_CHECK(context, request->count > 0 || (request->content > 0.0 && request->content < 1.0), MOR_ERROR_ARGUMENT,
               "the content of rocks is %g: give a number above 0 and below 1", request->content);
     MOR_CHECK(context, isfinite(request->gap) && request->gap >= 0.0, MOR_ERROR_ARGUMENT,
               "the gap between rocks is %g m: give a length of zero or more", request->gap);
@@ -119,6 +121,37 @@ static double choose_diameter(const mor_pack_request *request, double placed, do
             low = middle;
         } else {
             high = middle;
+        }
+    }
+    return high;
+}
+
+/* How many rocks of the curve make up a volume, to one more than `most`. */
+static int count_rocks(const mor_pack_request *request, double target, int most)
+{
+    double placed = 0.0;
+    int n = 0;
+    for (; n <= most; ++n) {
+        const double volume = rock_volume(request->dimension, choose_diameter(request, placed, target));
+        if (placed + 0.5 * volume > target) {
+            break;
+        }
+        placed += volume;
+    }
+    return n;
+}
+
+/* The least volume that at least so many rocks of the curve make up. */
+static double find_target(const mor_pack_request *request, int count)
+{
+    double low = 0.0;
+    double high = 2.0 * count * rock_volume(request->dimension, request->diameters[request->n_sizes - 1]);
+    for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (low + high);
+        if (count_rocks(request, middle, count) >= count) {
+            high = middle;
+        } else {
+            low = middle;
         }
     }
     return high;
@@ -174,7 +207,8 @@ static mor_status prepare(mor_context *context, mor_pack_state *state, double ta
 {
     const mor_pack_request *request = state->request;
     const double largest = request->diameters[request->n_sizes - 1];
-    const double most = target / rock_volume(request->dimension, request->diameters[0]) + 2.0;
+    const double most =
+        request->count > 0 ? request->count : target / rock_volume(request->dimension, request->diameters[0]) + 2.0;
     MOR_CHECK(context, most <= rocks_limit, MOR_ERROR_ARGUMENT,
               "up to %.0f rocks are asked for, more than %d: raise the smallest diameter, %g m", most, rocks_limit,
               request->diameters[0]);
@@ -258,6 +292,21 @@ static int place_rocks(mor_pack_state *state, double target)
     return n_given_up;
 }
 
+/* Places a number of rocks of the curve; what finds no place is not made up by others. Returns the number given up. */
+static int place_count(mor_pack_state *state, double target)
+{
+    const mor_pack_request *request = state->request;
+    placing work = {.n_tries = request->most_tries};
+    double drawn = 0.0;
+    int n_given_up = 0;
+    for (int n_before = 0; n_before < request->count; ++n_before) {
+        mor_pack_item item = {.diameter = choose_diameter(request, drawn, target)};
+        drawn += rock_volume(request->dimension, item.diameter);
+        n_given_up += !place_rock(state, n_before, &work, &item);
+    }
+    return n_given_up;
+}
+
 /* Looks for the least gap so far of a rock to those before it. */
 typedef struct gap_work {
     int self;
@@ -331,7 +380,7 @@ static mor_status write_result(mor_context *context, const mor_pack_state *state
     result->n_rocks = state->n_items;
     result->content = total / region_volume;
     result->smallest_gap = find_smallest_gap(state);
-    if (result->n_given_up > 0) {
+    if (result->n_given_up > 0 && request->count == 0) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "rocks fill %.2f %% of their region, %.2f %% was asked for: no place was found for %d of them; "
                         "ask for a smaller content, gap or margin, or add smaller rocks to the size curve",
@@ -362,10 +411,10 @@ mor_status mor_pack(mor_context *context, const mor_pack_request *request, mor_p
     MOR_TRY(context, set_bounds(context, &state));
     double region_volume = 0.0;
     MOR_TRY(context, find_region_volume(context, request, &region_volume));
-    const double target = request->content * region_volume;
+    const double target = request->count > 0 ? find_target(request, request->count) : request->content * region_volume;
     mor_status status = prepare(context, &state, target);
     if (status == MOR_OK) {
-        result->n_given_up = place_rocks(&state, target);
+        result->n_given_up = request->count > 0 ? place_count(&state, target) : place_rocks(&state, target);
         status = write_result(context, &state, region_volume, result);
     }
     clear_state(&state);

@@ -19,7 +19,8 @@ typedef struct mor_pack_request {
     const mor_shape *const *forms; /* shape [n_forms]; each with its center of volume at the origin, of diameter 1 m,
                                     * that is of volume pi/6 m3 (area pi/4 m2) */
     int n_forms;                   /* >= 1; each rock draws one */
-    double content;                /* rocks' volume over the region's, 1; 0 < content < 1 */
+    double content;                /* rocks' volume over the region's, 1; 0 < content < 1; not read with a count */
+    int count;                     /* of rocks, along the curve of sizes; 0: as many as make up the content */
     const double *diameters;       /* shape [n_sizes]; rising; of the ball (disc) of the same volume, m */
     const double *passing;         /* shape [n_sizes]; share of the rocks' volume of rocks up to that diameter, 1;
                                     * rising, the last 1. One size: all rocks have it. Several: the first is where the

@@ -45,6 +45,7 @@ typedef enum mor_case_shape_kind {
     MOR_CASE_SHAPE_CYLINDER,
     MOR_CASE_SHAPE_CONE,
     MOR_CASE_SHAPE_SPHERE,
+    MOR_CASE_SHAPE_ELLIPSOID,
     MOR_CASE_SHAPE_HALF_SPACE,
     MOR_CASE_SHAPE_POLYGON,
     MOR_CASE_SHAPE_UNION,
@@ -95,7 +96,7 @@ typedef struct mor_case_shape {
     mor_case_shape_kind kind;
     bool is_flat;                    /* a box of two components: without end in z */
     double first[3];                 /* lowest corner, base, center, point or move, m */
-    double second[3];                /* highest corner [m], axis [1] or normal [1] */
+    double second[3];                /* highest corner [m], axis [1], normal [1] or radii [m] */
     double radius;                   /* m */
     double height;                   /* m */
     double angle;                    /* rad */
@@ -218,7 +219,8 @@ typedef struct mor_case_rocks {
     int n_shapes;                                    /* number of shapes */
     mor_case_size sizes[MOR_CASE_ROCK_SIZES_MAX];    /* rising */
     int n_sizes;                                     /* number of sizes */
-    double content;                                  /* rocks' volume over the region's, 1 */
+    double content;                                  /* rocks' volume over the region's, 1; NaN: count is given */
+    int count;                                       /* of rocks; 0: content is given */
     double gap;                                      /* least distance between two, m; default the spacing */
     double margin;                                   /* least depth under the region's surface, m; likewise */
     int n_variants;                                  /* rocks drawn of each form of type rock */

@@ -232,11 +232,30 @@ static mor_status build_rock(const mor_case_reader *reader, const mor_case_form 
     return status;
 }
 
+/* A ball, or an ellipsoid of the volume (area) of the ball (disc) of the diameter, the longest axis along x. */
+static mor_status build_ellipsoid(const mor_case_reader *reader, mor_case_shape_kind kind, const mor_case_form *form,
+                                  mor_shape **shape)
+{
+    const double center[3] = {0.0, 0.0, 0.0};
+    if (kind == MOR_CASE_SHAPE_SPHERE) {
+        return mor_shape_new_sphere(reader->context, center, 0.5 * form->diameter, shape);
+    }
+    const bool is_plane = reader->dimension == 2;
+    const double shares[3] = {1.0, form->elongation, is_plane ? 1.0 : form->elongation * form->flatness};
+    const double product = shares[0] * shares[1] * shares[2];
+    const double longest = 0.5 * form->diameter / (is_plane ? sqrt(product) : cbrt(product));
+    const double radii[3] = {longest * shares[0], longest * shares[1], longest * shares[2]};
+    return mor_shape_new_ellipsoid(reader->context, center, radii, shape);
+}
+
 mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
                                 mor_shape **shape)
 {
     mor_case_form *form = &outline->form;
     *shape = NULL;
+    if (outline->kind == MOR_CASE_SHAPE_SPHERE || outline->kind == MOR_CASE_SHAPE_ELLIPSOID) {
+        return blame_case(reader, node, "a form", build_ellipsoid(reader, outline->kind, form, shape));
+    }
     if (outline->kind == MOR_CASE_SHAPE_ROCK) {
         return blame_case(reader, node, "a rock", build_rock(reader, form, shape));
     }

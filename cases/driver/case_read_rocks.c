@@ -114,6 +114,13 @@ static mor_status read_rocks(const mor_case_reader *reader, const mor_case_node 
     mor_case_reader_place(node, &rocks->body.place);
     MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_rocks_group, NULL, NULL));
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_rocks_group, rocks));
+    if (isnan(rocks->content) == (rocks->count == 0)) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found rocks with %s; allowed: one of content, a share of the region, and count, a "
+                                  "number of rocks from 1; %s",
+                                  rocks->count == 0 ? "neither content nor count" : "both content and count",
+                                  rocks->count == 0 ? "give one" : "remove one");
+    }
     rocks->body.axis[2] = 1.0;
     rocks->gap = isnan(rocks->gap) ? reader->spacing : rocks->gap;
     rocks->margin = isnan(rocks->margin) ? reader->spacing : rocks->margin;
@@ -183,7 +190,8 @@ static mor_status pack_rocks(const mor_case_reader *reader, const mor_case *the_
     request.region = rocks->region;
     request.forms = (const mor_shape *const *)rocks->shapes;
     request.n_forms = rocks->n_shapes;
-    request.content = rocks->content;
+    request.content = rocks->count > 0 ? 0.0 : rocks->content;
+    request.count = rocks->count;
     request.diameters = diameters;
     request.passing = passing;
     request.n_sizes = rocks->n_sizes;
@@ -297,6 +305,14 @@ static mor_status add_bodies(const mor_case_reader *reader, const mor_case_node 
     if (result.n_rocks == 0) {
         mor_pack_clear(reader->context, &result);
         return refuse_none(reader, node, rocks);
+    }
+    if (rocks->count > 0 && result.n_rocks != rocks->count) {
+        mor_pack_clear(reader->context, &result);
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found room for %d of %d rocks; allowed: as many as find a place %g m deep in the "
+                                  "region and %g m from each other; enlarge the region, lower margin or gap, or ask "
+                                  "for fewer or smaller rocks",
+                                  rocks->n_rocks, rocks->count, rocks->margin, rocks->gap);
     }
     mor_status status = make_room(reader, node, the_case, result.n_rocks);
     for (int k = 0; k < result.n_rocks && status == MOR_OK; ++k) {

@@ -152,6 +152,9 @@ static mor_status read_own_keys(const mor_case_reader *reader, const mor_case_no
     if (outline->kind == MOR_CASE_SHAPE_BOX) {
         return flatten_box(reader, node, outline);
     }
+    if (outline->kind == MOR_CASE_SHAPE_ELLIPSOID && reader->dimension == 2) {
+        outline->second[2] = fmax(outline->second[0], outline->second[1]);
+    }
     const bool has_points = outline->kind == MOR_CASE_SHAPE_POLYGON || outline->kind == MOR_CASE_SHAPE_RELEASE ||
                             outline->kind == MOR_CASE_SHAPE_POSTS;
     return has_points ? read_points(reader, node, outline) : MOR_OK;
@@ -181,6 +184,8 @@ static mor_status construct(mor_context *context, const mor_case_shape *outline,
         return mor_shape_new_cone(context, outline->first, outline->second, outline->radius, outline->height, shape);
     case MOR_CASE_SHAPE_SPHERE:
         return mor_shape_new_sphere(context, outline->first, outline->radius, shape);
+    case MOR_CASE_SHAPE_ELLIPSOID:
+        return mor_shape_new_ellipsoid(context, outline->first, outline->second, shape);
     case MOR_CASE_SHAPE_HALF_SPACE:
         return mor_shape_new_half_space(context, outline->first, outline->second, shape);
     case MOR_CASE_SHAPE_POLYGON:

@@ -349,6 +349,11 @@ static const mor_case_key cone_keys[] = {
 static const mor_case_key sphere_keys[] = {{{"center", VECTOR, "m", REQUIRED, ANY, NULL, "center"}, SHAPE(first)},
                                            {{"radius", SCALAR, "m", REQUIRED, POSITIVE, NULL, "radius"}, SHAPE(radius)},
                                            END};
+static const mor_case_key ellipsoid_keys[] = {
+    {{"center", VECTOR, "m", REQUIRED, ANY, NULL, "center"}, SHAPE(first)},
+    {{"radii", VECTOR, "m", REQUIRED, NOT_NEGATIVE, NULL, "half of its extent along x, y and z; turn it by rotate"},
+     SHAPE(second)},
+    END};
 static const mor_case_key half_space_keys[] = {
     {{"point", VECTOR, "m", REQUIRED, ANY, NULL, "a point of the face"}, SHAPE(first)},
     {{"normal", VECTOR, "1", REQUIRED, ANY, NULL, "direction out of the solid"}, SHAPE(second), .is_direction = true},
@@ -381,6 +386,8 @@ const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
     [MOR_CASE_SHAPE_CYLINDER] = {"cylinder", "Solid cylinder", cylinder_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_CONE] = {"cone", "Solid cone", cone_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_SPHERE] = {"sphere", "Ball; a disc in plane strain", sphere_keys, NULL, WRITTEN},
+    [MOR_CASE_SHAPE_ELLIPSOID] = {"ellipsoid", "Ellipsoid with its axes along x, y and z; an ellipse in plane strain",
+                                  ellipsoid_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_HALF_SPACE] = {"half_space", "Everything behind a plane", half_space_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_POLYGON] = {"polygon", "Polygon in x and y", no_keys, polygon_parts, WRITTEN},
     [MOR_CASE_SHAPE_UNION] = {"union", "Shapes put together", no_keys, union_parts, WRITTEN},

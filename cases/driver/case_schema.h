@@ -95,7 +95,7 @@ extern const mor_case_key mor_case_mesh_keys[], mor_case_outline_keys[], mor_cas
 /** Members of the list rocks, and of its list sizes; records mor_case_rocks and mor_case_size. */
 extern const mor_case_group mor_case_rocks_group, mor_case_size_group;
 
-enum { MOR_CASE_ROCK_FORM_COUNT = 3 };
+enum { MOR_CASE_ROCK_FORM_COUNT = 5 };
 
 /** Members of the list forms of rocks, one group per type, and the kinds of shape they make; record mor_case_shape. */
 extern const mor_case_group mor_case_rock_form_groups[MOR_CASE_ROCK_FORM_COUNT];

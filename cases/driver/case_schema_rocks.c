@@ -17,10 +17,15 @@ static const mor_case_key rocks_keys[] = {
      MOR_CASE_STORE_NAME,
      .offset = offsetof(mor_case_rocks, body.name),
      .size = MOR_FIELD_NAME_BYTES - NUMBER_BYTES},
-    {{"content", SCALAR, "1", REQUIRED, 0.0, 1.0, 1, 1, NULL,
-      "volume of the rocks over that of the region (areas in plane strain)"},
+    {{"content", SCALAR, "1", DEFAULT(NAN), 0.0, 1.0, 1, 1, NULL,
+      "volume of the rocks over that of the region (areas in plane strain); this or count"},
      MOR_CASE_STORE_REALS,
-     ROCKS(content)},
+     ROCKS(content),
+     .computed = "follows from count"},
+    {{"count", WHOLE, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL, "number of rocks; this or content"},
+     MOR_CASE_STORE_INT,
+     ROCKS(count),
+     .computed = "follows from content"},
     {{"gap", SCALAR, "m", DEFAULT(NAN), NOT_NEGATIVE, NULL, "least distance between two rocks, and to listed bodies"},
      MOR_CASE_STORE_REALS,
      ROCKS(gap),
@@ -57,7 +62,8 @@ static const mor_case_key rocks_keys[] = {
 static const mor_case_part rocks_parts[] = {
     {"region", true, "shape", "where the rocks are packed, in the frame of the case; with an end on every side"},
     {"sizes", true, "list of groups", "curve of sizes, from the smallest; a single one: all rocks have that size"},
-    {"forms", true, "list of groups", "rock, outline or mesh; each rock draws one, scaled to its size"},
+    {"forms", true, "list of groups",
+     "rock, sphere, ellipsoid, outline or mesh; each rock draws one, scaled to its size"},
     {"material", true, "group", "as of a body"},
     {NULL, false, NULL, NULL}};
 
@@ -83,14 +89,28 @@ static const mor_case_key file_keys[] = {
      AT(mor_case_shape, form.file)},
     END};
 
+static const mor_case_key sphere_form_keys[] = {END};
+
+static const mor_case_key ellipsoid_form_keys[] = {
+    {{"elongation", SCALAR, "1", DEFAULT(0.75), 0.1, 1.0, 0, 0, NULL,
+      "intermediate over longest axis; short over long axis in plane strain"},
+     SHAPE(form.elongation)},
+    {{"flatness", SCALAR, "1", DEFAULT(0.75), 0.1, 1.0, 0, 0, NULL,
+      "shortest over intermediate axis; without effect in plane strain"},
+     SHAPE(form.flatness)},
+    END};
+
 /* The keys of a rock but for its diameter, which is the first. */
 const mor_case_group mor_case_rock_form_groups[MOR_CASE_ROCK_FORM_COUNT] = {
     {"rock", "Form drawn at random", mor_case_rock_keys + 1, NULL, offsetof(mor_case_shape, written)},
+    {"sphere", "Form of a ball; a disc in plane strain", sphere_form_keys, NULL, offsetof(mor_case_shape, written)},
+    {"ellipsoid", "Form of an ellipsoid; an ellipse in plane strain", ellipsoid_form_keys, NULL,
+     offsetof(mor_case_shape, written)},
     {"outline", "Form of an outline from a file, in plane strain", file_keys, NULL, offsetof(mor_case_shape, written)},
     {"mesh", "Form of a mesh from a file, in space", file_keys, NULL, offsetof(mor_case_shape, written)}};
 
 const mor_case_shape_kind mor_case_rock_form_kinds[MOR_CASE_ROCK_FORM_COUNT] = {
-    MOR_CASE_SHAPE_ROCK, MOR_CASE_SHAPE_OUTLINE, MOR_CASE_SHAPE_MESH};
+    MOR_CASE_SHAPE_ROCK, MOR_CASE_SHAPE_SPHERE, MOR_CASE_SHAPE_ELLIPSOID, MOR_CASE_SHAPE_OUTLINE, MOR_CASE_SHAPE_MESH};
 
 const mor_case_group *mor_case_rock_form_group(mor_case_shape_kind kind)
 {

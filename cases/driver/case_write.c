@@ -72,6 +72,7 @@ static mor_status write_parts(mor_case_writer *w, const mor_case_shape *outline)
     case MOR_CASE_SHAPE_CYLINDER:
     case MOR_CASE_SHAPE_CONE:
     case MOR_CASE_SHAPE_SPHERE:
+    case MOR_CASE_SHAPE_ELLIPSOID:
     case MOR_CASE_SHAPE_HALF_SPACE:
     case MOR_CASE_SHAPE_TERRAIN:
     case MOR_CASE_SHAPE_MESH:
@@ -283,7 +284,11 @@ static mor_status write_body(mor_case_writer *w, const mor_case_body *body)
 
 static mor_case_presence judge_rocks(const mor_case_key *key, const void *record)
 {
-    const mor_case_body *body = &((const mor_case_rocks *)record)->body;
+    const mor_case_rocks *rocks = record;
+    const mor_case_body *body = &rocks->body;
+    if (strcmp(key->schema.key, rocks->count > 0 ? "content" : "count") == 0) {
+        return MOR_CASE_OMIT;
+    }
     return strcmp(key->schema.key, "contact_modulus") == 0 || strcmp(key->schema.key, "friction_coefficient") == 0
                ? judge_body(key, body)
                : MOR_CASE_WRITE;

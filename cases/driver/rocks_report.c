@@ -14,8 +14,11 @@ enum { LINE_BYTES = 256 };
 static bool write_line(const mor_case_rocks *rocks, int dimension, int line, char *text)
 {
     if (line == 0) {
-        int used = snprintf(text, LINE_BYTES, "rocks '%s': %d placed, content %.2f %% (asked for: %.2f %%)",
-                            rocks->body.name, rocks->n_rocks, 100.0 * rocks->content_reached, 100.0 * rocks->content);
+        int used = snprintf(text, LINE_BYTES, "rocks '%s': %d placed, content %.2f %%", rocks->body.name,
+                            rocks->n_rocks, 100.0 * rocks->content_reached);
+        used += rocks->count > 0 ? snprintf(text + used, (size_t)(LINE_BYTES - used), " (%d asked for)", rocks->count)
+                                 : snprintf(text + used, (size_t)(LINE_BYTES - used), " (asked for: %.2f %%)",
+                                            100.0 * rocks->content);
         if (isfinite(rocks->smallest_gap)) {
             used += snprintf(text + used, (size_t)(LINE_BYTES - used), ", smallest gap %.4g m", rocks->smallest_gap);
         }

@@ -7,7 +7,8 @@
 
 /** @file
  *  The analytic shapes behind core/particle/shape.h, and the calls every shape answers. Distances of box, cylinder,
- *  cone, sphere, half-space and polygon are exact everywhere. Meshes are not made here; they implement the same table.
+ *  cone, sphere, ellipsoid, half-space and polygon are exact everywhere. Meshes are not made here; they
+ *  implement the same table.
  *
  *  Ownership: a constructor that takes children owns them after MOR_OK and has set the caller's pointers NULL; after
  *  a failure the children and the pointers are untouched and still the caller's. The output pointer is NULL after a
@@ -56,6 +57,15 @@ mor_status mor_shape_new_cone(mor_context *context, const double *base, const do
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_sphere(mor_context *context, const double *center, double radius, mor_shape **shape);
+
+/** Makes an ellipsoid with its axes along x, y and z. In plane strain give a radius along z that is not the least.
+ *  @param context [in,out]  one object
+ *  @param center  [in]      shape [3]; unit m
+ *  @param radii   [in]      shape [3]; half of its extent along x, y, z, unit m; > 0
+ *  @param shape   [out]     one pointer; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
+ *  Cost: O(1), allocates. */
+mor_status mor_shape_new_ellipsoid(mor_context *context, const double *center, const double *radii, mor_shape **shape);
 
 /** Makes a half-space: everything on the side of the plane opposite to the normal is solid.
  *  @param context [in,out]  one object

@@ -3,6 +3,7 @@
 #include "cases/driver/rocks_report.h"
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
+#include "core/particle/shape_moments.h"
 #include "tests/common/case_reading.h"
 #include "tests/common/near.h"
 
@@ -91,6 +92,58 @@ static void rocks_keep_off_each_other_and_off_bodies_that_are_there(void **state
     }
 }
 
+#define BALLS                                                                                                          \
+    "rocks = ( { name = \"ball\"; count = 13; gap = \"2 cm\"; seed = 3; material = { model = \"rigid\"; density = "    \
+    "2500; };\n"                                                                                                       \
+    "  region = { type = \"box\"; min = (0, 0, 0); max = (10, 6, 4); }; " SIZES
+
+static const char counted[] =
+    "dimension = 3; spacing = 0.25; end = 1; gravity = (0, 0, -10); domain = { min = (-1, -1, -1); max = (11, 9, 9); "
+    "};\n" BALLS
+    "forms = ( { type = \"sphere\"; }, { type = \"ellipsoid\"; elongation = 0.8; flatness = 0.5; } ); } );\n";
+
+static void a_count_of_balls_and_ellipsoids_is_exact_and_so_are_their_volumes(void **state)
+{
+    case_reading *f = *state;
+    case_reading_read(f, counted, NULL, &f->first);
+    const mor_case *c = &f->first;
+    int n_balls = 0;
+    double volume = 0.0;
+    assert_int_equal(c->n_bodies, 13);
+    for (int k = 0; k < c->n_bodies; ++k) {
+        const mor_case_body *body = &c->bodies[k];
+        const double d = body->packed_diameter;
+        mor_shape_moments moments;
+        mor_bounds bounds;
+        mor_shape_bounds(body->shape, &bounds);
+        assert_int_equal(mor_shape_find_moments(&f->context, body->shape, 3, &moments), MOR_OK);
+        /* A ball knows no moments of its own: integrated to 1e-6. */
+        assert_near(moments.volume / (MOR_PI / 6.0 * d * d * d), 1.0, 1e-6);
+        n_balls += body->outline.kind == MOR_CASE_SHAPE_SPHERE;
+        if (body->outline.kind == MOR_CASE_SHAPE_ELLIPSOID) {
+            const double longest = d / cbrt(0.8 * 0.8 * 0.5);                         /* of axes 1 : 0.8 : 0.4 */
+            assert_near(bounds.maximum[0] - bounds.minimum[0], longest, 1e-12);       /* rounding */
+            assert_near(bounds.maximum[1] - bounds.minimum[1], 0.8 * longest, 1e-12); /* likewise */
+            assert_near(bounds.maximum[2] - bounds.minimum[2], 0.4 * longest, 1e-12); /* likewise */
+        }
+        volume += moments.volume;
+    }
+    assert_true(n_balls > 1 && n_balls < 12); /* each rock draws one of two forms */
+    assert_near(volume / 240.0, c->rocks[0].content_reached, 1e-6);
+    assert_near(c->rocks[0].passing_reached[1], 1.0, 1e-12);                                 /* rounding */
+    assert_true(c->bodies[0].packed_diameter > 1.1 && c->bodies[12].packed_diameter < 0.75); /* along the whole curve */
+    case_reading_round_trip(f, counted, NULL);
+}
+
+static void a_count_that_finds_no_room_is_refused(void **state)
+{
+    case_reading *f = *state;
+    static const char *const settings[] = {"rocks[0].region.max=(2.3, 2.3, 2.3)", NULL};
+    case_reading_refuse(f, counted, settings, "", "of 13 rocks; allowed: as many as find a place");
+    static const char *const neither[] = {"rocks[0].count=0", NULL};
+    case_reading_refuse(f, counted, neither, "", "found rocks with neither content nor count");
+}
+
 static void rocks_written_and_read_again_are_the_same(void **state)
 {
     case_reading_round_trip(*state, text, NULL);
@@ -145,10 +198,13 @@ static void what_cannot_be_is_refused(void **state)
 {
     static const char *const wrong[][2] = {
         {"rocks[0].content=1.5", "allowed: in (0, 1)"},
+        {"rocks[0].count=7", "found rocks with both content and count"},
+        {"rocks[0].count=-1", "allowed"},
+        {"rocks[0].count=2.5", "allowed"},
         {"rocks[0].contnt=0.2", "did you mean 'content'?"},
         {"rocks[0].sizes=( { diameter=1; passing=0.5; } )", "allowed: 1, for all rocks"},
         {"rocks[0].sizes=( { diameter=1; passing=0.5; }, { diameter=0.5; passing=1; } )", "rising diameters"},
-        {"rocks[0].forms[0].type=ball", "allowed: rock, outline, mesh"},
+        {"rocks[0].forms[0].type=ball", "allowed: rock, sphere, ellipsoid, outline, mesh"},
         {"rocks[0].forms[0].diameter=2", "unknown name 'diameter'"},
         {"rocks[0].forms[0]={type=\"outline\"; file=\"nowhere.txt\";}", "an outline that cannot be read"},
         {"rocks[0].region={ type=\"half_space\"; point=(0, 0); normal=(0, 1); }", "has no end along x"},
@@ -215,6 +271,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         FOR_ROCKS(an_item_becomes_bodies_of_the_asked_content_and_sizes),
         FOR_ROCKS(rocks_keep_off_each_other_and_off_bodies_that_are_there),
+        FOR_ROCKS(a_count_of_balls_and_ellipsoids_is_exact_and_so_are_their_volumes),
+        FOR_ROCKS(a_count_that_finds_no_room_is_refused),
         FOR_ROCKS(rocks_written_and_read_again_are_the_same),
         FOR_ROCKS(rocks_follow_the_scale_of_the_case),
         FOR_ROCKS(outlines_from_files_are_forms_of_unit_diameter),
