@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/command.h"
+#include "cases/driver/command_table.h"
 
 #include "core/base/nearest.h"
 #include "core/base/parallel.h"
@@ -13,52 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef mor_status (*command_function)(mor_command *command, int *exit_code);
-
-static const struct {
-    const char *name, *subject, *text;
-    command_function run;
-} commands[] = {
-    {"run", "CASE", "run a case; results go into a folder", mor_command_run},
-    {"check", "CASE", "read and build a case without running it", mor_command_check},
-    {"explain", "CASE", "say what a run would do: particles, steps, memory, time, stages", mor_command_explain},
-    {"preview", "CASE", "draw what a run would start from, before any settling", mor_command_preview},
-    {"relax", "MESH", "fill a mesh, or an outline in a text file, with evenly spaced particles", mor_command_relax},
-    {"render", "RUN", "draw the snapshots and the series of a run's folder", mor_command_render},
-    {"list", "WHAT", "list materials, probes, fields, stages, shapes or keys", mor_command_list},
-    {"check-material", "FILE", "try the laws of mechanics on a material: the name of a model or a plug-in file.so",
-     mor_command_check_material},
-};
-
-enum { N_COMMANDS = sizeof commands / sizeof *commands };
-
-/* Options without a letter. */
-enum { OPTION_SPACING = 256, OPTION_SIZES };
-
-static const char options_text[] =
-    "Options\n"
-    "  -o, --output DIR      folder of the run (default runs/NAME)\n"
-    "  -t, --threads N       threads (default: as many as the machine has cores)\n"
-    "  -s, --set KEY=VALUE   overrides a key of the case, such as --set spacing='2 mm' or --set "
-    "'soil[0].material.cohesion=1 kPa'\n"
-    "      --resume          go on from the last good checkpoint of the folder\n"
-    "      --stop-at T       stop with a checkpoint once the simulated time reaches T, such as 0.5 or '20 ms'\n"
-    "      --spacing L       relax: spacing of the particles, such as 0.05 or '5 cm'\n"
-    "      --diameter L, --length L, --volume V\n"
-    "                        relax: equivalent diameter, longest side or volume to scale the mesh to\n"
-    "  -h, --help            this text\n"
-    "      --version         version and commit\n"
-    "Exit codes: 0 ok, 1 run failed, 2 bad input, 3 an expectation was missed, 130 interrupted.\n";
-
-static void print_usage(FILE *stream)
-{
-    fprintf(stream, "Moraine simulates mixtures of soil and rocks.\n\nUsage: moraine COMMAND SUBJECT [OPTION]...\n\n"
-                    "Commands\n");
-    for (int k = 0; k < N_COMMANDS; ++k) {
-        fprintf(stream, "  %-14s %-5s %s\n", commands[k].name, commands[k].subject, commands[k].text);
-    }
-    fprintf(stream, "\n%s", options_text);
-}
+/* Options without a letter, by their place in the table. */
+enum { OPTION_FIRST = 256, LETTERS_BYTES = 3 * MOR_OPTION_COUNT + 1 };
 
 /* Warnings and errors of the library, for the terminal. */
 static void show_log(void *user, mor_log_level level, const char *text)
@@ -93,82 +49,95 @@ static mor_status set_stop(mor_command *command, const char *text)
     return MOR_OK;
 }
 
-static mor_status take_option(mor_command *command, int option, const char *value)
+static mor_status take_option(mor_command *command, mor_command_option_kind kind, const char *value)
 {
     mor_context *context = command->context;
-    switch (option) {
-    case 'o':
+    command->given |= 1u << kind;
+    switch (kind) {
+    case MOR_OPTION_OUTPUT:
         command->folder = value;
         return MOR_OK;
-    case 't':
+    case MOR_OPTION_THREADS:
         return set_threads(command, value);
-    case 's':
+    case MOR_OPTION_SET:
         MOR_CHECK(context, command->n_settings < MOR_COMMAND_SETTINGS_MAX, MOR_ERROR_CONFIG,
                   "found more than %d --set options; put some of them into the case file", MOR_COMMAND_SETTINGS_MAX);
         command->settings[command->n_settings++] = value;
         return MOR_OK;
-    case 'r':
+    case MOR_OPTION_RESUME:
         command->is_resume = true;
         return MOR_OK;
-    case OPTION_SPACING:
+    case MOR_OPTION_SPACING:
         command->spacing = value;
         return MOR_OK;
-    case OPTION_SIZES + MOR_MESH_LENGTH:
-    case OPTION_SIZES + MOR_MESH_VOLUME:
-    case OPTION_SIZES + MOR_MESH_DIAMETER:
-        command->sizes[option - OPTION_SIZES] = value;
+    case MOR_OPTION_LENGTH:
+        command->sizes[MOR_MESH_LENGTH] = value;
         return MOR_OK;
-    case 'T':
+    case MOR_OPTION_VOLUME:
+        command->sizes[MOR_MESH_VOLUME] = value;
+        return MOR_OK;
+    case MOR_OPTION_DIAMETER:
+        command->sizes[MOR_MESH_DIAMETER] = value;
+        return MOR_OK;
+    case MOR_OPTION_STOP_AT:
         return set_stop(command, value);
-    default:
-        return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "found an option that is not known or lacks its value; see moraine --help");
-    }
-}
-
-/* Reads the options; *is_done is set when help or version was all that was asked for. */
-static mor_status read_options(mor_command *command, int argc, char **argv, bool *is_done)
-{
-    static const struct option options[] = {{"output", required_argument, NULL, 'o'},
-                                            {"threads", required_argument, NULL, 't'},
-                                            {"set", required_argument, NULL, 's'},
-                                            {"resume", no_argument, NULL, 'r'},
-                                            {"stop-at", required_argument, NULL, 'T'},
-                                            {"spacing", required_argument, NULL, OPTION_SPACING},
-                                            {"length", required_argument, NULL, OPTION_SIZES + MOR_MESH_LENGTH},
-                                            {"volume", required_argument, NULL, OPTION_SIZES + MOR_MESH_VOLUME},
-                                            {"diameter", required_argument, NULL, OPTION_SIZES + MOR_MESH_DIAMETER},
-                                            {"help", no_argument, NULL, 'h'},
-                                            {"version", no_argument, NULL, 'V'},
-                                            {NULL, 0, NULL, 0}};
-    int option = 0;
-    while ((option = getopt_long(argc, argv, "o:t:s:h", options, NULL)) != -1) {
-        if (option == 'h') {
-            print_usage(command->output);
-            *is_done = true;
-            return MOR_OK;
-        }
-        if (option == 'V') {
-            fprintf(command->output, "moraine %s (commit %s)\n", MOR_VERSION, MOR_COMMIT);
-            *is_done = true;
-            return MOR_OK;
-        }
-        MOR_TRY(command->context, take_option(command, option, optarg));
+    case MOR_OPTION_HELP:
+    case MOR_OPTION_VERSION: /* answered once the whole line is read */
+    case MOR_OPTION_COUNT:
+        break;
     }
     return MOR_OK;
 }
 
-static mor_status find_command(mor_context *context, const char *name, int *found)
+/* The table of options in the form that getopt wants. */
+static void list_options(struct option *options, char *letters)
 {
-    const char *names[N_COMMANDS];
-    for (int k = 0; k < N_COMMANDS; ++k) {
-        names[k] = commands[k].name;
-        if (strcmp(name, commands[k].name) == 0) {
-            *found = k;
+    int n = 0;
+    for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
+        const mor_command_option *option = &mor_command_options[k];
+        options[k] = (struct option){option->name, option->value != NULL ? required_argument : no_argument, NULL,
+                                     OPTION_FIRST + k};
+        if (option->letter != '\0') {
+            letters[n++] = option->letter;
+            letters[n] = ':';
+            n += option->value != NULL;
+        }
+    }
+    letters[n] = '\0';
+    options[MOR_OPTION_COUNT] = (struct option){NULL, 0, NULL, 0};
+}
+
+static mor_status read_options(mor_command *command, int argc, char **argv)
+{
+    struct option options[MOR_OPTION_COUNT + 1];
+    char letters[LETTERS_BYTES];
+    int found = 0;
+    list_options(options, letters);
+    while ((found = getopt_long(argc, argv, letters, options, NULL)) != -1) {
+        int kind = found - OPTION_FIRST;
+        for (int k = 0; k < MOR_OPTION_COUNT && found < OPTION_FIRST; ++k) {
+            kind = mor_command_options[k].letter == found ? k : kind;
+        }
+        MOR_CHECK(command->context, kind >= 0, MOR_ERROR_CONFIG,
+                  "found an option that is not known or lacks its value; see moraine --help");
+        MOR_TRY(command->context, take_option(command, (mor_command_option_kind)kind, optarg));
+    }
+    return MOR_OK;
+}
+
+static mor_status find_command(mor_context *context, const char *name, const mor_command_info **found)
+{
+    enum { NAMES_MAX = 32 };
+    const char *names[NAMES_MAX];
+    int n = 0;
+    for (const mor_command_info *info = mor_commands; info->name != NULL && n < NAMES_MAX; ++info) {
+        names[n++] = info->name;
+        if (strcmp(name, info->name) == 0) {
+            *found = info;
             return MOR_OK;
         }
     }
-    const int near = mor_nearest_find(name, names, N_COMMANDS);
+    const int near = mor_nearest_find(name, names, n);
     return MOR_FAIL(context, MOR_ERROR_CONFIG, "found command '%s', which is not known%s%s; see moraine --help", name,
                     near >= 0 ? "; did you mean " : "", near >= 0 ? names[near] : "");
 }
@@ -188,45 +157,63 @@ static void join_words(mor_command *command, int argc, char **argv)
 }
 
 /* Refuses options that a command would not look at. */
-static mor_status check_options(const mor_command *command, command_function run)
+static mor_status check_options(const mor_command *command, const mor_command_info *info)
 {
-    bool has_size = command->spacing != NULL;
-    for (int k = 0; k < 4; ++k) {
-        has_size = has_size || command->sizes[k] != NULL;
+    for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
+        if ((command->given >> k & 1u) == 0 || mor_command_takes(info, (mor_command_option_kind)k)) {
+            continue;
+        }
+        char owners[256] = "";
+        for (const mor_command_info *other = mor_commands; other->name != NULL; ++other) {
+            if (mor_command_takes(other, (mor_command_option_kind)k)) {
+                const size_t n = strlen(owners);
+                snprintf(owners + n, sizeof owners - n, "%s%s", n > 0 ? ", " : "", other->name);
+            }
+        }
+        return MOR_FAIL(command->context, MOR_ERROR_CONFIG,
+                        "found --%s, which moraine %s does not take; it belongs to moraine %s; remove it, see moraine "
+                        "%s --help",
+                        mor_command_options[k].name, info->name, owners, info->name);
     }
-    MOR_CHECK(command->context, run == mor_command_relax || !has_size, MOR_ERROR_CONFIG,
-              "found --spacing, --length, --volume or --diameter, which belong to moraine relax; the values of a case "
-              "are changed by --set KEY=VALUE");
-    MOR_CHECK(command->context, run != mor_command_relax || command->n_settings == 0, MOR_ERROR_CONFIG,
-              "found --set, which changes a key of a case; moraine relax takes --spacing, --length, --volume, "
-              "--diameter and -o");
-    MOR_CHECK(command->context, (run != mor_command_relax && run != mor_command_preview) || !command->is_resume,
-              MOR_ERROR_CONFIG, "found --resume, which belongs to moraine run");
+    return MOR_OK;
+}
+
+/* Help and version are all that is done when they are asked for. */
+static mor_status answer_question(mor_command *command, const char *name)
+{
+    const mor_command_info *info = NULL;
+    if ((command->given >> MOR_OPTION_VERSION & 1u) != 0) {
+        fprintf(command->output, "moraine %s (commit %s)\n", MOR_VERSION, MOR_COMMIT);
+    } else if (name == NULL) {
+        mor_command_print_usage(command->output);
+    } else {
+        MOR_TRY(command->context, find_command(command->context, name, &info));
+        mor_command_print_help(command->output, info);
+    }
     return MOR_OK;
 }
 
 static mor_status run_command(mor_command *command, int argc, char **argv, int *exit_code)
 {
-    bool is_done = false;
-    int found = 0;
-    MOR_TRY(command->context, read_options(command, argc, argv, &is_done));
-    if (is_done) {
-        return MOR_OK;
+    const mor_command_info *info = NULL;
+    MOR_TRY(command->context, read_options(command, argc, argv));
+    if ((command->given & (1u << MOR_OPTION_HELP | 1u << MOR_OPTION_VERSION)) != 0) {
+        return answer_question(command, optind < argc ? argv[optind] : NULL);
     }
     if (optind >= argc) {
-        print_usage(command->errors);
+        mor_command_print_usage(command->errors);
         *exit_code = MOR_EXIT_BAD_INPUT;
         return MOR_OK;
     }
-    MOR_TRY(command->context, find_command(command->context, argv[optind], &found));
+    MOR_TRY(command->context, find_command(command->context, argv[optind], &info));
     command->subject = optind + 1 < argc ? argv[optind + 1] : NULL;
     MOR_CHECK(command->context, optind + 2 >= argc, MOR_ERROR_CONFIG,
-              "found '%s' behind '%s'; allowed is one %s; see moraine --help", argv[optind + 2], command->subject,
-              commands[found].subject);
-    MOR_CHECK(command->context, command->subject != NULL, MOR_ERROR_CONFIG, "moraine %s needs a %s; see moraine --help",
-              commands[found].name, commands[found].subject);
-    MOR_TRY(command->context, check_options(command, commands[found].run));
-    return commands[found].run(command, exit_code);
+              "found '%s' behind '%s'; allowed is one %s; see moraine %s --help", argv[optind + 2], command->subject,
+              info->subject, info->name);
+    MOR_CHECK(command->context, command->subject != NULL, MOR_ERROR_CONFIG,
+              "moraine %s needs a %s; see moraine %s --help", info->name, info->subject, info->name);
+    MOR_TRY(command->context, check_options(command, info));
+    return info->run(command, exit_code);
 }
 
 int mor_command_main(int argc, char **argv, const volatile sig_atomic_t *stop)

@@ -30,6 +30,7 @@ typedef struct mor_command {
     const char *folder;                             /* -o; NULL when there is none */
     const char *settings[MOR_COMMAND_SETTINGS_MAX]; /* shape [n_settings] of "key=value" */
     int n_settings;
+    unsigned given; /* mask of the options on the line, bit by mor_command_option_kind */
     bool is_resume;
     double stop_at;                    /* s; NaN: not asked */
     const char *spacing;               /* of relax, as written; NULL: not asked */
@@ -58,6 +59,11 @@ mor_status mor_command_relax(mor_command *command, int *exit_code);
 mor_status mor_command_render(mor_command *command, int *exit_code);
 mor_status mor_command_list(mor_command *command, int *exit_code);
 mor_status mor_command_check_material(mor_command *command, int *exit_code);
+
+/** The words that 'moraine list' takes.
+ *  @param index [in]  >= 0
+ *  Returns: the word; NULL behind the last one. */
+const char *mor_command_list_word(int index);
 
 /** Prints sizes, clocks, expected time, warnings and stages of a simulation; takes a few steps, so the simulation is
  *  worthless afterwards.

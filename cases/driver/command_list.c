@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Commands about what there is: list, check-material. */
-#include "cases/driver/command.h"
+#include "cases/driver/command_table.h"
 
 #include "cases/driver/case_schema.h"
 #include "core/base/nearest.h"
@@ -86,13 +86,35 @@ static mor_status list_keys(mor_context *context, const mor_registry *registry, 
     return mor_case_schema_print(context, registry, out);
 }
 
+static mor_status list_man(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    (void)context;
+    (void)registry;
+    mor_command_print_man(out);
+    return MOR_OK;
+}
+
+static mor_status list_completion(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    (void)context;
+    (void)registry;
+    mor_command_print_completion(out);
+    return MOR_OK;
+}
+
 static const struct {
     const char *word;
     mor_status (*print)(mor_context *context, const mor_registry *registry, FILE *out);
-} lists[] = {{"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields},
-             {"stages", list_stages},       {"shapes", list_shapes}, {"keys", list_keys}};
+} lists[] = {
+    {"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields}, {"stages", list_stages},
+    {"shapes", list_shapes},       {"keys", list_keys},     {"man", list_man},       {"completion", list_completion}};
 
 enum { N_LISTS = sizeof lists / sizeof *lists };
+
+const char *mor_command_list_word(int index)
+{
+    return index < N_LISTS ? lists[index].word : NULL;
+}
 
 static mor_status make_registry(mor_context *context, mor_registry **registry)
 {
@@ -115,9 +137,12 @@ mor_status mor_command_list(mor_command *command, int *exit_code)
             return status;
         }
     }
-    return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "found '%s' behind list; allowed are materials, probes, fields, stages, shapes and keys",
-                    command->subject);
+    char words[256] = "";
+    for (int k = 0; k < N_LISTS; ++k) {
+        const size_t n = strlen(words);
+        snprintf(words + n, sizeof words - n, "%s%s", k == 0 ? "" : k + 1 < N_LISTS ? ", " : " and ", lists[k].word);
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG, "found '%s' behind list; allowed are %s", command->subject, words);
 }
 
 /* Tries one model; prints its table. */

@@ -16,9 +16,9 @@ typedef struct ellipsoid_shape {
 
 enum { NEWTON_STEPS = 64 };
 
-/* The nearest point x of the surface to a point y off the plane across the shortest axis: x_i = e_i^2 y_i / (t + e_i^2),
- * with the root t of sum (e_i y_i / (t + e_i^2))^2 = 1 above -e_n^2 (Eberly 2013). The sum falls and is convex: Newton's
- * steps from where it is not yet too small never overshoot. */
+/* The nearest point x of the surface to a point y off the plane across the shortest axis:
+ * x_i = e_i^2 y_i / (t + e_i^2), with the root t of sum (e_i y_i / (t + e_i^2))^2 = 1 above -e_n^2 (Eberly 2013). The
+ * sum falls and is convex: Newton's steps from where it is not yet too small never overshoot. */
 static void descend(int n, const double *e, const double *y, double *x)
 {
     double t = e[n - 1] * (y[n - 1] - e[n - 1]);

@@ -27,6 +27,12 @@ static const refusal refusals[] = {
     {{"run", COLUMN, "-o", NULL}, "lacks its value"},
     {{"run", NULL}, "moraine run needs a CASE"},
     {{"render", NULL}, "moraine render needs a RUN"},
+    {{"check", COLUMN, "--resume", NULL},
+     "found --resume, which moraine check does not take; it belongs to moraine run"},
+    {{"relax", "rock.obj", "--set", "a=1", NULL}, "found --set, which moraine relax does not take"},
+    {{"run", COLUMN, "--spacing", "1 m", NULL}, "it belongs to moraine relax"},
+    {{"list", "probes", "-o", "there", NULL}, "found --output, which moraine list does not take"},
+    {{"rum", "--help", NULL}, "did you mean run"},
     {{"check", COLUMN, "more", NULL}, "found 'more' behind"},
     {{"check", COLUMN, "-t", "0", NULL}, "found --threads '0'; allowed are whole numbers"},
     {{"check", COLUMN, "-t", "2x", NULL}, "found --threads '2x'"},
@@ -79,8 +85,9 @@ typedef struct answer {
 } answer;
 
 static const answer answers[] = {
-    {{"--help", NULL}, {"Usage: moraine COMMAND", "--resume", "130 interrupted"}},
-    {{"run", "--help", NULL}, {"Usage: moraine COMMAND"}},
+    {{"--help", NULL}, {"Usage: moraine COMMAND", "--resume", "interrupted"}},
+    {{"run", "--help", NULL}, {"Usage: moraine run CASE", "--resume", "interrupted; --resume goes on"}},
+    {{"--help", "relax", NULL}, {"Usage: moraine relax MESH", "--spacing", "(default: it must be given)"}},
     {{"--version", NULL}, {"moraine ", "(commit "}},
     {{"list", "materials", NULL}, {"drucker_prager", "youngs_modulus", "[Pa]", "from "}},
     {{"list", "probes", NULL}, {"run_out", "energy_left", "[N; N/m in plane strain]"}},
