@@ -114,13 +114,14 @@ static mor_status report_refusal(mor_context *context, const mor_elastic *elasti
     const double *x = group->set.data[MOR_FIELD_POSITION] + 3 * i;
     const double *f = group->set.data[elastic->field_gradient] + 9 * i;
     const double determinant = mor_matrix_determinant(f);
-    return MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
-                    "material '%s' gives no stress for " PARTICLE
-                    " at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu: its "
-                    "volume has changed by the factor %.4g, which must be positive. A smaller 'body_courant' or a "
-                    "stiffer body may help",
-                    elastic->material->material->name, PARTICLE_NAMES(group, i), x[0], x[1], x[2],
-                    step->time + 0.5 * step->length, (unsigned long long)step->number, determinant);
+    const mor_status told =
+        MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
+                 "material '%s' gives no stress for " PARTICLE " at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu: its "
+                 "volume has changed by the factor %.4g, which must be positive. A smaller 'body_courant' or a "
+                 "stiffer body may help",
+                 elastic->material->material->name, PARTICLE_NAMES(group, i), x[0], x[1], x[2],
+                 step->time + 0.5 * step->length, (unsigned long long)step->number, determinant);
+    return mor_context_name_particle(context, told, group->set.name, group->set.id[i]);
 }
 
 mor_status mor_elastic_find_stress(mor_context *context, void *owner, const mor_step *step)
@@ -201,12 +202,14 @@ static mor_status report_runaway(mor_context *context, const mor_elastic *elasti
         const double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
         if (!(mor_vector_length(v) < elastic->sound_speed)) {
             const double *x = group->set.data[MOR_FIELD_POSITION] + 3 * i;
-            return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                            PARTICLE " has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, t = %.6g s, step "
-                                     "%llu; speeds must stay below that of sound, %.4g m/s. A stiffer body, a smaller "
-                                     "'body_courant' or a smaller spacing may help",
-                            PARTICLE_NAMES(group, i), v[0], v[1], v[2], x[0], x[1], x[2], step->time + step->length,
-                            (unsigned long long)step->number, elastic->sound_speed);
+            const mor_status status =
+                MOR_FAIL(context, MOR_ERROR_NUMERIC,
+                         PARTICLE " has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, t = %.6g s, step "
+                                  "%llu; speeds must stay below that of sound, %.4g m/s. A stiffer body, a smaller "
+                                  "'body_courant' or a smaller spacing may help",
+                         PARTICLE_NAMES(group, i), v[0], v[1], v[2], x[0], x[1], x[2], step->time + step->length,
+                         (unsigned long long)step->number, elastic->sound_speed);
+            return mor_context_name_particle(context, status, group->set.name, group->set.id[i]);
         }
     }
     return MOR_FAIL(context, MOR_ERROR_NUMERIC,
@@ -317,15 +320,16 @@ static mor_status check_domain(mor_context *context, const mor_elastic *elastic,
             const int64_t i = (int64_t)group->piece_values[p * MOR_BODY_PIECE_VALUES];
             double x[3];
             mor_domain_localize(group->placement, position + 3 * i, x);
-            return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                            PARTICLE " left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step %llu; the "
-                                     "domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain' or close "
-                                     "the walls; only soil can be removed there",
-                            PARTICLE_NAMES(group, i), x[0], x[1], x[2],
-                            group->placement != NULL ? " before 'placement'" : "", step->time + step->length,
-                            (unsigned long long)step->number, group->domain_minimum[0], group->domain_minimum[1],
-                            group->domain_minimum[2], group->domain_maximum[0], group->domain_maximum[1],
-                            group->domain_maximum[2]);
+            const mor_status status = MOR_FAIL(
+                context, MOR_ERROR_NUMERIC,
+                PARTICLE " left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step %llu; the "
+                         "domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain' or close "
+                         "the walls; only soil can be removed there",
+                PARTICLE_NAMES(group, i), x[0], x[1], x[2], group->placement != NULL ? " before 'placement'" : "",
+                step->time + step->length, (unsigned long long)step->number, group->domain_minimum[0],
+                group->domain_minimum[1], group->domain_minimum[2], group->domain_maximum[0], group->domain_maximum[1],
+                group->domain_maximum[2]);
+            return mor_context_name_particle(context, status, group->set.name, group->set.id[i]);
         }
     }
     return MOR_OK;

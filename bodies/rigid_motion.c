@@ -134,15 +134,16 @@ static mor_status report_stray(mor_context *context, const mor_rigid *rigid, int
         body->mass);
     double local[3];
     mor_domain_localize(group->placement, x, local);
-    return MOR_FAIL(
-        context, MOR_ERROR_NUMERIC,
-        "particle %lld of rigid body '%s' of group '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at "
-        "t = %.6g s, step %llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge "
-        "'domain' or close the walls; only soil can be removed there",
-        (long long)group->set.id[particle], body->name, group->set.name, local[0], local[1], local[2],
-        group->placement != NULL ? " before 'placement'" : "", time, (unsigned long long)step->number,
-        group->domain_minimum[0], group->domain_minimum[1], group->domain_minimum[2], group->domain_maximum[0],
-        group->domain_maximum[1], group->domain_maximum[2]);
+    const mor_status status =
+        MOR_FAIL(context, MOR_ERROR_NUMERIC,
+                 "particle %lld of rigid body '%s' of group '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at "
+                 "t = %.6g s, step %llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge "
+                 "'domain' or close the walls; only soil can be removed there",
+                 (long long)group->set.id[particle], body->name, group->set.name, local[0], local[1], local[2],
+                 group->placement != NULL ? " before 'placement'" : "", time, (unsigned long long)step->number,
+                 group->domain_minimum[0], group->domain_minimum[1], group->domain_minimum[2], group->domain_maximum[0],
+                 group->domain_maximum[1], group->domain_maximum[2]);
+    return mor_context_name_particle(context, status, group->set.name, group->set.id[particle]);
 }
 
 mor_status mor_rigid_drift_second(mor_context *context, void *owner, const mor_step *step)

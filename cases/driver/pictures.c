@@ -414,7 +414,8 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
     const double largest = fmax(fabs(g->range[0]), fabs(g->range[1]));
     MOR_TRY(context, read_layers(context, g, snapshot));
     mor_picture picture = {.dimension = c->dimension, .title = c->title, .has_frame = true, .frame = g->frame};
-    snprintf(time_text, sizeof time_text, "%s %.4g s", g->when != NULL ? g->when : "t =", snapshot->time);
+    snprintf(time_text, sizeof time_text, "%s %.4g s%s%s", g->when != NULL ? g->when : "t =", snapshot->time,
+             snapshot->note[0] != '\0' ? ", " : "", snapshot->note);
     snprintf(value_name, sizeof value_name, "%s", g->color.name);
     for (char *letter = value_name; *letter != '\0'; ++letter) {
         *letter = *letter == '_' ? ' ' : *letter;

@@ -7,6 +7,7 @@
 #include "cases/driver/pictures.h"
 #include "cases/driver/probe.h"
 #include "cases/driver/rocks_report.h"
+#include "cases/driver/run_failure.h"
 #include "cases/driver/run_settle.h"
 #include "cases/driver/simulation_warnings.h"
 
@@ -111,6 +112,9 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
 {
     mor_simulation *s = files->simulation;
     while (s->schedule.now < s->schedule.end && !is_stopping(files->options, s)) {
+        if (p->n_loop_steps % MOR_RUN_KEEP_INTERVAL == 0) {
+            MOR_TRY(context, mor_run_files_keep(context, files, p->next_snapshot));
+        }
         const double before = mor_clock_now();
         MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
         p->loop_seconds += mor_clock_now() - before;
@@ -124,6 +128,19 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, write_outputs(context, files, p));
         show_progress(files->options, s, p);
     }
+    return MOR_OK;
+}
+
+/* A step without its files. */
+static mor_status retake_step(mor_context *context, mor_simulation *s, int64_t *next_snapshot)
+{
+    pace p = {.next_snapshot = *next_snapshot};
+    MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p.next_snapshot)));
+    MOR_TRY(context, mor_probe_follow(context, s));
+    while (p.next_snapshot < s->the_case->output.n_snapshots && snapshot_tick(s, p.next_snapshot) <= s->schedule.now) {
+        ++p.next_snapshot;
+    }
+    *next_snapshot = p.next_snapshot;
     return MOR_OK;
 }
 
@@ -233,7 +250,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     }
     print_end(files, p, speed);
     warn_of_outflow(context, s);
-    MOR_TRY(context, mor_run_files_conclude(context, files, speed, &outcome->n_missed));
+    MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
     if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
     }
@@ -291,6 +308,9 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     if (status != MOR_OK) {
         if (files->series.stream != NULL) { /* before that there is nothing to go on from */
             add_advice(context, status);
+        }
+        if (files->kept.is_valid && status != MOR_ERROR_IO && status != MOR_ERROR_MEMORY) {
+            status = mor_run_conclude_failure(context, files, retake_step);
         }
         log_reason(context, files->log);
     }

@@ -204,6 +204,7 @@ void mor_run_files_close(mor_context *context, mor_run_files *files)
     free(files->case_text);
     files->case_text = NULL;
     MOR_FREE(context, &files->saved_text);
+    MOR_FREE(context, &files->kept.bytes);
 }
 
 mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
@@ -314,6 +315,81 @@ mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
     return mor_checkpoint_write(context, files->options->folder, &state.checkpoint);
 }
 
+/* What is done with every array of a state. */
+typedef enum copy_way { MEASURE, STORE, LOAD } copy_way;
+
+static int64_t copy_array(char *bytes, int64_t at, void *data, int64_t n_bytes, copy_way way)
+{
+    if (way == STORE) {
+        memcpy(bytes + at, data, (size_t)n_bytes);
+    } else if (way == LOAD) {
+        memcpy(data, bytes + at, (size_t)n_bytes);
+    }
+    return at + n_bytes;
+}
+
+/* Walks over all that a checkpoint holds; returns its bytes. Room is measured with the sets as they were made. */
+static int64_t copy_state(const saved_state *state, char *bytes, copy_way way)
+{
+    int64_t at = 0;
+    for (int k = 0; k < state->checkpoint.n_sets; ++k) {
+        const mor_set *set = state->sets[k];
+        const int64_t n = way == MEASURE ? set->n_created : set->n_particles;
+        at = copy_array(bytes, at, set->id, n * (int64_t)sizeof *set->id, way);
+        for (int field = 0; field < set->n_fields; ++field) {
+            if ((set->fields[field].flags & MOR_FIELD_EVOLVES) != 0 && set->data[field] != NULL) {
+                const int64_t n_bytes = n * set->fields[field].n_components * (int64_t)sizeof(double);
+                at = copy_array(bytes, at, set->data[field], n_bytes, way);
+            }
+        }
+    }
+    for (int k = 0; k < state->n_values; ++k) {
+        at = copy_array(bytes, at, state->values[k].data, 8 * state->values[k].n, way); /* 64-bit numbers of any kind */
+    }
+    return at;
+}
+
+mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_t next_snapshot)
+{
+    saved_state state;
+    mor_run_kept *kept = &files->kept;
+    list_state(files->simulation, &state);
+    if (kept->bytes == NULL) {
+        kept->n_bytes = copy_state(&state, NULL, MEASURE);
+        MOR_TRY(context, MOR_NEW(context, &kept->bytes, kept->n_bytes, "a state to go back to"));
+    }
+    MOR_TRY(context, mor_simulation_bodies_pack(context, &files->simulation->bodies, true));
+    for (int k = 0; k < state.checkpoint.n_sets; ++k) {
+        kept->n_particles[k] = state.sets[k]->n_particles;
+    }
+    copy_state(&state, kept->bytes, STORE);
+    kept->next_snapshot = next_snapshot;
+    kept->is_valid = true;
+    return MOR_OK;
+}
+
+/* What follows from a state that was put back. */
+static mor_status take_up(mor_context *context, mor_simulation *s)
+{
+    if (s->has_soil) {
+        mor_soil_fit(&s->soil);
+    }
+    s->bodies.contact.time = mor_schedule_time(&s->schedule);
+    return mor_simulation_bodies_pack(context, &s->bodies, false);
+}
+
+mor_status mor_run_files_recall(mor_context *context, mor_run_files *files)
+{
+    saved_state state;
+    list_state(files->simulation, &state);
+    for (int k = 0; k < state.checkpoint.n_sets; ++k) {
+        state.sets[k]->n_particles = files->kept.n_particles[k];
+        state.sets[k]->generation += 1;
+    }
+    copy_state(&state, files->kept.bytes, LOAD);
+    return take_up(context, files->simulation);
+}
+
 /* Why a state cannot be taken up though the case may go on: what the domain cuts off became more. */
 static mor_status explain_refusal(mor_context *context, const mor_run_files *files, mor_status status)
 {
@@ -355,11 +431,7 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
     const mor_status status = mor_checkpoint_read_latest(context, folder, &state.checkpoint);
     MOR_TRY(context, status == MOR_OK ? status : explain_refusal(context, files, status));
     MOR_TRY(context, set_clock(context, s));
-    if (s->has_soil) {
-        mor_soil_fit(&s->soil);
-    }
-    s->bodies.contact.time = mor_schedule_time(&s->schedule);
-    MOR_TRY(context, mor_simulation_bodies_pack(context, &s->bodies, false));
+    MOR_TRY(context, take_up(context, s));
     mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu", mor_schedule_time(&s->schedule),
                     (unsigned long long)s->schedule.n_steps);
     return MOR_OK;

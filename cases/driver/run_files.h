@@ -7,6 +7,7 @@
 #include "cases/driver/run_warnings.h"
 #include "core/io/checkpoint.h"
 #include "core/io/snapshot.h"
+#include "core/io/summary.h"
 #include "core/io/table.h"
 
 /** @file
@@ -17,6 +18,15 @@
 #define MOR_RUN_CASE_FILE "case.resolved.cfg"
 
 enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16 };
+
+/** A state of the run in memory, to which a run that fails can go back. */
+typedef struct mor_run_kept {
+    char *bytes; /* shape [n_bytes] */
+    int64_t n_bytes;
+    int64_t n_particles[MOR_BODY_GROUPS_MAX + 2]; /* of each set */
+    int64_t next_snapshot;                        /* number of the next snapshot at that time */
+    bool is_valid;                                /* a state was kept */
+} mor_run_kept;
 
 /** Open files of a run and the numbers that go into them. Owner: the run. */
 typedef struct mor_run_files {
@@ -38,6 +48,7 @@ typedef struct mor_run_files {
     uint64_t case_hash; /* of the case file */
     char *case_text;    /* zero-terminated; the case as it is used, which every checkpoint carries; freed by close */
     char *saved_text;   /* zero-terminated; the case the folder was started with; NULL: a new run; likewise */
+    mor_run_kept kept;
     mor_table series;
     mor_table_column columns[MOR_RUN_COLUMNS_MAX]; /* shape [n_columns] */
     int n_columns;
@@ -127,6 +138,19 @@ mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files);
 
+/** Keeps the present state in memory, in place of the one kept before.
+ *  @param context       [in,out]  one object
+ *  @param files         [in,out]  one object; started
+ *  @param next_snapshot [in]      number of the next snapshot
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: copies the evolving fields; allocates the first time. */
+mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_t next_snapshot);
+
+/** Goes back to the state kept in memory.
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object; with a state kept
+ *  Returns: MOR_OK; what a material returns. */
+mor_status mor_run_files_recall(mor_context *context, mor_run_files *files);
+
 /** Restores the newest good checkpoint of the folder.
  *  @param context     [in,out]  one object
  *  @param files       [in,out]  one object
@@ -134,14 +158,16 @@ mor_status mor_run_files_save(mor_context *context, mor_run_files *files);
  *  Returns: MOR_OK; MOR_ERROR_IO naming the damaged files; MOR_ERROR_CONFIG for the state of another case. */
 mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored);
 
-/** Evaluates all probes and expectations, prints the table, writes summary.json.
+/** Evaluates all probes and expectations, prints the table, writes summary.json. Of a run that failed no expectation is
+ *  reached, and a probe that cannot be evaluated is not a number.
  *  @param context                   [in,out]  one object
  *  @param files                     [in,out]  one object
  *  @param particle_steps_per_second [in]      speed of the time loop, unit 1/s; NaN: no step was taken, the
  *                                             speed in a summary that is there already is kept
+ *  @param failure                   [in]      one object; NULL: the run reached its end
  *  @param n_missed                  [out]     one number; expectations missed
  *  Returns: MOR_OK; MOR_ERROR_IO; what a probe returns. */
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
-                                  int *n_missed);
+                                  const mor_summary_failure *failure, int *n_missed);
 
 #endif

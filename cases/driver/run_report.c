@@ -62,7 +62,11 @@ static void print_expectations(FILE *out, const mor_case *the_case, const mor_su
             snprintf(difference, sizeof difference, "%+.3g", e->measured);
         }
         fprintf(out, "%-20s %12.5g %12.5g %6s %11s %25s %5s  %s\n", e->probe, e->measured, e->reference,
-                strcmp(unit, "1") == 0 ? "-" : unit, difference, allowed, e->passes ? "yes" : "NO", e->source);
+                strcmp(unit, "1") == 0 ? "-" : unit, difference, allowed,
+                summary->failure != NULL ? "n/a"
+                : e->passes              ? "yes"
+                                         : "NO",
+                e->source);
     }
 }
 
@@ -101,8 +105,33 @@ static double find_old_speed(const char *path)
     return mor_summary_read_speed(&context, path, &speed) == MOR_OK ? speed : NAN;
 }
 
+/* The value of a probe; of a run that failed, NaN where it cannot be told. */
+static mor_status find_result(mor_context *context, const mor_run_files *files, int probe, bool is_failed,
+                              double *value)
+{
+    const mor_status status = mor_probe_evaluate(context, files->simulation, probe, value);
+    if (status != MOR_OK && is_failed) {
+        *value = NAN;
+        mor_context_clear_error(context);
+        return MOR_OK;
+    }
+    return status;
+}
+
+/* Above the table of a run that did not reach its end. */
+static void print_failure(FILE *out, const mor_summary *summary)
+{
+    if (summary->failure != NULL) {
+        fprintf(out,
+                "\nincomplete: the run stopped at t = %.6g s of %.6g s, step %lld; the values are those of its last "
+                "finished step%s\n",
+                summary->failure->time, summary->failure->end, (long long)summary->failure->step,
+                summary->n_expectations > 0 ? ", and expectations were not reached" : "");
+    }
+}
+
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
-                                  int *n_missed)
+                                  const mor_summary_failure *failure, int *n_missed)
 {
     const mor_case *c = files->the_case;
     char path[MOR_PATH_BYTES];
@@ -117,7 +146,8 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     for (int k = 0; k < n_shapes; ++k) {
         inputs[1 + k] = (mor_summary_input){shapes[k].path, shapes[k].hash};
     }
-    mor_summary summary = {.results = results,
+    mor_summary summary = {.failure = failure,
+                           .results = results,
                            .n_results = c->n_probes,
                            .expectations = expectations,
                            .n_expectations = c->n_expectations,
@@ -128,7 +158,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     *n_missed = 0;
     for (int k = 0; k < c->n_probes; ++k) {
         results[k] = (mor_summary_result){c->probes[k].name, NAN, mor_probe_unit(c, k)};
-        MOR_TRY(context, mor_probe_evaluate(context, files->simulation, k, &results[k].value));
+        MOR_TRY(context, find_result(context, files, k, failure != NULL, &results[k].value));
     }
     for (int k = 0; k < c->n_expectations; ++k) {
         const mor_case_expectation *e = &c->expectations[k];
@@ -136,7 +166,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
         double low = 0.0;
         double high = 0.0;
         find_limits(e, &low, &high);
-        const bool passes = measured >= low && measured <= high;
+        const bool passes = failure == NULL && measured >= low && measured <= high;
         *n_missed += !passes;
         expectations[k] = (mor_summary_expectation){e->probe,         measured,       e->value, e->tolerance,
                                                     e->tolerance_low, e->is_absolute, passes,   e->source};
@@ -147,6 +177,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
         summary.particle_steps_per_second = find_old_speed(path);
     }
     MOR_TRY(context, mor_summary_write(context, path, &summary));
+    print_failure(files->options->output, &summary);
     print_results(files->options->output, &summary);
     print_expectations(files->options->output, c, &summary);
     print_warnings(files->options->output, &files->warnings);

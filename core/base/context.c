@@ -11,6 +11,7 @@ enum { LOG_LINE_BYTES = 2048 };
 void mor_context_init(mor_context *context)
 {
     memset(context, 0, sizeof *context);
+    context->particle = -1;
     context->n_threads = 1;
     context->seed = 1;
 }
@@ -20,6 +21,8 @@ void mor_context_clear_error(mor_context *context)
     context->status = MOR_OK;
     context->message[0] = '\0';
     context->n_frames = 0;
+    context->particle = -1;
+    context->particle_set[0] = '\0';
 }
 
 mor_status mor_context_fail(mor_context *context, mor_status status, const mor_frame *place, const char *format, ...)
@@ -33,7 +36,16 @@ mor_status mor_context_fail(mor_context *context, mor_status status, const mor_f
     memcpy(context->message, text, sizeof text);
     context->status = status;
     context->n_frames = 0;
+    context->particle = -1;
+    context->particle_set[0] = '\0';
     return mor_context_pass(context, status, place);
+}
+
+mor_status mor_context_name_particle(mor_context *context, mor_status status, const char *set, int64_t particle)
+{
+    snprintf(context->particle_set, sizeof context->particle_set, "%s", set);
+    context->particle = particle;
+    return status;
 }
 
 mor_status mor_context_pass(mor_context *context, mor_status status, const mor_frame *place)

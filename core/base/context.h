@@ -13,7 +13,7 @@
  *  number of threads and the seed. It is the first argument of every function that can fail.
  *  Not a place for simulation data. */
 
-enum { MOR_CONTEXT_MESSAGE_BYTES = 2048, MOR_CONTEXT_FRAMES = 8 };
+enum { MOR_CONTEXT_MESSAGE_BYTES = 2048, MOR_CONTEXT_FRAMES = 8, MOR_CONTEXT_NAME_BYTES = 64 };
 
 /** Severity of a log line. */
 typedef enum mor_log_level { MOR_LOG_DEBUG, MOR_LOG_INFO, MOR_LOG_WARNING, MOR_LOG_ERROR } mor_log_level;
@@ -33,17 +33,19 @@ typedef struct mor_frame {
 
 /** One run. Owned by the caller; one thread at a time may report errors into it. */
 typedef struct mor_context {
-    mor_status status;                           /* code of the last error, MOR_OK when none */
-    char message[MOR_CONTEXT_MESSAGE_BYTES];     /* what was found, what is allowed, what to do */
-    mor_frame frames[MOR_CONTEXT_FRAMES];        /* call chain, innermost first */
-    int n_frames;                                /* valid entries in frames */
-    mor_log_sink log_sink;                       /* NULL: log lines are dropped */
-    void *log_user;                              /* passed to log_sink; owned by the installer */
-    int n_threads;                               /* threads a parallel loop uses, >= 1 */
-    uint64_t seed;                               /* seed of all counter-based random numbers */
-    size_t memory_bytes;                         /* bytes now held by mor_memory_new */
-    size_t memory_peak_bytes;                    /* largest memory_bytes so far */
-    uint64_t n_allocations;                      /* number of successful mor_memory_new so far */
+    mor_status status;                         /* code of the last error, MOR_OK when none */
+    char message[MOR_CONTEXT_MESSAGE_BYTES];   /* what was found, what is allowed, what to do */
+    mor_frame frames[MOR_CONTEXT_FRAMES];      /* call chain, innermost first */
+    int n_frames;                              /* valid entries in frames */
+    int64_t particle;                          /* number of the particle that the last error is about; -1: none */
+    char particle_set[MOR_CONTEXT_NAME_BYTES]; /* its set; "": none */
+    mor_log_sink log_sink;                     /* NULL: log lines are dropped */
+    void *log_user;                            /* passed to log_sink; owned by the installer */
+    int n_threads;                             /* threads a parallel loop uses, >= 1 */
+    uint64_t seed;                             /* seed of all counter-based random numbers */
+    size_t memory_bytes;                       /* bytes now held by mor_memory_new */
+    size_t memory_peak_bytes;                  /* largest memory_bytes so far */
+    uint64_t n_allocations;                    /* number of successful mor_memory_new so far */
 } mor_context;
 
 /** Makes the context ready: no error, no sink, one thread, seed 1.
@@ -63,6 +65,14 @@ void mor_context_clear_error(mor_context *context);
  *  Threads: not inside a parallel loop. */
 mor_status mor_context_fail(mor_context *context, mor_status status, const mor_frame *place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+/** Tells which particle the error just recorded is about, for whoever shows or keeps it.
+ *  @param context  [in,out]  one object
+ *  @param status   [in]      code of the error
+ *  @param set      [in]      zero-terminated name of the particle's set; copied
+ *  @param particle [in]      its number, >= 0
+ *  Returns: status. */
+mor_status mor_context_name_particle(mor_context *context, mor_status status, const char *set, int64_t particle);
 
 /** Adds a frame to the call chain of the last error and returns status.
  *  @param context [in,out]  one object

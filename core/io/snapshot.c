@@ -142,6 +142,9 @@ static mor_status write_state(mor_context *context, mor_hdf5_file *file, const m
     MOR_TRY(context, mor_hdf5_file_set_number(context, file, name, "step", MOR_HDF5_INT64, &head->step));
     MOR_TRY(context, mor_hdf5_file_set_number(context, file, name, "time", MOR_HDF5_DOUBLE, &head->time));
     MOR_TRY(context, mor_hdf5_file_set_text(context, file, name, "time_unit", "s"));
+    if (writer->note != NULL) {
+        MOR_TRY(context, mor_hdf5_file_set_text(context, file, name, "note", writer->note));
+    }
     for (int set = 0; set < head->n_sets; ++set) {
         MOR_TRY(context, write_set(context, file, sets[set], head->step, writer->options.is_single));
     }
@@ -222,6 +225,12 @@ static mor_status read_description(mor_context *context, mor_snapshot *snapshot)
     MOR_TRY(context, mor_hdf5_file_get_number(context, snapshot->file, name, "step", MOR_HDF5_INT64, &step));
     MOR_TRY(context,
             mor_hdf5_file_get_number(context, snapshot->file, name, "time", MOR_HDF5_DOUBLE, &snapshot->time));
+    const mor_status noted =
+        mor_hdf5_file_get_text(context, snapshot->file, name, "note", snapshot->note, sizeof snapshot->note);
+    if (noted != MOR_OK) {
+        snapshot->note[0] = '\0'; /* most have none */
+        mor_context_clear_error(context);
+    }
     MOR_CHECK(context, step == snapshot->step, MOR_ERROR_IO, "the snapshot named step %lld says that it is step %lld",
               (long long)snapshot->step, (long long)step);
     MOR_TRY(context, mor_hdf5_file_count(context, snapshot->file, name, &n_sets));

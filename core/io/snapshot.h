@@ -23,10 +23,10 @@
  *  snapshot in the two small index files, which are replaced by renaming. The index files can always be made again from
  *  the snapshots, and this code never reads them.
  *
- *  Layout (version 1): /step_000012 with attributes step, time and time_unit; /step_000012/<set> with attribute
- *  n_particles; /step_000012/<set>/id [n] and <field> [n, components], each with attributes unit, text, components and
- *  component_names; /provenance with one text attribute per pair. Six components are a symmetric tensor in the order
- *  xx yy zz xy yz zx, nine a matrix by rows. */
+ *  Layout (version 1): /step_000012 with attributes step, time, time_unit and, where there is one, note;
+ *  /step_000012/<set> with attribute n_particles; /step_000012/<set>/id [n] and <field> [n, components], each with
+ *  attributes unit, text, components and component_names; /provenance with one text attribute per pair. Six components
+ *  are a symmetric tensor in the order xx yy zz xy yz zx, nine a matrix by rows. */
 
 #define MOR_SNAPSHOT_FOLDER "snapshots"
 #define MOR_SNAPSHOT_INDEX_FILE "snapshots.h5"
@@ -55,6 +55,7 @@ typedef struct mor_snapshot_set {
 typedef struct mor_snapshot {
     int64_t step;
     double time; /* s */
+    char note[MOR_SNAPSHOT_UNIT_BYTES]; /* what sets it apart from others, such as "run stopped"; "": nothing */
     int n_sets;
     mor_snapshot_set *sets; /* shape [n_sets]; owned by the snapshot */
     mor_hdf5_file *file;    /* NULL when only the description was read; owned by the snapshot */
@@ -84,6 +85,7 @@ typedef struct mor_snapshot_options {
 typedef struct mor_snapshot_writer {
     char folder[MOR_PATH_BYTES]; /* the run's folder */
     mor_snapshot_options options;
+    const char *note;            /* zero-terminated; of the snapshots added from now on; borrowed; NULL: none */
     mor_snapshot_list list;      /* the snapshots on the disk */
 } mor_snapshot_writer;
 

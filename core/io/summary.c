@@ -11,6 +11,9 @@
 #include <math.h>
 #include <string.h>
 
+#define FINISHED "finished"
+#define FAILED "failed"
+
 /* ---- checks before writing --------------------------------------------------------------------------------------- */
 
 static const mor_summary_result *find_result(const mor_summary *summary, const char *probe)
@@ -214,6 +217,26 @@ static json_t *make_provenance(mor_context *context, const mor_summary *summary)
     return provenance;
 }
 
+static json_t *make_failure(mor_context *context, const mor_summary_failure *failure)
+{
+    if (failure == NULL) {
+        return json_null();
+    }
+    const bool has_particle = failure->set[0] != '\0';
+    json_t *object = json_object();
+    int error = add_member(object, "reason", make_text(context, failure->reason));
+    error |= add_member(object, "time", make_number(failure->time));
+    error |= add_member(object, "end", make_number(failure->end));
+    error |= add_member(object, "step", json_integer(failure->step));
+    error |= add_member(object, "set", has_particle ? make_text(context, failure->set) : json_null());
+    error |= add_member(object, "particle", has_particle ? json_integer(failure->particle) : json_null());
+    if (error != 0) {
+        json_decref(object);
+        return NULL;
+    }
+    return object;
+}
+
 /* The whole document, NULL when memory runs out or two names are the same. */
 static json_t *make_document(mor_context *context, const mor_summary *summary)
 {
@@ -223,6 +246,8 @@ static json_t *make_document(mor_context *context, const mor_summary *summary)
     int error = add_member(speed, "particle_steps_per_second", make_number(summary->particle_steps_per_second));
     error |= add_member(memory, "bytes_per_fine_particle", make_number(summary->bytes_per_fine_particle));
     error |= add_member(document, "version", json_integer(MOR_SUMMARY_VERSION));
+    error |= add_member(document, "status", json_string(summary->failure != NULL ? FAILED : FINISHED));
+    error |= add_member(document, "failure", make_failure(context, summary->failure));
     error |= add_member(document, "results", make_results(context, summary));
     error |= add_member(document, "expect", make_expectations(context, summary));
     error |= add_member(document, "warnings", make_warnings(context, summary));
@@ -355,12 +380,29 @@ static mor_status check_provenance(mor_context *context, const char *path, const
     return MOR_OK;
 }
 
+static mor_status check_outcome(mor_context *context, const char *path, const json_t *document)
+{
+    const char *status = json_string_value(json_object_get(document, "status"));
+    if (status == NULL || (strcmp(status, FINISHED) != 0 && strcmp(status, FAILED) != 0)) {
+        return fail_member(context, path, "status", "finished or failed");
+    }
+    const json_t *failure = json_object_get(document, "failure");
+    const bool fits = strcmp(status, FINISHED) == 0
+                          ? json_is_null(failure)
+                          : json_is_string(json_object_get(failure, "reason")) &&
+                                is_number_or_null(json_object_get(failure, "time")) &&
+                                is_number_or_null(json_object_get(failure, "end")) &&
+                                json_is_integer(json_object_get(failure, "step"));
+    return fits ? MOR_OK : fail_member(context, path, "failure", "null of a run that finished, else why it failed");
+}
+
 static mor_status check_document(mor_context *context, const char *path, const json_t *document)
 {
     const json_t *version = json_object_get(document, "version");
     if (!json_is_integer(version) || json_integer_value(version) != MOR_SUMMARY_VERSION) {
         return fail_member(context, path, "version", "1");
     }
+    MOR_TRY(context, check_outcome(context, path, document));
     json_t *results = json_object_get(document, "results");
     MOR_TRY(context, check_results(context, path, results));
     const json_t *expectations = json_object_get(document, "expect");
@@ -411,6 +453,16 @@ mor_status mor_summary_check(mor_context *context, const char *path)
 static double read_number(const json_t *number)
 {
     return json_is_null(number) ? NAN : json_number_value(number);
+}
+
+mor_status mor_summary_read_status(mor_context *context, const char *path, bool *is_failed)
+{
+    *is_failed = false;
+    json_t *document = NULL;
+    MOR_TRY(context, load_document(context, path, &document));
+    *is_failed = strcmp(json_string_value(json_object_get(document, "status")), FAILED) == 0;
+    json_decref(document);
+    return MOR_OK;
 }
 
 mor_status mor_summary_read_speed(mor_context *context, const char *path, double *speed)

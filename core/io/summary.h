@@ -11,6 +11,9 @@
  *  The outcome of a run as summary.json, and the JSON door. It writes what it is handed and judges nothing.
  *
  *      { "version": 1,
+ *        "status": "finished" or "failed",
+ *        "failure": null or { "reason": text, "time", "end": numbers in s, "step": number, "set": text or null,
+ *                             "particle": number or null },
  *        "results": { "<probe>": { "value": number, "unit": text }, ... },
  *        "expect": [ { "probe", "measured", "reference", "tolerance", "tolerance_low", "tolerance_kind", "unit",
  *                      "pass", "source" }, ... ],
@@ -52,8 +55,19 @@ typedef struct mor_summary_input {
     uint64_t hash;    /* mor_hash_file of it */
 } mor_summary_input;
 
+/** Why a run stopped before its end; results are then those of its last finished step. */
+typedef struct mor_summary_failure {
+    const char *reason; /* zero-terminated */
+    double time;        /* of the last finished step, s */
+    double end;         /* that the run was to reach, s */
+    int64_t step;       /* number of finished steps */
+    const char *set;    /* zero-terminated; of the particle that the reason names; "": it names none */
+    int64_t particle;   /* its number */
+} mor_summary_failure;
+
 /** Everything in the file. A view: nothing in it is owned. */
 typedef struct mor_summary {
+    const mor_summary_failure *failure; /* NULL: the run reached its end */
     const mor_summary_result *results; /* shape [n_results] */
     int n_results;
     const mor_summary_expectation *expectations; /* shape [n_expectations] */
@@ -97,6 +111,13 @@ mor_status mor_summary_check(mor_context *context, const char *path);
  *  Returns: MOR_OK; MOR_ERROR_IO, also when there is no such probe or the unit has no room. */
 mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value, char *unit,
                                    size_t n_bytes);
+
+/** Tells whether a summary is of a run that failed, after checking the file.
+ *  @param context   [in,out]  one object
+ *  @param path      [in]      zero-terminated
+ *  @param is_failed [out]     one flag
+ *  Returns: MOR_OK; MOR_ERROR_IO. */
+mor_status mor_summary_read_status(mor_context *context, const char *path, bool *is_failed);
 
 /** Reads the speed from a summary after checking the file.
  *  @param context [in,out]  one object

@@ -217,13 +217,15 @@ static mor_status report_stress(mor_context *context, const mor_soil *soil, cons
     const int64_t i = first + failed;
     const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
     const double *s = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
-    return MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
-                    "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
-                    "t = %.6g s, step %llu (%s, after %d halvings of the step at most); stress (xx, yy, zz, xy, yz, "
-                    "zx) = (%.4g, %.4g, %.4g, %.4g, %.4g, %.4g) Pa. A smaller 'courant' may help",
-                    soil->material->material->name, (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2],
-                    step->time + step->length, (unsigned long long)step->number, mor_status_text(status), HALVINGS,
-                    s[0], s[1], s[2], s[3], s[4], s[5]);
+    const mor_status told =
+        MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
+                 "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
+                 "t = %.6g s, step %llu (%s, after %d halvings of the step at most); stress (xx, yy, zz, xy, yz, "
+                 "zx) = (%.4g, %.4g, %.4g, %.4g, %.4g, %.4g) Pa. A smaller 'courant' may help",
+                 soil->material->material->name, (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2],
+                 step->time + step->length, (unsigned long long)step->number, mor_status_text(status), HALVINGS, s[0],
+                 s[1], s[2], s[3], s[4], s[5]);
+    return mor_context_name_particle(context, told, soil->set.name, soil->set.id[i]);
 }
 
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step)

@@ -203,12 +203,14 @@ static mor_status report_runaway(mor_context *context, const mor_soil *soil, con
         const double speed = mor_vector_length(v);
         if (!(speed < soil->sound_speed)) {
             const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
-            return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                            "particle %lld of set '%s' has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, "
-                            "t = %.6g s, step %llu; speeds must stay below that of sound, %.4g m/s. A stiffer soil, a "
-                            "smaller 'courant' or a smaller spacing may help",
-                            (long long)soil->set.id[i], soil->set.name, v[0], v[1], v[2], x[0], x[1], x[2],
-                            step->time + step->length, (unsigned long long)step->number, soil->sound_speed);
+            const mor_status status =
+                MOR_FAIL(context, MOR_ERROR_NUMERIC,
+                         "particle %lld of set '%s' has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, "
+                         "t = %.6g s, step %llu; speeds must stay below that of sound, %.4g m/s. A stiffer soil, a "
+                         "smaller 'courant' or a smaller spacing may help",
+                         (long long)soil->set.id[i], soil->set.name, v[0], v[1], v[2], x[0], x[1], x[2],
+                         step->time + step->length, (unsigned long long)step->number, soil->sound_speed);
+            return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
         }
     }
     return MOR_FAIL(context, MOR_ERROR_NUMERIC, "an acceleration of set '%s' is not a number at t = %.6g s, step %llu",

@@ -16,12 +16,13 @@ static bool is_inside(const mor_soil_settings *s, const double *x)
 static mor_status report_density(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t i)
 {
     const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
-    return MOR_FAIL(
-        context, MOR_ERROR_NUMERIC,
-        "particle %lld of set '%s' has density %.4g kg/m3 at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu; it "
-        "must be positive. A smaller 'courant' or 'density_reinitialization' more often may help",
-        (long long)soil->set.id[i], soil->set.name, soil->set.data[MOR_FIELD_DENSITY][i], x[0], x[1], x[2],
-        step->time + step->length, (unsigned long long)step->number);
+    const mor_status status =
+        MOR_FAIL(context, MOR_ERROR_NUMERIC,
+                 "particle %lld of set '%s' has density %.4g kg/m3 at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu; it "
+                 "must be positive. A smaller 'courant' or 'density_reinitialization' more often may help",
+                 (long long)soil->set.id[i], soil->set.name, soil->set.data[MOR_FIELD_DENSITY][i], x[0], x[1], x[2],
+                 step->time + step->length, (unsigned long long)step->number);
+    return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
 }
 
 static mor_status report_stray(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t i)
@@ -29,7 +30,7 @@ static mor_status report_stray(mor_context *context, const mor_soil *soil, const
     const mor_soil_settings *s = &soil->settings;
     double x[3];
     mor_domain_localize(s->placement, soil->set.data[MOR_FIELD_POSITION] + 3 * i, x);
-    return MOR_FAIL(
+    const mor_status status = MOR_FAIL(
         context, MOR_ERROR_NUMERIC,
         "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step "
         "%llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain', close the walls, "
@@ -37,6 +38,7 @@ static mor_status report_stray(mor_context *context, const mor_soil *soil, const
         (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2], s->placement != NULL ? " before 'placement'" : "",
         step->time + step->length, (unsigned long long)step->number, s->domain_minimum[0], s->domain_minimum[1],
         s->domain_minimum[2], s->domain_maximum[0], s->domain_maximum[1], s->domain_maximum[2]);
+    return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
 }
 
 /* Sorts out what the quick look found, from one particle on: what stops the run, and what leaves. */

@@ -247,7 +247,7 @@ static void run_stopped_by_a_guard_ends_with_code_1(void **state)
     program_expect_text((const char *)log, "\n  in run_steps, "); /* the calls that led there */
     free(log);
     assert_int_equal(access(finished_run_file(folder, path, "stray", MOR_CHECKPOINT_FILE), R_OK), 0);
-    assert_int_not_equal(access(finished_run_file(folder, path, "stray", "summary.json"), R_OK), 0);
+    assert_int_equal(access(finished_run_file(folder, path, "stray", MOR_SUMMARY_FILE), R_OK), 0);
 }
 
 /* Starts a run that takes a while, and waits until it is under way. */
