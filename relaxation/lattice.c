@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "relaxation/lattice.h"
+#include "relaxation/lattice_internal.h"
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -13,18 +13,14 @@
 /* Local indices are 32-bit; 64 stay free for padding. */
 static const int64_t points_limit = INT64_C(2147483648) - 64;
 
-/* Distances to a surface, relative to the spacing, below which a node counts as lying on it. */
-static const double surface_tolerance = 1e-9;
-
 enum { JITTER_PURPOSE = 0x4A495454 }; /* keeps these numbers apart from other uses of the seed */
 
-/* Node indices to visit: first[a] <= index < first[a] + count[a]. */
-typedef struct index_box {
-    int64_t first[3];
-    int64_t count[3];
-} index_box;
-
 static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+
+int64_t mor_lattice_limit(void)
+{
+    return points_limit;
+}
 
 void mor_lattice_request_init(mor_lattice_request *request)
 {
@@ -84,7 +80,8 @@ static mor_status check_request(mor_context *context, const mor_lattice_request 
     return MOR_OK;
 }
 
-static mor_status find_index_box(mor_context *context, const mor_lattice_request *request, index_box *box)
+static mor_status find_index_box(mor_context *context, const mor_lattice_request *request, int margin,
+                                 mor_lattice_box *box)
 {
     mor_bounds bounds;
     mor_shape_bounds(request->shape, &bounds);
@@ -94,8 +91,8 @@ static mor_status find_index_box(mor_context *context, const mor_lattice_request
         MOR_CHECK(context, isfinite(low) && isfinite(high), MOR_ERROR_ARGUMENT,
                   "the region to fill has no end along %c: from %g m to %g m; bound the shape (%s) or give a domain",
                   'x' + a, low, high, request->shape->operations->kind);
-        const double first = floor((low - request->origin[a]) / request->spacing - 0.5);
-        const double last = ceil((high - request->origin[a]) / request->spacing - 0.5);
+        const double first = floor((low - request->origin[a]) / request->spacing - 0.5) - margin;
+        const double last = ceil((high - request->origin[a]) / request->spacing - 0.5) + margin;
         /* Beyond 2^48 cells from its origin a lattice no longer resolves the tolerance at the surface. */
         const double reach_limit = 281474976710656.0;
         MOR_CHECK(context, last - first < (double)points_limit && fabs(first) < reach_limit && fabs(last) < reach_limit,
@@ -122,7 +119,15 @@ static mor_status find_index_box(mor_context *context, const mor_lattice_request
     return MOR_OK;
 }
 
-static void place_node(const mor_lattice_request *request, const int64_t *index, double *node)
+mor_status mor_lattice_find_box(mor_context *context, const mor_lattice_request *request, int margin,
+                                mor_lattice_box *box)
+{
+    MOR_TRY(context, check_request(context, request));
+    MOR_TRY(context, find_index_box(context, request, margin, box));
+    return MOR_OK;
+}
+
+void mor_lattice_place_node(const mor_lattice_request *request, const int64_t *index, double *node)
 {
     for (int a = 0; a < 3; ++a) {
         node[a] = request->origin[a] + ((double)index[a] + 0.5) * request->spacing;
@@ -135,7 +140,7 @@ static void place_node(const mor_lattice_request *request, const int64_t *index,
 /* Whether a node is kept; reach receives a distance within which no other node is decided differently. */
 static bool is_node_kept(const mor_lattice_request *request, const double *node, double *reach)
 {
-    const double tolerance = surface_tolerance * request->spacing;
+    const double tolerance = MOR_LATTICE_TOLERANCE * request->spacing;
     const double distance = mor_shape_distance(request->shape, node);
     double in = fmin(-tolerance - distance, distance + request->depth - tolerance);
     for (int a = 0; a < request->dimension; ++a) {
@@ -148,10 +153,21 @@ static bool is_node_kept(const mor_lattice_request *request, const double *node,
     return in > 0.0;
 }
 
+void mor_lattice_map(const mor_lattice_request *request, const double *place, double *position)
+{
+    mor_matrix_apply(request->turn, place, position);
+    for (int a = 0; a < 3; ++a) {
+        position[a] += request->move[a];
+    }
+    if (request->dimension == 2) {
+        position[2] = 0.0;
+    }
+}
+
 static void map_node(const mor_lattice_request *request, const int64_t *index, double *position)
 {
     double node[3];
-    place_node(request, index, node);
+    mor_lattice_place_node(request, index, node);
     if (request->jitter_ratio > 0.0) {
         uint64_t id = 0;
         for (int a = 0; a < 3; ++a) {
@@ -162,18 +178,12 @@ static void map_node(const mor_lattice_request *request, const int64_t *index, d
             node[a] += request->jitter_ratio * request->spacing * (2.0 * number - 1.0);
         }
     }
-    mor_matrix_apply(request->turn, node, position);
-    for (int a = 0; a < 3; ++a) {
-        position[a] += request->move[a];
-    }
-    if (request->dimension == 2) {
-        position[2] = 0.0;
-    }
+    mor_lattice_map(request, node, position);
 }
 
 /* Walks one row of nodes and returns how many are kept; writes their positions unless the array is NULL. After each
  * test it jumps over all nodes that the distance proves to be decided alike. */
-static int64_t walk_row(const mor_lattice_request *request, const index_box *box, int64_t j, int64_t k,
+static int64_t walk_row(const mor_lattice_request *request, const mor_lattice_box *box, int64_t j, int64_t k,
                         double *positions)
 {
     const int64_t end = box->first[0] + box->count[0];
@@ -182,7 +192,7 @@ static int64_t walk_row(const mor_lattice_request *request, const index_box *box
     while (index[0] < end) {
         double node[3];
         double reach = 0.0;
-        place_node(request, index, node);
+        mor_lattice_place_node(request, index, node);
         const bool is_kept = is_node_kept(request, node, &reach);
         const double stride =
             fmin(floor(reach / (MOR_SHAPE_SLOPE_MOST * request->spacing)), (double)(end - index[0] - 1));
@@ -198,7 +208,7 @@ static int64_t walk_row(const mor_lattice_request *request, const index_box *box
     return n_kept;
 }
 
-static mor_status count_nodes(mor_context *context, const mor_lattice_request *request, const index_box *box,
+static mor_status count_nodes(mor_context *context, const mor_lattice_request *request, const mor_lattice_box *box,
                               int64_t *count)
 {
     *count = 0;
@@ -214,17 +224,22 @@ static mor_status count_nodes(mor_context *context, const mor_lattice_request *r
     return MOR_OK;
 }
 
-mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points)
+mor_status mor_lattice_check_room(mor_context *context, const mor_lattice_request *request, int64_t count)
 {
-    memset(points, 0, sizeof *points);
-    index_box box = {{0, 0, 0}, {0, 0, 0}};
-    int64_t count = 0;
-    MOR_TRY(context, check_request(context, request));
-    MOR_TRY(context, find_index_box(context, request, &box));
-    MOR_TRY(context, count_nodes(context, request, &box, &count));
     MOR_CHECK(context, request->n_points_most == 0 || count <= request->n_points_most, MOR_ERROR_MEMORY,
               "%.3g particles of %g m are needed, and there is room for %.3g: use a larger spacing or a smaller shape",
               (double)count, request->spacing, (double)request->n_points_most);
+    return MOR_OK;
+}
+
+mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points)
+{
+    memset(points, 0, sizeof *points);
+    mor_lattice_box box = {{0, 0, 0}, {0, 0, 0}};
+    int64_t count = 0;
+    MOR_TRY(context, mor_lattice_find_box(context, request, 0, &box));
+    MOR_TRY(context, count_nodes(context, request, &box, &count));
+    MOR_TRY(context, mor_lattice_check_room(context, request, count));
     MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * count, "lattice positions"));
     for (int64_t k = box.first[2]; points->n_points < count; ++k) {
         for (int64_t j = box.first[1]; j < box.first[1] + box.count[1]; ++j) {

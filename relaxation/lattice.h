@@ -55,6 +55,20 @@ void mor_lattice_request_init(mor_lattice_request *request);
  *  Cost: O(rows + points + surface nodes) distances, allocates the result only. Threads: neither. */
 mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points);
 
+/** Fills a solid with its cells: a cell that the surface cuts becomes a point at the middle of the part inside, with
+ *  the share that is inside, so that points stand for the true volume up to the true surface wherever it lies on the
+ *  lattice. A cell that lies inside as a whole becomes its node. Which nodes are kept for the depth and the domain is
+ *  decided as by mor_lattice_fill; of a shape whose faces lie on the faces of cells both give the same.
+ *  @param context [in,out]  one object
+ *  @param request [in]      one object; without jitter
+ *  @param points  [out]     one object; owned by the caller; may come out empty
+ *  @param shares  [out]     the address of one array [n_points], above 0 to 1, 1; from MOR_NEW; owned by the caller;
+ *                           NULL after a failure
+ *  Returns: as mor_lattice_fill; MOR_ERROR_ARGUMENT for a request with jitter.
+ *  Cost: up to 64 distances (16 in the plane) for each cell at the surface. Threads: neither. */
+mor_status mor_lattice_fill_cells(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points,
+                                  double **shares);
+
 /** Frees points and sets them empty. Empty points are accepted.
  *  @param context [in,out]  one object
  *  @param points  [in,out]  one object */

@@ -264,6 +264,7 @@ typedef struct mor_case_numerics {
     int reconstruction;                /* of velocities at the middle of a pair: 0 none, 1 linear */
     double stress_diffusion;           /* zeta; 0: off */
     int stress_diffusion_limiter;      /* 0 none, 1 motion */
+    int narrow_gaps;                   /* gaps of walls below two spacings: 0 refuse, 1 allow */
     bool artificial_stress;            /* Z(27)-Z(31) */
     double artificial_stress_exponent; /* n */
     double artificial_stress_factor;   /* epsilon */

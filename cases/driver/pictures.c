@@ -13,6 +13,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/io/snapshot.h"
+#include "core/particle/shape_analytic.h"
 #include "core/sph/measure.h"
 
 #include <limits.h>
@@ -275,12 +276,42 @@ static bool is_moving(const gallery *g, int w)
     return mor_vector_length(g->the_case->walls[w].velocity) > 0.0;
 }
 
+/* The particles of a wall as balls that touch its surface from inside: those of cut cells stand nearer to it. */
+static mor_status fill_balls(mor_context *context, gallery *g, int w, int layers)
+{
+    const mor_case *c = g->the_case;
+    const mor_shape *shape = c->walls[w].shape;
+    const double step = 0.05 * c->spacing;
+    double *shares = NULL;
+    MOR_TRY(context, mor_simulation_fill_wall(context, c, w, layers, &g->walls[w], &shares));
+    for (int64_t i = 0; shares != NULL && i < g->walls[w].n_points; ++i) {
+        double x[3];
+        double slope[3] = {0.0, 0.0, 0.0};
+        mor_simulation_take_point_back(c, g->walls[w].positions + 3 * i, x);
+        const double rise = 0.5 * c->spacing + mor_shape_distance(shape, x);
+        if (shares[i] == 1.0 || rise <= 0.0) {
+            continue;
+        }
+        for (int a = 0; a < c->dimension; ++a) {
+            double ahead[3] = {x[0], x[1], x[2]};
+            ahead[a] += step;
+            slope[a] = (mor_shape_distance(shape, ahead) - mor_shape_distance(shape, x)) / step;
+        }
+        for (int a = 0; a < c->dimension; ++a) {
+            x[a] -= rise * slope[a];
+        }
+        mor_simulation_place_point(c, x, g->walls[w].positions + 3 * i);
+    }
+    MOR_FREE(context, &shares);
+    return MOR_OK;
+}
+
 /* In the plane one looks into a structure, which has no particles deep inside for the simulation. */
 static mor_status fill_inside(mor_context *context, gallery *g, int w)
 {
     if (g->the_case->dimension == 2) {
         mor_lattice_clear(context, &g->walls[w]);
-        MOR_TRY(context, mor_simulation_fill_wall(context, g->the_case, w, INT_MAX, &g->walls[w]));
+        MOR_TRY(context, fill_balls(context, g, w, INT_MAX));
     }
     return MOR_OK;
 }
@@ -296,7 +327,7 @@ static mor_status fill_structures(mor_context *context, gallery *g)
         if (is_terrain(g, w)) {
             continue;
         }
-        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, MOR_SIMULATION_WALL_LAYERS, &g->walls[w]));
+        MOR_TRY(context, fill_balls(context, g, w, MOR_SIMULATION_WALL_LAYERS));
         g->is_structure[w] = mor_picture_wall_is_structure(c, w, &g->walls[w], &moving, g->up);
         if (g->is_structure[w]) {
             MOR_TRY(context, fill_inside(context, g, w));

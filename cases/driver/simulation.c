@@ -4,6 +4,7 @@
 
 #include "cases/driver/case_schema.h"
 #include "cases/driver/memory_room.h"
+#include "cases/driver/narrow_gaps.h"
 #include "cases/driver/simulation_check.h"
 #include "cases/driver/simulation_terrain.h"
 #include "core/base/math.h"
@@ -79,8 +80,9 @@ typedef struct filling {
     double reserved;   /* bytes that particles found before will take, 1 */
 } filling;
 
+/* Cells with their shares, or nodes where shares is NULL. */
 static mor_status fill_shape(mor_context *context, const filling *it, mor_lattice_request *request,
-                             mor_lattice_points *points)
+                             mor_lattice_points *points, double **shares)
 {
     char why[MOR_CONTEXT_MESSAGE_BYTES];
     mor_bounds bounds;
@@ -101,7 +103,8 @@ static mor_status fill_shape(mor_context *context, const filling *it, mor_lattic
         snprintf(why, sizeof why, "it has %.3g rows of particles at a spacing of %g m", n_rows, request->spacing);
         return refuse_size(context, it->place, it->name, it->bytes_each, why);
     }
-    const mor_status status = mor_lattice_fill(context, request, points);
+    const mor_status status = shares != NULL ? mor_lattice_fill_cells(context, request, points, shares)
+                                             : mor_lattice_fill(context, request, points);
     if (status != MOR_ERROR_MEMORY) {
         return status;
     }
@@ -118,7 +121,7 @@ static mor_status tell_place(mor_context *context, mor_status status, const mor_
 }
 
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
-                                    mor_lattice_points *points)
+                                    mor_lattice_points *points, double **shares)
 {
     const mor_shape *earlier[MOR_CASE_WALLS_MAX];
     for (int w = 0; w < wall; ++w) {
@@ -128,6 +131,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
     mor_lattice_request request;
     set_request(the_case, it->shape, &request);
     const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_WALL, 0.0};
+    *shares = NULL;
     const double margin = MOR_SIMULATION_WALL_LAYERS * the_case->spacing;
     request.depth = layers * the_case->spacing;
     request.excluded = earlier;
@@ -139,7 +143,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
     }
     const mor_status status = it->outline.kind == MOR_CASE_SHAPE_TERRAIN
                                   ? mor_simulation_fill_terrain(context, the_case, wall, layers, points)
-                                  : fill_shape(context, &wanted, &request, points);
+                                  : fill_shape(context, &wanted, &request, points, shares);
     MOR_TRY(context, tell_place(context, status, &it->place, it->name));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
@@ -257,7 +261,7 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
     const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
                                   ? mor_simulation_fill_release(context, the_case, soil, points)
-                                  : fill_shape(context, &wanted, &request, points);
+                                  : fill_shape(context, &wanted, &request, points, NULL);
     MOR_TRY(context, tell_place(context, status, &it->place, it->name));
     leave_out_bodies(context, the_case, it->name, points);
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
@@ -395,11 +399,13 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
     const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
     for (int w = 0; w < c->n_walls; ++w) {
         mor_lattice_points points = {NULL, 0};
-        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, MOR_SIMULATION_WALL_LAYERS, &points));
+        double *shares = NULL;
+        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, MOR_SIMULATION_WALL_LAYERS, &points, &shares));
         mor_wall_request request = {.name = c->walls[w].name,
                                     .points = points.positions,
                                     .n_points = points.n_points,
                                     .point_volume = volume,
+                                    .shares = shares,
                                     .dimension = c->dimension,
                                     .stress = (mor_wall_stress)c->numerics.wall_stress,
                                     .friction = (mor_wall_friction)c->walls[w].friction,
@@ -407,6 +413,7 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
         mor_matrix_apply(c->turn, c->walls[w].velocity, request.velocity);
         const mor_status status = mor_soil_add_wall(context, &simulation->soil, &request);
         mor_lattice_clear(context, &points);
+        MOR_FREE(context, &shares);
         MOR_TRY(context, status);
     }
     return MOR_OK;
@@ -483,6 +490,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     if (status == MOR_OK) {
         status = mor_simulation_bodies_init(context, &simulation->bodies, the_case, registry, &simulation->frame,
                                             simulation->has_soil ? 1 : 0);
+    }
+    if (status == MOR_OK) {
+        status = mor_narrow_gaps_check(context, simulation);
     }
     if (status == MOR_OK) {
         status = build_schedule(context, simulation);

@@ -104,15 +104,17 @@ double mor_simulation_parameter(const mor_material *material, const double *para
 mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
                                      const mor_lattice_points *regions);
 
-/** Fills one wall of a case with particles, in the placed frame.
+/** Fills one wall of a case with particles, in the placed frame. They stand for the true volume of the wall up to its
+ *  true surface: cells of the lattice that the surface cuts have the share inside; ground has whole ones that follow it.
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object
  *  @param wall     [in]      index of the wall; earlier walls are left out
  *  @param layers   [in]      layers of particles below its surface, >= 1; a simulation has MOR_SIMULATION_WALL_LAYERS
  *  @param points   [out]     one object; owned by the caller
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when the wall holds no particle; as mor_lattice_fill. */
+ *  @param shares   [out]     the address of one array [n_points], above 0 to 1, 1; NULL: all whole; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the wall holds no particle; as mor_lattice_fill_cells. */
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
-                                    mor_lattice_points *points);
+                                    mor_lattice_points *points, double **shares);
 
 /** Number of particles, soil and rocks.
  *  @param simulation [in]  one object */

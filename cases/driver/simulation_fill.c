@@ -11,6 +11,9 @@
 
 #include <string.h>
 
+/* A box that soil feels longer or shorter by more than this share is spoken of. */
+#define ROUNDING_TOLD 0.05
+
 /* Particles that a body must have along each axis. */
 enum { ACROSS = 4 };
 
@@ -54,6 +57,21 @@ static mor_status check_extents(mor_context *context, const mor_case *c, const m
     return MOR_OK;
 }
 
+/* Rocks touch each other with their true shapes, but soil feels their particles, which fill whole cells. */
+static void warn_rounding(mor_context *context, const mor_case *c, const mor_case_body *it, int axis, double extent,
+                          double n)
+{
+    const double error = n * c->spacing / extent - 1.0;
+    if (c->n_soils > 0 && it->outline.kind == MOR_CASE_SHAPE_BOX && fabs(error) > ROUNDING_TOLD &&
+        !mor_simulation_fill_is_relaxed(it)) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s:%d: body '%s' is %g m long along its own %c, but to soil %g m, %g particles: choose a spacing "
+            "that divides it, as %.3g m, or particles = \"relaxed\"",
+            it->place.file, it->place.line, it->name, extent, "xyz"[axis], n * c -> spacing, n, extent / n);
+    }
+}
+
 /* As many whole cells as fit best along each axis of the body's own frame. */
 static mor_status find_lattice(mor_context *context, const mor_case *c, const mor_case_body *it,
                                mor_lattice_request *request)
@@ -68,6 +86,7 @@ static mor_status find_lattice(mor_context *context, const mor_case *c, const mo
     for (int a = 0; a < c->dimension; ++a) {
         const double n = floor((bounds.maximum[a] - bounds.minimum[a]) / c->spacing + 0.5);
         request->origin[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]) - 0.5 * n * c->spacing;
+        warn_rounding(context, c, it, a, bounds.maximum[a] - bounds.minimum[a], n);
     }
     mor_simulation_body_frame(c, it, request->turn, request->move);
     return MOR_OK;

@@ -56,7 +56,8 @@ static mor_status copy_points(mor_context *context, mor_soil_contact *contact, c
     for (int64_t i = 0; i < request->n_points; ++i) {
         double *record = contact->boundary->records + RECORD * i;
         memcpy(record + MOR_BOUNDARY_POSITION, request->points + 3 * (int64_t)order[i], 3 * sizeof *record);
-        record[MOR_BOUNDARY_VOLUME] = request->point_volume;
+        record[MOR_BOUNDARY_VOLUME] =
+            request->point_volume * (request->shares != NULL ? request->shares[order[i]] : 1.0);
         memcpy(record + MOR_BOUNDARY_VELOCITY, request->velocity, 3 * sizeof *record);
         if (contact->base != NULL) {
             memcpy(contact->base + 3 * i, record + MOR_BOUNDARY_POSITION, 3 * sizeof *record);

@@ -26,6 +26,7 @@ typedef struct mor_wall_request {
     const double *points; /* shape [n_points, 3], unit m */
     int64_t n_points;     /* number of wall particles */
     double point_volume;  /* of each, m3 (m2 in plane strain) */
+    const double *shares; /* shape [n_points]; part of that volume which each has, 1; NULL: all of it */
     mor_wall_friction friction;
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
     double velocity[3];          /* prescribed, m/s */

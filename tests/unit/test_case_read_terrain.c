@@ -3,6 +3,7 @@
 #include "bodies/terrain.h"
 #include "cases/driver/simulation.h"
 #include "core/base/math.h"
+#include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
 #include "tests/common/case_reading.h"
 
@@ -112,8 +113,9 @@ static void check_particles(case_reading *f)
     }
     for (int w = 0; w < 3; ++w) {
         mor_lattice_points points = {NULL, 0};
-        assert_int_equal(mor_simulation_fill_wall(&f->context, &f->first, w, MOR_SIMULATION_WALL_LAYERS, &points),
-                         MOR_OK);
+        double *shares = NULL;
+        assert_int_equal(
+            mor_simulation_fill_wall(&f->context, &f->first, w, MOR_SIMULATION_WALL_LAYERS, &points, &shares), MOR_OK);
         assert_true(points.n_points > 0);
         for (int64_t i = 0; i < points.n_points; ++i) {
             double x[3];
@@ -122,6 +124,7 @@ static void check_particles(case_reading *f)
                         (w == 0)); /* what stands in the ground leaves it whole */
             assert_true(mor_shape_distance(f->first.walls[w].shape, x) < 0.0);
         }
+        MOR_FREE(&f->context, &shares);
         mor_lattice_clear(&f->context, &points);
     }
     mor_simulation_clear(&f->context, &simulation);
