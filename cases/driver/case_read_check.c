@@ -72,6 +72,7 @@ static const struct {
             {"numerics", "xsph", SOIL},
             {"numerics", "shifting", SOIL},
             {"numerics", "density_reinitialization", SOIL},
+            {"numerics", "narrow_gaps", SOIL},
             {"numerics", "skin_ratio", SOIL},
             {"numerics", "sort_interval", SOIL},
             {"numerics", "gravity_ramp", GRAVITY},

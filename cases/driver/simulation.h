@@ -105,7 +105,8 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
                                      const mor_lattice_points *regions);
 
 /** Fills one wall of a case with particles, in the placed frame. They stand for the true volume of the wall up to its
- *  true surface: cells of the lattice that the surface cuts have the share inside; ground has whole ones that follow it.
+ *  true surface: cells of the lattice that the surface cuts have the share inside; ground has whole ones that follow
+ *  it.
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object
  *  @param wall     [in]      index of the wall; earlier walls are left out

@@ -109,6 +109,7 @@ static void settings_of_the_method_need_something_to_work_on(void **state)
                  : is_whole                                       ? "7"
                  : !is_choice                                     ? "0.37"
                  : strcmp(key->schema.key, "reconstruction") == 0 ? "linear"
+                 : strcmp(key->schema.key, "narrow_gaps") == 0    ? "allow"
                  : strstr(key->schema.key, "limiter") != NULL     ? "motion"
                  : strstr(key->schema.key, "dissipation") != NULL ? "both"
                                                                   : "uniform");
