@@ -220,7 +220,9 @@ typedef struct mor_case_rocks {
     mor_case_size sizes[MOR_CASE_ROCK_SIZES_MAX];    /* rising */
     int n_sizes;                                     /* number of sizes */
     double content;                                  /* rocks' volume over the region's, 1; NaN: count is given */
-    int count;                                       /* of rocks; 0: content is given */
+    int count;                                       /* of rocks; 0: content or list is given */
+    char list[MOR_CASE_TEXT_BYTES];                  /* path of a table of rocks; "": content or count is given */
+    uint64_t list_hash;                              /* of the content of that table; 0: there is none */
     double gap;                                      /* least distance between two, m; default the spacing */
     double margin;                                   /* least depth under the region's surface, m; likewise */
     int n_variants;                                  /* rocks drawn of each form of type rock */

@@ -284,19 +284,24 @@ static const char *name_file(const mor_case_shape *outline)
     return outline->kind == MOR_CASE_SHAPE_TERRAIN ? outline->ground.file : outline->form.file;
 }
 
+/* Notes a file once; a hash of 0: there is none. */
+static void add_input(const char *file, uint64_t hash, mor_case_input *inputs, int room, int *n_inputs)
+{
+    bool is_known = hash == 0;
+    for (int k = 0; k < *n_inputs && !is_known; ++k) {
+        is_known = strcmp(inputs[k].path, file) == 0;
+    }
+    if (!is_known && *n_inputs < room) {
+        inputs[(*n_inputs)++] = (mor_case_input){file, hash};
+    }
+}
+
 static void list_files(const mor_case_shape *outline, mor_case_input *inputs, int room, int *n_inputs)
 {
     for (int k = 0; k < outline->n_children; ++k) {
         list_files(&outline->children[k], inputs, room, n_inputs);
     }
-    const char *file = name_file(outline);
-    bool is_known = outline->file_hash == 0;
-    for (int k = 0; k < *n_inputs && !is_known; ++k) {
-        is_known = strcmp(inputs[k].path, file) == 0;
-    }
-    if (!is_known && *n_inputs < room) {
-        inputs[(*n_inputs)++] = (mor_case_input){file, outline->file_hash};
-    }
+    add_input(name_file(outline), outline->file_hash, inputs, room, n_inputs);
 }
 
 int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room)
@@ -314,6 +319,7 @@ int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room)
     }
     for (int k = 0; k < the_case->n_rocks; ++k) {
         list_files(&the_case->rocks[k].region_outline, inputs, room, &n_inputs);
+        add_input(the_case->rocks[k].list, the_case->rocks[k].list_hash, inputs, room, &n_inputs);
         for (int form = 0; form < the_case->rocks[k].n_forms; ++form) {
             list_files(&the_case->rocks[k].forms[form], inputs, room, &n_inputs);
         }

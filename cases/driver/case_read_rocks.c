@@ -5,6 +5,7 @@
 #include "bodies/body.h"
 #include "cases/driver/case_read.h"
 #include "cases/driver/log_owner.h"
+#include "cases/driver/rock_list.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
@@ -108,28 +109,50 @@ static mor_status read_forms(const mor_case_reader *reader, const mor_case_node 
     return MOR_OK;
 }
 
+/* What a list leaves no room for. */
+static const char *const packing_names[] = {"region", "sizes", "gap", "margin", "seed"};
+
+/* Exactly one of content, count and list. */
+static mor_status check_amount(const mor_case_reader *reader, const mor_case_node *node, const mor_case_rocks *rocks)
+{
+    const int n_given = !isnan(rocks->content) + (rocks->count > 0) + (rocks->list[0] != '\0');
+    if (n_given != 1) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found rocks with %s of content, count and list; allowed: one of content, a share of "
+                                  "the region, count, a number of rocks from 1, and list, a table; %s",
+                                  n_given == 0 ? "none" : "more than one",
+                                  n_given == 0 ? "give one" : "remove the others");
+    }
+    for (size_t k = 0; k < sizeof packing_names / sizeof *packing_names && rocks->list[0] != '\0'; ++k) {
+        const mor_case_node *child = mor_case_node_find(node, packing_names[k]);
+        if (child != NULL) {
+            return MOR_CASE_NODE_FAIL(reader->context, child,
+                                      "found '%s', which has no effect with a list of rocks; allowed: list, forms, "
+                                      "n_forms, material and what bodies have in common; remove it",
+                                      packing_names[k]);
+        }
+    }
+    return MOR_OK;
+}
+
 static mor_status read_rocks(const mor_case_reader *reader, const mor_case_node *node, mor_case_rocks *rocks)
 {
     const mor_case_node *region = NULL;
     mor_case_reader_place(node, &rocks->body.place);
     MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_rocks_group, NULL, NULL));
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_rocks_group, rocks));
-    if (isnan(rocks->content) == (rocks->count == 0)) {
-        return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found rocks with %s; allowed: one of content, a share of the region, and count, a "
-                                  "number of rocks from 1; %s",
-                                  rocks->count == 0 ? "neither content nor count" : "both content and count",
-                                  rocks->count == 0 ? "give one" : "remove one");
-    }
+    MOR_TRY(reader->context, check_amount(reader, node, rocks));
     rocks->body.axis[2] = 1.0;
     rocks->gap = isnan(rocks->gap) ? reader->spacing : rocks->gap;
     rocks->margin = isnan(rocks->margin) ? reader->spacing : rocks->margin;
     MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", rocks->body.velocity));
     MOR_TRY(reader->context, mor_case_reader_body_material(reader, node, &rocks->body));
+    if (rocks->list[0] != '\0') {
+        return MOR_OK;
+    }
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "region", MOR_CASE_NODE_GROUP, &region));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, region, &rocks->region_outline, &rocks->region));
-    MOR_TRY(reader->context, read_sizes(reader, node, rocks));
-    return read_forms(reader, node, rocks);
+    return read_sizes(reader, node, rocks);
 }
 
 /* ---- Packing ----------------------------------------------------------------------------------------------------- */
@@ -322,6 +345,56 @@ static mor_status add_bodies(const mor_case_reader *reader, const mor_case_node 
     return status;
 }
 
+/* ---- Rocks of a table -------------------------------------------------------------------------------------------- */
+
+/* Brings a row, in SI, to the scale of the case. */
+static mor_status scale_row(const mor_case_reader *reader, mor_rock_row *row)
+{
+    MOR_TRY(reader->context, mor_case_reader_scale(reader, "m", row->position, 3, 1));
+    MOR_TRY(reader->context, mor_case_reader_scale(reader, "m", &row->diameter, 1, 1));
+    return mor_case_reader_scale(reader, "kg/m3", &row->density, 1, 1);
+}
+
+/* Rows in their order; each takes the next of the forms, and is not turned. */
+static mor_status add_rows(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case,
+                           mor_case_rocks *rocks, mor_rock_list *list)
+{
+    mor_case_size ends[2] = {{.diameter = INFINITY}, {.passing = 1.0}};
+    for (int k = 0; k < list->n_rows; ++k) {
+        MOR_TRY(reader->context, scale_row(reader, &list->rows[k]));
+        ends[0].diameter = fmin(ends[0].diameter, list->rows[k].diameter);
+        ends[1].diameter = fmax(ends[1].diameter, list->rows[k].diameter);
+    }
+    memcpy(rocks->sizes, ends, sizeof ends);
+    rocks->n_sizes = 2; /* how fine the forms must be; the table has no curve of its own */
+    const mor_status made = read_forms(reader, node, rocks);
+    rocks->n_sizes = 0;
+    MOR_TRY(reader->context, made);
+    MOR_TRY(reader->context, make_room(reader, node, the_case, list->n_rows));
+    for (int k = 0; k < list->n_rows; ++k) {
+        const mor_rock_row *row = &list->rows[k];
+        mor_pack_rock rock = {.form = k % rocks->n_shapes, .diameter = row->diameter, .axis = {0.0, 0.0, 1.0}};
+        memcpy(rock.position, row->position, sizeof rock.position);
+        MOR_TRY(reader->context, add_body(reader, node, the_case, rocks, &rock, k + 1));
+        if (!isnan(row->density)) {
+            the_case->bodies[the_case->n_bodies - 1].density = row->density;
+        }
+    }
+    rocks->n_rocks = list->n_rows;
+    return MOR_OK;
+}
+
+static mor_status add_list(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case,
+                           mor_case_rocks *rocks)
+{
+    mor_rock_list list;
+    MOR_TRY(reader->context, mor_case_reader_locate(reader, node, "a list of rocks", rocks->list, &rocks->list_hash));
+    MOR_TRY(reader->context, mor_rock_list_read(reader->context, reader->units, rocks->list, reader->dimension, &list));
+    const mor_status status = add_rows(reader, node, the_case, rocks, &list);
+    mor_rock_list_clear(reader->context, &list);
+    return status;
+}
+
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
 void mor_case_rocks_clear(mor_context *context, mor_case_rocks *rocks)
@@ -343,7 +416,12 @@ mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_n
     for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
         mor_case_rocks *rocks = &the_case->rocks[the_case->n_rocks++];
         MOR_TRY(reader->context, read_rocks(reader, node, rocks));
-        MOR_TRY(reader->context, add_bodies(reader, node, the_case, rocks));
+        if (rocks->list[0] != '\0') {
+            MOR_TRY(reader->context, add_list(reader, node, the_case, rocks));
+        } else {
+            MOR_TRY(reader->context, read_forms(reader, node, rocks));
+            MOR_TRY(reader->context, add_bodies(reader, node, the_case, rocks));
+        }
     }
     return MOR_OK;
 }

@@ -95,11 +95,11 @@ static mor_case_presence judge_shape(const mor_case_key *key, const void *record
 }
 
 /* A run that is resumed with another content of the file is told by this line. */
-static void write_hash(const mor_case_writer *w, const mor_case_shape *outline)
+static void write_hash(const mor_case_writer *w, uint64_t file_hash)
 {
-    if (outline->file_hash != 0) {
+    if (file_hash != 0) {
         char hash[MOR_HASH_TEXT_BYTES];
-        mor_hash_print(outline->file_hash, hash);
+        mor_hash_print(file_hash, hash);
         fprintf(w->stream, "%*s# content of the file: xxh64 %s\n", w->depth * MOR_CASE_INDENT, "", hash);
     }
 }
@@ -116,7 +116,7 @@ static mor_status write_shape(mor_case_writer *w, const char *name, const mor_ca
     } else {
         MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, outline, judge_shape));
     }
-    write_hash(w, outline);
+    write_hash(w, outline->file_hash);
     MOR_TRY(w->reader.context, write_parts(w, outline));
     mor_case_writer_close(w, end);
     return MOR_OK;
@@ -286,8 +286,20 @@ static mor_case_presence judge_rocks(const mor_case_key *key, const void *record
 {
     const mor_case_rocks *rocks = record;
     const mor_case_body *body = &rocks->body;
-    if (strcmp(key->schema.key, rocks->count > 0 ? "content" : "count") == 0) {
-        return MOR_CASE_OMIT;
+    const bool is_packed = rocks->list[0] == '\0';
+    const struct {
+        const char *key;
+        bool is_written;
+    } rules[] = {{"content", is_packed && rocks->count == 0},
+                 {"count", rocks->count > 0},
+                 {"list", !is_packed},
+                 {"gap", is_packed},
+                 {"margin", is_packed},
+                 {"seed", is_packed}};
+    for (size_t k = 0; k < sizeof rules / sizeof *rules; ++k) {
+        if (strcmp(key->schema.key, rules[k].key) == 0) {
+            return rules[k].is_written ? MOR_CASE_WRITE : MOR_CASE_OMIT;
+        }
     }
     return strcmp(key->schema.key, "contact_modulus") == 0 || strcmp(key->schema.key, "friction_coefficient") == 0
                ? judge_body(key, body)
@@ -301,13 +313,12 @@ static mor_status write_form(mor_case_writer *w, const mor_case_shape *form)
     mor_case_writer_text(group->name, type, sizeof type);
     mor_case_writer_line(w, "type", type, false);
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, form, judge_shape));
-    write_hash(w, form);
+    write_hash(w, form->file_hash);
     return MOR_OK;
 }
 
-static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
+static mor_status write_packing(mor_case_writer *w, const mor_case_rocks *rocks)
 {
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_rocks_group, rocks, judge_rocks));
     MOR_TRY(w->reader.context, write_shape(w, "region", &rocks->region_outline, "};"));
     mor_case_writer_open(w, "sizes", "(");
     for (int k = 0; k < rocks->n_sizes; ++k) {
@@ -317,6 +328,16 @@ static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
         mor_case_writer_close(w, k + 1 < rocks->n_sizes ? "}," : "}");
     }
     mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
+static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
+{
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_rocks_group, rocks, judge_rocks));
+    write_hash(w, rocks->list_hash);
+    if (rocks->list[0] == '\0') {
+        MOR_TRY(w->reader.context, write_packing(w, rocks));
+    }
     mor_case_writer_open(w, "forms", "(");
     for (int k = 0; k < rocks->n_forms; ++k) {
         mor_case_writer_open(w, "", "{");

@@ -13,6 +13,10 @@ enum { LINE_BYTES = 256 };
 /* Line of the report by number: the head, then one per size; returns false when there are no more. */
 static bool write_line(const mor_case_rocks *rocks, int dimension, int line, char *text)
 {
+    if (rocks->list[0] != '\0') {
+        snprintf(text, LINE_BYTES, "rocks '%s': %d of %.180s", rocks->body.name, rocks->n_rocks, rocks->list);
+        return line == 0;
+    }
     if (line == 0) {
         int used = snprintf(text, LINE_BYTES, "rocks '%s': %d placed, content %.2f %%", rocks->body.name,
                             rocks->n_rocks, 100.0 * rocks->content_reached);

@@ -141,7 +141,92 @@ static void a_count_that_finds_no_room_is_refused(void **state)
     static const char *const settings[] = {"rocks[0].region.max=(2.3, 2.3, 2.3)", NULL};
     case_reading_refuse(f, counted, settings, "", "of 13 rocks; allowed: as many as find a place");
     static const char *const neither[] = {"rocks[0].count=0", NULL};
-    case_reading_refuse(f, counted, neither, "", "found rocks with neither content nor count");
+    case_reading_refuse(f, counted, neither, "", "found rocks with none of content, count and list");
+}
+
+/* Writes a table into the scratch folder and gives the setting that names it. */
+static const char *place_table(const char *table, char *path, char *setting, size_t room)
+{
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, room, "%s/moraine_rocks_list.csv", folder == NULL ? "/tmp" : folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(table, file);
+    fclose(file);
+    snprintf(setting, room, "rocks[0].list=\"%s\"", path);
+    return setting;
+}
+
+#define LISTED                                                                                                         \
+    "dimension = 3; spacing = 0.1; end = 1; gravity = (0, 0, -10); domain = { min = (-1, -1, -1); max = (11, 9, 9); "  \
+    "};"                                                                                                               \
+    "rocks = ( { name = \"boulder\"; material = { model = \"rigid\"; density = 2500; };\n"                             \
+    "  forms = ( { type = \"sphere\"; }, { type = \"ellipsoid\"; } ); velocity = (0, 0, -2); } );\n"
+
+static void a_table_becomes_bodies_with_its_numbers(void **state)
+{
+    case_reading *f = *state;
+    char path[512];
+    char setting[600];
+    const char *const settings[] = {
+        place_table("density [t/m3], x[cm] ,y,z,diameter\r\n2.75,150,2,3,1\n2.5,4e2,2.5,3,0.75\n", path, setting, 512),
+        NULL};
+    case_reading_read(f, LISTED, settings, &f->first);
+    const mor_case_body *bodies = f->first.bodies;
+    mor_shape_moments moments;
+    mor_case_input inputs[4];
+    assert_int_equal(f->first.n_bodies, 2);
+    assert_string_equal(bodies[1].name, "boulder_2");
+    /* Rounding of the units; the numbers are otherwise those of the table. */
+    assert_near(bodies[0].position[0], 1.5, 1e-15);
+    assert_near(bodies[0].density, 2750.0, 1e-12);
+    assert_near(bodies[1].position[0], 4.0, 1e-15);
+    assert_true(bodies[1].position[1] == 2.5 && bodies[1].position[2] == 3.0 && bodies[1].velocity[2] == -2.0);
+    assert_near(bodies[1].density, 2500.0, 1e-12);
+    assert_int_equal(bodies[0].outline.kind, MOR_CASE_SHAPE_SPHERE);
+    assert_int_equal(bodies[1].outline.kind, MOR_CASE_SHAPE_ELLIPSOID);
+    assert_true(mor_shape_moments_known(bodies[1].shape, 3, &moments));
+    assert_near(moments.volume, MOR_PI / 6.0 * 0.75 * 0.75 * 0.75, 1e-15); /* rounding */
+    assert_int_equal(mor_case_inputs(&f->first, inputs, 4), 1);
+    assert_string_equal(inputs[0].path, path);
+    assert_true(inputs[0].hash != 0); /* guards --resume, as that of a mesh */
+    case_reading_round_trip(f, LISTED, settings);
+    static const char *const scale = "scale.length=4";
+    case_reading_round_trip(f, LISTED, (const char *const[]){settings[0], scale, NULL});
+    remove(path);
+}
+
+static void a_wrong_cell_is_refused_with_its_place(void **state)
+{
+    static const char *const wrong[][2] = {
+        {"x,y,z,diameter\n1,2,3,4\n1,2,abc,4\n", "list.csv:3:5: found 'abc' as z; allowed: a number"},
+        {"x,y,z,diameter\n1,2,3,#N/A\n", "list.csv:2:7: found '#N/A' as diameter"},
+        {"x,y,z,diameter\n1,2,3,nan\n", "list.csv:2:7: found 'nan' as diameter"},
+        {"x,y,z,diameter\n1,2,,4\n", "list.csv:2:5: found '' as z"},
+        {"x,y,z,diameter\n1,2,3,-4\n", "list.csv:2:7: found diameter = -4 [m]; allowed: a number above zero"},
+        {"x,y,z,diameter\n1,2,3\n", "list.csv:2:6: found a row with fewer than 4 cells"},
+        {"x,y,z,diameter\n1,2,3,4,5\n", "list.csv:2:8: found a row with more than 4 cells"},
+        {"x;y;z;diameter\n1;2;3;4\n", "list.csv:1:2: found the byte 59, ';'"},
+        {"x,y,z,diameter [kg]\n1,2,3,4\n", "list.csv:1:7: found the unit [kg] of diameter"},
+        {"x,y,z,radius\n1,2,3,4\n", "list.csv:1:7: found the column 'radius'; allowed: x, y, z, diameter, density"},
+        {"x,y,x,diameter\n", "list.csv:1:5: found the column 'x' again"},
+        {"x,y,diameter\n1,2,3\n", "list.csv:1:1: found no column 'z'"},
+        {"\n\n", "list.csv:3:1: found an empty table"},
+        {"x,y,z,diameter\n", "list.csv:2:1: found a table without a rock"},
+        {"x,y,z,diameter\n1e13,2,3,4\n", "list.csv:2:1: found x = 1e13 [m]; allowed: a number up to 1e+12 m"},
+    };
+    case_reading *f = *state;
+    char path[512];
+    char setting[600];
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
+        const char *const settings[] = {place_table(wrong[k][0], path, setting, 512), NULL};
+        case_reading_refuse(f, LISTED, settings, "", wrong[k][1]);
+    }
+    const char *const both[] = {place_table("x,y,z,diameter\n1,2,3,1\n", path, setting, 512), "rocks[0].count=3", NULL};
+    case_reading_refuse(f, LISTED, both, "", "more than one of content, count and list");
+    const char *const gap[] = {setting, "rocks[0].gap=0.1", NULL};
+    case_reading_refuse(f, LISTED, gap, "", "found 'gap', which has no effect with a list");
+    remove(path);
 }
 
 static void rocks_written_and_read_again_are_the_same(void **state)
@@ -198,7 +283,7 @@ static void what_cannot_be_is_refused(void **state)
 {
     static const char *const wrong[][2] = {
         {"rocks[0].content=1.5", "allowed: in (0, 1)"},
-        {"rocks[0].count=7", "found rocks with both content and count"},
+        {"rocks[0].count=7", "found rocks with more than one of content, count and list"},
         {"rocks[0].count=-1", "allowed"},
         {"rocks[0].count=2.5", "allowed"},
         {"rocks[0].contnt=0.2", "did you mean 'content'?"},
@@ -273,6 +358,8 @@ int main(void)
         FOR_ROCKS(rocks_keep_off_each_other_and_off_bodies_that_are_there),
         FOR_ROCKS(a_count_of_balls_and_ellipsoids_is_exact_and_so_are_their_volumes),
         FOR_ROCKS(a_count_that_finds_no_room_is_refused),
+        FOR_ROCKS(a_table_becomes_bodies_with_its_numbers),
+        FOR_ROCKS(a_wrong_cell_is_refused_with_its_place),
         FOR_ROCKS(rocks_written_and_read_again_are_the_same),
         FOR_ROCKS(rocks_follow_the_scale_of_the_case),
         FOR_ROCKS(outlines_from_files_are_forms_of_unit_diameter),

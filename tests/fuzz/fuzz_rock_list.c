@@ -1,0 +1,45 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/rock_list.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Any bytes as a table of rocks; the first decides on the dimension. Whatever they are, the reader must refuse them
+ * with a place, or give rocks with a size. */
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes);
+
+static void require(bool holds)
+{
+    if (!holds) {
+        abort();
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes)
+{
+    mor_context context;
+    mor_units *units = NULL;
+    mor_rock_list list;
+    mor_context_init(&context);
+    require(mor_units_new(&context, &units) == MOR_OK);
+    const int dimension = n_bytes > 0 && data[0] % 2 == 0 ? 2 : 3;
+    const mor_status status =
+        mor_rock_list_parse(&context, units, "a.csv", (const char *)data, (int64_t)n_bytes, dimension, &list);
+    if (status == MOR_OK) {
+        require(list.n_rows >= 1 && list.n_rows <= MOR_ROCK_LIST_ROWS_MAX);
+        for (int k = 0; k < list.n_rows; ++k) {
+            const mor_rock_row *row = &list.rows[k];
+            require(isfinite(row->position[0]) && isfinite(row->position[1]) && isfinite(row->position[2]));
+            require(isfinite(row->diameter) && row->diameter > 0.0 && (isnan(row->density) || row->density > 0.0));
+        }
+    } else {
+        require(status == MOR_ERROR_CONFIG && list.rows == NULL && strncmp(context.message, "a.csv:", 6) == 0);
+    }
+    mor_rock_list_clear(&context, &list);
+    mor_units_free(&context, &units);
+    require(context.memory_bytes == 0);
+    return 0;
+}
