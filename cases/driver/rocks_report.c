@@ -114,7 +114,7 @@ mor_status mor_rocks_report_draw(mor_context *context, const mor_case *the_case,
         const mor_case_rocks *rocks = &the_case->rocks[k];
         char name[MOR_CASE_NAME_BYTES + LINE_BYTES];
         char path[MOR_PATH_BYTES];
-        if (rocks->n_sizes == 1 || rocks->n_rocks == 0) {
+        if (rocks->n_sizes < 2 || rocks->n_rocks == 0) { /* a table has no curve */
             continue;
         }
         snprintf(name, sizeof name, "images/rocks_%s.png", rocks->body.name);
