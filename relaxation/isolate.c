@@ -35,8 +35,8 @@ static void limit_resource(int resource, size_t value)
 /* Signals as the system has them, no core file, no output, bounded time and memory. */
 static void settle_child(unsigned seconds, size_t extra_bytes)
 {
-    static const int signals[] = {SIGSEGV, SIGBUS,  SIGABRT, SIGFPE,  SIGILL,
-                                  SIGTRAP, SIGALRM, SIGXCPU, SIGTERM, SIGPIPE};
+    static const int signals[] = {SIGSEGV, SIGBUS,  SIGABRT, SIGFPE,  SIGILL, SIGTRAP,
+                                  SIGALRM, SIGXCPU, SIGTERM, SIGPIPE, SIGINT, SIGHUP};
     const size_t size = find_size();
     sigset_t none;
     for (size_t k = 0; k < sizeof signals / sizeof *signals; ++k) {

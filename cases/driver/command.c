@@ -216,7 +216,7 @@ static mor_status run_command(mor_command *command, int argc, char **argv, int *
     return info->run(command, exit_code);
 }
 
-int mor_command_main(int argc, char **argv, const volatile sig_atomic_t *stop)
+int mor_command_main(int argc, char **argv, mor_stop *stop)
 {
     mor_context context;
     mor_context_init(&context);

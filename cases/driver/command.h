@@ -4,8 +4,8 @@
 #define MOR_CASES_DRIVER_COMMAND_H
 
 #include "cases/driver/simulation.h"
+#include "cases/driver/stop.h"
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -36,7 +36,7 @@ typedef struct mor_command {
     const char *spacing;               /* of relax, as written; NULL: not asked */
     const char *sizes[4];              /* shape [4] by mor_mesh_size, of relax, as written; NULL: not asked */
     char line[MOR_COMMAND_TEXT_BYTES]; /* the whole command line */
-    const volatile sig_atomic_t *stop; /* non-zero when the user wants to stop */
+    mor_stop *stop;                    /* whether the user wants to stop */
     FILE *output;                      /* results */
     FILE *errors;                      /* messages */
 } mor_command;
@@ -44,9 +44,9 @@ typedef struct mor_command {
 /** Takes a command line apart and does what it says.
  *  @param argc [in]  number of words, >= 1
  *  @param argv [in]  shape [argc] of zero-terminated words
- *  @param stop [in]  one flag that a signal handler sets
+ *  @param stop [in,out]  one object that a signal handler shares
  *  Returns: the exit code. */
-int mor_command_main(int argc, char **argv, const volatile sig_atomic_t *stop);
+int mor_command_main(int argc, char **argv, mor_stop *stop);
 
 /** The commands. Each prints results to command->output and returns a status.
  *  @param command   [in,out]  one object

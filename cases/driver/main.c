@@ -3,20 +3,62 @@
 #include "cases/driver/command.h"
 
 #include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 enum { PATH_BYTES = 4096 };
 
-static volatile sig_atomic_t stop_requested;
+/* A step may go on for so long after a signal, in microseconds. */
+enum { PATIENCE = 700000 };
 
-/* The first signal asks for a checkpoint and an orderly end, the second ends the program at once. */
+static mor_stop stop;
+
+static void say(const char *text)
+{
+    const ssize_t n = write(STDERR_FILENO, text, strlen(text));
+    (void)n; /* there is nobody else to tell */
+}
+
+/* The first signal asks for a checkpoint and an orderly end where there is something to keep; else, and when it is the
+ * second, it ends the program at once. */
 static void request_stop(int number)
 {
+    static const struct itimerval patience = {.it_value = {.tv_usec = PATIENCE}};
     (void)number;
-    if (stop_requested) {
+    if (stop.is_requested || stop.phase == MOR_STOP_AT_ONCE) {
+        say("moraine: stopped by a signal\n");
         _exit(MOR_EXIT_INTERRUPTED);
     }
-    stop_requested = 1;
+    stop.is_requested = 1;
+    setitimer(ITIMER_REAL, &patience, NULL);
+}
+
+/* A step that takes too long is given up; what is being written is finished. */
+static void lose_patience(int number)
+{
+    (void)number;
+    if (stop.phase == MOR_STOP_AFTER_STEP) {
+        say("moraine: stopped by a signal within a long step; go on from the last checkpoint with --resume\n");
+        _exit(MOR_EXIT_INTERRUPTED);
+    }
+}
+
+static void handle_signals(void)
+{
+    struct sigaction action = {.sa_handler = lose_patience, .sa_flags = SA_RESTART};
+    struct sigaction before;
+    sigaction(SIGALRM, &action, NULL);
+    action.sa_handler = request_stop;
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    /* A terminal that closes; ignored under nohup, which says so before. */
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
+        sigaction(SIGHUP, &action, NULL);
+    }
+    /* A file beyond the limit of the shell (ulimit -f) is told as a full disk is: the write fails, with a message. */
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &action, NULL);
 }
 
 /* Threads that wait for each other spin for a while before they sleep. On a machine that others use as well, the
@@ -38,11 +80,6 @@ static void shorten_waiting(char **argv)
 int main(int argc, char **argv)
 {
     shorten_waiting(argv);
-    struct sigaction action = {.sa_handler = request_stop};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    /* A file beyond the limit of the shell (ulimit -f) is told as a full disk is: the write fails, with a message. */
-    action.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &action, NULL);
-    return mor_command_main(argc, argv, &stop_requested);
+    handle_signals();
+    return mor_command_main(argc, argv, &stop);
 }

@@ -102,8 +102,8 @@ static mor_status write_outputs(mor_context *context, mor_run_files *files, pace
 
 static bool is_stopping(const mor_run_options *options, const mor_simulation *s)
 {
-    const bool is_asked = options->stop != NULL && *options->stop != 0;
-    return is_asked || (!isnan(options->stop_at) && mor_schedule_time(&s->schedule) >= options->stop_at);
+    return mor_stop_is_requested(options->stop) ||
+           (!isnan(options->stop_at) && mor_schedule_time(&s->schedule) >= options->stop_at);
 }
 
 /* Steps until the end or until the user stops. Snapshots fall on their times exactly; rows of the series are written at
@@ -115,6 +115,7 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         if (p->n_loop_steps % MOR_RUN_KEEP_INTERVAL == 0) {
             MOR_TRY(context, mor_run_files_keep(context, files, p->next_snapshot));
         }
+        mor_stop_enter(files->options->stop, MOR_STOP_AFTER_STEP);
         const double before = mor_clock_now();
         MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
         p->loop_seconds += mor_clock_now() - before;
@@ -125,6 +126,7 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
             p->fastest_time = mor_schedule_time(&s->schedule);
         }
         MOR_TRY(context, mor_probe_follow(context, s));
+        mor_stop_enter(files->options->stop, MOR_STOP_AFTER_WRITING);
         MOR_TRY(context, write_outputs(context, files, p));
         show_progress(files->options, s, p);
     }
@@ -153,7 +155,7 @@ static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
     }
     if (!is_restored) {
         MOR_TRY(context, mor_run_settle(context, files));
-        if (files->options->stop != NULL && *files->options->stop != 0) {
+        if (mor_stop_is_requested(files->options->stop)) {
             fprintf(files->options->output, "stopped while the initial stress settled; the next run starts over\n");
             return MOR_OK;
         }
@@ -239,10 +241,12 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     if (options->progress != NULL) {
         fprintf(options->progress, "\r%*s\r", 126, "");
     }
+    mor_stop_enter(options->stop, MOR_STOP_AFTER_WRITING);
     MOR_TRY(context, mor_run_files_save(context, files));
+    mor_stop_enter(options->stop, MOR_STOP_AT_ONCE);
     warn_of_speed(context, s, p); /* of this part of the run: one that goes on begins anew */
     if (!outcome->is_finished) {
-        outcome->is_interrupted = options->stop != NULL && *options->stop != 0;
+        outcome->is_interrupted = mor_stop_is_requested(options->stop);
         fprintf(options->output,
                 "stopped at t = %.6g s of %.6g s, step %llu; go on with the same command and --resume\n",
                 mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
@@ -251,7 +255,10 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     print_end(files, p, speed);
     warn_of_outflow(context, s);
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
-    if (s->the_case->output.has_pictures) {
+    fflush(options->output); /* a signal may end the program while it draws */
+    if (mor_stop_is_requested(options->stop)) {
+        fprintf(options->output, "the run is complete; 'moraine render %s' draws its pictures\n", options->folder);
+    } else if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
     }
     return MOR_OK;
@@ -299,12 +306,13 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     if (status == MOR_OK && files->series.stream != NULL) {
         status = run_steps(context, files, &p);
     }
-    outcome->is_interrupted = files->options->stop != NULL && *files->options->stop != 0;
+    outcome->is_interrupted = mor_stop_is_requested(files->options->stop);
     if (status == MOR_OK && files->series.stream != NULL) {
         status = finish_run(context, files, &p, outcome);
     } else if (files->options->progress != NULL) {
         fprintf(files->options->progress, "\n");
     }
+    mor_stop_enter(files->options->stop, MOR_STOP_AT_ONCE);
     if (status != MOR_OK) {
         if (files->series.stream != NULL) { /* before that there is nothing to go on from */
             add_advice(context, status);

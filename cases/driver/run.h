@@ -4,9 +4,9 @@
 #define MOR_CASES_DRIVER_RUN_H
 
 #include "cases/driver/simulation.h"
+#include "cases/driver/stop.h"
 #include "core/material/registry.h"
 
-#include <signal.h>
 #include <stdio.h>
 
 /** @file
@@ -18,14 +18,14 @@ typedef struct mor_run_options {
     const char *folder;          /* of the run; made when missing */
     const char *const *settings; /* shape [n_settings] of "key=value" over the case file */
     int n_settings;
-    bool is_resume;                    /* go on from the folder's checkpoint */
-    double stop_at;                    /* stop with a checkpoint once this time is reached, s; NaN: at the end */
-    const char *command;               /* command line, for the provenance */
-    const char *version;               /* of the program */
-    const char *commit;                /* the program was built from */
-    const volatile sig_atomic_t *stop; /* becomes non-zero when the user wants to stop; NULL: never */
-    FILE *output;                      /* where the final table goes */
-    FILE *progress;                    /* a terminal that shows progress; NULL: quiet */
+    bool is_resume;      /* go on from the folder's checkpoint */
+    double stop_at;      /* stop with a checkpoint once this time is reached, s; NaN: at the end */
+    const char *command; /* command line, for the provenance */
+    const char *version; /* of the program */
+    const char *commit;  /* the program was built from */
+    mor_stop *stop;      /* asked whether the user wants to stop, told what the run is at; NULL: never */
+    FILE *output;        /* where the final table goes */
+    FILE *progress;      /* a terminal that shows progress; NULL: quiet */
 } mor_run_options;
 
 /** How it went. */

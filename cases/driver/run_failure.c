@@ -49,9 +49,11 @@ static mor_status write_results(mor_context *context, mor_run_files *files, cons
         MOR_TRY(context, mor_run_files_add_snapshot(context, files));
     }
     MOR_TRY(context, mor_run_files_conclude(context, files, NAN, failure, &n_missed));
-    return files->the_case->output.has_pictures ? mor_pictures_render(context, files->the_case, files->options->folder,
-                                                                      MOR_PICTURES_KEY, files->options->output)
-                                                : MOR_OK;
+    fflush(files->options->output); /* a signal may end the program while it draws */
+    const bool is_drawn = files->the_case->output.has_pictures && !mor_stop_is_requested(files->options->stop);
+    return is_drawn ? mor_pictures_render(context, files->the_case, files->options->folder, MOR_PICTURES_KEY,
+                                          files->options->output)
+                    : MOR_OK;
 }
 
 static void restore_error(mor_context *context, const mor_context *reason)

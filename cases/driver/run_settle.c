@@ -53,7 +53,8 @@ static mor_status draw_state(mor_context *context, mor_run_files *files)
 
 mor_status mor_run_settle(mor_context *context, mor_run_files *files)
 {
-    const mor_status status = mor_simulation_settle(context, files->simulation, files->options->stop);
+    const mor_status status = mor_simulation_settle(
+        context, files->simulation, files->options->stop != NULL ? &files->options->stop->is_requested : NULL);
     if (status != MOR_NOT_CONVERGED) {
         return status;
     }

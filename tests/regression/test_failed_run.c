@@ -154,7 +154,7 @@ static void rocks_that_leave_keep_the_results(void **state)
     char case_path[MOR_PATH_BYTES];
     finished_run_store_text(folder, body_plane, case_path);
     program_outcome outcome =
-        fail_run(folder, "run", "gravity=(\"0 m/s2\", \"400 m/s2\", \"0 m/s2\")", "end=1 s", NULL);
+        fail_run(folder, "run", "gravity=(\"0 m/s2\", \"400 m/s2\", \"0 m/s2\")", "spacing=5 mm", NULL);
     program_expect_text(outcome.output, "incomplete: the run stopped at t = ");
     check_last_snapshot(folder, "run");
     program_clear(&outcome);
