@@ -113,6 +113,8 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
         probe->direction[is_turn_of_plane ? 2 : 0] = 1.0;
     } else if ((type->traits & MOR_CASE_PROBE_OF_TURN) != 0) {
         MOR_TRY(reader->context, mor_case_reader_out_of_plane(reader, node, "direction", probe->direction));
+    } else {
+        MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "direction", probe->direction));
     }
     normalize(probe->direction);
     if (!mor_case_reader_has(group, probe->written, "radial")) {

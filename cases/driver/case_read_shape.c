@@ -66,8 +66,7 @@ static mor_status read_points(const mor_case_reader *reader, const mor_case_node
     MOR_TRY(reader->context,
             mor_case_reader_member(reader, node, is_polygon ? "points" : "at", MOR_CASE_NODE_LIST, &points));
     if (points->n_children < n_least || points->n_children > n_most) {
-        return MOR_CASE_NODE_FAIL(reader->context, points,
-                                  "found %s of %d %s; allowed: %d to %d; correct the list",
+        return MOR_CASE_NODE_FAIL(reader->context, points, "found %s of %d %s; allowed: %d to %d; correct the list",
                                   is_polygon ? "a polygon" : "a list", points->n_children,
                                   is_polygon ? "corners" : "posts", n_least, n_most);
     }
@@ -141,6 +140,35 @@ static mor_status flatten_box(const mor_case_reader *reader, const mor_case_node
     return MOR_OK;
 }
 
+/* In plane strain a shape is what its cut with the plane z = 0 shows. A ball beside the plane would be cut to a smaller
+ * disc, and a face aslant to it told farther away than it is. */
+static mor_status check_shape_plane(const mor_case_reader *reader, const mor_case_node *node,
+                                    const mor_case_shape *outline)
+{
+    const bool is_along_z = outline->second[0] == 0.0 && outline->second[1] == 0.0;
+    switch (outline->kind) {
+    case MOR_CASE_SHAPE_SPHERE:
+        return mor_case_reader_in_plane(reader, node, "center", outline->first);
+    case MOR_CASE_SHAPE_HALF_SPACE:
+        return mor_case_reader_in_plane(reader, node, "normal", outline->second);
+    case MOR_CASE_SHAPE_TRANSLATE:
+        return mor_case_reader_in_plane(reader, node, "move", outline->first);
+    case MOR_CASE_SHAPE_ROTATE:
+        return mor_case_reader_out_of_plane(reader, node, "axis", outline->second);
+    case MOR_CASE_SHAPE_CYLINDER:
+        if (is_along_z) {
+            return MOR_OK; /* a disc */
+        }
+        MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "axis", outline->second));
+        return mor_case_reader_in_plane(reader, node, "base", outline->first);
+    case MOR_CASE_SHAPE_CONE:
+        MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "axis", outline->second));
+        return mor_case_reader_in_plane(reader, node, "base", outline->first);
+    default:
+        return MOR_OK;
+    }
+}
+
 static mor_status read_own_keys(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline)
 {
     const mor_case_group *group = &mor_case_shape_groups[outline->kind];
@@ -149,6 +177,7 @@ static mor_status read_own_keys(const mor_case_reader *reader, const mor_case_no
     if (outline->kind == MOR_CASE_SHAPE_ROTATE && !mor_case_reader_has(group, outline->written, "axis")) {
         memcpy(outline->second, (double[]){0.0, 0.0, 1.0}, sizeof outline->second);
     }
+    MOR_TRY(reader->context, check_shape_plane(reader, node, outline));
     if (outline->kind == MOR_CASE_SHAPE_BOX) {
         return flatten_box(reader, node, outline);
     }

@@ -92,11 +92,13 @@ static mor_status fill_shape(mor_context *context, const filling *it, mor_lattic
     for (int a = 0; a < request->dimension; ++a) {
         const double extent =
             fmin(bounds.maximum[a], request->domain.maximum[a]) - fmax(bounds.minimum[a], request->domain.minimum[a]);
+        const bool is_endless = !isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a]);
         MOR_CHECK(
             context, !(extent > NODES_ALONG * request->spacing), MOR_ERROR_CONFIG,
             "%s:%d: found '%s' %g m long along %c at a spacing of %g m; allowed are %g particles along an axis; use "
-            "a larger spacing",
-            it->place->file, it->place->line, it->name, extent, "xyz"[a], request -> spacing, NODES_ALONG);
+            "a larger spacing%s",
+            it->place->file, it->place->line, it->name, extent, "xyz"[a], request -> spacing, NODES_ALONG,
+            is_endless ? " or a smaller 'domain', which ends the shape there" : "");
         n_rows *= a > 0 ? fmax(1.0, extent / request->spacing) : 1.0;
     }
     if (n_rows > (double)request->n_points_most) { /* to count the particles would take minutes */
