@@ -148,6 +148,7 @@ static mor_status check_shape_plane(const mor_case_reader *reader, const mor_cas
     const bool is_along_z = outline->second[0] == 0.0 && outline->second[1] == 0.0;
     switch (outline->kind) {
     case MOR_CASE_SHAPE_SPHERE:
+    case MOR_CASE_SHAPE_ELLIPSOID:
         return mor_case_reader_in_plane(reader, node, "center", outline->first);
     case MOR_CASE_SHAPE_HALF_SPACE:
         return mor_case_reader_in_plane(reader, node, "normal", outline->second);
