@@ -150,6 +150,22 @@ static void domain_may_become_larger_only(void **state)
     RUN_QUIETLY(folder, "run", "--resume", "--set", "domain.max=(\"0.6 m\", \"0.5 m\", \"1 m\")");
 }
 
+/* The default of contact_modulus is taken from the domain: a larger one would change it in the middle of a run. */
+static void domain_stays_where_contact_depends_on_it(void **state)
+{
+    static const char text[] =
+        "dimension = 3; spacing = 0.2; end = 0.02; gravity = (0, 0, -10);"
+        "domain = { min = (-3, -3, -3); max = (3, 3, 3); };"
+        "bodies = ( { name = 'ball'; shape = { type = 'sphere'; center = (0, 0, 0); radius = 1; };"
+        "  material = { model = 'rigid'; density = 2500; }; } );"
+        "output = { snapshots = 1; pictures = false; };";
+    run_folder *folder = *state;
+    char case_path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, case_path);
+    RUN_QUIETLY(folder, "run", "--stop-at", "0.01");
+    expect_refusal(folder, "domain.max=(4, 3, 3)", "take it from the domain");
+}
+
 /* Earlier rows have empty cells in the new column, and are otherwise as they were. */
 static void probe_may_be_added(void **state)
 {
@@ -263,6 +279,7 @@ int main(void)
         TEST(run_made_longer_is_the_run_that_was_longer_from_the_start),
         TEST(finished_run_goes_on_to_a_later_end),
         TEST(domain_may_become_larger_only),
+        TEST(domain_stays_where_contact_depends_on_it),
         TEST(probe_may_be_added),
         TEST(energy_audit_cannot_begin_later),
         TEST(changed_buffer_of_a_mesh_is_another_case),
