@@ -89,6 +89,13 @@ void mor_contact_clear(mor_context *context, mor_contact *contact);
  *  @param exchange [out]  one object */
 void mor_contact_exchange(mor_contact *contact, mor_exchange *exchange);
 
+/** Writes the force on a wall in the last sub-step of some steppers, of their bodies alone.
+ *  @param contact [in]   one object
+ *  @param wall    [in]   index of the wall
+ *  @param members [in]   bits of steppers
+ *  @param force   [out]  shape [3], unit N (N/m) */
+void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t members, double *force);
+
 /** Longest step that the normal springs of a group's bodies allow, unit s; INFINITY when none of its bodies is near
  *  another or a wall. A function of the present state alone. mor_contact_init hangs it into each group.
  *  @param contact [in]  one object, a mor_contact

@@ -509,20 +509,27 @@ static void clear_sums(mor_contact *contact, uint64_t members)
     work->n_kept_pairs = 0;
 }
 
+void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t members, double *force)
+{
+    memset(force, 0, 3 * sizeof *force);
+    for (int g = 0; g < contact->n_groups; ++g) {
+        for (int a = 0; a < 3 && (contact->stepper_bits[g] & members) != 0; ++a) {
+            force[a] += contact->work->wall_force[3 * ((int64_t)g * contact->n_walls + wall) + a];
+        }
+    }
+}
+
 static void add_sums(mor_contact *contact)
 {
     const mor_contact_work *work = contact->work;
     contact->spring_energy = 0.0;
     contact->deepest = 0.0;
-    for (int w = 0; w < contact->n_walls; ++w) {
-        memset(contact->walls[w].force, 0, sizeof contact->walls[w].force);
-    }
     for (int g = 0; g < contact->n_groups; ++g) {
         contact->spring_energy += work->group_spring[g];
         contact->deepest = fmax(contact->deepest, work->group_deepest[g]);
-        for (int64_t k = 0; k < 3 * (int64_t)contact->n_walls; ++k) {
-            contact->walls[k / 3].force[k % 3] += work->wall_force[3 * (int64_t)g * contact->n_walls + k];
-        }
+    }
+    for (int w = 0; w < contact->n_walls; ++w) {
+        mor_contact_wall_force(contact, w, ~(uint64_t)0, contact->walls[w].force);
     }
 }
 

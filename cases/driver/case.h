@@ -302,14 +302,25 @@ typedef struct mor_case_probe {
     double direction[3];               /* unit vector; run-out and force component */
     double percentile;                 /* percent of the mass (or of the particles sorted by the value), 0 to 100 */
     double thickness;                  /* threshold, m; default half the spacing */
+    double window[2];                  /* times between which statistics are taken, s; NaN: the whole run */
     uint64_t written;
 } mor_case_probe;
+
+/** What of a probe is compared with a reference. */
+typedef enum mor_case_statistic {
+    MOR_CASE_STATISTIC_VALUE, /* the last value */
+    MOR_CASE_STATISTIC_MAXIMUM,
+    MOR_CASE_STATISTIC_MINIMUM,
+    MOR_CASE_STATISTIC_MEAN,
+    MOR_CASE_STATISTIC_IMPULSE /* of a force */
+} mor_case_statistic;
 
 /** One expectation. */
 typedef struct mor_case_expectation {
     char probe[MOR_CASE_NAME_BYTES]; /* name of a probe */
     mor_case_place place;
-    double value;         /* reference in the probe's SI unit */
+    mor_case_statistic statistic;
+    double value;         /* reference in the SI unit of the statistic */
     double tolerance;     /* relative to value, 1; or absolute when is_absolute */
     double tolerance_low; /* allowed shortfall, same kind as tolerance; default: as tolerance */
     bool is_absolute;

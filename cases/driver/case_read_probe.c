@@ -3,6 +3,7 @@
 #include "cases/driver/case_reader.h"
 
 #include "core/base/math.h"
+#include "core/material/params.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -38,6 +39,9 @@ static void list_keys(unsigned bits, char *text, size_t text_bytes)
         if ((bits >> k & 1U) != 0) {
             used += (size_t)snprintf(text + used, text_bytes - used, ", %s", mor_case_probe_key_names[k]);
         }
+    }
+    if (used < text_bytes) {
+        snprintf(text + used, text_bytes - used, ", window");
     }
 }
 
@@ -130,6 +134,20 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
     return strcmp(probe->measure, "thickness") == 0
                ? refuse_idle(reader, node, "percentile", "measure = \"mass_percentile\"")
                : refuse_idle(reader, node, "thickness", "measure = \"thickness\"");
+}
+
+static mor_status check_window(const mor_case_reader *reader, const mor_case_node *node, double end,
+                               const mor_case_probe *probe)
+{
+    const mor_case_node *child = mor_case_node_find(node, "window");
+    const double *window = probe->window;
+    if (child == NULL || (window[0] < window[1] && window[1] <= end)) {
+        return MOR_OK;
+    }
+    return MOR_CASE_NODE_FAIL(reader->context, child,
+                              "found the window from %.9g s to %.9g s of probe '%s'; allowed: two times of the run, "
+                              "which lasts from 0 to %.9g s, the first before the second; correct the window or 'end'",
+                              window[0], window[1], probe->name, end);
 }
 
 /* Child: the key that holds the name; NULL when it was not written. */
@@ -237,6 +255,7 @@ static mor_status read_probe(const mor_case_reader *reader, const mor_case_node 
     MOR_TRY(reader->context, check_special_keys(reader, node, type));
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_probe_group, probe));
     MOR_TRY(reader->context, complete_probe(reader, node, the_case->spacing, type, probe));
+    MOR_TRY(reader->context, check_window(reader, node, the_case->end, probe));
     MOR_TRY(reader->context, check_probe_names(reader, node, the_case, probe));
     for (const mor_case_probe *other = the_case->probes; other < probe; ++other) {
         if (strcmp(other->name, probe->name) == 0) {
@@ -305,14 +324,38 @@ static mor_status check_expectation(const mor_case_reader *reader, const mor_cas
             "true");
     }
     for (const mor_case_expectation *other = the_case->expectations; other < expectation; ++other) {
-        if (strcmp(other->probe, expectation->probe) == 0 && strcmp(other->source, expectation->source) == 0) {
-            return MOR_CASE_NODE_FAIL(reader->context, node,
-                                      "found a second expectation of '%s' from the same source; "
-                                      "allowed: one for each source (line %d has it); remove one or name its source",
-                                      expectation->probe, other->place.line);
+        if (strcmp(other->probe, expectation->probe) == 0 && other->statistic == expectation->statistic &&
+            strcmp(other->source, expectation->source) == 0) {
+            return MOR_CASE_NODE_FAIL(
+                reader->context, node,
+                "found a second expectation of '%s' from the same source; "
+                "allowed: one for each source and statistic (line %d has it); remove one or name its "
+                "source",
+                expectation->probe, other->place.line);
         }
     }
     return MOR_OK;
+}
+
+/* The unit that value and tolerance of an expectation have. The statistic is looked at before the others are read,
+ * whose unit it decides; a word that is none is refused when it is read itself. */
+static mor_status find_unit(const mor_case_reader *reader, const mor_case_node *node, const mor_case_probe *probe,
+                            const char **unit)
+{
+    const mor_case_probe_type *type = mor_case_probe_type_find(probe->type);
+    const mor_case_node *word = mor_case_node_find(node, "statistic");
+    const bool is_word = word != NULL && word->kind == MOR_CASE_NODE_TEXT;
+    const int index = is_word ? mor_params_choice(mor_case_statistic_words, word->text) : -1;
+    const mor_case_statistic statistic = index >= 0 ? (mor_case_statistic)index : MOR_CASE_STATISTIC_VALUE;
+    *unit = mor_case_statistic_unit(type, statistic, reader->dimension);
+    if (*unit != NULL) {
+        return MOR_OK;
+    }
+    return MOR_CASE_NODE_FAIL(
+        reader->context, word,
+        "found the impulse of probe '%s' of type '%s', which is no force; allowed: value, maximum, "
+        "minimum, mean; name one of these or a probe of a force",
+        probe->name, probe->type);
 }
 
 static mor_status read_expectation(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
@@ -325,7 +368,8 @@ static mor_status read_expectation(const mor_case_reader *reader, const mor_case
     MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_expectation_group, NULL, NULL));
     MOR_TRY(reader->context, read_reference(reader, node, the_case, &probe));
     const mor_case_node *absolute = mor_case_node_find(node, "absolute");
-    const char *unit = mor_case_probe_unit(mor_case_probe_type_find(probe->type), reader->dimension);
+    const char *unit = NULL;
+    MOR_TRY(reader->context, find_unit(reader, node, probe, &unit));
     adapt_keys(unit, absolute != NULL && absolute->truth, keys);
     adapted.keys = keys;
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &adapted, expectation));

@@ -119,10 +119,13 @@ enum {
 
 /** What sets a type of probe apart, beside its keys. */
 enum {
-    MOR_CASE_PROBE_OF_SOIL = 1,   /* makes sense in a case with soil only */
-    MOR_CASE_PROBE_OF_BODIES = 2, /* makes sense in a case with bodies only */
-    MOR_CASE_PROBE_OF_TURN = 4,   /* direction is an axis, in plane strain always z */
-    MOR_CASE_PROBE_OF_AUDIT = 8   /* needs the audit of the soil's energy */
+    MOR_CASE_PROBE_OF_SOIL = 1,    /* makes sense in a case with soil only */
+    MOR_CASE_PROBE_OF_BODIES = 2,  /* makes sense in a case with bodies only */
+    MOR_CASE_PROBE_OF_TURN = 4,    /* direction is an axis, in plane strain always z */
+    MOR_CASE_PROBE_OF_AUDIT = 8,   /* needs the audit of the soil's energy */
+    MOR_CASE_PROBE_OF_STEP = 16,   /* holds over a step, as a force; others have a value at each instant */
+    MOR_CASE_PROBE_OF_FORCE = 32,  /* a force, which has an impulse */
+    MOR_CASE_PROBE_OF_CONTACT = 64 /* changes with each sub-step of the bodies */
 };
 
 /** What a type of probe measures. */
@@ -156,6 +159,20 @@ unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension)
  *  @param type      [in]  one object
  *  @param dimension [in]  2 or 3 */
 const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension);
+
+/** Returns the SI unit of the impulse of a probe, or NULL when it is no force.
+ *  @param type      [in]  one object
+ *  @param dimension [in]  2 or 3 */
+const char *mor_case_probe_impulse_unit(const mor_case_probe_type *type, int dimension);
+
+/** Words for mor_case_statistic, in its order, as a list of choices. */
+extern const char mor_case_statistic_words[];
+
+/** Returns the SI unit of a statistic of a probe; NULL for the impulse of what is no force.
+ *  @param type      [in]  one object
+ *  @param statistic [in]  which
+ *  @param dimension [in]  2 or 3 */
+const char *mor_case_statistic_unit(const mor_case_probe_type *type, mor_case_statistic statistic, int dimension);
 
 /** Whether a body is rigid.
  *  @param body [in]  one object */

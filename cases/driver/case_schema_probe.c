@@ -48,17 +48,28 @@ static const mor_case_key probe_keys[] = {
      MOR_CASE_STORE_BOOL,
      AT(mor_case_probe, is_radial),
      .computed = "true in 3D unless direction is given"},
+    {{"window", MOR_SCHEMA_VECTOR, 2, "s", 0, NAN, NOT_NEGATIVE, NULL,
+      "first and last time that maximum, minimum, mean and impulse are taken over"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, window),
+     .computed = "the whole run"},
     END};
 
 const mor_case_group mor_case_probe_group = {"probes", "Results to measure (list)", probe_keys, NULL,
                                              offsetof(mor_case_probe, written)};
 
-/* value and tolerance are in the unit of the probe, which replaces the one that stands here. */
+const char mor_case_statistic_words[] = "value|maximum|minimum|mean|impulse";
+
+/* value and tolerance are in the unit of the probe or of its impulse, which replaces the one that stands here. */
 static const mor_case_key expectation_keys[] = {
     {{"probe", MOR_SCHEMA_TEXT, 1, "1", 1, 0.0, ANY, NULL, "name of a probe"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case_expectation, probe)},
-    {{"value", MOR_SCHEMA_REAL, 1, "1", 1, 0.0, ANY, NULL, "reference, in the unit of the probe"},
+    {{"statistic", MOR_SCHEMA_CHOICE, 1, "1", 0, 0.0, ANY, mor_case_statistic_words,
+      "what of the probe is compared: its last value, or what it did in its window; impulse: of a force only"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_case_expectation, statistic)},
+    {{"value", MOR_SCHEMA_REAL, 1, "1", 1, 0.0, ANY, NULL, "reference, in the unit of the probe (of its impulse)"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_expectation, value)},
     {{"tolerance", MOR_SCHEMA_REAL, 1, "1", 1, 0.0, NOT_NEGATIVE, NULL,
@@ -96,6 +107,9 @@ const mor_case_group mor_case_expectation_group = {"expect", "Reference values (
 #define OF_BOTH (OF_SOIL | OF_BODIES)
 #define OF_TURN MOR_CASE_PROBE_OF_TURN
 #define AUDIT MOR_CASE_PROBE_OF_AUDIT
+#define STEP MOR_CASE_PROBE_OF_STEP
+#define FORCE (STEP | MOR_CASE_PROBE_OF_FORCE)
+#define CONTACT MOR_CASE_PROBE_OF_CONTACT
 
 /* Name, unit, unit in plane strain, keys allowed, keys required, traits, percentile, text. */
 const mor_case_probe_type mor_case_probe_types[] = {
@@ -129,7 +143,7 @@ const mor_case_probe_type mor_case_probe_types[] = {
     {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0, "momentum of soil and bodies along direction"},
     {"angular_momentum", "kg m2/s", "kg m/s", ORIGIN | DIRECTION, DIRECTION, OF_TURN, 100.0,
      "angular momentum of soil and bodies about the axis through origin along direction"},
-    {"rate_ratio", "1", "1", 0, 0, OF_BOTH, 100.0, "steps of the bodies in the last step of the soil"},
+    {"rate_ratio", "1", "1", 0, 0, OF_BOTH | STEP, 100.0, "steps of the bodies in the last step of the soil"},
     /* Soil. */
     {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "distance the deposit reaches"},
     {"toe", "m", "m", ALONG, 0, 0, 100.0,
@@ -154,13 +168,13 @@ const mor_case_probe_type mor_case_probe_types[] = {
     {"stress_ratio", "1", "1", 0, 0, OF_SOIL, 100.0, "mean lateral stress / vertical stress"},
     {"stress_noise", "Pa", "Pa", 0, 0, OF_SOIL, 100.0, "standard deviation of the vertical stress about its line"},
     /* Walls. */
-    {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
+    {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL | FORCE, 100.0,
      "force of the soil on a wall along direction"},
     {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
      "impulse of the soil on a wall since the start along direction"},
     {"wall_gap", "m", "m", WALL, WALL, OF_SOIL, 100.0,
      "least distance of a soil particle from the surface of a wall; below zero: inside"},
-    {"wall_contact_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_BODIES, 100.0,
+    {"wall_contact_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_BODIES | FORCE | CONTACT, 100.0,
      "force of the bodies on a wall along direction"},
     /* One body. */
     {"body_position", "m", "m", BODY | ORIGIN | DIRECTION, BODY | DIRECTION, OF_BODIES, 100.0,
@@ -171,11 +185,11 @@ const mor_case_probe_type mor_case_probe_types[] = {
      "angle that a body has turned about direction since the start, full turns counted"},
     {"body_angular_velocity", "rad/s", "rad/s", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES | OF_TURN, 100.0,
      "angular velocity of a body about direction"},
-    {"body_force_soil", "N", "N/m", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH, 100.0,
+    {"body_force_soil", "N", "N/m", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH | FORCE, 100.0,
      "force of the soil on a body along direction"},
-    {"body_moment_soil", "N m", "N", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH | OF_TURN, 100.0,
+    {"body_moment_soil", "N m", "N", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH | OF_TURN | STEP, 100.0,
      "moment of the soil on a body about direction, about its center of mass"},
-    {"body_force_contact", "N", "N/m", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES, 100.0,
+    {"body_force_contact", "N", "N/m", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES | FORCE | CONTACT, 100.0,
      "force of other bodies and walls on a body along direction"},
     {"body_impulse_soil_given", "N s", "N s/m", BODY | DIRECTION, BODY | DIRECTION, OF_BOTH, 100.0,
      "impulse that the soil gave to a body since the start, along direction"},
@@ -199,7 +213,8 @@ const mor_case_probe_type mor_case_probe_types[] = {
      "energy lost to sliding in contacts of bodies since the start"},
     {"contact_damping_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0,
      "energy lost to restitution in contacts of bodies since the start"},
-    {"contact_depth", "m", "m", 0, 0, OF_BODIES, 100.0, "deepest contact of a body with a body or a wall"},
+    {"contact_depth", "m", "m", 0, 0, OF_BODIES | STEP | CONTACT, 100.0,
+     "deepest contact of a body with a body or a wall"},
     {NULL, NULL, NULL, 0, 0, 0, 0.0, NULL}};
 
 const char *const mor_case_probe_key_names[] = {"wall",      "measure", "percentile", "thickness", "origin",
@@ -219,6 +234,20 @@ unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension)
 {
     const bool is_turn_of_plane = dimension == 2 && (type->traits & OF_TURN) != 0;
     return is_turn_of_plane ? type->required & ~(unsigned)DIRECTION : type->required;
+}
+
+const char *mor_case_probe_impulse_unit(const mor_case_probe_type *type, int dimension)
+{
+    if ((type->traits & MOR_CASE_PROBE_OF_FORCE) == 0) {
+        return NULL;
+    }
+    return dimension == 2 ? "N s/m" : "N s";
+}
+
+const char *mor_case_statistic_unit(const mor_case_probe_type *type, mor_case_statistic statistic, int dimension)
+{
+    return statistic == MOR_CASE_STATISTIC_IMPULSE ? mor_case_probe_impulse_unit(type, dimension)
+                                                   : mor_case_probe_unit(type, dimension);
 }
 
 const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension)

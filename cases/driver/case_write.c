@@ -362,17 +362,19 @@ static mor_case_presence judge_probe(const mor_case_key *key, const void *record
     }
     const bool has_measure = (type->allowed & MOR_CASE_PROBE_MEASURE) != 0;
     const bool is_by_thickness = strcmp(probe->measure, "thickness") == 0;
-    const bool is_idle = (strcmp(name, "direction") == 0 && probe->is_radial) ||
+    const bool is_idle = (strcmp(name, "window") == 0 && isnan(probe->window[0])) ||
+                         (strcmp(name, "direction") == 0 && probe->is_radial) ||
                          (strcmp(name, "percentile") == 0 && has_measure && is_by_thickness) ||
                          (strcmp(name, "thickness") == 0 && has_measure && !is_by_thickness);
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
 
-static const char *find_unit(const mor_case *the_case, const char *probe)
+static const char *find_unit(const mor_case *the_case, const char *probe, mor_case_statistic statistic)
 {
     for (int k = 0; k < the_case->n_probes; ++k) {
         if (strcmp(the_case->probes[k].name, probe) == 0) {
-            return mor_case_probe_unit(mor_case_probe_type_find(the_case->probes[k].type), the_case->dimension);
+            return mor_case_statistic_unit(mor_case_probe_type_find(the_case->probes[k].type), statistic,
+                                           the_case->dimension);
         }
     }
     return "1";
@@ -382,7 +384,7 @@ static mor_status write_expectation(const mor_case_writer *w, const mor_case *th
                                     const mor_case_expectation *expectation)
 {
     const mor_case_group *group = &mor_case_expectation_group;
-    const char *unit = find_unit(the_case, expectation->probe);
+    const char *unit = find_unit(the_case, expectation->probe, expectation->statistic);
     for (int k = 0; group->keys[k].schema.key != NULL; ++k) {
         mor_case_key key = group->keys[k];
         const bool is_tolerance = strncmp(key.schema.key, "tolerance", strlen("tolerance")) == 0;

@@ -4,14 +4,17 @@
 
 #include "cases/driver/render/colormap.h"
 #include "cases/driver/render/picture.h"
+#include "cases/driver/render/ticks.h"
 #include "core/base/memory.h"
+#include "core/io/summary.h"
 #include "core/io/table.h"
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Columns of the series before the first probe: time, step, step length, rate ratio. */
-enum { FIRST_PROBE = 4, COLUMNS_MAX = 256, NAME_BYTES = 96, CURVES_MAX = MOR_COLORMAP_CATEGORIES };
+enum { FIRST_PROBE = 4, COLUMNS_MAX = 256, NAME_BYTES = 96, TEXT_BYTES = 416, CURVES_MAX = MOR_COLORMAP_CATEGORIES };
 
 /* One column's heading, taken apart: "name [unit]". */
 typedef struct heading {
@@ -58,39 +61,147 @@ typedef struct sheet {
     const char *folder;
     heading headings[COLUMNS_MAX];
     bool is_drawn[COLUMNS_MAX];
-    double *room; /* shape [CURVES_MAX, 2, n_rows] */
+    double *room;              /* shape [CURVES_MAX, 2, n_rows] */
+    char path[MOR_PATH_BYTES]; /* of the summary; "": there is none */
 } sheet;
 
-/* One chart of the columns not yet drawn that have the unit of a first one, as many as colors tell apart. */
-static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *output)
+/* One chart while it is put together: curves first, then the marks on them. */
+typedef struct plate {
+    mor_chart_series series[MOR_CHART_SERIES_MAX];
+    int columns[CURVES_MAX]; /* of the curves */
+    int n_curves, n_series;
+    char names[MOR_CHART_SERIES_MAX][TEXT_BYTES];
+    double places[MOR_CHART_SERIES_MAX][2]; /* of marks: s, unit of the column */
+    char texts[MOR_CHART_NOTES_MAX][TEXT_BYTES];
+    const char *notes[MOR_CHART_NOTES_MAX];
+    int n_notes;
+} plate;
+
+static void add_note(plate *p, const char *text)
+{
+    for (int k = 0; k < p->n_notes; ++k) {
+        if (strcmp(p->texts[k], text) == 0) {
+            return;
+        }
+    }
+    if (p->n_notes < MOR_CHART_NOTES_MAX) {
+        snprintf(p->texts[p->n_notes], TEXT_BYTES, "%s", text);
+        p->notes[p->n_notes] = p->texts[p->n_notes];
+        p->n_notes += 1;
+    }
+}
+
+/* A summary of an earlier part of the run does not know the rows that came after it. */
+static bool is_of_series(const mor_chart_series *curve, const mor_summary_statistics *it)
+{
+    bool is_known = true;
+    for (int64_t k = 0; k < curve->n_points; ++k) {
+        const bool is_inside = curve->x[k] >= it->window[0] && curve->x[k] <= it->window[1];
+        const double rounding = 1.0e-9 * fmax(fabs(it->maximum), fabs(it->minimum));
+        is_known = is_known &&
+                   (!is_inside || (curve->y[k] <= it->maximum + rounding && curve->y[k] >= it->minimum - rounding));
+    }
+    return is_known;
+}
+
+/* Marks the largest value, or the smallest where that is the larger one in size, with its number and time. */
+static void add_mark(plate *p, int curve, const mor_summary_statistics *it, const char *name, const char *unit)
+{
+    const bool is_least = fabs(it->minimum) > fabs(it->maximum);
+    const double value = is_least ? it->minimum : it->maximum;
+    const double time = is_least ? it->time_of_minimum : it->time_of_maximum;
+    char shown[MOR_TICKS_TEXT_BYTES];
+    char clock[MOR_TICKS_TEXT_BYTES];
+    const double factor = mor_ticks_prefix(unit, fabs(value), shown);
+    const double time_factor = mor_ticks_prefix("s", fabs(time), clock);
+    const int k = p->n_series;
+    if (!isfinite(value) || !isfinite(time) || k >= MOR_CHART_SERIES_MAX) {
+        return;
+    }
+    p->places[k][0] = time;
+    p->places[k][1] = value;
+    snprintf(p->names[k], TEXT_BYTES, "%s%s%s %.4g%s%s at %.4g %s", p->n_curves > 1 ? name : "",
+             p->n_curves > 1 ? ": " : "", is_least ? "minimum" : "maximum", factor * value,
+             strcmp(unit, "1") == 0 ? "" : " ", strcmp(unit, "1") == 0 ? "" : shown, time_factor * time, clock);
+    p->series[k] = (mor_chart_series){.name = p->names[k],
+                                      .x = &p->places[k][0],
+                                      .y = &p->places[k][1],
+                                      .n_points = 1,
+                                      .style = MOR_CHART_POINTS,
+                                      .color_of = 1 + curve};
+    p->n_series += 1;
+}
+
+/* What summary.json knows of the curves; without one there are no marks. */
+static void add_marks(const sheet *s, plate *p)
+{
+    mor_context quiet; /* of its own: a summary that is missing or of another time is no error */
+    for (int curve = 0; curve < p->n_curves && s->path[0] != '\0'; ++curve) {
+        const heading *it = &s->headings[p->columns[curve]];
+        mor_summary_statistics statistics;
+        char remark[TEXT_BYTES - NAME_BYTES];
+        char text[TEXT_BYTES];
+        mor_context_init(&quiet);
+        if (mor_summary_read_statistics(&quiet, s->path, it->name, &statistics, remark, sizeof remark) == MOR_OK &&
+            is_of_series(&p->series[curve], &statistics)) {
+            add_mark(p, curve, &statistics, it->name, it->unit);
+            if (statistics.interval > 1) {
+                snprintf(text, sizeof text, "%s: measured every %d steps.", it->name, statistics.interval);
+                add_note(p, text);
+            }
+            if (remark[0] != '\0') {
+                snprintf(text, sizeof text, "%s: %s", it->name, remark);
+                add_note(p, text);
+            }
+        }
+    }
+    if (p->n_series > p->n_curves) {
+        add_note(p, "Dots: of every step unless said otherwise. Lines: from row to row of series.csv, which may pass "
+                    "by a peak.");
+    }
+}
+
+/* The columns not yet drawn that have the unit of a first one, as many as colors tell apart. */
+static void add_curves(sheet *s, int first, plate *p)
 {
     const mor_table_data *data = s->data;
-    mor_chart_series series[CURVES_MAX];
-    char path[MOR_PATH_BYTES];
-    int n = 0;
-    for (int column = first; column < data->n_columns && n < CURVES_MAX; ++column) {
+    for (int column = first; column < data->n_columns && p->n_curves < CURVES_MAX; ++column) {
         if (!s->is_drawn[column] && strcmp(s->headings[column].unit, s->headings[first].unit) == 0) {
-            double *x = s->room + 2 * (int64_t)n * data->n_rows;
+            double *x = s->room + 2 * (int64_t)p->n_curves * data->n_rows;
             double *y = x + data->n_rows;
             const int64_t n_points = copy_column(data, column, x, y);
             s->is_drawn[column] = true;
             if (n_points > 0) {
-                series[n++] = (mor_chart_series){s->headings[column].name, x, y, n_points, MOR_CHART_LINE};
+                p->series[p->n_curves] = (mor_chart_series){
+                    .name = s->headings[column].name, .x = x, .y = y, .n_points = n_points, .style = MOR_CHART_LINE};
+                p->columns[p->n_curves++] = column;
             }
         }
     }
-    if (n == 0) {
+    p->n_series = p->n_curves;
+}
+
+static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *output)
+{
+    char path[MOR_PATH_BYTES];
+    plate p = {.n_curves = 0};
+    add_curves(s, first, &p);
+    if (p.n_curves == 0) {
         return MOR_OK;
     }
-    const char *name = series[0].name;
-    series[0].name = n == 1 ? NULL : name; /* the title says it */
-    const mor_chart chart = {.title = n == 1 ? name : NULL,
+    add_marks(s, &p);
+    const char *name = p.series[0].name;
+    const bool is_single = p.n_curves == 1;
+    p.series[0].name = is_single ? NULL : name; /* the title says it */
+    const mor_chart chart = {.title = is_single ? name : NULL,
                              .x_name = "time",
                              .x_unit = "s",
-                             .y_name = n == 1 ? name : NULL,
+                             .y_name = is_single ? name : NULL,
                              .y_unit = s->headings[first].unit,
-                             .series = series,
-                             .n_series = n};
+                             .series = p.series,
+                             .n_series = p.n_series,
+                             .notes = p.notes,
+                             .n_notes = p.n_notes};
     const int n_bytes = snprintf(path, sizeof path, "%s/images/chart_%s.png", s->folder, name);
     MOR_CHECK(context, n_bytes > 0 && n_bytes < (int)sizeof path, MOR_ERROR_IO, "the path of a chart is too long");
     MOR_TRY(context, mor_picture_chart(context, &chart, path));
@@ -103,6 +214,10 @@ static mor_status draw_all(mor_context *context, const mor_table_data *data, con
     sheet s = {.data = data, .folder = folder};
     const int n_columns = split_header(data->header, s.headings);
     MOR_CHECK(context, n_columns == data->n_columns, MOR_ERROR_IO, "the series in '%s' has too many columns", folder);
+    MOR_TRY(context, mor_durable_file_join(context, s.path, folder, MOR_SUMMARY_FILE));
+    if (access(s.path, R_OK) != 0) {
+        s.path[0] = '\0';
+    }
     MOR_TRY(context, MOR_NEW(context, &s.room, 2 * CURVES_MAX * data->n_rows, "charts"));
     mor_status status = MOR_OK;
     for (int column = FIRST_PROBE; column < n_columns && status == MOR_OK; ++column) {

@@ -33,8 +33,12 @@ static mor_status list_probes(mor_context *context, const mor_registry *registry
     (void)context;
     (void)registry;
     for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
-        fprintf(out, "%-20s [%s; %s in plane strain] %s\n", type->name, type->unit, type->unit_plane, type->text);
+        fprintf(out, "%-20s [%s; %s in plane strain] %s%s\n", type->name, type->unit, type->unit_plane, type->text,
+                (type->traits & MOR_CASE_PROBE_OF_FORCE) != 0 ? "; has an impulse [N s; N s/m in plane strain]" : "");
     }
+    fprintf(out,
+            "\nOf each probe a run keeps maximum and minimum, when they were, mean and, where it says so, impulse, in\n"
+            "the window of the probe: of every step, of contact of every sub-step of the bodies.\n");
     return MOR_OK;
 }
 

@@ -15,15 +15,31 @@ static const double *field(const view *v, mor_field_id id)
     return v->simulation->soil.set.data[id];
 }
 
-/* Front by thickness; the profile lives only here. */
+static bool is_same_frame(const mor_measure_frame *a, const mor_measure_frame *b)
+{
+    return a->is_radial == b->is_radial && memcmp(a->origin, b->origin, sizeof a->origin) == 0 &&
+           memcmp(a->up, b->up, sizeof a->up) == 0 && memcmp(a->direction, b->direction, sizeof a->direction) == 0;
+}
+
+/* The profile in the frame of a probe; probes of one frame share it. */
+static mor_status find_profile(mor_context *context, const view *v)
+{
+    mor_probe_scan *scan = v->scan;
+    if (!scan->has_profile || !is_same_frame(&scan->profile_frame, &v->frame)) {
+        scan->has_profile = false;
+        MOR_TRY(context,
+                mor_measure_profile_fill(context, &v->points, &v->frame, v->points.spacing, 0.0, &scan->profile));
+        scan->profile_frame = v->frame;
+        scan->has_profile = true;
+    }
+    return MOR_OK;
+}
+
+/* Front by thickness. */
 static mor_status find_front(mor_context *context, const view *v, mor_measure_front *front)
 {
-    mor_measure_profile profile;
-    MOR_TRY(context, mor_measure_profile_new(context, &v->points, &v->frame, v->points.spacing, 0.0, &profile));
-    const mor_status status =
-        mor_measure_find_front(context, &v->points, &v->frame, &profile, v->probe->thickness, front);
-    mor_measure_profile_clear(context, &profile);
-    return status;
+    MOR_TRY(context, find_profile(context, v));
+    return mor_measure_find_front(context, &v->points, &v->frame, &v->scan->profile, v->probe->thickness, front);
 }
 
 static mor_status run_out(mor_context *context, const view *v, double *value)
@@ -125,53 +141,33 @@ static mor_status height(mor_context *context, const view *v, double *value)
 
 static mor_status repose_angle(mor_context *context, const view *v, double *value)
 {
-    mor_measure_profile profile;
     mor_measure_repose repose;
-    MOR_TRY(context, mor_measure_profile_new(context, &v->points, &v->frame, v->points.spacing, 0.0, &profile));
-    const mor_status status = mor_measure_find_repose(context, &profile, 0.2, 0.8, &repose);
-    mor_measure_profile_clear(context, &profile);
+    MOR_TRY(context, find_profile(context, v));
+    MOR_TRY(context, mor_measure_find_repose(context, &v->scan->profile, 0.2, 0.8, &repose));
     *value = repose.angle;
-    return status;
+    return MOR_OK;
 }
 
 static mor_status soil_kinetic_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
-    *value = mor_measure_kinetic_energy(&v->points, field(v, MOR_FIELD_VELOCITY));
+    if (!v->scan->has_soil_kinetic) {
+        v->scan->soil_kinetic = mor_measure_kinetic_energy(&v->points, field(v, MOR_FIELD_VELOCITY));
+        v->scan->has_soil_kinetic = true;
+    }
+    *value = v->scan->soil_kinetic;
     return MOR_OK;
-}
-
-/* Energies of the bodies, J: kinetic, potential about the probe's origin, elastic. */
-static void find_bodies_energy(const view *v, double *kinetic, double *potential, double *elastic)
-{
-    mor_simulation_bodies_energy(&v->simulation->bodies, v->frame.origin, kinetic, potential, elastic);
 }
 
 static mor_status kinetic_energy(mor_context *context, const view *v, double *value)
 {
-    double potential = 0.0;
-    double elastic = 0.0;
-    double of_soil = 0.0;
-    find_bodies_energy(v, value, &potential, &elastic);
-    MOR_TRY(context, soil_kinetic_energy(context, v, &of_soil));
-    *value += of_soil;
-    return MOR_OK;
-}
-
-static mor_status potential_energy(mor_context *context, const view *v, double *value)
-{
-    double kinetic = 0.0;
-    double elastic = 0.0;
-    (void)context;
-    find_bodies_energy(v, &kinetic, value, &elastic);
-    *value += mor_measure_potential_energy(&v->points, v->simulation->frame.gravity, v->frame.origin);
+    *value = mor_probe_energies(context, v)[0];
     return MOR_OK;
 }
 
 static mor_status elastic_energy(mor_context *context, const view *v, double *value)
 {
-    (void)context;
-    mor_simulation_energy(v->simulation, value);
+    *value = mor_probe_energies(context, v)[2];
     return MOR_OK;
 }
 
@@ -184,6 +180,10 @@ static double find_offset(const view *v)
     for (int a = 0; a < 3; ++a) {
         offset[a] = v->frame.origin[a] - origin[a];
     }
+    const double height = mor_vector_dot(v->simulation->frame.gravity, offset);
+    if (height == 0.0) {
+        return 0.0;
+    }
     double mass = mor_measure_mass(&v->points);
     for (int g = 0; g < v->simulation->bodies.n_groups; ++g) {
         const mor_body_group *group = v->simulation->bodies.groups[g];
@@ -191,13 +191,18 @@ static double find_offset(const view *v)
             mass += group->bodies[b].mass;
         }
     }
-    return mass * mor_vector_dot(v->simulation->frame.gravity, offset);
+    return mass * height;
+}
+
+static mor_status potential_energy(mor_context *context, const view *v, double *value)
+{
+    *value = mor_probe_energies(context, v)[1] + find_offset(v);
+    return MOR_OK;
 }
 
 static mor_status total_energy(mor_context *context, const view *v, double *value)
 {
-    (void)context;
-    *value = mor_simulation_energy(v->simulation, NULL) + find_offset(v);
+    *value = mor_probe_total_energy(context, v) + find_offset(v);
     return MOR_OK;
 }
 
@@ -218,8 +223,7 @@ static double sum_outflow(const view *v, const double *datum)
 
 static mor_status dissipated_energy(mor_context *context, const view *v, double *value)
 {
-    (void)context;
-    *value = mor_simulation_initial_energy(v->simulation) - mor_simulation_energy(v->simulation, NULL);
+    *value = mor_simulation_initial_energy(v->simulation) - mor_probe_total_energy(context, v);
     if (v->simulation->has_soil) {
         double origin[3];
         mor_simulation_place_point(v->simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
@@ -283,15 +287,12 @@ static mor_status center_of_mass(mor_context *context, const view *v, double *va
 /* Component of a vector that the soil keeps for each wall. */
 static mor_status of_wall(mor_context *context, const view *v, const double vectors[][3], double *value)
 {
-    const mor_soil *soil = &v->simulation->soil;
-    for (int w = 0; w < soil->n_walls; ++w) {
-        if (strcmp(soil->walls[w].name, v->probe->wall) == 0) {
-            *value = mor_vector_dot(vectors[w], v->frame.direction);
-            return MOR_OK;
-        }
+    if (v->wall < 0) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                        "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
     }
-    return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+    *value = mor_vector_dot(vectors[v->wall], v->frame.direction);
+    return MOR_OK;
 }
 
 static mor_status wall_force(mor_context *context, const view *v, double *value)
@@ -335,18 +336,24 @@ static mor_status largest_speed(mor_context *context, const view *v, double *val
     return mor_measure_speed(context, &v->points, field(v, MOR_FIELD_VELOCITY), v->probe->percentile, value);
 }
 
+/* Densities and the one they should be, kg/m3. */
+typedef struct drift_job {
+    const double *density;
+    double reference;
+} drift_job;
+
+static void fill_drifts(const void *argument, int64_t first, int64_t n, double *values)
+{
+    const drift_job job = *(const drift_job *)argument;
+    for (int64_t i = 0; i < n; ++i) {
+        values[i] = fabs(job.density[first + i] / job.reference - 1.0);
+    }
+}
+
 static mor_status density_drift(mor_context *context, const view *v, double *value)
 {
-    const double reference = v->simulation->soil.settings.reference_density;
-    double *drift = NULL;
-    MOR_TRY(context, MOR_NEW(context, &drift, v->points.n_points, "density drift"));
-    for (int64_t i = 0; i < v->points.n_points; ++i) {
-        drift[i] = fabs(v->points.density[i] / reference - 1.0);
-    }
-    const mor_status status =
-        mor_measure_percentile(context, drift, NULL, v->points.n_points, v->probe->percentile, value);
-    MOR_FREE(context, &drift);
-    return status;
+    const drift_job job = {v->points.density, v->simulation->soil.settings.reference_density};
+    return mor_measure_share(context, &v->points, fill_drifts, &job, v->probe->percentile, value);
 }
 
 static mor_status measure_column(mor_context *context, const view *v, mor_measure_stress *stress)
@@ -385,34 +392,35 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
     return MOR_OK;
 }
 
-static const mor_probe_measure measures[] = {{"run_out", run_out},
-                                             {"toe", toe},
-                                             {"front_speed", front_speed},
-                                             {"height", height},
-                                             {"repose_angle", repose_angle},
-                                             {"stray_share", stray_share},
-                                             {"kinetic_energy", kinetic_energy},
-                                             {"potential_energy", potential_energy},
-                                             {"elastic_energy", elastic_energy},
-                                             {"total_energy", total_energy},
-                                             {"energy_left", energy_left},
-                                             {"dissipated_energy", dissipated_energy},
-                                             {"mass", mass},
-                                             {"outflow_mass", outflow_mass},
-                                             {"outflow_momentum", outflow_momentum},
-                                             {"outflow_energy", outflow_energy},
-                                             {"momentum", momentum},
-                                             {"center_of_mass", center_of_mass},
-                                             {"wall_force", wall_force},
-                                             {"wall_impulse", wall_impulse},
-                                             {"wall_gap", wall_gap},
-                                             {"largest_speed", largest_speed},
-                                             {"density_drift", density_drift},
-                                             {"stress_error", stress_error},
-                                             {"stress_ratio", stress_ratio},
-                                             {"stress_noise", stress_noise},
-                                             {"soil_kinetic_energy", soil_kinetic_energy},
-                                             {NULL, NULL}};
+static const mor_probe_measure measures[] = {
+    {.type = "run_out", .run = run_out, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "toe", .run = toe, .cost = MOR_PROBE_COST_SUM},
+    {.type = "front_speed", .run = front_speed, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "height", .run = height, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "repose_angle", .run = repose_angle, .cost = MOR_PROBE_COST_PROFILE},
+    {.type = "stray_share", .run = stray_share, .cost = MOR_PROBE_COST_PROFILE},
+    {.type = "kinetic_energy", .run = kinetic_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "potential_energy", .run = potential_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "elastic_energy", .run = elastic_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "total_energy", .run = total_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "energy_left", .run = energy_left, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "dissipated_energy", .run = dissipated_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "mass", .run = mass, .cost = MOR_PROBE_COST_SUM},
+    {.type = "outflow_mass", .run = outflow_mass},
+    {.type = "outflow_momentum", .run = outflow_momentum},
+    {.type = "outflow_energy", .run = outflow_energy},
+    {.type = "momentum", .run = momentum, .cost = MOR_PROBE_COST_SUM},
+    {.type = "center_of_mass", .run = center_of_mass, .cost = MOR_PROBE_COST_SUM},
+    {.type = "wall_force", .run = wall_force},
+    {.type = "wall_impulse", .run = wall_impulse},
+    {.type = "wall_gap", .run = wall_gap, .cost = MOR_PROBE_COST_DISTANCE},
+    {.type = "largest_speed", .run = largest_speed, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "density_drift", .run = density_drift, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "stress_error", .run = stress_error, .cost = MOR_PROBE_COST_STRESS},
+    {.type = "stress_ratio", .run = stress_ratio, .cost = MOR_PROBE_COST_STRESS},
+    {.type = "stress_noise", .run = stress_noise, .cost = MOR_PROBE_COST_STRESS},
+    {.type = "soil_kinetic_energy", .run = soil_kinetic_energy, .cost = MOR_PROBE_COST_KINETIC},
+    {.type = NULL}};
 
 static const mor_probe_measure *find_measure(const char *type)
 {
@@ -427,61 +435,59 @@ static const mor_probe_measure *find_measure(const char *type)
     return NULL;
 }
 
-static void set_view(const mor_simulation *simulation, int probe, view *v)
+void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
 {
     const mor_case *c = simulation->the_case;
+    const mor_probe_track *track = &simulation->probes;
     const mor_case_probe *it = &c->probes[probe];
     double *const *data = simulation->soil.set.data;
     *v = (view){.simulation = simulation,
                 .probe = it,
+                .measure = find_measure(it->type),
+                .scan = track->scan,
+                .past = track->past[probe],
+                .body = track->bodies[probe] < 0 ? NULL : &simulation->bodies.of[track->bodies[probe]],
+                .wall = track->walls[probe],
                 .number = probe,
                 .points = {simulation->soil.set.n_particles, c->dimension, c->spacing, data[MOR_FIELD_POSITION],
-                           data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY]},
+                           data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY], 0, &track->scan->orders[probe]},
                 .frame = {.is_radial = it->is_radial}};
     mor_simulation_place_point(c, it->origin, v->frame.origin);
     mor_matrix_apply(c->turn, it->direction, v->frame.direction);
     memcpy(v->frame.up, simulation->up, sizeof v->frame.up);
 }
 
-mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simulation, int probe, double *value)
+mor_status mor_probe_view_measure(mor_context *context, const view *v, double *value)
 {
-    const mor_case_probe *it = &simulation->the_case->probes[probe];
-    const mor_probe_measure *found = find_measure(it->type);
-    view v;
+    view shared = *v;
     *value = NAN;
-    if (found == NULL) {
-        return MOR_FAIL(context, MOR_ERROR_INTERNAL, "probe type '%s' has no measurement", it->type);
+    if (v->measure == NULL) {
+        return MOR_FAIL(context, MOR_ERROR_INTERNAL, "probe type '%s' has no measurement", v->probe->type);
     }
-    set_view(simulation, probe, &v);
-    const mor_status status = found->run(context, &v, value);
+    const mor_probe_cost cost = v->measure->cost;
+    const bool needs_soil =
+        cost == MOR_PROBE_COST_PERCENTILE || cost == MOR_PROBE_COST_PROFILE || cost == MOR_PROBE_COST_STRESS;
+    if (needs_soil && v->points.n_points == 0) {
+        return MOR_OK; /* all of it has left: there is nothing to measure */
+    }
+    shared.points.n_threads = context->n_threads;
+    const mor_status status = v->measure->run(context, &shared, value);
     return status == MOR_OK ? status
-                            : MOR_FAIL(context, status, "%s:%d: probe '%s': %s", it->place.file, it->place.line,
-                                       it->name, context->message);
+                            : MOR_FAIL(context, status, "%s:%d: probe '%s': %s", v->probe->place.file,
+                                       v->probe->place.line, v->probe->name, context->message);
 }
 
-/* Probes that are followed, by what and how often. */
-static const struct {
-    const char *type;
-    mor_status (*find)(mor_context *context, const view *v, double *value);
-    int interval; /* steps */
-} followed[] = {{MOR_PROBE_LARGEST_DEPTH, mor_probe_depth, 1},
-                {MOR_PROBE_ENERGY_BALANCE, mor_probe_turned_energy, MOR_SOIL_ENERGY_INTERVAL}};
-
-mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation)
+mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simulation, int probe, double *value)
 {
-    for (int k = 0; k < simulation->the_case->n_probes; ++k) {
-        for (size_t f = 0; f < sizeof followed / sizeof *followed; ++f) {
-            if (strcmp(simulation->the_case->probes[k].type, followed[f].type) == 0 &&
-                simulation->schedule.n_steps % (uint64_t)followed[f].interval == 0) {
-                view v;
-                double value = 0.0;
-                set_view(simulation, k, &v);
-                MOR_TRY(context, followed[f].find(context, &v, &value));
-                simulation->extremes[k] = fmax(simulation->extremes[k], value);
-            }
-        }
-    }
-    return MOR_OK;
+    view v;
+    mor_probe_scan_begin(simulation->probes.scan);
+    mor_probe_view_set(simulation, probe, &v);
+    return mor_probe_view_measure(context, &v, value);
+}
+
+const char *mor_probe_impulse_unit(const mor_case *the_case, int probe)
+{
+    return mor_case_probe_impulse_unit(mor_case_probe_type_find(the_case->probes[probe].type), the_case->dimension);
 }
 
 const char *mor_probe_unit(const mor_case *the_case, int probe)

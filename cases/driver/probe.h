@@ -7,25 +7,70 @@
 
 /** @file
  *  Named results: what the probes of a case read off a simulation. The measurements themselves are in
- *  core/sph/measure.h; here they get their names, frames and units. */
+ *  core/sph/measure.h; here they get their names, frames and units, and are followed through time. */
 
-/** Evaluates one probe of the case.
+/** What a probe did in its window so far, each in the unit of the probe. NaN: nothing was measured. */
+typedef struct mor_probe_statistics {
+    double maximum, minimum;                 /* over all steps; of contact over all sub-steps of bodies */
+    double time_of_maximum, time_of_minimum; /* the first, s */
+    double mean;                             /* over time */
+    double impulse;                          /* of a force: its integral over time, N s (N s/m); NaN of others */
+    double n_measured;                       /* steps in the window, 1 */
+    double n_skipped;                        /* of which with nothing to measure, 1 */
+    mor_probe_window window;                 /* end INFINITY: up to the end of the run */
+    int interval;                            /* steps from one measurement to the next, 1: every step; beside them it is
+                                              * measured whenever its value is asked for */
+} mor_probe_statistics;
+
+/** Evaluates one probe of the case on the state as it is.
  *  @param context    [in,out]  one object
  *  @param simulation [in]      one object
  *  @param probe      [in]      index of the probe in the case
  *  @param value      [out]     one number, in the unit of mor_probe_unit; NaN where there is nothing to measure
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for a wall that does not exist; what the measurement returns. */
+ *  Returns: MOR_OK; what the measurement returns. */
 mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simulation, int probe, double *value);
 
-/** Keeps track of probes that are the largest value so far. To be called after each step.
+/** Measures the probes whose turn it is and keeps their statistics. To be called after each step. Forces and what is of
+ *  single bodies are measured in each step. What looks at all particles is, too, as long as that takes no more than
+ *  about 2 % of a step; else at an interval, which the statistics tell.
  *  @param context    [in,out]  one object
  *  @param simulation [in,out]  one object
  *  Returns: MOR_OK; what a measurement returns. */
 mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation);
 
+/** Returns a probe as mor_probe_follow measured it after the last step, without measuring again; also after a resume.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in,out]  one object; statistics go on when the probe is measured now
+ *  @param probe      [in]      index of the probe in the case
+ *  @param value      [out]     one number, in the unit of mor_probe_unit; measured now when it was not then
+ *  Returns: MOR_OK; what the measurement returns. */
+mor_status mor_probe_value(mor_context *context, mor_simulation *simulation, int probe, double *value);
+
+/** Returns a probe as it was measured last, in the unit of mor_probe_unit; NaN when it never was.
+ *  @param simulation [in]  one object
+ *  @param probe      [in]  index of the probe in the case */
+double mor_probe_last(const mor_simulation *simulation, int probe);
+
+/** Writes what a probe did up to now.
+ *  @param simulation [in]   one object
+ *  @param probe      [in]   index of the probe in the case
+ *  @param statistics [out]  one object */
+void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_probe_statistics *statistics);
+
+/** Returns what a reader must know to trust the numbers of a probe, a static sentence without its stop; NULL: nothing.
+ *  It stands as a footnote under tables and charts and as `remark` in the summary.
+ *  @param simulation [in]  one object
+ *  @param probe      [in]  index of the probe in the case */
+const char *mor_probe_remark(const mor_simulation *simulation, int probe);
+
 /** Returns the SI unit of a probe of the case, a static string.
  *  @param the_case [in]  one object
  *  @param probe    [in]  index of the probe */
 const char *mor_probe_unit(const mor_case *the_case, int probe);
+
+/** Returns the SI unit of the impulse of a probe, a static string; NULL when it is no force.
+ *  @param the_case [in]  one object
+ *  @param probe    [in]  index of the probe */
+const char *mor_probe_impulse_unit(const mor_case *the_case, int probe);
 
 #endif

@@ -11,15 +11,11 @@ typedef mor_probe_view view;
 
 static mor_status find_body(mor_context *context, const view *v, const mor_simulation_body **found)
 {
-    const mor_case *c = v->simulation->the_case;
-    for (int b = 0; b < c->n_bodies; ++b) {
-        if (strcmp(c->bodies[b].name, v->probe->body) == 0) {
-            *found = &v->simulation->bodies.of[b];
-            return MOR_OK;
-        }
-    }
-    return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "found body '%s'; allowed are the names of the case's bodies; correct the name", v->probe->body);
+    *found = v->body;
+    return v->body != NULL ? MOR_OK
+                           : MOR_FAIL(context, MOR_ERROR_CONFIG,
+                                      "found body '%s'; allowed are the names of the case's bodies; correct the name",
+                                      v->probe->body);
 }
 
 static const mor_body *body_of(const mor_simulation_body *it)
@@ -121,20 +117,47 @@ static mor_status moment_soil(mor_context *context, const view *v, double *value
     return MOR_OK;
 }
 
+/* Force of contact on a body along the direction of the probe. */
+static double find_contact_force(const view *v)
+{
+    const mor_body *body = body_of(v->body);
+    double sum = 0.0;
+    if (v->body->rigid != NULL) {
+        return mor_vector_dot(body->contact_force, v->frame.direction);
+    }
+    for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
+        sum += mor_vector_dot(v->body->group->contact_force + 3 * i, v->frame.direction);
+    }
+    return sum;
+}
+
 static mor_status force_contact(mor_context *context, const view *v, double *value)
 {
     const mor_simulation_body *it = NULL;
     MOR_TRY(context, find_body(context, v, &it));
-    const mor_body *body = body_of(it);
-    *value = 0.0;
-    if (it->rigid != NULL) {
-        *value = mor_vector_dot(body->contact_force, v->frame.direction);
-        return MOR_OK;
-    }
-    for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
-        *value += mor_vector_dot(it->group->contact_force + 3 * i, v->frame.direction);
-    }
+    *value = find_contact_force(v);
     return MOR_OK;
+}
+
+/* The steppers that move a body. */
+static uint64_t find_bit(const view *v)
+{
+    const mor_contact *contact = &v->simulation->bodies.contact;
+    uint64_t bit = 0;
+    for (int g = 0; g < contact->n_groups; ++g) {
+        bit |= contact->groups[g] == v->body->group ? contact->stepper_bits[g] : 0;
+    }
+    return bit;
+}
+
+static mor_probe_contact look_at_body(const view *v, uint64_t members, double *whole, double *part)
+{
+    if (v->body == NULL || (find_bit(v) & members) == 0) {
+        return MOR_PROBE_CONTACT_NONE;
+    }
+    *whole = find_contact_force(v);
+    *part = *whole;
+    return MOR_PROBE_CONTACT_NEW;
 }
 
 static mor_status kinetic_energy(mor_context *context, const view *v, double *value)
@@ -156,7 +179,7 @@ static mor_status elastic_energy(mor_context *context, const view *v, double *va
     return MOR_OK;
 }
 
-mor_status mor_probe_depth(mor_context *context, const view *v, double *value)
+static mor_status depth(mor_context *context, const view *v, double *value)
 {
     const mor_simulation_body *it = NULL;
     MOR_TRY(context, find_body(context, v, &it));
@@ -166,8 +189,8 @@ mor_status mor_probe_depth(mor_context *context, const view *v, double *value)
 
 static mor_status largest_depth(mor_context *context, const view *v, double *value)
 {
-    MOR_TRY(context, mor_probe_depth(context, v, value));
-    *value = fmax(*value, v->simulation->extremes[v->number]);
+    MOR_TRY(context, depth(context, v, value));
+    *value = fmax(*value, v->past[MOR_PROBE_RECORD_MAXIMUM]);
     return MOR_OK;
 }
 
@@ -210,7 +233,7 @@ static mor_status bodies_energy_balance(mor_context *context, const view *v, dou
 {
     const mor_contact *contact = &v->simulation->bodies.contact;
     MOR_TRY(context, bodies_damped_energy(context, v, value));
-    *value += contact->friction_energy + contact->damping_energy + mor_simulation_energy(v->simulation, NULL);
+    *value += contact->friction_energy + contact->damping_energy + mor_probe_total_energy(context, v);
     *value /= mor_simulation_initial_energy(v->simulation);
     return MOR_OK;
 }
@@ -243,17 +266,37 @@ static mor_status contact_depth(mor_context *context, const view *v, double *val
     return MOR_OK;
 }
 
+static mor_probe_contact look_at_depth(const view *v, uint64_t members, double *whole, double *part)
+{
+    (void)members;
+    *whole = v->simulation->bodies.contact.deepest;
+    *part = *whole;
+    return MOR_PROBE_CONTACT_NEW;
+}
+
 static mor_status wall_contact_force(mor_context *context, const view *v, double *value)
 {
     const mor_contact *contact = &v->simulation->bodies.contact;
-    for (int w = 0; w < contact->n_walls; ++w) {
-        if (strcmp(contact->walls[w].name, v->probe->wall) == 0) {
-            *value = mor_vector_dot(contact->walls[w].force, v->frame.direction);
-            return MOR_OK;
-        }
+    if (v->wall < 0 || v->wall >= contact->n_walls) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                        "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
     }
-    return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+    *value = mor_vector_dot(contact->walls[v->wall].force, v->frame.direction);
+    return MOR_OK;
+}
+
+static mor_probe_contact look_at_wall(const view *v, uint64_t members, double *whole, double *part)
+{
+    const mor_contact *contact = &v->simulation->bodies.contact;
+    double force[3];
+    if (v->wall < 0 || v->wall >= contact->n_walls) {
+        return MOR_PROBE_CONTACT_NONE;
+    }
+    const double *all = contact->walls[v->wall].force;
+    mor_contact_wall_force(contact, v->wall, members, force);
+    *whole = mor_vector_dot(all, v->frame.direction);
+    *part = mor_vector_dot(force, v->frame.direction);
+    return memcmp(all, force, sizeof force) == 0 ? MOR_PROBE_CONTACT_NEW : MOR_PROBE_CONTACT_LATE;
 }
 
 static mor_status rate_ratio(mor_context *context, const view *v, double *value)
@@ -283,28 +326,29 @@ static mor_status angular_momentum(mor_context *context, const view *v, double *
     return MOR_OK;
 }
 
-const mor_probe_measure mor_probe_body_measures[] = {{"body_position", position},
-                                                     {"body_velocity", velocity},
-                                                     {"body_rotation_angle", rotation_angle},
-                                                     {"body_angular_velocity", angular_velocity},
-                                                     {"body_force_soil", force_soil},
-                                                     {"body_moment_soil", moment_soil},
-                                                     {"body_force_contact", force_contact},
-                                                     {"body_impulse_soil_given", impulse_given},
-                                                     {"body_impulse_soil_received", impulse_received},
-                                                     {"body_kinetic_energy", kinetic_energy},
-                                                     {"body_elastic_energy", elastic_energy},
-                                                     {"penetration_depth", mor_probe_depth},
-                                                     {MOR_PROBE_LARGEST_DEPTH, largest_depth},
-                                                     {"bodies_kinetic_energy", bodies_kinetic_energy},
-                                                     {"bodies_elastic_energy", bodies_elastic_energy},
-                                                     {"bodies_damped_energy", bodies_damped_energy},
-                                                     {"bodies_energy_balance", bodies_energy_balance},
-                                                     {"contact_energy", contact_energy},
-                                                     {"contact_friction_energy", contact_friction_energy},
-                                                     {"contact_damping_energy", contact_damping_energy},
-                                                     {"contact_depth", contact_depth},
-                                                     {"wall_contact_force", wall_contact_force},
-                                                     {"rate_ratio", rate_ratio},
-                                                     {"angular_momentum", angular_momentum},
-                                                     {NULL, NULL}};
+const mor_probe_measure mor_probe_body_measures[] = {
+    {.type = "body_position", .run = position},
+    {.type = "body_velocity", .run = velocity},
+    {.type = "body_rotation_angle", .run = rotation_angle},
+    {.type = "body_angular_velocity", .run = angular_velocity},
+    {.type = "body_force_soil", .run = force_soil},
+    {.type = "body_moment_soil", .run = moment_soil},
+    {.type = "body_force_contact", .run = force_contact, .contact = look_at_body},
+    {.type = "body_impulse_soil_given", .run = impulse_given},
+    {.type = "body_impulse_soil_received", .run = impulse_received},
+    {.type = "body_kinetic_energy", .run = kinetic_energy},
+    {.type = "body_elastic_energy", .run = elastic_energy},
+    {.type = "penetration_depth", .run = depth},
+    {.type = "penetration_depth_largest", .run = largest_depth, .past = depth},
+    {.type = "bodies_kinetic_energy", .run = bodies_kinetic_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "bodies_elastic_energy", .run = bodies_elastic_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "bodies_damped_energy", .run = bodies_damped_energy},
+    {.type = "bodies_energy_balance", .run = bodies_energy_balance, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "contact_energy", .run = contact_energy},
+    {.type = "contact_friction_energy", .run = contact_friction_energy},
+    {.type = "contact_damping_energy", .run = contact_damping_energy},
+    {.type = "contact_depth", .run = contact_depth, .contact = look_at_depth},
+    {.type = "wall_contact_force", .run = wall_contact_force, .contact = look_at_wall},
+    {.type = "rate_ratio", .run = rate_ratio},
+    {.type = "angular_momentum", .run = angular_momentum, .cost = MOR_PROBE_COST_SUM},
+    {.type = NULL}};

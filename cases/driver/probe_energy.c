@@ -5,6 +5,8 @@
 
 #include "core/base/math.h"
 
+#include <string.h>
+
 typedef mor_probe_view view;
 
 static double taken(const view *v, mor_soil_energy_part part)
@@ -124,7 +126,7 @@ static mor_status find_changes(mor_context *context, const view *v, double *erro
     double passed_on = 0.0;
     double changes[ENTRIES] = {0.0};
     const mor_simulation *s = v->simulation;
-    mor_simulation_energies(s, changes);
+    memcpy(changes, mor_probe_energies(context, v), 3 * sizeof *changes);
     for (int k = KINETIC; k <= ELASTIC; ++k) {
         changes[k] -= s->initial_energies[k];
     }
@@ -146,7 +148,8 @@ static mor_status find_changes(mor_context *context, const view *v, double *erro
     return MOR_OK;
 }
 
-mor_status mor_probe_turned_energy(mor_context *context, const view *v, double *value)
+/* How much energy has changed hands between now and the start. */
+static mor_status turned_energy(mor_context *context, const view *v, double *value)
 {
     double error = 0.0;
     return find_changes(context, v, &error, value);
@@ -157,19 +160,20 @@ static mor_status energy_balance(mor_context *context, const view *v, double *va
     double error = 0.0;
     double turned = 0.0;
     MOR_TRY(context, find_changes(context, v, &error, &turned));
-    turned = fmax(turned, v->simulation->extremes[v->number]);
+    turned = fmax(turned, v->past[MOR_PROBE_RECORD_MAXIMUM]);
     *value = turned == 0.0 ? 1.0 : 1.0 + error / turned;
     return MOR_OK;
 }
 
-const mor_probe_measure mor_probe_energy_measures[] = {{"plastic_energy", plastic_energy},
-                                                       {"numerical_dissipation", numerical_dissipation},
-                                                       {"riemann_energy", riemann_energy},
-                                                       {"artificial_stress_energy", artificial_stress_energy},
-                                                       {"stress_diffusion_energy", stress_diffusion_energy},
-                                                       {"boundary_dissipation", boundary_dissipation},
-                                                       {"friction_strain_energy", friction_strain_energy},
-                                                       {"soil_work_on_bodies", soil_work_on_bodies},
-                                                       {"external_work", external_work},
-                                                       {MOR_PROBE_ENERGY_BALANCE, energy_balance},
-                                                       {NULL, NULL}};
+const mor_probe_measure mor_probe_energy_measures[] = {
+    {.type = "plastic_energy", .run = plastic_energy},
+    {.type = "numerical_dissipation", .run = numerical_dissipation},
+    {.type = "riemann_energy", .run = riemann_energy},
+    {.type = "artificial_stress_energy", .run = artificial_stress_energy},
+    {.type = "stress_diffusion_energy", .run = stress_diffusion_energy},
+    {.type = "boundary_dissipation", .run = boundary_dissipation},
+    {.type = "friction_strain_energy", .run = friction_strain_energy},
+    {.type = "soil_work_on_bodies", .run = soil_work_on_bodies},
+    {.type = "external_work", .run = external_work},
+    {.type = "energy_balance", .run = energy_balance, .past = turned_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = NULL}};

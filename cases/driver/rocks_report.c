@@ -94,8 +94,8 @@ static mor_status draw_curve(mor_context *context, const mor_case *the_case, int
         asked[1][k] = rocks->sizes[k].passing;
     }
     const mor_chart_series series[2] = {
-        {"asked for", asked[0], asked[1], rocks->n_sizes, MOR_CHART_LINE},
-        {"placed", room, room + rocks->n_rocks, n_rocks, MOR_CHART_POINTS},
+        {"asked for", asked[0], asked[1], rocks->n_sizes, MOR_CHART_LINE, 0},
+        {"placed", room, room + rocks->n_rocks, n_rocks, MOR_CHART_POINTS, 0},
     };
     const mor_chart chart = {.title = rocks->body.name,
                              .x_name = "diameter",

@@ -216,7 +216,7 @@ mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
     row[2] = schedule->step_length;
     row[3] = (double)mor_schedule_rate_ratio(schedule);
     for (int k = 0; k < files->the_case->n_probes; ++k) {
-        MOR_TRY(context, mor_probe_evaluate(context, files->simulation, k, &row[files->first_probe + k]));
+        MOR_TRY(context, mor_probe_value(context, files->simulation, k, &row[files->first_probe + k]));
     }
     return mor_table_append(context, &files->series, row);
 }
@@ -282,7 +282,6 @@ static void list_state(mor_simulation *s, saved_state *state)
         {"soil_wall_impulse", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_impulse},
         {"initial_energies", MOR_HDF5_DOUBLE, 3, s->initial_energies},
         {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},
-        {"probe_extremes", MOR_HDF5_DOUBLE, MOR_CASE_PROBES_MAX, s->extremes},
         {"bodies", MOR_HDF5_DOUBLE, s->bodies.n_packed, s->bodies.packed},
         {"contact_impacts", MOR_HDF5_DOUBLE, s->bodies.contact.n_impacts, s->bodies.contact.impacts},
         {"contact_spring_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.spring_energy},
@@ -292,6 +291,8 @@ static void list_state(mor_simulation *s, saved_state *state)
     memset(state, 0, sizeof *state);
     memcpy(state->values, list, sizeof list);
     state->n_values = (int)(sizeof list / sizeof *list);
+    mor_probe_track_state(&s->probes, state->values + state->n_values);
+    state->n_values += MOR_PROBE_TRACK_VALUES;
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         add_group_values(s, g, state);
     }

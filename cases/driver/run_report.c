@@ -5,6 +5,7 @@
 
 #include "cases/driver/case_read.h"
 #include "cases/driver/probe.h"
+#include "cases/driver/run_table.h"
 #include "core/base/hash.h"
 #include "core/io/summary.h"
 
@@ -13,68 +14,58 @@
 
 enum { INPUTS_MAX = 512 }; /* files that shapes were made from */
 
-/* Index of the probe an expectation is about; the reader made sure that there is one. */
-static int find_probe(const mor_case *the_case, const char *name)
-{
-    int k = 0;
-    while (k + 1 < the_case->n_probes && strcmp(the_case->probes[k].name, name) != 0) {
-        ++k;
-    }
-    return k;
-}
-
-/* Lowest and highest value that passes. */
-static void find_limits(const mor_case_expectation *expectation, double *low, double *high)
-{
-    const double unit = expectation->is_absolute ? 1.0 : fabs(expectation->value);
-    *low = expectation->value - expectation->tolerance_low * unit;
-    *high = expectation->value + expectation->tolerance * unit;
-}
-
-static void print_results(FILE *out, const mor_summary *summary)
-{
-    fprintf(out, "\n%-24s %14s  %s\n", "result", "value", "unit");
-    for (int k = 0; k < summary->n_results; ++k) {
-        fprintf(out, "%-24s %14.6g  %s\n", summary->results[k].probe, summary->results[k].value,
-                strcmp(summary->results[k].unit, "1") == 0 ? "-" : summary->results[k].unit);
-    }
-}
-
-static void print_expectations(FILE *out, const mor_case *the_case, const mor_summary *summary)
-{
-    if (summary->n_expectations == 0) {
-        return;
-    }
-    fprintf(out, "\n%-20s %12s %12s %6s %11s %25s %5s  %s\n", "expectation", "measured", "reference", "unit",
-            "difference", "allowed", "pass", "source");
-    for (int k = 0; k < summary->n_expectations; ++k) {
-        const mor_summary_expectation *e = &summary->expectations[k];
-        const char *unit = mor_probe_unit(the_case, find_probe(the_case, e->probe));
-        char difference[32];
-        char allowed[48];
-        double low = 0.0;
-        double high = 0.0;
-        find_limits(&the_case->expectations[k], &low, &high);
-        snprintf(allowed, sizeof allowed, "%.5g to %.5g", low, high);
-        if (e->reference != 0.0) {
-            snprintf(difference, sizeof difference, "%+.2f %%", 100.0 * (e->measured / e->reference - 1.0));
-        } else {
-            snprintf(difference, sizeof difference, "%+.3g", e->measured);
-        }
-        fprintf(out, "%-20s %12.5g %12.5g %6s %11s %25s %5s  %s\n", e->probe, e->measured, e->reference,
-                strcmp(unit, "1") == 0 ? "-" : unit, difference, allowed,
-                summary->failure != NULL ? "n/a"
-                : e->passes              ? "yes"
-                                         : "NO",
-                e->source);
-    }
-}
-
 static void print_warnings(FILE *out, const mor_run_warnings *warnings)
 {
     for (int k = 0; k < warnings->n; ++k) {
         fprintf(out, "%swarning: %s\n", k == 0 ? "\n" : "", warnings->texts[k]);
     }
+}
+
+static void fill_statistics(const mor_simulation *simulation, int probe, mor_summary_statistics *out)
+{
+    mor_probe_statistics it;
+    mor_probe_statistics_find(simulation, probe, &it);
+    *out = (mor_summary_statistics){.maximum = it.maximum,
+                                    .minimum = it.minimum,
+                                    .time_of_maximum = it.time_of_maximum,
+                                    .time_of_minimum = it.time_of_minimum,
+                                    .mean = it.mean,
+                                    .impulse = it.impulse,
+                                    .impulse_unit = mor_probe_impulse_unit(simulation->the_case, probe),
+                                    .window = {it.window.begin, fmin(it.window.end, simulation->the_case->end)},
+                                    .n_measured = it.n_measured,
+                                    .n_skipped = it.n_skipped,
+                                    .interval = it.interval};
+}
+
+/* Measured against expected; returns the number of those missed. */
+static int compare(const mor_case *c, const mor_summary_result *results, bool is_failed,
+                   mor_summary_expectation *expectations)
+{
+    static const char *const words[] = {"value", "maximum", "minimum", "mean", "impulse"};
+    int n_missed = 0;
+    for (int k = 0; k < c->n_expectations; ++k) {
+        const mor_case_expectation *e = &c->expectations[k];
+        const mor_summary_result *result = &results[mor_run_table_probe(c, e->probe)];
+        const mor_summary_statistics *it = result->statistics;
+        const double numbers[] = {result->value, it->maximum, it->minimum, it->mean, it->impulse};
+        const double measured = numbers[e->statistic];
+        double low = 0.0;
+        double high = 0.0;
+        mor_run_table_limits(e, &low, &high);
+        const bool passes = !is_failed && measured >= low && measured <= high;
+        n_missed += !passes;
+        expectations[k] = (mor_summary_expectation){.probe = e->probe,
+                                                    .statistic = words[e->statistic],
+                                                    .measured = measured,
+                                                    .reference = e->value,
+                                                    .tolerance = e->tolerance,
+                                                    .tolerance_low = e->tolerance_low,
+                                                    .is_absolute = e->is_absolute,
+                                                    .passes = passes,
+                                                    .source = e->source};
+    }
+    return n_missed;
 }
 
 static void fill_summary(mor_run_files *files, mor_summary *summary)
@@ -105,17 +96,15 @@ static double find_old_speed(const char *path)
     return mor_summary_read_speed(&context, path, &speed) == MOR_OK ? speed : NAN;
 }
 
-/* The value of a probe; of a run that failed, NaN where it cannot be told. */
-static mor_status find_result(mor_context *context, const mor_run_files *files, int probe, bool is_failed,
-                              double *value)
+/* The last value of a probe. A step that failed has left a state behind that is neither the one before nor the one
+ * after it: of such a run what was measured last. */
+static mor_status find_result(mor_context *context, mor_run_files *files, int probe, bool is_failed, double *value)
 {
-    const mor_status status = mor_probe_evaluate(context, files->simulation, probe, value);
-    if (status != MOR_OK && is_failed) {
-        *value = NAN;
-        mor_context_clear_error(context);
+    if (is_failed) {
+        *value = mor_probe_last(files->simulation, probe);
         return MOR_OK;
     }
-    return status;
+    return mor_probe_value(context, files->simulation, probe, value);
 }
 
 /* Above the table of a run that did not reach its end. */
@@ -155,22 +144,17 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
                            .n_threads = context->n_threads,
                            .inputs = inputs,
                            .n_inputs = 1 + n_shapes};
-    *n_missed = 0;
+    mor_summary_statistics statistics[MOR_CASE_PROBES_MAX];
     for (int k = 0; k < c->n_probes; ++k) {
-        results[k] = (mor_summary_result){c->probes[k].name, NAN, mor_probe_unit(c, k)};
+        results[k] = (mor_summary_result){.probe = c->probes[k].name,
+                                          .value = NAN,
+                                          .unit = mor_probe_unit(c, k),
+                                          .statistics = &statistics[k],
+                                          .remark = mor_probe_remark(files->simulation, k)};
         MOR_TRY(context, find_result(context, files, k, failure != NULL, &results[k].value));
+        fill_statistics(files->simulation, k, &statistics[k]);
     }
-    for (int k = 0; k < c->n_expectations; ++k) {
-        const mor_case_expectation *e = &c->expectations[k];
-        const double measured = results[find_probe(c, e->probe)].value;
-        double low = 0.0;
-        double high = 0.0;
-        find_limits(e, &low, &high);
-        const bool passes = failure == NULL && measured >= low && measured <= high;
-        *n_missed += !passes;
-        expectations[k] = (mor_summary_expectation){e->probe,         measured,       e->value, e->tolerance,
-                                                    e->tolerance_low, e->is_absolute, passes,   e->source};
-    }
+    *n_missed = compare(c, results, failure != NULL, expectations);
     fill_summary(files, &summary);
     MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, MOR_SUMMARY_FILE));
     if (isnan(particle_steps_per_second)) {
@@ -178,8 +162,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     }
     MOR_TRY(context, mor_summary_write(context, path, &summary));
     print_failure(files->options->output, &summary);
-    print_results(files->options->output, &summary);
-    print_expectations(files->options->output, c, &summary);
+    MOR_TRY(context, mor_run_table_print(context, c, &summary, files->options->output));
     print_warnings(files->options->output, &files->warnings);
     return MOR_OK;
 }

@@ -483,9 +483,6 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     memset(simulation, 0, sizeof *simulation);
     simulation->the_case = the_case;
     simulation->has_soil = the_case->n_soils > 0;
-    for (int k = 0; k < MOR_CASE_PROBES_MAX; ++k) {
-        simulation->extremes[k] = -INFINITY;
-    }
     mor_simulation_find_up(the_case, simulation->up);
     find_frame(the_case, &simulation->frame);
     mor_status status = simulation->has_soil ? build_soil(context, simulation, registry) : MOR_OK;
@@ -502,6 +499,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     if (status == MOR_OK) {
         status = mor_simulation_check(context, simulation);
     }
+    if (status == MOR_OK) {
+        status = mor_probe_track_init(context, simulation);
+    }
     if (status != MOR_OK) {
         mor_simulation_clear(context, simulation);
     }
@@ -510,6 +510,7 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
 
 void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
 {
+    mor_probe_track_clear(context, &simulation->probes);
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
     mor_material_destroy(context, &simulation->material);

@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_SIMULATION_H
 
 #include "cases/driver/case.h"
+#include "cases/driver/probe_track.h"
 #include "cases/driver/simulation_bodies.h"
 #include "core/material/registry.h"
 #include "core/sph/soil.h"
@@ -35,7 +36,7 @@ typedef struct mor_simulation {
     int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
     double first_step;                            /* length of the first time step, s */
     double initial_energies[3];                   /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
-    double extremes[MOR_CASE_PROBES_MAX]; /* largest value so far of probes that ask for it, unit of the probe */
+    mor_probe_track probes;
 } mor_simulation;
 
 /** Builds a simulation: checks that soil and walls do not overlap, fills the shapes with particles, sets the initial
@@ -150,16 +151,14 @@ static inline double mor_simulation_initial_energy(const mor_simulation *simulat
     return simulation->initial_energies[0] + simulation->initial_energies[1] + simulation->initial_energies[2];
 }
 
-/** Kinetic, potential and elastic energy of soil and rocks now, unit J (J/m in 2D); potential energy counts from the
- *  placed origin.
+/** Kinetic, potential and elastic energy of soil and rocks now; potential energy counts from the placed origin.
  *  @param simulation [in]   one object
- *  @param elastic    [out]  one number, unit J; NULL: not asked
- *  Returns: the total, unit J. */
-double mor_simulation_energy(const mor_simulation *simulation, double *elastic);
-
-/** The same by themselves: kinetic, potential, elastic.
- *  @param simulation [in]   one object
+ *  @param n_threads  [in]   that share the work; 0: one
  *  @param energies   [out]  shape [3], unit J (J/m in 2D) */
-void mor_simulation_energies(const mor_simulation *simulation, double *energies);
+void mor_simulation_energies(const mor_simulation *simulation, int n_threads, double *energies);
+
+/** Returns their sum, unit J (J/m in 2D).
+ *  @param simulation [in]  one object */
+double mor_simulation_energy(const mor_simulation *simulation);
 
 #endif

@@ -5,8 +5,8 @@
 
 #include "cases/driver/settle_watch.h"
 #include "core/base/math.h"
-#include "core/base/parallel.h"
 #include "core/sph/measure.h"
+#include "core/sph/measure_sum.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 #define SETTLE_DAMPING 0.02
 static const char creep_advice[] = "; stress diffusion alone lets soil creep under a standing load, which "
                                    "numerics.stress_diffusion_limiter = \"motion\" ends";
-enum { SETTLE_CHECK = 50, ENERGY_BATCH = 512, FOUND_BYTES = 512 };
+enum { SETTLE_CHECK = 50, FOUND_BYTES = 512 };
 
 /* A settle_time that is proposed is longer than the one extrapolated. */
 #define TIME_MARGIN 1.2
@@ -23,62 +23,52 @@ enum { SETTLE_CHECK = 50, ENERGY_BATCH = 512, FOUND_BYTES = 512 };
 static mor_measure_points points_of(const mor_simulation *simulation)
 {
     double *const *data = simulation->soil.set.data;
-    return (mor_measure_points){simulation->soil.set.n_particles,
-                                simulation->the_case->dimension,
-                                simulation->the_case->spacing,
-                                data[MOR_FIELD_POSITION],
-                                data[MOR_FIELD_MASS],
-                                data[MOR_FIELD_DENSITY]};
+    return (mor_measure_points){.n_points = simulation->soil.set.n_particles,
+                                .dimension = simulation->the_case->dimension,
+                                .spacing = simulation->the_case->spacing,
+                                .position = data[MOR_FIELD_POSITION],
+                                .mass = data[MOR_FIELD_MASS],
+                                .density = data[MOR_FIELD_DENSITY]};
 }
 
-/* Stored energy by the material's own operation; NaN when the model cannot tell. */
-static double sum_elastic(const mor_simulation *simulation)
+/* Stored energies of particles by the material's own operation; NaN when the model cannot tell. */
+static void fill_elastic(const void *argument, int64_t start, int64_t n, double *terms)
 {
-    const mor_soil *soil = &simulation->soil;
+    const mor_soil *soil = argument;
     double *const *data = soil->set.data;
-    double sum = 0.0;
-    for (int64_t first = 0; first < soil->set.n_particles; first += ENERGY_BATCH) {
-        const int64_t left = soil->set.n_particles - first;
-        const double *state[MOR_MATERIAL_STATES_MAX];
-        for (int k = 0; k < soil->material->n_state; ++k) {
-            const int field = soil->state_fields[k];
-            state[k] = data[field] + first * soil->set.fields[field].n_components;
-        }
-        double stored[ENERGY_BATCH];
-        const mor_batch batch = {.n = left < ENERGY_BATCH ? left : ENERGY_BATCH,
-                                 .density = data[MOR_FIELD_DENSITY] + first,
-                                 .stress_in = data[MOR_FIELD_STRESS] + 6 * first,
-                                 .state_in = state};
-        if (soil->material->operations.energy(soil->material, &batch, stored) != MOR_OK) {
-            return NAN;
-        }
-        for (int64_t i = 0; i < batch.n; ++i) {
-            sum += stored[i] * data[MOR_FIELD_MASS][first + i] / data[MOR_FIELD_DENSITY][first + i];
-        }
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        const int field = soil->state_fields[k];
+        state[k] = data[field] + start * soil->set.fields[field].n_components;
     }
-    return sum;
+    const mor_batch batch = {.n = n,
+                             .density = data[MOR_FIELD_DENSITY] + start,
+                             .stress_in = data[MOR_FIELD_STRESS] + 6 * start,
+                             .state_in = state};
+    const bool is_known = soil->material->operations.energy(soil->material, &batch, terms) == MOR_OK;
+    for (int64_t i = 0; i < n; ++i) {
+        terms[i] *= is_known ? data[MOR_FIELD_MASS][start + i] / data[MOR_FIELD_DENSITY][start + i] : NAN;
+    }
 }
 
-void mor_simulation_energies(const mor_simulation *simulation, double *energies)
+void mor_simulation_energies(const mor_simulation *simulation, int n_threads, double *energies)
 {
     double datum[3];
     mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, datum);
     mor_simulation_bodies_energy(&simulation->bodies, datum, &energies[0], &energies[1], &energies[2]);
     if (simulation->has_soil) {
-        const mor_measure_points points = points_of(simulation);
+        mor_measure_points points = points_of(simulation);
+        points.n_threads = n_threads;
         energies[0] += mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]);
         energies[1] += mor_measure_potential_energy(&points, simulation->soil.settings.gravity, datum);
-        energies[2] += sum_elastic(simulation);
+        energies[2] += mor_sum_over(points.n_points, n_threads, fill_elastic, &simulation->soil);
     }
 }
 
-double mor_simulation_energy(const mor_simulation *simulation, double *elastic)
+double mor_simulation_energy(const mor_simulation *simulation)
 {
     double energies[3];
-    mor_simulation_energies(simulation, energies);
-    if (elastic != NULL) {
-        *elastic = energies[2];
-    }
+    mor_simulation_energies(simulation, 1, energies);
     return energies[0] + energies[1] + energies[2];
 }
 
@@ -275,6 +265,6 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         simulation->schedule.n_particle_steps = 0;
     }
     mor_soil_restart_energy(soil);
-    mor_simulation_energies(simulation, simulation->initial_energies);
-    return MOR_OK;
+    mor_simulation_energies(simulation, context->n_threads, simulation->initial_energies);
+    return mor_probe_track_start(context, &simulation->probes);
 }

@@ -5,6 +5,7 @@
 #include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/io/durable_file.h"
+#include "core/io/summary_judge.h"
 
 #include <inttypes.h>
 #include <jansson.h>
@@ -13,63 +14,6 @@
 
 #define FINISHED "finished"
 #define FAILED "failed"
-
-/* ---- checks before writing --------------------------------------------------------------------------------------- */
-
-static const mor_summary_result *find_result(const mor_summary *summary, const char *probe)
-{
-    for (int k = 0; k < summary->n_results; ++k) {
-        if (strcmp(summary->results[k].probe, probe) == 0) {
-            return &summary->results[k];
-        }
-    }
-    return NULL;
-}
-
-static mor_status check_texts(mor_context *context, const mor_summary *summary)
-{
-    MOR_CHECK(context, summary->version != NULL && summary->commit != NULL && summary->command != NULL,
-              MOR_ERROR_ARGUMENT, "a summary needs version, commit and command; \"\" stands for unknown");
-    for (int k = 0; k < summary->n_results; ++k) {
-        const mor_summary_result *result = &summary->results[k];
-        MOR_CHECK(context, result->probe != NULL && result->probe[0] != '\0' && result->unit != NULL,
-                  MOR_ERROR_ARGUMENT, "result %d of a summary has no name or no unit; \"1\" stands for no dimension",
-                  k + 1);
-        MOR_CHECK(context, find_result(summary, result->probe) == result, MOR_ERROR_ARGUMENT,
-                  "two results of a summary are named '%s'; rename one probe", result->probe);
-    }
-    for (int k = 0; k < summary->n_warnings; ++k) {
-        MOR_CHECK(context, summary->warnings[k] != NULL, MOR_ERROR_ARGUMENT, "warning %d of a summary has no text",
-                  k + 1);
-    }
-    for (int k = 0; k < summary->n_inputs; ++k) {
-        MOR_CHECK(context, summary->inputs[k].path != NULL, MOR_ERROR_ARGUMENT, "input %d of a summary has no path",
-                  k + 1);
-    }
-    return MOR_OK;
-}
-
-static mor_status check_expectations(mor_context *context, const mor_summary *summary)
-{
-    for (int k = 0; k < summary->n_expectations; ++k) {
-        const mor_summary_expectation *expectation = &summary->expectations[k];
-        MOR_CHECK(context, expectation->probe != NULL, MOR_ERROR_ARGUMENT, "expectation %d of a summary has no probe",
-                  k + 1);
-        const mor_summary_result *result = find_result(summary, expectation->probe);
-        MOR_CHECK(context, result != NULL, MOR_ERROR_ARGUMENT,
-                  "expectation %d of a summary is about '%s', which is not among the results", k + 1,
-                  expectation->probe);
-        const bool is_same =
-            result->value == expectation->measured || (isnan(result->value) && isnan(expectation->measured));
-        MOR_CHECK(context, is_same, MOR_ERROR_ARGUMENT,
-                  "expectation %d of a summary has measured %.17g for '%s', whose result is %.17g", k + 1,
-                  expectation->measured, expectation->probe, result->value);
-        MOR_CHECK(context, !expectation->passes || isfinite(expectation->measured), MOR_ERROR_ARGUMENT,
-                  "expectation %d of a summary passes with %g measured for '%s'", k + 1, expectation->measured,
-                  expectation->probe);
-    }
-    return MOR_OK;
-}
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
@@ -136,6 +80,27 @@ static int add_named(mor_context *context, json_t *object, const char *name, jso
     return error;
 }
 
+static int fill_statistics(mor_context *context, json_t *result, const mor_summary_statistics *it)
+{
+    int error = add_member(result, "maximum", make_number(it->maximum));
+    error |= add_member(result, "time_of_maximum", make_number(it->time_of_maximum));
+    error |= add_member(result, "minimum", make_number(it->minimum));
+    error |= add_member(result, "time_of_minimum", make_number(it->time_of_minimum));
+    error |= add_member(result, "mean", make_number(it->mean));
+    if (it->impulse_unit != NULL) {
+        error |= add_member(result, "impulse", make_number(it->impulse));
+        error |= add_member(result, "impulse_unit", make_text(context, it->impulse_unit));
+    }
+    json_t *window = json_array();
+    error |= json_array_append_new(window, make_number(it->window[0]));
+    error |= json_array_append_new(window, make_number(it->window[1]));
+    error |= add_member(result, "window", window);
+    error |= add_member(result, "interval", json_integer(it->interval));
+    error |= add_member(result, "measured", json_integer((json_int_t)it->n_measured));
+    error |= add_member(result, "skipped", json_integer((json_int_t)it->n_skipped));
+    return error;
+}
+
 static json_t *make_results(mor_context *context, const mor_summary *summary)
 {
     json_t *results = json_object();
@@ -144,6 +109,12 @@ static json_t *make_results(mor_context *context, const mor_summary *summary)
         json_t *result = json_object();
         error |= add_member(result, "value", make_number(summary->results[k].value));
         error |= add_member(result, "unit", make_text(context, summary->results[k].unit));
+        if (summary->results[k].statistics != NULL) {
+            error |= fill_statistics(context, result, summary->results[k].statistics);
+        }
+        if (summary->results[k].remark != NULL) {
+            error |= add_member(result, "remark", make_text(context, summary->results[k].remark));
+        }
         error |= add_named(context, results, summary->results[k].probe, result);
     }
     if (error != 0) {
@@ -157,6 +128,7 @@ static int fill_expectation(mor_context *context, json_t *item, const mor_summar
                             const char *unit)
 {
     int error = add_member(item, "probe", make_text(context, expectation->probe));
+    error |= add_member(item, "statistic", make_text(context, expectation->statistic));
     error |= add_member(item, "measured", make_number(expectation->measured));
     error |= add_member(item, "reference", make_number(expectation->reference));
     error |= add_member(item, "tolerance", make_number(expectation->tolerance));
@@ -175,7 +147,9 @@ static json_t *make_expectations(mor_context *context, const mor_summary *summar
     for (int k = 0; k < summary->n_expectations; ++k) {
         const mor_summary_expectation *expectation = &summary->expectations[k];
         json_t *item = json_object();
-        error |= fill_expectation(context, item, expectation, find_result(summary, expectation->probe)->unit);
+        error |= fill_expectation(
+            context, item, expectation,
+            mor_summary_find_unit(mor_summary_find_result(summary, expectation->probe), expectation->statistic));
         error |= json_array_append_new(list, item);
     }
     if (error != 0) {
@@ -264,8 +238,7 @@ static json_t *make_document(mor_context *context, const mor_summary *summary)
 
 mor_status mor_summary_write(mor_context *context, const char *path, const mor_summary *summary)
 {
-    MOR_TRY(context, check_texts(context, summary));
-    MOR_TRY(context, check_expectations(context, summary));
+    MOR_TRY(context, mor_summary_judge(context, summary));
     json_t *document = make_document(context, summary);
     MOR_CHECK(context, document != NULL, MOR_ERROR_ARGUMENT,
               "the summary '%s' cannot be made: two probes or two inputs have the same name, or memory ran out", path);
@@ -300,6 +273,27 @@ static bool is_hash(const json_t *value)
            strspn(text, "0123456789abcdef") == MOR_HASH_TEXT_BYTES - 1;
 }
 
+/* A result may have no statistics; one that has any has all of them. */
+static bool is_statistics(const json_t *result)
+{
+    static const char *const numbers[] = {"maximum", "time_of_maximum", "minimum", "time_of_minimum", "mean"};
+    static const char *const counts[] = {"interval", "measured", "skipped"};
+    const json_t *window = json_object_get(result, "window");
+    const json_t *impulse = json_object_get(result, "impulse");
+    const json_t *remark = json_object_get(result, "remark");
+    bool is_good = json_array_size(window) == 2 && is_number_or_null(json_array_get(window, 0)) &&
+                   is_number_or_null(json_array_get(window, 1));
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
+        is_good = is_good && is_number_or_null(json_object_get(result, numbers[k]));
+    }
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k) {
+        is_good = is_good && json_is_integer(json_object_get(result, counts[k]));
+    }
+    is_good = is_good && (impulse == NULL ||
+                          (is_number_or_null(impulse) && json_is_string(json_object_get(result, "impulse_unit"))));
+    return is_good && (remark == NULL || json_is_string(remark));
+}
+
 static mor_status check_results(mor_context *context, const char *path, json_t *results)
 {
     if (!json_is_object(results)) {
@@ -312,6 +306,9 @@ static mor_status check_results(mor_context *context, const char *path, json_t *
         if (!is_number_or_null(json_object_get(result, "value")) || !json_is_string(json_object_get(result, "unit"))) {
             return fail_member(context, path, name, "an object with a number or null as value and a text as unit");
         }
+        if (json_object_get(result, "maximum") != NULL && !is_statistics(result)) {
+            return fail_member(context, path, name, "an object with all of the statistics or none");
+        }
     }
     return MOR_OK;
 }
@@ -319,7 +316,7 @@ static mor_status check_results(mor_context *context, const char *path, json_t *
 static mor_status check_expectation(mor_context *context, const char *path, const json_t *item, const json_t *results)
 {
     static const char *const numbers[] = {"measured", "reference", "tolerance", "tolerance_low"};
-    static const char *const texts[] = {"probe", "tolerance_kind", "unit", "source"};
+    static const char *const texts[] = {"probe", "statistic", "tolerance_kind", "unit", "source"};
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
         if (!is_number_or_null(json_object_get(item, numbers[k]))) {
             return fail_member(context, path, numbers[k], "a number or null in each expectation");
@@ -334,9 +331,10 @@ static mor_status check_expectation(mor_context *context, const char *path, cons
         return fail_member(context, path, "pass", "true or false in each expectation");
     }
     const json_t *result = json_object_get(results, json_string_value(json_object_get(item, "probe")));
-    if (result == NULL || !json_equal(json_object_get(result, "value"), json_object_get(item, "measured"))) {
+    const char *statistic = json_string_value(json_object_get(item, "statistic"));
+    if (result == NULL || !json_equal(json_object_get(result, statistic), json_object_get(item, "measured"))) {
         return fail_member(context, path, json_string_value(json_object_get(item, "probe")),
-                           "among the results with the value that its expectation calls measured");
+                           "among the results with the number that its expectation calls measured");
     }
     return MOR_OK;
 }
@@ -387,12 +385,11 @@ static mor_status check_outcome(mor_context *context, const char *path, const js
         return fail_member(context, path, "status", "finished or failed");
     }
     const json_t *failure = json_object_get(document, "failure");
-    const bool fits = strcmp(status, FINISHED) == 0
-                          ? json_is_null(failure)
-                          : json_is_string(json_object_get(failure, "reason")) &&
-                                is_number_or_null(json_object_get(failure, "time")) &&
-                                is_number_or_null(json_object_get(failure, "end")) &&
-                                json_is_integer(json_object_get(failure, "step"));
+    const bool fits = strcmp(status, FINISHED) == 0 ? json_is_null(failure)
+                                                    : json_is_string(json_object_get(failure, "reason")) &&
+                                                          is_number_or_null(json_object_get(failure, "time")) &&
+                                                          is_number_or_null(json_object_get(failure, "end")) &&
+                                                          json_is_integer(json_object_get(failure, "step"));
     return fits ? MOR_OK : fail_member(context, path, "failure", "null of a run that finished, else why it failed");
 }
 
@@ -473,6 +470,39 @@ mor_status mor_summary_read_speed(mor_context *context, const char *path, double
     *speed = read_number(json_object_get(json_object_get(document, "speed"), "particle_steps_per_second"));
     json_decref(document);
     return MOR_OK;
+}
+
+mor_status mor_summary_read_statistics(mor_context *context, const char *path, const char *probe,
+                                       mor_summary_statistics *statistics, char *remark, size_t n_bytes)
+{
+    json_t *document = NULL;
+    *statistics = (mor_summary_statistics){NAN, NAN, NAN, NAN, NAN, NAN, NULL, {NAN, NAN}, 0.0, 0.0, 0};
+    remark[0] = '\0';
+    MOR_TRY(context, load_document(context, path, &document));
+    const json_t *result = json_object_get(json_object_get(document, "results"), probe);
+    mor_status status = MOR_OK;
+    if (json_object_get(result, "maximum") == NULL) {
+        status = MOR_FAIL(context, MOR_ERROR_IO, "'%s' has no statistics of a result named '%s'", path, probe);
+    } else {
+        const json_t *window = json_object_get(result, "window");
+        const json_t *text = json_object_get(result, "remark");
+        statistics->maximum = read_number(json_object_get(result, "maximum"));
+        statistics->minimum = read_number(json_object_get(result, "minimum"));
+        statistics->time_of_maximum = read_number(json_object_get(result, "time_of_maximum"));
+        statistics->time_of_minimum = read_number(json_object_get(result, "time_of_minimum"));
+        statistics->mean = read_number(json_object_get(result, "mean"));
+        statistics->impulse = json_is_number(json_object_get(result, "impulse"))
+                                  ? json_number_value(json_object_get(result, "impulse"))
+                                  : NAN;
+        statistics->window[0] = read_number(json_array_get(window, 0));
+        statistics->window[1] = read_number(json_array_get(window, 1));
+        statistics->interval = (int)json_integer_value(json_object_get(result, "interval"));
+        statistics->n_measured = (double)json_integer_value(json_object_get(result, "measured"));
+        statistics->n_skipped = (double)json_integer_value(json_object_get(result, "skipped"));
+        snprintf(remark, n_bytes, "%s", text == NULL ? "" : json_string_value(text));
+    }
+    json_decref(document);
+    return status;
 }
 
 mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value, char *unit,

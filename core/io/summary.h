@@ -14,9 +14,11 @@
  *        "status": "finished" or "failed",
  *        "failure": null or { "reason": text, "time", "end": numbers in s, "step": number, "set": text or null,
  *                             "particle": number or null },
- *        "results": { "<probe>": { "value": number, "unit": text }, ... },
- *        "expect": [ { "probe", "measured", "reference", "tolerance", "tolerance_low", "tolerance_kind", "unit",
- *                      "pass", "source" }, ... ],
+ *        "results": { "<probe>": { "value": number, "unit": text, "maximum", "time_of_maximum", "minimum",
+ *                     "time_of_minimum", "mean", "window": [ number, number ], "interval", "measured", "skipped",
+ *                     "impulse", "impulse_unit" (of a force), "remark" (if there is one) }, ... },
+ *        "expect": [ { "probe", "statistic", "measured", "reference", "tolerance", "tolerance_low", "tolerance_kind",
+ *                      "unit", "pass", "source" }, ... ],
  *        "warnings": [ text, ... ],
  *        "state_hash": "16 hexadecimal digits",
  *        "speed": { "particle_steps_per_second": number },
@@ -30,20 +32,35 @@
 
 enum { MOR_SUMMARY_VERSION = 1 };
 
+/** What a probe did over time, in its unit; NaN where it was never measured. */
+typedef struct mor_summary_statistics {
+    double maximum, minimum;                 /* unit of the probe, 1 for numbers */
+    double time_of_maximum, time_of_minimum; /* s */
+    double mean;                             /* over time, unit of the probe, 1 for numbers */
+    double impulse;                          /* in impulse_unit, N s */
+    const char *impulse_unit;                /* zero-terminated; NULL: it is no force and has none */
+    double window[2];                        /* times that all of this is from and to, s */
+    double n_measured, n_skipped;            /* measurements in the window, and those that found nothing, 1 */
+    int interval;                            /* steps from one measurement to the next; 1: every step */
+} mor_summary_statistics;
+
 /** One probe's result. */
 typedef struct mor_summary_result {
-    const char *probe; /* zero-terminated, unique */
-    double value;      /* in unit */
-    const char *unit;  /* zero-terminated; "1" for dimensionless */
+    const char *probe;                        /* zero-terminated, unique */
+    double value;                             /* the last, in unit */
+    const char *unit;                         /* zero-terminated; "1" for dimensionless */
+    const mor_summary_statistics *statistics; /* one object; NULL: not known */
+    const char *remark;                       /* what to know to trust it, zero-terminated; NULL: nothing */
 } mor_summary_result;
 
-/** One comparison with a reference. Its unit is that of the probe's result. */
+/** One comparison with a reference. Its unit is that of the statistic of the probe. */
 typedef struct mor_summary_expectation {
-    const char *probe;    /* zero-terminated; one of the results */
-    double measured;      /* in the probe's unit; the same number as the result */
-    double reference;     /* in the probe's unit */
-    double tolerance;     /* allowed excess: relative to reference, 1; or in the probe's unit when is_absolute */
-    double tolerance_low; /* allowed shortfall, same kind and unit as tolerance */
+    const char *probe;     /* zero-terminated; one of the results */
+    const char *statistic; /* zero-terminated; "value", "maximum", "minimum", "mean" or "impulse" of that result */
+    double measured;       /* in the statistic's unit; the same number as in the result */
+    double reference;      /* in the statistic's unit */
+    double tolerance;      /* allowed excess: relative to reference, 1; or in the statistic's unit when is_absolute */
+    double tolerance_low;  /* allowed shortfall, same kind and unit as tolerance */
     bool is_absolute;
     bool passes;        /* false when measured is not finite */
     const char *source; /* where the reference is from, zero-terminated; NULL or "" for none */
@@ -68,7 +85,7 @@ typedef struct mor_summary_failure {
 /** Everything in the file. A view: nothing in it is owned. */
 typedef struct mor_summary {
     const mor_summary_failure *failure; /* NULL: the run reached its end */
-    const mor_summary_result *results; /* shape [n_results] */
+    const mor_summary_result *results;  /* shape [n_results] */
     int n_results;
     const mor_summary_expectation *expectations; /* shape [n_expectations] */
     int n_expectations;
@@ -118,6 +135,17 @@ mor_status mor_summary_read_result(mor_context *context, const char *path, const
  *  @param is_failed [out]     one flag
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_summary_read_status(mor_context *context, const char *path, bool *is_failed);
+
+/** Reads what a probe did over time from a summary after checking the file.
+ *  @param context    [in,out]  one object
+ *  @param path       [in]      zero-terminated
+ *  @param probe      [in]      zero-terminated name of the probe
+ *  @param statistics [out]     one object; NaN where the file has null; impulse_unit NULL
+ *  @param remark     [out]     shape [n_bytes]; zero-terminated; "": none; cut off where there is no room
+ *  @param n_bytes    [in]      room for the remark
+ *  Returns: MOR_OK; MOR_ERROR_IO, also when there is no such probe or it has no statistics. */
+mor_status mor_summary_read_statistics(mor_context *context, const char *path, const char *probe,
+                                       mor_summary_statistics *statistics, char *remark, size_t n_bytes);
 
 /** Reads the speed from a summary after checking the file.
  *  @param context [in,out]  one object

@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
+#include "core/base/parallel.h"
 #include "core/sph/measure_sum.h"
 
 #include <stdlib.h>
@@ -145,21 +146,93 @@ mor_status mor_measure_percentile(mor_context *context, const double *values, co
     return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
 }
 
+/* Where a distance or a component is measured, for the terms of particles. */
+typedef struct frame_job {
+    const mor_measure_points *points;
+    const mor_measure_frame *frame;
+    const double *vectors; /* shape [n, 3] */
+    double along[3];
+} frame_job;
+
+/* As mor_measure_frame_distance, for many at once. */
+MOR_TARGET_CLONES static void fill_distances(const void *argument, int64_t first, int64_t n, double *terms)
+{
+    const frame_job *job = argument;
+    const mor_measure_frame frame = *job->frame;
+    const double *position = job->points->position + 3 * first;
+    for (int64_t i = 0; i < n; ++i) {
+        double offset[3];
+        subtract(position + 3 * i, frame.origin, offset);
+        const double height = mor_vector_dot(offset, frame.is_radial ? frame.up : frame.direction);
+        for (int a = 0; a < 3; ++a) {
+            offset[a] -= height * frame.up[a];
+        }
+        terms[i] = frame.is_radial ? mor_vector_length(offset) : height;
+    }
+}
+
+void mor_measure_distances(const mor_measure_points *points, const mor_measure_frame *frame, double *distances)
+{
+    const frame_job job = {.points = points, .frame = frame};
+    mor_fill_over(points->n_points, points->n_threads, fill_distances, &job, distances);
+}
+
+MOR_TARGET_CLONES static void fill_speeds(const void *argument, int64_t first, int64_t n, double *terms)
+{
+    const double *velocity = ((const frame_job *)argument)->vectors + 3 * first;
+    for (int64_t i = 0; i < n; ++i) {
+        terms[i] = mor_vector_length(velocity + 3 * i);
+    }
+}
+
+static bool is_one_mass(const mor_measure_points *points)
+{
+    const double mass = points->mass[0];
+    int64_t n_others = 0;
+    for (int64_t i = 1; i < points->n_points; ++i) {
+        n_others += points->mass[i] != mass;
+    }
+    return n_others == 0 && mass > 0.0;
+}
+
+/* Equal weights need no sorting. */
+static mor_status find_share(mor_context *context, const mor_measure_points *points, mor_measure_order *order,
+                             bool is_weighted, double percent, double *result)
+{
+    return is_weighted ? mor_measure_percentile(context, order->values, points->mass, points->n_points, percent, result)
+                       : mor_measure_order_find(context, order, points->n_points, percent, result);
+}
+
+static mor_status find_percentile_of(mor_context *context, const mor_measure_points *points, mor_sum_fill fill,
+                                     const void *job, bool is_weighted, double percent, double *result)
+{
+    MOR_TRY(context, mor_measure_check_points(context, points));
+    MOR_CHECK(context, percent >= 0.0 && percent <= 100.0, MOR_ERROR_ARGUMENT,
+              "the percentile is %g: give a number from 0 to 100", percent);
+    mor_measure_order own = {.capacity = 0};
+    mor_measure_order *order = points->order != NULL ? points->order : &own;
+    mor_status status = mor_measure_order_reserve(context, order, points->n_points);
+    if (status == MOR_OK) {
+        mor_fill_over(points->n_points, points->n_threads, fill, job, order->values);
+        status = find_share(context, points, order, is_weighted && !is_one_mass(points), percent, result);
+    }
+    mor_measure_order_clear(context, &own);
+    return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
+}
+
+mor_status mor_measure_share(mor_context *context, const mor_measure_points *points, mor_sum_fill fill, const void *job,
+                             double percent, double *result)
+{
+    return find_percentile_of(context, points, fill, job, false, percent, result);
+}
+
 mor_status mor_measure_run_out(mor_context *context, const mor_measure_points *points, const mor_measure_frame *frame,
                                double percent, double *run_out)
 {
-    MOR_TRY(context, mor_measure_check_points(context, points));
-    MOR_TRY(context, mor_measure_check_frame(context, frame));
-    double *distances = NULL;
-    MOR_TRY(context, MOR_NEW(context, &distances, points->n_points, "run-out distances"));
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        distances[i] = mor_measure_frame_distance(frame, points->position + 3 * i);
-    }
+    const frame_job job = {.points = points, .frame = frame};
     double center = 0.0;
-    const mor_status status =
-        mor_measure_percentile(context, distances, points->mass, points->n_points, percent, &center);
-    MOR_FREE(context, &distances);
-    MOR_TRY(context, status);
+    MOR_TRY(context, mor_measure_check_frame(context, frame));
+    MOR_TRY(context, find_percentile_of(context, points, fill_distances, &job, true, percent, &center));
     *run_out = center + 0.5 * points->spacing;
     return MOR_OK;
 }
@@ -177,38 +250,67 @@ mor_status mor_measure_height(mor_context *context, const mor_measure_points *po
 mor_status mor_measure_speed(mor_context *context, const mor_measure_points *points, const double *velocity,
                              double percent, double *speed)
 {
-    MOR_TRY(context, mor_measure_check_points(context, points));
-    double *speeds = NULL;
-    MOR_TRY(context, MOR_NEW(context, &speeds, points->n_points, "speeds"));
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        speeds[i] = mor_vector_length(velocity + 3 * i);
-    }
-    const mor_status status = mor_measure_percentile(context, speeds, points->mass, points->n_points, percent, speed);
-    MOR_FREE(context, &speeds);
-    MOR_TRY(context, status);
+    const frame_job job = {.points = points, .vectors = velocity};
+    MOR_TRY(context, find_percentile_of(context, points, fill_speeds, &job, true, percent, speed));
     return MOR_OK;
+}
+
+MOR_TARGET_CLONES static void fill_masses(const void *argument, int64_t first, int64_t n, double *terms)
+{
+    const double *mass = ((const frame_job *)argument)->points->mass + first;
+    for (int64_t i = 0; i < n; ++i) {
+        terms[i] = mass[i];
+    }
+}
+
+MOR_TARGET_CLONES static void fill_components(const void *argument, int64_t first, int64_t n, double *terms)
+{
+    const frame_job *job = argument;
+    const double *mass = job->points->mass + first;
+    const double *vectors = job->vectors + 3 * first;
+    for (int64_t i = 0; i < n; ++i) {
+        terms[i] = mass[i] * mor_vector_dot(vectors + 3 * i, job->along);
+    }
+}
+
+MOR_TARGET_CLONES static void fill_kinetic(const void *argument, int64_t first, int64_t n, double *terms)
+{
+    const frame_job *job = argument;
+    const double *mass = job->points->mass + first;
+    const double *velocity = job->vectors + 3 * first;
+    for (int64_t i = 0; i < n; ++i) {
+        terms[i] = 0.5 * mass[i] * mor_vector_dot(velocity + 3 * i, velocity + 3 * i);
+    }
+}
+
+MOR_TARGET_CLONES static void fill_potential(const void *argument, int64_t first, int64_t n, double *terms)
+{
+    const frame_job *job = argument;
+    const double *mass = job->points->mass + first;
+    for (int64_t i = 0; i < n; ++i) {
+        double offset[3];
+        subtract(job->points->position + 3 * (first + i), job->frame->origin, offset);
+        terms[i] = -mass[i] * mor_vector_dot(job->along, offset);
+    }
+}
+
+static double sum_over(const mor_measure_points *points, mor_sum_fill fill, const frame_job *job)
+{
+    return mor_sum_over(points->n_points, points->n_threads, fill, job);
 }
 
 double mor_measure_mass(const mor_measure_points *points)
 {
-    mor_sum sum = {0.0, 0.0};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        mor_sum_add(&sum, points->mass[i]);
-    }
-    return mor_sum_value(sum);
+    return sum_over(points, fill_masses, &(frame_job){.points = points});
 }
 
 /* Writes the sum of mass times a vector per particle. */
 static void sum_vectors(const mor_measure_points *points, const double *vectors, double *out)
 {
-    mor_sum sums[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        for (int a = 0; a < 3; ++a) {
-            mor_sum_add(&sums[a], points->mass[i] * vectors[3 * i + a]);
-        }
-    }
     for (int a = 0; a < 3; ++a) {
-        out[a] = mor_sum_value(sums[a]);
+        frame_job job = {.points = points, .vectors = vectors};
+        job.along[a] = 1.0;
+        out[a] = sum_over(points, fill_components, &job);
     }
 }
 
@@ -228,20 +330,12 @@ void mor_measure_momentum(const mor_measure_points *points, const double *veloci
 
 double mor_measure_kinetic_energy(const mor_measure_points *points, const double *velocity)
 {
-    mor_sum sum = {0.0, 0.0};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        mor_sum_add(&sum, 0.5 * points->mass[i] * mor_vector_dot(velocity + 3 * i, velocity + 3 * i));
-    }
-    return mor_sum_value(sum);
+    return sum_over(points, fill_kinetic, &(frame_job){.points = points, .vectors = velocity});
 }
 
 double mor_measure_potential_energy(const mor_measure_points *points, const double *gravity, const double *datum)
 {
-    mor_sum sum = {0.0, 0.0};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        double offset[3];
-        subtract(points->position + 3 * i, datum, offset);
-        mor_sum_add(&sum, -points->mass[i] * mor_vector_dot(gravity, offset));
-    }
-    return mor_sum_value(sum);
+    const mor_measure_frame frame = {.origin = {datum[0], datum[1], datum[2]}};
+    const frame_job job = {.points = points, .frame = &frame, .along = {gravity[0], gravity[1], gravity[2]}};
+    return sum_over(points, fill_potential, &job);
 }

@@ -4,6 +4,7 @@
 #define MOR_CORE_SPH_MEASURE_H
 
 #include "core/base/context.h"
+#include "core/sph/measure_order.h"
 
 #include <stdbool.h>
 
@@ -16,14 +17,21 @@
  *  Masses and volumes are those of the particles: in 2D per meter of depth (kg/m and m2), and so are energies (J/m).
  *  Threads: safe to call concurrently with a context each. */
 
+/** Writes the terms of particles first to first + n - 1, in any one unit.
+ *  job: one object; terms: shape [n]; at most 1024 at a time. */
+typedef void (*mor_sum_fill)(const void *job, int64_t first, int64_t n, double *terms);
+
 /** The particles measured. Everything is borrowed. */
 typedef struct mor_measure_points {
-    int64_t n_points;       /* number of particles, >= 1 */
-    int dimension;          /* 2 (in x-y) or 3 */
-    double spacing;         /* particle spacing, unit m, > 0 */
-    const double *position; /* shape [n_points,3]; unit m */
-    const double *mass;     /* shape [n_points]; unit kg (2D: kg/m); > 0 */
-    const double *density;  /* shape [n_points]; unit kg/m3; NULL: every volume is spacing to the power dimension */
+    int64_t n_points;         /* number of particles, >= 1 */
+    int dimension;            /* 2 (in x-y) or 3 */
+    double spacing;           /* particle spacing, unit m, > 0 */
+    const double *position;   /* shape [n_points,3]; unit m */
+    const double *mass;       /* shape [n_points]; unit kg (2D: kg/m); > 0 */
+    const double *density;    /* shape [n_points]; unit kg/m3; NULL: every volume is spacing to the power dimension */
+    int n_threads;            /* that share the work; 0: one */
+    mor_measure_order *order; /* memory of a percentile that is asked for again and again; NULL: none, its scratch is
+                               * allocated for each call */
 } mor_measure_points;
 
 /** Where a distance is measured from, and which way. */
@@ -47,7 +55,13 @@ typedef struct mor_measure_profile {
                           * over one spacing of distance, so that thickness is continuous in the positions */
     double *top;       /* shape [n_bins]; height over origin of the highest particle centered in the bin, plus half a
                           * spacing, unit m; NaN where there is none */
+    double *parts;     /* shape [capacity * MOR_MEASURE_PARTS * 2]; scratch; volumes [m3 (m2)] and tops [m] by parts */
+    int64_t capacity;  /* bins that there is room for */
+    double *distances; /* shape [n_points]; of the particles it was made from, unit m */
+    int64_t n_distances; /* room for them */
 } mor_measure_profile;
+
+enum { MOR_MEASURE_PARTS = 16 };
 
 /** Where a deposit ends. Edges, in contrast to centers of particles: half a spacing is included in each. */
 typedef struct mor_measure_front {
@@ -109,7 +123,8 @@ mor_status mor_measure_percentile(mor_context *context, const double *values, co
  *  @param frame   [in]      one object
  *  @param percent [in]      unit 1; 0 to 100
  *  @param run_out [out]     one number; unit m
- *  Returns: as mor_measure_percentile. Cost: O(n log n), allocates. */
+ *  Returns: as mor_measure_percentile. Cost: O(n) where all particles have one mass, else O(n log n); allocates nothing
+ *  where points bring an order. */
 mor_status mor_measure_run_out(mor_context *context, const mor_measure_points *points, const mor_measure_frame *frame,
                                double percent, double *run_out);
 
@@ -120,7 +135,8 @@ mor_status mor_measure_run_out(mor_context *context, const mor_measure_points *p
  *  @param up      [in]      shape [3]; unit vector, 1
  *  @param percent [in]      unit 1; 0 to 100
  *  @param height  [out]     one number; unit m
- *  Returns: as mor_measure_percentile. Cost: O(n log n), allocates. */
+ *  Returns: as mor_measure_percentile. Cost: O(n) where all particles have one mass, else O(n log n); allocates nothing
+ *  where points bring an order. */
 mor_status mor_measure_height(mor_context *context, const mor_measure_points *points, const double *origin,
                               const double *up, double percent, double *height);
 
@@ -130,9 +146,21 @@ mor_status mor_measure_height(mor_context *context, const mor_measure_points *po
  *  @param velocity [in]      shape [n_points,3]; unit m/s
  *  @param percent  [in]      unit 1; 0 to 100
  *  @param speed    [out]     one number; unit m/s
- *  Returns: as mor_measure_percentile. Cost: O(n log n), allocates. */
+ *  Returns: as mor_measure_percentile. Cost: O(n) where all particles have one mass, else O(n log n); allocates nothing
+ *  where points bring an order. */
 mor_status mor_measure_speed(mor_context *context, const mor_measure_points *points, const double *velocity,
                              double percent, double *speed);
+
+/** Finds a percentile of values, one for each particle, that are made one by one. All particles count alike.
+ *  @param context [in,out]  one object
+ *  @param points  [in]      one object
+ *  @param fill    [in]      writes the values of particles first to first + n - 1, shape [n]; any unit
+ *  @param job     [in]      one object; first argument of fill
+ *  @param percent [in]      unit 1; 0 to 100
+ *  @param result  [out]     one number; unit of the values
+ *  Returns: as mor_measure_percentile. Cost: O(n), allocates nothing where points bring an order. */
+mor_status mor_measure_share(mor_context *context, const mor_measure_points *points, mor_sum_fill fill, const void *job,
+                             double percent, double *result);
 
 /** Makes the profile of a deposit.
  *  @param context   [in,out]  one object
@@ -148,6 +176,19 @@ mor_status mor_measure_speed(mor_context *context, const mor_measure_points *poi
 mor_status mor_measure_profile_new(mor_context *context, const mor_measure_points *points,
                                    const mor_measure_frame *frame, double bin_width, double breadth,
                                    mor_measure_profile *profile);
+
+/** Makes the profile anew in the memory of an earlier one; otherwise as mor_measure_profile_new.
+ *  @param context   [in,out]  one object
+ *  @param points    [in]      one object
+ *  @param frame     [in]      one object
+ *  @param bin_width [in]      unit m; > 0
+ *  @param breadth   [in]      unit m
+ *  @param profile   [in,out]  one object; zeroed at first; owned by the caller, after a failure, too
+ *  Returns: as mor_measure_profile_new.
+ *  Cost: O(n + bins), allocates when there are more bins than there is room for. */
+mor_status mor_measure_profile_fill(mor_context *context, const mor_measure_points *points,
+                                    const mor_measure_frame *frame, double bin_width, double breadth,
+                                    mor_measure_profile *profile);
 
 /** Frees what a profile owns; an empty profile is accepted.
  *  @param context [in,out]  one object

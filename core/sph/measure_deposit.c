@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
+#include "core/base/parallel.h"
 #include "core/sph/measure_sum.h"
 
 #include <string.h>
@@ -27,25 +28,60 @@ typedef struct line_sums {
 
 static void widen(value_range *range, double value)
 {
-    range->least = fmin(range->least, value);
-    range->greatest = fmax(range->greatest, value);
+    range->least = value < range->least ? value : range->least;
+    range->greatest = value > range->greatest ? value : range->greatest;
 }
 
-/* Ranges of the run-out distance and of the place across it. */
+/* Of which one may hold nothing. */
+static void join(value_range *range, const value_range *other)
+{
+    range->least = fmin(range->least, other->least);
+    range->greatest = fmax(range->greatest, other->greatest);
+}
+
+/* Names the first particle that is nowhere. */
+static mor_status refuse_positions(mor_context *context, const mor_measure_points *points)
+{
+    int64_t i = 0;
+    while (i + 1 < points->n_points && isfinite(points->position[3 * i]) && isfinite(points->position[3 * i + 1]) &&
+           isfinite(points->position[3 * i + 2])) {
+        ++i;
+    }
+    const double *position = points->position + 3 * i;
+    return MOR_FAIL(context, MOR_ERROR_NUMERIC,
+                    "particle %lld of %lld lies at (%g, %g, %g) m: a profile needs finite positions", (long long)i,
+                    (long long)points->n_points, position[0], position[1], position[2]);
+}
+
+/* Ranges of the run-out distances and, where it is asked for, of the place across them. */
 static mor_status find_ranges(mor_context *context, const mor_measure_points *points, const mor_measure_frame *frame,
-                              value_range *distances, value_range *sides)
+                              const double *distance, value_range *distances, value_range *sides)
 {
     double side[3];
+    value_range parts[MOR_MEASURE_PARTS][2];
+    const int64_t n = points->n_points;
+    const mor_measure_team team = mor_measure_team_for(n, points->n_threads);
     mor_vector_cross(frame->up, frame->direction, side);
+    MOR_PARALLEL_FOR (&team, part, MOR_MEASURE_PARTS, 1) {
+        value_range own[2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+        int64_t n_bad = 0;
+        for (int64_t i = part * n / MOR_MEASURE_PARTS; i < (part + 1) * n / MOR_MEASURE_PARTS; ++i) {
+            n_bad += !(distance[i] - distance[i] == 0.0);
+            widen(&own[0], distance[i]);
+            if (sides != NULL) {
+                widen(&own[1], mor_vector_dot(side, points->position + 3 * i));
+            }
+        }
+        own[0].least = n_bad == 0 ? own[0].least : NAN;
+        memcpy(parts[part], own, sizeof own);
+    }
     *distances = (value_range){INFINITY, -INFINITY};
-    *sides = (value_range){INFINITY, -INFINITY};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        const double *position = points->position + 3 * i;
-        MOR_CHECK(context, isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]), MOR_ERROR_NUMERIC,
-                  "particle %lld of %lld lies at (%g, %g, %g) m: a profile needs finite positions", (long long)i,
-                  (long long)points->n_points, position[0], position[1], position[2]);
-        widen(distances, mor_measure_frame_distance(frame, position));
-        widen(sides, mor_vector_dot(side, position));
+    for (int part = 0; part < MOR_MEASURE_PARTS; ++part) {
+        MOR_TRY(context, isnan(parts[part][0].least) ? refuse_positions(context, points) : MOR_OK);
+        join(distances, &parts[part][0]);
+        if (sides != NULL) {
+            join(sides, &parts[part][1]);
+        }
     }
     return MOR_OK;
 }
@@ -78,68 +114,118 @@ static double floor_area(const mor_measure_points *points, bool is_radial, doubl
 }
 
 /* Adds the part of a volume spread evenly over [low, low + spacing] that falls in [low, high], bin by bin. */
-static void spread_volume(const mor_measure_profile *profile, double volume, double low, double high, mor_sum *volumes)
+static void spread_volume(const mor_measure_profile *profile, double volume, double low, double high, double *volumes)
 {
     const double width = profile->bin_width;
-    int64_t bin = (int64_t)floor((low - profile->start) / width);
-    bin = bin < 0 ? 0 : bin;
-    for (; bin < profile->n_bins; ++bin) {
+    const double first = (low - profile->start) / width;
+    for (int64_t bin = first > 0.0 ? (int64_t)first : 0; bin < profile->n_bins; ++bin) {
         const double inner = profile->start + (double)bin * width;
-        const double part = fmin(high, inner + width) - fmax(low, inner);
+        const double outer = inner + width;
+        const double part = (high < outer ? high : outer) - (low > inner ? low : inner);
         if (inner >= high) {
             break;
         }
         if (part > 0.0) {
-            mor_sum_add(&volumes[bin], volume * (part / profile->spacing));
+            volumes[bin] += volume * (part / profile->spacing);
         }
     }
 }
 
-static void fill_profile(const mor_measure_points *points, const mor_measure_frame *frame, double breadth,
-                         mor_measure_profile *profile, mor_sum *volumes)
+/* Volumes and tops of the bins, shape [n_bins] each, from one part of the particles. */
+static void fill_part(const mor_measure_points *points, const mor_measure_frame *frame,
+                      const mor_measure_profile *profile, int64_t part, double *volumes, double *tops)
 {
+    const int64_t n = points->n_points;
+    const double half = 0.5 * points->spacing;
     for (int64_t k = 0; k < profile->n_bins; ++k) {
-        profile->center[k] = profile->start + ((double)k + 0.5) * profile->bin_width;
-        profile->top[k] = NAN;
+        volumes[k] = 0.0;
+        tops[k] = NAN;
     }
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        const double *position = points->position + 3 * i;
+    for (int64_t i = part * n / MOR_MEASURE_PARTS; i < (part + 1) * n / MOR_MEASURE_PARTS; ++i) {
         const double volume = mor_measure_volume(points, i);
-        const double distance = mor_measure_frame_distance(frame, position);
-        const double low = distance - 0.5 * points->spacing;
-        const double high = distance + 0.5 * points->spacing;
-        spread_volume(profile, volume, low, high, volumes);
+        const double distance = profile->distances[i];
+        const double low = distance - half;
+        spread_volume(profile, volume, low, distance + half, volumes);
         /* What reaches past the axis of a radial profile, before its first bin, comes back on the other side. */
         if (profile->is_radial && low < 0.0) {
             spread_volume(profile, volume, 0.0, -low, volumes);
         }
-        const int64_t bin = (int64_t)floor((distance - profile->start) / profile->bin_width);
-        profile->top[bin] = fmax(profile->top[bin], mor_measure_frame_height(frame, position) + 0.5 * points->spacing);
-    }
-    for (int64_t k = 0; k < profile->n_bins; ++k) {
-        const double inner = profile->start + (double)k * profile->bin_width;
-        profile->thickness[k] = mor_sum_value(volumes[k]) /
-                                floor_area(points, profile->is_radial, breadth, inner, inner + profile->bin_width);
+        const int64_t bin = (int64_t)((distance - profile->start) / profile->bin_width);
+        const double top = mor_measure_frame_height(frame, points->position + 3 * i) + half;
+        tops[bin] = tops[bin] >= top ? tops[bin] : top;
     }
 }
 
-static mor_status allocate_profile(mor_context *context, mor_measure_profile *profile)
+static void fill_profile(const mor_measure_points *points, const mor_measure_frame *frame, double breadth,
+                         mor_measure_profile *profile)
 {
-    MOR_TRY(context, MOR_NEW(context, &profile->center, profile->n_bins, "bin centers of a profile"));
-    MOR_TRY(context, MOR_NEW(context, &profile->thickness, profile->n_bins, "thickness of a profile"));
-    MOR_TRY(context, MOR_NEW(context, &profile->top, profile->n_bins, "tops of a profile"));
+    const mor_measure_team team = mor_measure_team_for(points->n_points, points->n_threads);
+    const int64_t n = profile->n_bins;
+    MOR_PARALLEL_FOR (&team, part, MOR_MEASURE_PARTS, 1) {
+        fill_part(points, frame, profile, part, profile->parts + 2 * part * n, profile->parts + (2 * part + 1) * n);
+    }
+    for (int64_t k = 0; k < n; ++k) {
+        const double inner = profile->start + (double)k * profile->bin_width;
+        mor_sum volume = {0.0, 0.0};
+        profile->center[k] = profile->start + ((double)k + 0.5) * profile->bin_width;
+        profile->top[k] = NAN;
+        for (int part = 0; part < MOR_MEASURE_PARTS; ++part) {
+            mor_sum_add(&volume, profile->parts[2 * part * n + k]);
+            profile->top[k] = fmax(profile->top[k], profile->parts[(2 * part + 1) * n + k]);
+        }
+        profile->thickness[k] =
+            mor_sum_value(volume) / floor_area(points, profile->is_radial, breadth, inner, inner + profile->bin_width);
+    }
+}
+
+static void clear_bins(mor_context *context, mor_measure_profile *profile)
+{
+    MOR_FREE(context, &profile->center);
+    MOR_FREE(context, &profile->thickness);
+    MOR_FREE(context, &profile->top);
+    MOR_FREE(context, &profile->parts);
+    profile->n_bins = 0;
+    profile->capacity = 0;
+}
+
+static mor_status reserve_distances(mor_context *context, mor_measure_profile *profile, int64_t n)
+{
+    if (n > profile->n_distances) {
+        profile->n_distances = 0;
+        MOR_FREE(context, &profile->distances);
+        MOR_TRY(context, MOR_NEW(context, &profile->distances, n, "distances of a profile"));
+        profile->n_distances = n;
+    }
     return MOR_OK;
 }
 
-mor_status mor_measure_profile_new(mor_context *context, const mor_measure_points *points,
-                                   const mor_measure_frame *frame, double bin_width, double breadth,
-                                   mor_measure_profile *profile)
+/* Room for some bins more than are needed, so that a deposit that spreads asks seldom. */
+static mor_status reserve_bins(mor_context *context, mor_measure_profile *profile, int64_t n_bins)
 {
-    memset(profile, 0, sizeof *profile);
+    if (n_bins <= profile->capacity) {
+        return MOR_OK;
+    }
+    clear_bins(context, profile);
+    const int64_t n = 2 * n_bins;
+    MOR_TRY(context, MOR_NEW(context, &profile->center, n, "bin centers of a profile"));
+    MOR_TRY(context, MOR_NEW(context, &profile->thickness, n, "thickness of a profile"));
+    MOR_TRY(context, MOR_NEW(context, &profile->top, n, "tops of a profile"));
+    MOR_TRY(context, MOR_NEW(context, &profile->parts, 2 * MOR_MEASURE_PARTS * n, "parts of a profile"));
+    profile->capacity = n;
+    return MOR_OK;
+}
+
+mor_status mor_measure_profile_fill(mor_context *context, const mor_measure_points *points,
+                                    const mor_measure_frame *frame, double bin_width, double breadth,
+                                    mor_measure_profile *profile)
+{
     value_range distances;
-    value_range sides;
+    value_range sides = {INFINITY, -INFINITY};
+    const bool needs_sides = points->dimension == 3 && !frame->is_radial && !(breadth > 0.0);
     MOR_TRY(context, check_profile(context, points, frame, bin_width, breadth));
-    MOR_TRY(context, find_ranges(context, points, frame, &distances, &sides));
+    MOR_TRY(context, reserve_distances(context, profile, points->n_points));
+    mor_measure_distances(points, frame, profile->distances);
+    MOR_TRY(context, find_ranges(context, points, frame, profile->distances, &distances, needs_sides ? &sides : NULL));
     const double reach = distances.greatest + 0.5 * points->spacing;
     const double start =
         frame->is_radial ? 0.0 : bin_width * floor((distances.least - 0.5 * points->spacing) / bin_width);
@@ -149,33 +235,34 @@ mor_status mor_measure_profile_new(mor_context *context, const mor_measure_point
               "the particles lie between %g m and %g m, which is %g bins of %g m: use wider bins, or look for a "
               "particle far from the others",
               distances.least, distances.greatest, n_bins, bin_width);
-    const double width = breadth > 0.0 ? breadth : sides.greatest - sides.least + points->spacing;
-    mor_sum *volumes = NULL;
-    mor_measure_profile made = {.is_radial = frame->is_radial,
-                                .n_bins = (int64_t)n_bins,
-                                .start = start,
-                                .bin_width = bin_width,
-                                .spacing = points->spacing};
-    mor_status status = allocate_profile(context, &made);
-    if (status == MOR_OK) {
-        status = MOR_NEW(context, &volumes, made.n_bins, "volumes of a profile");
-    }
+    MOR_TRY(context, reserve_bins(context, profile, (int64_t)n_bins));
+    profile->is_radial = frame->is_radial;
+    profile->n_bins = (int64_t)n_bins;
+    profile->start = start;
+    profile->bin_width = bin_width;
+    profile->spacing = points->spacing;
+    fill_profile(points, frame, needs_sides ? sides.greatest - sides.least + points->spacing : breadth, profile);
+    return MOR_OK;
+}
+
+mor_status mor_measure_profile_new(mor_context *context, const mor_measure_points *points,
+                                   const mor_measure_frame *frame, double bin_width, double breadth,
+                                   mor_measure_profile *profile)
+{
+    memset(profile, 0, sizeof *profile);
+    const mor_status status = mor_measure_profile_fill(context, points, frame, bin_width, breadth, profile);
     if (status != MOR_OK) {
-        mor_measure_profile_clear(context, &made);
+        mor_measure_profile_clear(context, profile);
         return mor_context_pass(context, status, MOR_HERE);
     }
-    fill_profile(points, frame, width, &made, volumes);
-    MOR_FREE(context, &volumes);
-    *profile = made;
     return MOR_OK;
 }
 
 void mor_measure_profile_clear(mor_context *context, mor_measure_profile *profile)
 {
-    MOR_FREE(context, &profile->center);
-    MOR_FREE(context, &profile->thickness);
-    MOR_FREE(context, &profile->top);
-    profile->n_bins = 0;
+    clear_bins(context, profile);
+    MOR_FREE(context, &profile->distances);
+    profile->n_distances = 0;
 }
 
 /* Where the line between the centers of a bin and the next one, which is thinner, meets the threshold. */
@@ -184,6 +271,34 @@ static double interpolate_edge(const mor_measure_profile *profile, int64_t bin, 
     const double here = profile->thickness[bin];
     const double next = profile->thickness[bin + 1];
     return profile->center[bin] + profile->bin_width * ((here - threshold) / (here - next));
+}
+
+/* The farthest particle, and the share of the mass beyond an edge. */
+static void find_strays(const mor_measure_points *points, const mor_measure_profile *profile, double edge,
+                        mor_measure_front *front)
+{
+    const int64_t n = points->n_points;
+    const mor_measure_team team = mor_measure_team_for(n, points->n_threads);
+    double farthest[MOR_MEASURE_PARTS];
+    mor_sum beyond[MOR_MEASURE_PARTS];
+    mor_sum sum = {0.0, 0.0};
+    MOR_PARALLEL_FOR (&team, part, MOR_MEASURE_PARTS, 1) {
+        farthest[part] = -INFINITY;
+        beyond[part] = (mor_sum){0.0, 0.0};
+        for (int64_t i = part * n / MOR_MEASURE_PARTS; i < (part + 1) * n / MOR_MEASURE_PARTS; ++i) {
+            const double distance = profile->distances[i];
+            farthest[part] = distance > farthest[part] ? distance : farthest[part];
+            if (distance > edge) {
+                mor_sum_add(&beyond[part], points->mass[i]);
+            }
+        }
+    }
+    for (int part = 0; part < MOR_MEASURE_PARTS; ++part) {
+        front->outermost_grain = fmax(front->outermost_grain, farthest[part] + 0.5 * points->spacing);
+        mor_sum_add(&sum, beyond[part].high);
+        mor_sum_add(&sum, beyond[part].low);
+    }
+    front->stray_share = mor_sum_value(sum) / mor_measure_mass(points);
 }
 
 mor_status mor_measure_find_front(mor_context *context, const mor_measure_points *points,
@@ -215,31 +330,39 @@ mor_status mor_measure_find_front(mor_context *context, const mor_measure_points
         front->connected_thick = interpolate_edge(profile, connected, threshold);
         front->outermost_thick = interpolate_edge(profile, outermost, threshold);
     }
-    mor_sum beyond = {0.0, 0.0};
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        const double distance = mor_measure_frame_distance(frame, points->position + 3 * i);
-        front->outermost_grain = fmax(front->outermost_grain, distance + 0.5 * points->spacing);
-        if (!has_edge || distance > front->outermost_thick) {
-            mor_sum_add(&beyond, points->mass[i]);
-        }
-    }
-    front->stray_share = mor_sum_value(beyond) / mor_measure_mass(points);
+    find_strays(points, profile, has_edge ? front->outermost_thick : -INFINITY, front);
     return MOR_OK;
 }
 
+/* Bins beyond the highest one whose tops lie between two shares of it. */
+typedef struct slope_bins {
+    int64_t peak; /* -1: none */
+    double low;
+    double high;
+} slope_bins;
+
+static bool takes_part(const mor_measure_profile *profile, const slope_bins *bins, int64_t k)
+{
+    if (bins->peak < 0 || k <= bins->peak || !(profile->top[bins->peak] > 0.0)) {
+        return false;
+    }
+    const double share = profile->top[k] / profile->top[bins->peak];
+    return isfinite(share) && share >= bins->low && share <= bins->high;
+}
+
 /* Angle under the horizontal of the line through the bins that take part; NaN for fewer than three. */
-static double fit_angle(const mor_measure_profile *profile, const double *heights, const bool *takes_part,
+static double fit_angle(const mor_measure_profile *profile, const double *heights, const slope_bins *bins,
                         int64_t n_taking)
 {
     line_sums line = {0.0, 0.0, 0.0, 0.0};
     for (int64_t k = 0; k < profile->n_bins; ++k) {
-        if (takes_part[k]) {
+        if (takes_part(profile, bins, k)) {
             line.mean_x += profile->center[k] / (double)n_taking;
             line.mean_y += heights[k] / (double)n_taking;
         }
     }
     for (int64_t k = 0; k < profile->n_bins; ++k) {
-        if (takes_part[k]) {
+        if (takes_part(profile, bins, k)) {
             const double run = profile->center[k] - line.mean_x;
             line.xx += run * run;
             line.xy += run * (heights[k] - line.mean_y);
@@ -254,22 +377,17 @@ mor_status mor_measure_find_repose(mor_context *context, const mor_measure_profi
     MOR_CHECK(context, low >= 0.0 && low < high && high <= 1.0, MOR_ERROR_ARGUMENT,
               "the slope is to be fitted between %g and %g of the height: give 0 <= low < high <= 1", low, high);
     MOR_CHECK(context, profile->n_bins > 0, MOR_ERROR_ARGUMENT, "the profile is empty: make it first");
-    bool *takes_part = NULL;
-    MOR_TRY(context, MOR_NEW(context, &takes_part, profile->n_bins, "bins of a slope"));
-    int64_t peak = -1;
+    slope_bins bins = {-1, low, high};
     for (int64_t k = 0; k < profile->n_bins; ++k) {
-        if (isfinite(profile->top[k]) && (peak < 0 || profile->top[k] >= profile->top[peak])) {
-            peak = k;
+        if (isfinite(profile->top[k]) && (bins.peak < 0 || profile->top[k] >= profile->top[bins.peak])) {
+            bins.peak = k;
         }
     }
     repose->n_bins = 0;
-    for (int64_t k = peak + 1; k < profile->n_bins && peak >= 0 && profile->top[peak] > 0.0; ++k) {
-        const double share = profile->top[k] / profile->top[peak];
-        takes_part[k] = isfinite(share) && share >= low && share <= high;
-        repose->n_bins += takes_part[k];
+    for (int64_t k = 0; k < profile->n_bins; ++k) {
+        repose->n_bins += takes_part(profile, &bins, k);
     }
-    repose->angle = fit_angle(profile, profile->top, takes_part, repose->n_bins);
-    repose->angle_by_thickness = fit_angle(profile, profile->thickness, takes_part, repose->n_bins);
-    MOR_FREE(context, &takes_part);
+    repose->angle = fit_angle(profile, profile->top, &bins, repose->n_bins);
+    repose->angle_by_thickness = fit_angle(profile, profile->thickness, &bins, repose->n_bins);
     return MOR_OK;
 }

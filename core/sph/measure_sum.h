@@ -32,6 +32,32 @@ static inline double mor_sum_value(mor_sum sum)
     return sum.high + sum.low;
 }
 
+/** Threads that share one measurement. */
+typedef struct mor_measure_team {
+    int n_threads; /* 1 for few particles */
+} mor_measure_team;
+
+/** Returns the threads for a number of particles.
+ *  @param n         [in]  particles
+ *  @param n_threads [in]  threads there are; 0: one */
+mor_measure_team mor_measure_team_for(int64_t n, int n_threads);
+
+/** Returns the compensated sum of the terms of particles, in their unit, 1 for numbers; the same for any number of
+ *  threads.
+ *  @param n         [in]  particles
+ *  @param n_threads [in]  threads there are; 0: one
+ *  @param fill      [in]  the terms
+ *  @param job       [in]  one object; first argument of fill */
+double mor_sum_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job);
+
+/** Writes the terms of all particles.
+ *  @param n         [in]   particles
+ *  @param n_threads [in]   threads there are; 0: one
+ *  @param fill      [in]   the terms
+ *  @param job       [in]   one object; first argument of fill
+ *  @param values    [out]  shape [n]; any unit */
+void mor_fill_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job, double *values);
+
 /** Returns the volume of a particle, unit m3 (2D: m2).
  *  @param points [in]  one object
  *  @param i      [in]  index of the particle */
@@ -46,6 +72,12 @@ static inline double mor_measure_volume(const mor_measure_points *points, int64_
  *  @param points  [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_measure_check_points(mor_context *context, const mor_measure_points *points);
+
+/** Writes the run-out distances of all particles.
+ *  @param points    [in]   one object
+ *  @param frame     [in]   one object
+ *  @param distances [out]  shape [n_points]; unit m */
+void mor_measure_distances(const mor_measure_points *points, const mor_measure_frame *frame, double *distances);
 
 /** Refuses a vector whose length is not 1 to within 1e-9.
  *  @param context [in,out]  one object

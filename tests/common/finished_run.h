@@ -24,7 +24,8 @@ static const char finished_run_case[] =
     "    shape = { type = 'box'; min = ('-0.06 m', '0 m'); max = ('0 m', '0.3 m'); }; } );"
     "probes = ( { type = 'run_out'; }, { type = 'front_speed'; }, { type = 'height'; },"
     "  { type = 'kinetic_energy'; }, { type = 'energy_left'; }, { type = 'dissipated_energy'; },"
-    "  { type = 'wall_force'; wall = 'floor'; direction = (0, 1, 0); }, { type = 'density_drift'; },"
+    "  { type = 'wall_force'; wall = 'floor'; direction = (0, 1, 0); window = (0.015, 0.0333); },"
+    "  { type = 'density_drift'; }, { type = 'toe'; window = (0, 0.02); },"
     "  { type = 'stress_noise'; } );"
     "numerics = { density_reinitialization = 7; sort_interval = 11; };"
     "output = { snapshots = 6; pictures = false; };";
@@ -142,6 +143,28 @@ static inline void finished_run_compare_snapshots(run_folder *folder, const char
     mor_snapshot_list_clear(&folder->context, &b);
 }
 
+/** Fails unless the summaries of both runs have the same results: values and statistics, digit by digit. */
+static inline void finished_run_compare_results(run_folder *folder, const char *run_a, const char *run_b)
+{
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    char *texts[2];
+    for (int k = 0; k < 2; ++k) {
+        texts[k] = (char *)run_folder_load(finished_run_file(folder, path, k == 0 ? run_a : run_b, MOR_SUMMARY_FILE),
+                                           &n_bytes);
+        assert_non_null(texts[k]);
+        assert_non_null(strstr(texts[k], "\"time_of_maximum\""));
+        char *end = strstr(texts[k], "\"expect\": [");
+        assert_non_null(end);
+        *end = '\0';
+    }
+    if (strcmp(texts[0], texts[1]) != 0) {
+        fail_msg("the runs '%s' and '%s' have the results\n%s\nand\n%s", run_a, run_b, texts[0], texts[1]);
+    }
+    free(texts[0]);
+    free(texts[1]);
+}
+
 /** Fails unless two runs, zero-terminated names in the scratch folder, left the same results behind, bit by bit. */
 static inline void finished_run_compare(run_folder *folder, const char *run_a, const char *run_b)
 {
@@ -153,6 +176,7 @@ static inline void finished_run_compare(run_folder *folder, const char *run_a, c
         fail_msg("the runs '%s' and '%s' end in the states %s and %s", run_a, run_b, hash_a, hash_b);
     }
     finished_run_compare_bytes(folder, run_a, run_b, MOR_TABLE_SERIES_FILE);
+    finished_run_compare_results(folder, run_a, run_b);
     finished_run_compare_snapshots(folder, run_a, run_b);
 }
 

@@ -37,7 +37,7 @@ static void observe(const scene *it, const int64_t *partners, double first, impa
     const double *x = group->set.data[MOR_FIELD_POSITION];
     const double spacing = it->the_case.spacing;
     const int64_t n = group->bodies[0].n_particles;
-    const double energy = mor_simulation_energy(&it->simulation, NULL);
+    const double energy = mor_simulation_energy(&it->simulation);
     found->left = energy / first;
     found->energy = fmax(found->energy, fabs((energy + elastic->damped_energy) / first - 1.0));
     for (int64_t i = 0; i < n; ++i) {
@@ -68,7 +68,7 @@ static impact collide(const char *damping)
     double angular[3];
     assert_non_null(partners);
     find_partners(group, it->the_case.spacing, partners);
-    const double first = mor_simulation_energy(&it->simulation, NULL);
+    const double first = mor_simulation_energy(&it->simulation);
     for (int k = 1; k <= LOOKS; ++k) {
         scene_advance(it, 1e-2 * k / LOOKS);
         observe(it, partners, first, &found);

@@ -13,6 +13,7 @@
 enum { AXIS_TICKS = 8, POINTS_PER_STROKE = 4096 };
 
 static const double text_gray = 0.13;
+static const double note_gray = 0.35;
 static const double smallest_move = 0.35; /* px; nearer points of a curve are not told apart */
 
 /* One chart while it is drawn. */
@@ -29,6 +30,9 @@ typedef struct sheet {
 static mor_status check_series(mor_context *context, const mor_chart_series *series, int index)
 {
     const char *name = series->name != NULL ? series->name : "without name";
+    MOR_CHECK(context, series->color_of >= 0 && series->color_of <= index, MOR_ERROR_ARGUMENT,
+              "series %d (%s) has the color of series %d; allowed are those before it", index, name,
+              series->color_of - 1);
     MOR_CHECK(context, series->n_points >= 1 && series->x != NULL && series->y != NULL, MOR_ERROR_ARGUMENT,
               "series %d (%s) has %lld points; a series needs arrays of at least one point", index, name,
               (long long)series->n_points);
@@ -45,6 +49,8 @@ static mor_status check_chart(mor_context *context, const mor_chart *chart)
 {
     MOR_CHECK(context, chart->n_series >= 1 && chart->n_series <= MOR_CHART_SERIES_MAX && chart->series != NULL,
               MOR_ERROR_ARGUMENT, "the chart has %d series; it needs 1 to %d", chart->n_series, MOR_CHART_SERIES_MAX);
+    MOR_CHECK(context, chart->n_notes >= 0 && chart->n_notes <= MOR_CHART_NOTES_MAX, MOR_ERROR_ARGUMENT,
+              "the chart has %d notes; at most %d are allowed", chart->n_notes, MOR_CHART_NOTES_MAX);
     MOR_TRY(context, mor_canvas_check_size(context, chart->width, chart->height));
     for (int index = 0; index < chart->n_series; ++index) {
         MOR_TRY(context, check_series(context, chart->series + index, index));
@@ -91,10 +97,22 @@ static void place_point(const sheet *s, const mor_chart_series *series, int64_t 
     mor_axes_place(&s->axes, value, place);
 }
 
+/* Colors are counted over the series that have one of their own. */
+static int find_color(const sheet *s, int index)
+{
+    const mor_chart_series *series = s->chart->series;
+    int color = 0;
+    index = series[index].color_of > 0 ? series[index].color_of - 1 : index;
+    for (int k = 0; k < index; ++k) {
+        color += series[k].color_of == 0;
+    }
+    return color;
+}
+
 static mor_canvas_pen choose_pen(const sheet *s, int index, mor_chart_style style)
 {
     double linear[3];
-    mor_colormap_category(index, linear);
+    mor_colormap_category(find_color(s, index), linear);
     mor_canvas_pen pen = {.opacity = 1.0};
     for (int c = 0; c < 3; ++c) {
         pen.color[c] = mor_colormap_encode(linear[c]);
@@ -199,6 +217,22 @@ static double walk_legend(sheet *s, double left, double top, bool is_drawn)
     return is_empty ? 0.0 : place[1] + 0.5 * row - top;
 }
 
+/* Lines of text under the legend; draws only when asked to. Gives the height used. */
+static double walk_notes(sheet *s, double left, double top, bool is_drawn)
+{
+    const double unit = s->unit;
+    const double row = 28.0 * unit;
+    const mor_canvas_font font = {.size = 18.0 * unit,
+                                  .anchor = MOR_CANVAS_LEFT,
+                                  .limit = s->width - 44.0 * unit - left,
+                                  .color = {note_gray, note_gray, note_gray}};
+    for (int k = 0; k < s->chart->n_notes && is_drawn; ++k) {
+        const double place[2] = {left, top + (0.5 + k) * row};
+        mor_canvas_text(s->canvas, place, s->chart->notes[k], &font);
+    }
+    return s->chart->n_notes * row;
+}
+
 static mor_status draw_sheet(mor_context *context, sheet *s)
 {
     const double unit = s->unit;
@@ -209,7 +243,8 @@ static mor_status draw_sheet(mor_context *context, sheet *s)
     const double left = mor_axes_left_room(text) + 12.0 * unit;
     const bool has_title = s->chart->title != NULL && s->chart->title[0] != '\0';
     const double legend_top = (has_title ? 76.0 : 24.0) * unit;
-    const double top = legend_top + walk_legend(s, left, legend_top, false) + 20.0 * unit;
+    const double notes_top = legend_top + walk_legend(s, left, legend_top, false);
+    const double top = notes_top + walk_notes(s, left, notes_top, false) + 20.0 * unit;
     s->axes.rectangle[0] = left;
     s->axes.rectangle[1] = top;
     s->axes.rectangle[2] = s->width - left - 44.0 * unit;
@@ -226,6 +261,7 @@ static mor_status draw_sheet(mor_context *context, sheet *s)
     const double title[2] = {left, 46.0 * unit};
     mor_canvas_text(s->canvas, title, s->chart->title, &heavy);
     walk_legend(s, left, legend_top, true);
+    walk_notes(s, left, notes_top, true);
     mor_axes_draw(s->canvas, &s->axes);
     for (int index = 0; index < s->chart->n_series; ++index) {
         MOR_TRY(context, draw_series(context, s, index));

@@ -9,7 +9,7 @@
  *  A chart of curves and points over one variable: time histories, profiles, measured against computed. Axes start and
  *  end at round numbers, units get SI prefixes, the legend stands above the plot where no curve runs. */
 
-enum { MOR_CHART_SERIES_MAX = 32 };
+enum { MOR_CHART_SERIES_MAX = 32, MOR_CHART_NOTES_MAX = 8 };
 
 /** How a series is drawn. */
 typedef enum mor_chart_style { MOR_CHART_LINE, MOR_CHART_DASHED, MOR_CHART_POINTS } mor_chart_style;
@@ -21,6 +21,7 @@ typedef struct mor_chart_series {
     const double *y;  /* shape [n_points], unit y_unit */
     int64_t n_points; /* >= 1 */
     mor_chart_style style;
+    int color_of; /* 0: a color of its own; else that of series color_of - 1, which comes before it */
 } mor_chart_series;
 
 /** One chart. A record filled with zeros but for the series is valid. */
@@ -32,6 +33,8 @@ typedef struct mor_chart {
     const char *y_unit;             /* SI, such as "J"; NULL: "1" */
     const mor_chart_series *series; /* shape [n_series] */
     int n_series;                   /* 1 to MOR_CHART_SERIES_MAX */
+    const char *const *notes;       /* shape [n_notes]; each a line under the legend, cut off where it is too long */
+    int n_notes;                    /* 0 to MOR_CHART_NOTES_MAX */
     int width;                      /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
     int height;                     /* pixels; 0: from the width, or MOR_CANVAS_HEIGHT */
 } mor_chart;
