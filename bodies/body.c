@@ -48,6 +48,8 @@ static mor_status allocate_group(mor_context *context, mor_body_group *group, in
     MOR_TRY(context, MOR_NEW(context, &group->volume, n, "volumes of body particles"));
     MOR_TRY(context, MOR_NEW(context, &group->body_of, n, "bodies of particles"));
     MOR_TRY(context, MOR_NEW(context, &group->start, 3 * n, "positions of bodies at the start of a step"));
+    MOR_TRY(context, MOR_NEW(context, &group->mean_velocity, 3 * n, "mean velocities of bodies over a step"));
+    group->boundary.mean_velocity = group->mean_velocity;
     MOR_TRY(context, MOR_NEW(context, &group->bodies, group->n_bodies, "bodies"));
     MOR_TRY(context, MOR_NEW(context, &group->pieces, group->n_pieces, "pieces of bodies"));
     MOR_TRY(context,
@@ -228,6 +230,7 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group)
     MOR_FREE(context, &group->body_of);
     MOR_FREE(context, &group->contact_force);
     MOR_FREE(context, &group->start);
+    MOR_FREE(context, &group->mean_velocity);
     MOR_FREE(context, &group->bodies);
     MOR_FREE(context, &group->pieces);
     MOR_FREE(context, &group->piece_values);
@@ -268,14 +271,18 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
+        /* The mean lags half a step behind the soil's velocities, and the lag feeds what is lighter than the soil. */
+        const bool is_light = group->bodies[piece->body].is_light;
         double fastest = 0.0;
         for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
-            double *mean = group->boundary.records + i * MOR_BOUNDARY_RECORD + MOR_BOUNDARY_VELOCITY;
+            const double *v = velocity + 3 * i;
+            double *seen = group->boundary.records + i * MOR_BOUNDARY_RECORD + MOR_BOUNDARY_VELOCITY;
+            double *mean = group->mean_velocity + 3 * i;
             for (int a = 0; a < 3; ++a) {
                 mean[a] = (position[3 * i + a] - group->start[3 * i + a]) / length;
+                seen[a] = is_light ? v[a] : mean[a];
             }
-            fastest =
-                fmax(fastest, fmax(mor_vector_dot(mean, mean), mor_vector_dot(velocity + 3 * i, velocity + 3 * i)));
+            fastest = fmax(fastest, fmax(mor_vector_dot(seen, seen), mor_vector_dot(v, v)));
         }
         group->piece_values[p * MOR_BODY_PIECE_VALUES] = fastest;
     }

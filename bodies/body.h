@@ -47,6 +47,8 @@ typedef struct mor_body {
     double turn[9];             /* rotation since the reference configuration, shape [3,3], 1 */
     double rotation_angle[3];   /* integral of the angular velocity since the start, rad */
     bool is_held;               /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
+    double added_mass_ratio;    /* soil that it drags along over its own mass, see mor_body_meet_soil, 1; 0: no soil */
+    bool is_light;              /* that ratio is above 1, or it is less dense than the soil */
     /* Forces. */
     double contact_force[3];  /* of other bodies and walls on a rigid body, at its center, in this sub-step, N (N/m) */
     double contact_moment[3]; /* about its center, N m (N) */
@@ -78,6 +80,7 @@ typedef struct mor_body_group {
     int n_bodies;
     mor_boundary boundary; /* what the soil sees; patch b is body b; boundary.force is the soil's force on particles */
     double *start;         /* shape [n_particles, 3]; positions at the start of the common step, for eq. 60, m */
+    double *mean_velocity; /* shape [n_particles, 3]; over the last common step, eq. 60, m/s */
     /* Surface nodes carry contact. A node is a weighted mean of particles of its body, exact for linear fields:
      * sum w = 1, sum w X_particle = X_node. */
     int64_t n_nodes;
@@ -141,18 +144,32 @@ mor_status mor_body_group_init(mor_context *context, mor_body_group *group, cons
 void mor_body_group_clear(mor_context *context, mor_body_group *group);
 
 /** Shows the soil where the particles will be in the middle of the coming common step, and remembers where they are
- *  now. Velocities stay the means over the last common step (at the start: the initial ones).
+ *  now. Velocities stay those that the last common step ended with (at the start: the initial ones).
  *  @param context [in,out]  one object
  *  @param group   [in,out]  one object
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);
 
-/** After the sub-steps: gives the soil the mean velocities over the common step, Zhang et al. (2024) eq. 60, and the
- *  largest speed, of the means and of the present velocities.
+/** After the sub-steps: gives the soil the mean velocities over the common step, Zhang et al. (2024) eq. 60, of bodies
+ *  lighter than the soil around them the present velocities, and the largest speed of both.
  *  @param context [in,out]  one object
  *  @param group   [in,out]  one object
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
+
+/** Finds how much soil a body drags along, compared with its own mass: the soil within one spacing of its surface, that
+ *  which slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
+ *  largest. Of an elastic body also the square of half the soil's impedance over its own. A body with a ratio above 1
+ *  is light: the soil sees its velocity at the end of a step in place of the mean over the step, and takes steps
+ *  shorter by the root of the ratio (core/sph/boundary.h). To be called before the first step.
+ *  @param group           [in,out]  one object; made by mor_body_group_init
+ *  @param body            [in]      index of the body
+ *  @param density         [in]      of the soil, unit kg/m3
+ *  @param sound_speed     [in]      of the soil, unit m/s
+ *  @param own_sound_speed [in]      of an elastic body, unit m/s; INFINITY: rigid
+ *  @param locked          [in]      bit a: no motion along axis a; bit 3 + a: no rotation about axis a */
+void mor_body_meet_soil(mor_body_group *group, int body, double density, double sound_speed, double own_sound_speed,
+                        unsigned locked);
 
 /** Finds an elastic body's motion as a whole from its particles: center, mean velocity, angular velocity (angular
  *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map), rotation angle.

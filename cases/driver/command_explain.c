@@ -160,6 +160,28 @@ static void let_touch(mor_simulation *s, bool is_touching)
     }
 }
 
+/* The body that drags along most soil for its own mass, where that shortens the steps. */
+static void print_lightest(FILE *out, const mor_simulation *s)
+{
+    const mor_body *lightest = NULL;
+    double ratio = 1.0;
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        const mor_body_group *group = s->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            if (group->bodies[b].added_mass_ratio > ratio) {
+                lightest = &group->bodies[b];
+                ratio = lightest->added_mass_ratio;
+            }
+        }
+    }
+    if (lightest != NULL) {
+        fprintf(out,
+                "  lightest body           '%s' drags along up to %.3g times its own mass of soil: steps %.2g times "
+                "shorter\n",
+                lightest->name, ratio, sqrt(ratio));
+    }
+}
+
 /* The longest step of each stepper, and how often it moves in a common step. */
 static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, const pace *touching)
 {
@@ -168,6 +190,7 @@ static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, co
     fprintf(out, "  time step               about %.4g s, limited by %s%s\n", length, schedule->limit,
             schedule->is_single_rate ? " (single rate)" : "");
     fprintf(out, "  steps                   about %.0f for %g s\n", ceil(s->the_case->end / length), s->the_case->end);
+    print_lightest(out, s);
     for (int k = 0; k < schedule->n_steppers; ++k) {
         fprintf(out, "  clock of %-14s ", schedule->steppers[k].name);
         if (schedule->proposals[k] < INFINITY) {

@@ -524,6 +524,23 @@ static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil
     return barrier.stiffness > 0.0 ? mor_soil_set_barrier(context, soil, boundary, &barrier) : MOR_OK;
 }
 
+/* Tells each body the soil it may lie in. What is prescribed or clamped does not give way as a whole. */
+static void meet_soil(mor_simulation_bodies *bodies, const mor_case *c, const mor_soil *soil)
+{
+    enum { ALL = 0x3f, OUT_OF_PLANE = 0x1c };
+    for (int b = 0; b < c->n_bodies; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        const mor_simulation_body *body = &bodies->of[b];
+        unsigned locked = c->dimension == 2 ? OUT_OF_PLANE : 0u;
+        for (int k = 0; k < 6; ++k) {
+            locked |= it->is_locked[k] ? 1u << k : 0u;
+        }
+        locked = it->is_prescribed || it->clamp != NULL ? ALL : locked;
+        mor_body_meet_soil(body->group, body->index, soil->settings.reference_density, soil->sound_speed,
+                           body->elastic != NULL ? body->elastic->sound_speed : INFINITY, locked);
+    }
+}
+
 mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
                                       mor_soil *soil, mor_schedule *schedule)
 {
@@ -539,6 +556,9 @@ mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodie
         if (soil != NULL) {
             MOR_TRY(context, show_to_soil(context, the_case, soil, &bodies->groups[g]->boundary));
         }
+    }
+    if (soil != NULL) {
+        meet_soil(bodies, the_case, soil);
     }
     schedule->exchange = bodies->has_contact ? &bodies->exchange : NULL;
     return MOR_OK;

@@ -25,7 +25,7 @@ typedef enum mor_wall_friction {
 enum {
     MOR_BOUNDARY_POSITION = 0, /* 3, in the middle of the soil's step, m */
     MOR_BOUNDARY_VOLUME = 3,   /* m3, or m2 in plane strain */
-    MOR_BOUNDARY_VELOCITY = 4, /* 3, mean over the soil's last step, eq. 60, m/s */
+    MOR_BOUNDARY_VELOCITY = 4, /* 3, mean over the soil's last step, eq. 60; of light patches at its end; m/s */
     MOR_BOUNDARY_RECORD = 8
 };
 
@@ -53,8 +53,12 @@ typedef struct mor_boundary {
     double *records;             /* shape [n_points padded to 8, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
     mor_boundary_patch *patches; /* shape [n_patches]; by rising range, without gaps */
     int n_patches;
-    double largest_speed; /* of any point, m/s; bounds how far points move in a step */
-    double *force;        /* shape [n_points, 3]; [written by the soil] force on each point in the last step,
+    double largest_speed;    /* of any point, m/s; bounds how far points move in a step */
+    double added_mass_ratio; /* mass of the soil that a patch drags along over its own, the largest of all patches, 1;
+                              * 0: moved by others than the soil. Above 1 it shortens the soil's steps by its root */
+    const double *mean_velocity; /* shape [n_points, 3]; over the present step, for the work of forces on points, m/s;
+                                  * NULL: the velocity in the records */
+    double *force;               /* shape [n_points, 3]; [written by the soil] force on each point in the last step,
                                   * held over the sub-steps; N (N/m in plane strain) */
 } mor_boundary;
 

@@ -301,12 +301,19 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
     const double h = soil->smoothing_length;
     double fastest = soil->largest_speed;
     double by_barrier = INFINITY;
+    double added_mass_ratio = 1.0;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         fastest = fmax(fastest, mor_soil_contact_speed(mor_soil_contact_at(soil, k)));
         by_barrier = fmin(by_barrier, mor_soil_contact_at(soil, k)->longest_step);
+        added_mass_ratio = fmax(added_mass_ratio, mor_soil_contact_at(soil, k)->boundary->added_mass_ratio);
     }
     *step_length = soil->settings.courant * h / (soil->sound_speed + fastest);
     *limit = "the speed of sound in the soil";
+    if (added_mass_ratio > 1.0) {
+        *step_length /= sqrt(added_mass_ratio);
+        *limit = "a body lighter than the soil it drags along";
+        by_barrier /= sqrt(added_mass_ratio);
+    }
     if (soil->largest_acceleration > 0.0) {
         const double by_acceleration = 0.25 * sqrt(h / soil->largest_acceleration);
         if (by_acceleration < *step_length) {

@@ -80,7 +80,7 @@ static void audit_contact(mor_context *context, mor_soil *soil, const mor_soil_c
     }
 }
 
-/* What the soil's forces did on the points of rocks, whose velocities are by now the means over this step. */
+/* What the soil's forces did on the points of rocks: the work goes by the mean velocities over this step. */
 static void audit_rocks(mor_soil *soil, const mor_boundary *boundary)
 {
     double *fresh = soil->energy->fresh;
@@ -88,8 +88,10 @@ static void audit_rocks(mor_soil *soil, const mor_boundary *boundary)
         const mor_boundary_patch *patch = &boundary->patches[p];
         double power = 0.0;
         for (int64_t j = patch->first; j < patch->first + patch->n_points; ++j) {
-            power += mor_vector_dot(boundary->force + 3 * j,
-                                    boundary->records + MOR_BOUNDARY_RECORD * j + MOR_BOUNDARY_VELOCITY);
+            const double *velocity = boundary->mean_velocity != NULL
+                                         ? boundary->mean_velocity + 3 * j
+                                         : boundary->records + MOR_BOUNDARY_RECORD * j + MOR_BOUNDARY_VELOCITY;
+            power += mor_vector_dot(boundary->force + 3 * j, velocity);
         }
         fresh[MOR_SOIL_ENERGY_BOUNDARY] -= power;
         fresh[patch->is_driven ? MOR_SOIL_ENERGY_DRIVEN : MOR_SOIL_ENERGY_ROCKS] += power;
