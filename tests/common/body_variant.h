@@ -41,7 +41,8 @@ static const char body_plane[] =
     "    position = ('0.29 m', '0.03 m', '0 m'); velocity = ('-0.3 m/s', '0 m/s', '0 m/s'); motion = 'prescribed';"
     "    material = { model = 'rigid'; density = '2600 kg/m3'; }; } );"
     "contact = { friction_coefficient = 0.4; restitution = 0.5; };"
-    "numerics = { density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
+    "numerics = { narrow_gaps = 'allow'; density_reinitialization = 9; sort_interval = 13; lattice_normalization = "
+    "false;"
     "  wall_stress = 'uniform'; };";
 
 static const char body_space[] =

@@ -12,12 +12,12 @@
 
 static const char *const outputs[] = {
     "output={snapshots=6; pictures=false;}",
-    "probes=({type='body_position'; body='BODY'; direction=(0, 1, 1);}, {type='body_impulse_soil_given'; body='BODY'; "
+    "probes=({type='body_position'; body='BODY'; direction=(0, 1, 0);}, {type='body_impulse_soil_given'; body='BODY'; "
     "direction=(1, 0, 0);},"
     "{type='body_impulse_soil_received'; body='BODY'; direction=(1, 0, 0);}, {type='penetration_depth_largest'; "
     "body='BODY';},"
-    "{type='body_force_contact'; body='BODY'; direction=(0, 1, 1);}, {type='contact_depth'; window=(0.01, 0.05);},"
-    "{type='body_force_soil'; body='BODY'; direction=(0, 1, 1); window=(0.011, 0.03);},"
+    "{type='body_force_contact'; body='BODY'; direction=(0, 1, 0);}, {type='contact_depth'; window=(0.01, 0.05);},"
+    "{type='body_force_soil'; body='BODY'; direction=(0, 1, 0); window=(0.011, 0.03);},"
     "{type='contact_friction_energy';}, {type='contact_damping_energy';}, {type='total_energy';}, "
     "{type='rate_ratio';}, {type='plastic_energy';}, {type='numerical_dissipation';}, {type='boundary_dissipation';},"
     "{type='soil_work_on_bodies';}, {type='external_work';}, {type='energy_balance';})"};
