@@ -76,6 +76,7 @@ static void place_body(const mor_body_request *request, mor_body *body)
     body->mass = request->density * request->geometry.volume;
     body->geometry = request->geometry;
     body->contact_modulus = request->contact_modulus;
+    body->contact_poisson = request->contact_poisson;
     memcpy(body->center, request->geometry.center, sizeof body->center);
     memcpy(body->velocity, request->velocity, sizeof body->velocity);
     memcpy(body->angular_velocity, request->angular_velocity, sizeof body->angular_velocity);

@@ -38,7 +38,8 @@ typedef struct mor_body {
     double density;              /* kg/m3 */
     double mass;                 /* kg (kg/m) */
     mor_shape_moments geometry;  /* in the reference configuration */
-    double contact_modulus;      /* pressure that pushes two surfaces into one another by one spacing, Pa */
+    double contact_modulus;      /* Young's modulus of its surface in contact, Pa */
+    double contact_poisson;      /* Poisson's ratio of a rigid body's surface in contact, 0 <= nu < 0.5, 1 */
     /* Motion as a whole. Rigid: kept current at the end of each sub-step. Elastic: the mean, found after each common
      * step. */
     double center[3];           /* of mass, m */
@@ -119,7 +120,8 @@ typedef struct mor_body_request {
     double angular_velocity[3]; /* about the center of mass, rad/s */
     mor_wall_friction soil_friction;
     double soil_friction_coefficient; /* Coulomb only, 1 */
-    double contact_modulus;           /* Pa */
+    double contact_modulus;           /* Young's modulus of its surface in contact, Pa */
+    double contact_poisson;           /* Poisson's ratio of a rigid body's surface in contact, 1 */
 } mor_body_request;
 
 /** Makes a group: sorts each body's particles into clusters, gives them volume and mass so that each body's add up to

@@ -12,15 +12,6 @@
 /* The surface bulges over the box of its nodes by less, in spacings. */
 #define BOX_RIM 0.3
 
-/* Share of 1/frequency of a body on the springs of its contacts that a step may take, 1. */
-#define STEP_SHARE 0.2
-
-/* Likewise of the particles under the nodes of an elastic body: on top of the body's own waves. */
-#define LAYER_SHARE 1.0
-
-/* A pair limits the step when it could meet within so many such steps. */
-#define STEPS_AHEAD 256.0
-
 enum { BISECTIONS = 60, TOUCHES_PER_CHUNK = 16 };
 
 /* Solves y (1 + e) = ln((1 + y) / (1 - e y)), 0 < y < 1/e: the force factor 1 + (y / v0) v gives back e v0. */
@@ -245,6 +236,7 @@ static mor_status make_all(mor_context *context, mor_contact *contact, const mor
     MOR_TRY(context, list_bodies(context, contact));
     MOR_TRY(context, make_lists(context, contact));
     MOR_TRY(context, make_history(context, contact));
+    MOR_TRY(context, mor_contact_measure_curvatures(context, contact));
     return assign_laws(context, contact);
 }
 
@@ -295,6 +287,9 @@ static void clear_work(mor_context *context, mor_contact_work *work)
     MOR_FREE(context, &work->touches);
     MOR_FREE(context, &work->support_particles);
     MOR_FREE(context, &work->support_weights);
+    MOR_FREE(context, &work->curvatures);
+    MOR_FREE(context, &work->normals);
+    MOR_FREE(context, &work->is_smooth);
     MOR_FREE(context, &work->free_until);
     MOR_FREE(context, &work->near_of);
     MOR_FREE(context, &work->law_of);
@@ -325,94 +320,6 @@ void mor_contact_clear(mor_context *context, mor_contact *contact)
     memset(contact, 0, sizeof *contact);
 }
 
-static double gravity_of(const mor_contact_body *c)
-{
-    return mor_vector_length(c->group->gravity);
-}
-
-static void find_boxes(const mor_contact *contact, double *speeds)
-{
-    mor_contact_work *work = contact->work;
-    for (int b = 0; b < work->n_bodies; ++b) {
-        mor_contact_box(&work->bodies[b], work->boxes + 6 * (int64_t)b, &speeds[b]);
-    }
-}
-
-/* Time until two bodies can meet at the earliest, at their speeds and falling. */
-static double time_apart(double gap, double speed, double gravity)
-{
-    return gap <= 0.0 ? 0.0 : gap / (speed + sqrt(gravity * gap));
-}
-
-/* The step that the contact of one pair allows. `rate2` gathers the squared frequencies of a body's pairs. */
-static double limit_pair(const mor_contact *contact, int own, int other, double gap, double speed, double *rate2)
-{
-    const mor_contact_work *work = contact->work;
-    const int first = own < other ? own : other;
-    const int second = own < other ? other : own;
-    const mor_contact_body *c = &work->bodies[own];
-    const double bedding = mor_contact_bedding(contact, first, second);
-    const double face = second < work->n_bodies ? fmin(work->bodies[first].face, work->bodies[second].face) : c->face;
-    const double y = work->rebound[work->law_of[mor_contact_pair_index(contact, first, second)]];
-    const double pair_rate2 = bedding * face *
-                              (mor_contact_inverse_mass(contact, own) + mor_contact_inverse_mass(contact, other)) *
-                              (1.0 + y);
-    double step = STEP_SHARE / sqrt(pair_rate2);
-    if (c->group->kind == MOR_BODY_ELASTIC) {
-        step = LAYER_SHARE / sqrt(bedding * c->softness * (1.0 + y));
-    }
-    const double apart = time_apart(gap, speed, gravity_of(c));
-    if (apart > STEPS_AHEAD * step) {
-        return 0.25 * apart;
-    }
-    if (c->group->kind == MOR_BODY_RIGID) {
-        *rate2 += pair_rate2;
-    }
-    return step;
-}
-
-/* Longest step of a group as its bodies lie, or as if each pair by itself were in touch. */
-static double find_longest(const mor_contact *contact, const mor_body_group *group, bool is_touching)
-{
-    const mor_contact_work *work = contact->work;
-    double *speeds = work->speeds;
-    double longest = INFINITY;
-    find_boxes(contact, speeds);
-    for (int own = 0; own < work->n_bodies; ++own) {
-        if (work->bodies[own].group != group) {
-            continue;
-        }
-        double rate2 = 0.0;
-        for (int other = 0; other < work->n_bodies + contact->n_walls; ++other) {
-            if (other == own ||
-                mor_contact_inverse_mass(contact, own) + mor_contact_inverse_mass(contact, other) == 0.0) {
-                continue;
-            }
-            const bool is_wall = other >= work->n_bodies;
-            const double speed =
-                speeds[own] +
-                (is_wall ? mor_vector_length(contact->walls[other - work->n_bodies].velocity) : speeds[other]);
-            const int first = own < other ? own : other;
-            const int second = own < other ? other : own;
-            const double gap = is_touching ? 0.0 : mor_contact_apart(contact, first, second, work->boxes);
-            longest = fmin(longest, limit_pair(contact, own, other, gap, speed, &rate2));
-        }
-        /* Nobody touches all others at once. */
-        longest = rate2 > 0.0 && !is_touching ? fmin(longest, STEP_SHARE / sqrt(rate2)) : longest;
-    }
-    return longest;
-}
-
-double mor_contact_longest_step(const void *owner, const mor_body_group *group)
-{
-    return find_longest(owner, group, false);
-}
-
-double mor_contact_touching_step(const void *owner, const mor_body_group *group)
-{
-    return fmin(find_longest(owner, group, false), find_longest(owner, group, true));
-}
-
 static int bit_index(uint64_t bit)
 {
     int index = 0;
@@ -427,7 +334,7 @@ static mor_status find_partners(mor_context *context, void *owner, double length
 {
     const mor_contact *contact = owner;
     const mor_contact_work *work = contact->work;
-    find_boxes(contact, work->speeds);
+    mor_contact_find_boxes(contact, work->speeds);
     for (int a = 0; a < work->n_bodies; ++a) {
         const mor_contact_body *p = &work->bodies[a];
         for (int b = a + 1; b < work->n_bodies; ++b) {
@@ -435,7 +342,7 @@ static mor_status find_partners(mor_context *context, void *owner, double length
             if (p->group_index == q->group_index) {
                 continue;
             }
-            const double fall = (gravity_of(p) + gravity_of(q)) * length;
+            const double fall = (mor_contact_gravity(p) + mor_contact_gravity(q)) * length;
             const double path = (work->speeds[a] + work->speeds[b] + fall) * length;
             const double rim = 2.0 * fmax(p->group->spacing, q->group->spacing);
             if (mor_contact_apart(contact, a, b, work->boxes) <= path + rim) {
@@ -499,6 +406,7 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
                             work->support_weights + MOR_CONTACT_SUPPORT * k);
     }
     mor_contact_act(contact, members, step->length);
+    MOR_TRY(context, mor_contact_check_depth(context, contact));
     move_walls(contact, step->time + step->length);
     return MOR_OK;
 }

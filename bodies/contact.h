@@ -28,6 +28,8 @@ typedef struct mor_contact_wall {
     double turn[9];         /* shape [3,3]; frame of the case to frame of the run, 1 */
     double move[3];         /* likewise, m */
     double velocity[3];     /* frame of the run, m/s */
+    double modulus;         /* Young's modulus of its surface; 0: it does not yield, Pa */
+    double poisson;         /* Poisson's ratio of it, 0 <= nu < 0.5, 1 */
     double force[3];        /* [out] of the bodies on the wall in the last sub-step, N (N/m) */
 } mor_contact_wall;
 
@@ -42,7 +44,9 @@ typedef struct mor_contact_settings {
     mor_contact_law law;           /* of pairs without one of their own */
     const mor_contact_pair *pairs; /* shape [n_pairs]; borrowed for the life of the contact */
     int n_pairs;
-    double slowest_impact; /* speed under which a touch counts as this fast when it is damped, m/s */
+    double slowest_impact;  /* speed under which a touch counts as this fast when it is damped, m/s */
+    double reference_speed; /* of an impact in which the tangential springs of rigid sides are as stiff as the normal
+                             * ones, m/s; no less than by a fall over the size of a body */
 } mor_contact_settings;
 
 /** Contact among all groups and walls. Owner: the run. */
@@ -58,6 +62,7 @@ typedef struct mor_contact {
     double friction_energy; /* lost to sliding since the start, J (J/m) */
     double damping_energy;  /* lost to restitution since the start, J (J/m) */
     double deepest;         /* deepest penetration at the last sub-step, m */
+    double deepest_share;   /* largest so far of a penetration over what is allowed, 1; not saved */
     mor_set history;        /* one entry per surface node of all groups: what friction remembers; fields evolve and are
                               * saved with the run's sets */
     double *impacts;        /* shape [n_impacts]; impact speeds of touching pairs, saved with the run's values; m/s */

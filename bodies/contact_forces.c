@@ -19,6 +19,7 @@ typedef struct pair_sums {
     double center[3]; /* their centroid, m */
     double normal[3]; /* their mean direction, 1 */
     double stiffness; /* sum over touching nodes, N/m */
+    double softening; /* factor on the nodes' normal forces, 1 */
     double factor;    /* damped over elastic normal force, 1 */
     double length;    /* of the sub-step, s */
     int64_t begin;    /* its touches */
@@ -178,17 +179,56 @@ static void push_both(mor_contact *contact, const mor_contact_near *near, int64_
     }
 }
 
+/* Normal force of a node without damping, N. */
+static double normal_force(const pair_sums *sums, const mor_contact_touch *touch)
+{
+    return sums->softening * touch->share * touch->stiffness * touch->mean_depth;
+}
+
+/* Keeps the depth that is nearest to its limit. */
+static void note_depth(mor_contact *contact, const mor_contact_near *near, double depth)
+{
+    mor_contact_work *work = contact->work;
+    const int group = work->bodies[near->first].group_index;
+    const double limit = mor_contact_depth_limit(contact, near->first, near->second);
+    mor_contact_depth *worst = &work->group_worst[group];
+    work->group_deepest[group] = fmax(work->group_deepest[group], depth);
+    if (depth * worst->limit > worst->depth * limit || worst->limit == 0.0) {
+        *worst = (mor_contact_depth){near->first, near->second, depth, limit};
+    }
+}
+
+/* The energy that the nodes store, and by it how stiff they are, docs/theory/contact.md (C3b). */
+static void soften_pair(mor_contact *contact, pair_sums *sums)
+{
+    mor_contact_work *work = contact->work;
+    double energy = 0.0;
+    double deepest = 0.0;
+    double stored;
+    for (int64_t k = sums->begin; k < sums->end; ++k) {
+        const mor_contact_touch *touch = &work->touches[k];
+        if (touch->depth > 0.0) {
+            energy += 0.5 * touch->share * touch->stiffness * touch->mean_square;
+            deepest = fmax(deepest, touch->depth);
+        }
+    }
+    sums->softening = mor_contact_soften(contact, sums->near, energy, &stored);
+    if (deepest > 0.0) {
+        work->group_spring[work->bodies[sums->near->first].group_index] += stored;
+        note_depth(contact, sums->near, deepest);
+    }
+}
+
 /* Sums the normal forces of a pair; false when nothing touches. */
 static bool sum_pair(mor_contact *contact, pair_sums *sums)
 {
-    mor_contact_work *work = contact->work;
-    const int group = work->bodies[sums->near->first].group_index;
+    const mor_contact_work *work = contact->work;
     for (int64_t k = sums->begin; k < sums->end; ++k) {
         const mor_contact_touch *touch = &work->touches[k];
-        if (!(touch->gap < 0.0)) {
+        if (!(touch->depth > 0.0)) {
             continue;
         }
-        const double force = -touch->stiffness * touch->gap;
+        const double force = normal_force(sums, touch);
         const double sign = touch->side == 0 ? 1.0 : -1.0;
         sums->force += force;
         sums->stiffness += touch->stiffness;
@@ -196,8 +236,6 @@ static bool sum_pair(mor_contact *contact, pair_sums *sums)
             sums->center[a] += force * touch->place[a];
             sums->normal[a] += sign * force * touch->normal[a];
         }
-        work->group_spring[group] -= 0.5 * force * touch->gap;
-        work->group_deepest[group] = fmax(work->group_deepest[group], -touch->gap);
     }
     const double length = mor_vector_length(sums->normal);
     if (!(sums->force > 0.0) || !(length > 0.0)) {
@@ -240,8 +278,8 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
     for (int64_t k = sums->begin; k < sums->end; ++k) {
         const mor_contact_touch *touch = &work->touches[k];
         const double sign = touch->side == 0 ? 1.0 : -1.0;
-        resultant -=
-            touch->gap < 0.0 ? sign * touch->stiffness * touch->gap * mor_vector_dot(touch->normal, sums->normal) : 0.0;
+        resultant +=
+            touch->depth > 0.0 ? sign * normal_force(sums, touch) * mor_vector_dot(touch->normal, sums->normal) : 0.0;
     }
     const double extra = resultant * (sums->factor - 1.0);
     const double force[3] = {extra * sums->normal[0], extra * sums->normal[1], extra * sums->normal[2]};
@@ -300,7 +338,7 @@ static void rub_node(mor_contact *contact, const pair_sums *sums, int64_t index)
     const double stiffness = TANGENTIAL_RATIO * touch->stiffness;
     const double inverse =
         inverse_share(contact, sums, own, touch->stiffness) + inverse_share(contact, sums, other, touch->stiffness);
-    const double cap = -sums->law->friction_coefficient * sums->factor * touch->stiffness * touch->gap;
+    const double cap = sums->law->friction_coefficient * sums->factor * normal_force(sums, touch);
     const double before2 = mor_vector_dot(spring, spring);
     const double along = mor_vector_dot(spring, touch->normal);
     const double off = mor_vector_dot(touch->slip, touch->normal);
@@ -346,6 +384,7 @@ static void act_on_pair(mor_contact *contact, int k, double length)
     sums.law = law == 0 ? &contact->settings.law : &contact->settings.pairs[law - 1].law;
     sums.begin = work->first_touch[k];
     sums.end = work->first_touch[k + 1];
+    soften_pair(contact, &sums);
     if (!sum_pair(contact, &sums)) {
         return;
     }
@@ -354,12 +393,12 @@ static void act_on_pair(mor_contact *contact, int k, double length)
     work->kept_pairs[work->n_kept_pairs++] = sums.near->pair;
     for (int64_t index = sums.begin; index < sums.end; ++index) {
         const mor_contact_touch *touch = &work->touches[index];
-        if (!(touch->gap < 0.0)) {
+        if (!(touch->depth > 0.0)) {
             continue;
         }
         double force[3];
         for (int a = 0; a < 3; ++a) {
-            force[a] = -touch->stiffness * touch->gap * touch->normal[a];
+            force[a] = normal_force(&sums, touch) * touch->normal[a];
         }
         push_both(contact, sums.near, index, force);
         if (sums.law->friction_coefficient > 0.0) {
@@ -501,6 +540,7 @@ static void clear_sums(mor_contact *contact, uint64_t members)
         }
         work->group_spring[g] = 0.0;
         work->group_deepest[g] = 0.0;
+        work->group_worst[g] = (mor_contact_depth){0, 0, 0.0, 0.0};
         if (n > 0) {
             memset(work->wall_force + n * g, 0, (size_t)n * sizeof *work->wall_force);
         }

@@ -26,19 +26,22 @@ static void normalize(int dimension, double *vector)
     }
 }
 
-static void look_at_wall(const mor_contact *contact, const mor_contact_wall *wall, int dimension, double spacing,
-                         mor_contact_touch *touch)
+static void look_at_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
+                         double reach, mor_contact_touch *touch)
 {
+    const mor_body_group *group = contact->work->bodies[near->first].group;
     double offset[3], place[3], normal[3];
     for (int a = 0; a < 3; ++a) {
         offset[a] = touch->place[a] - wall->velocity[a] * contact->time - wall->move[a];
     }
     mor_matrix_apply_transposed(wall->turn, offset, place);
     touch->gap = mor_shape_distance(wall->shape, place);
-    if (touch->gap < 0.0) {
-        mor_shape_normal(wall->shape, place, NORMAL_STEP * spacing, normal);
+    if (touch->gap < reach) {
+        mor_shape_normal(wall->shape, place, NORMAL_STEP * group->spacing, normal);
         mor_matrix_apply(wall->turn, normal, touch->normal);
-        normalize(dimension, touch->normal);
+        normalize(group->dimension, touch->normal);
+        mor_contact_meet(contact, near, touch,
+                         mor_contact_curvature(wall->shape, group->dimension, place, group->spacing));
     }
 }
 
@@ -58,7 +61,8 @@ static double reference_gap(const mor_body_group *group, const mor_body *body, c
     return gap;
 }
 
-static void look_at_rigid(const mor_contact_body *partner, mor_contact_touch *touch)
+static void look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,
+                          double reach, mor_contact_touch *touch)
 {
     const mor_body *body = &partner->group->bodies[partner->body];
     double offset[3], reference[3], normal[3];
@@ -70,10 +74,11 @@ static void look_at_rigid(const mor_contact_body *partner, mor_contact_touch *to
         reference[a] += body->geometry.center[a];
     }
     touch->gap = reference_gap(partner->group, body, reference, NULL);
-    if (touch->gap < 0.0) {
+    if (touch->gap < reach) {
         reference_gap(partner->group, body, reference, normal);
         mor_matrix_apply(body->turn, normal, touch->normal);
         normalize(partner->group->dimension, touch->normal);
+        mor_contact_meet(contact, near, touch, 0.0);
     }
 }
 
@@ -140,15 +145,22 @@ void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *nea
     const mor_contact_body *partner = mor_contact_group(contact, other) != NULL ? &contact->work->bodies[other] : NULL;
     const mor_contact_wall *wall = partner == NULL ? &contact->walls[other - contact->work->n_bodies] : NULL;
     mor_body_node_place(owner->group, owner->body, touch->node, touch->place);
+    const double reach = is_whole ? mor_contact_reach(contact, near, touch) : 0.0;
     touch->support_count = 0;
+    touch->share = 1.0;
+    touch->depth = 0.0;
     if (wall != NULL) {
-        look_at_wall(contact, wall, owner->group->dimension, owner->group->spacing, touch);
+        look_at_wall(contact, near, wall, reach, touch);
     } else if (partner->group->kind == MOR_BODY_RIGID) {
-        look_at_rigid(partner, touch);
+        look_at_rigid(contact, near, partner, reach, touch);
     } else {
         look_at_elastic(partner, touch, particles, weights);
     }
-    if (!is_whole || !(touch->gap < 0.0)) {
+    if (!is_whole || !(touch->gap < reach)) {
+        return;
+    }
+    mor_contact_spread(contact, near, touch);
+    if (!(touch->depth > 0.0)) {
         return;
     }
     double against[3];

@@ -131,34 +131,6 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
     return mor_vector_length(d);
 }
 
-double mor_contact_bedding(const mor_contact *contact, int first, int second)
-{
-    const mor_contact_body *a = &contact->work->bodies[first];
-    const double own = a->group->bodies[a->body].contact_modulus / a->group->spacing;
-    if (mor_contact_group(contact, second) == NULL) {
-        return own;
-    }
-    const mor_contact_body *b = &contact->work->bodies[second];
-    const double other = b->group->bodies[b->body].contact_modulus / b->group->spacing;
-    return 2.0 * own / (own + other) * other;
-}
-
-double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near *near, int side, int64_t node)
-{
-    const bool is_wall = mor_contact_group(contact, near->second) == NULL;
-    const mor_contact_body *owner = &contact->work->bodies[side == 0 ? near->first : near->second];
-    /* Both bodies' nodes carry the same surface, each half of it. */
-    return (is_wall ? 1.0 : 0.5) * mor_contact_bedding(contact, near->first, near->second) *
-           owner->group->node_area[node];
-}
-
-static double pair_spacing(const mor_contact *contact, int first, int second)
-{
-    const mor_body_group *group = mor_contact_group(contact, second);
-    const double own = contact->work->bodies[first].group->spacing;
-    return group == NULL ? own : fmax(own, group->spacing);
-}
-
 static double pair_travel(const mor_contact *contact, int first, int second)
 {
     const mor_contact_work *work = contact->work;
@@ -267,7 +239,7 @@ static void fill_lane(const mor_contact *contact, mor_contact_near *near, int si
     mor_contact_lane *lane = &near->lanes[side];
     const mor_contact_body *owner = &work->bodies[side == 0 ? near->first : near->second];
     const int other = side == 0 ? near->second : near->first;
-    const double spacing = pair_spacing(contact, near->first, near->second);
+    const double spacing = mor_contact_spacing(contact, near->first, near->second);
     const mor_body *body = &owner->group->bodies[owner->body];
     int32_t particles[MOR_CONTACT_SUPPORT];
     double weights[MOR_CONTACT_SUPPORT];
@@ -297,7 +269,7 @@ static mor_status visit_pair(mor_context *context, mor_contact *contact, int fir
         return MOR_OK;
     }
     const double gap = mor_contact_apart(contact, first, second, work->boxes);
-    if (gap > SKIN * pair_spacing(contact, first, second)) {
+    if (gap > SKIN * mor_contact_spacing(contact, first, second)) {
         /* Half of it, since nodes that are extrapolated from particles go farther than these. */
         work->free_until[pair] = travel + 0.5 * gap;
         if (work->near_of[pair] > 0) {
@@ -325,6 +297,9 @@ static mor_status visit_pairs(mor_context *context, mor_contact *contact, uint64
         const bool is_member = (contact->stepper_bits[work->bodies[first].group_index] & members) != 0;
         for (int second = first + 1; second < work->n_bodies + contact->n_walls; ++second, ++pair) {
             const bool is_wall = second >= work->n_bodies;
+            if (mor_contact_inverse_mass(contact, first) + mor_contact_inverse_mass(contact, second) == 0.0) {
+                continue; /* no force moves either */
+            }
             if (is_member && (is_wall || (contact->stepper_bits[work->bodies[second].group_index] & members) != 0)) {
                 MOR_TRY(context, visit_pair(context, contact, first, second, pair));
             }

@@ -12,7 +12,8 @@
 
 enum {
     MOR_CONTACT_SLOTS = 3,   /* partners whose friction a node remembers */
-    MOR_CONTACT_SUPPORT = 96 /* particles of an elastic body around a point, at most */
+    MOR_CONTACT_SUPPORT = 96, /* particles of an elastic body around a point, at most */
+    MOR_CONTACT_WINDOW = 21   /* points across the surface around a node */
 };
 
 /** A body in the list of all bodies. */
@@ -25,6 +26,10 @@ typedef struct mor_contact_body {
     double radius;    /* half its diagonal plus the distance of the middle, m */
     double face;      /* largest side of its box in the shape's frame, m2 (m) */
     double softness;  /* elastic: squared frequency over stiffness per area, at most; m2/kg */
+    double curvature; /* rigid: median over its nodes, 1/m */
+    double sharpest, flattest; /* rigid: largest and least curvature of its nodes, 1/m */
+    double mean_weight;        /* rigid: mean stiffness per area of its nodes over that of the sharpest, 1 */
+    bool is_edged;             /* rigid: some nodes lie on edges or corners */
     double travel;    /* bound of the path of any of its points so far, m */
     double *previous; /* shape [n_particles, 3] of an elastic body, else [12]: where it was at the last look, m and 1 */
     bool is_seen;     /* previous is valid */
@@ -56,13 +61,24 @@ typedef struct mor_contact_touch {
     int near;          /* index in the list of near pairs */
     int side;          /* 0: node of the first; 1: of the second */
     int64_t node;      /* in its group */
-    double gap;        /* negative: depth, m */
+    double gap;        /* of the node; negative: depth, m */
+    double curvature, other_curvature; /* of the node's surface and of the other one there, 1/m */
+    double depth;      /* deepest point of the surface around the node, m; 0: no touch */
+    double mean_depth, mean_square; /* of the depth over the area of the node, m and m2 */
     double place[3];   /* m */
     double normal[3];  /* out of the partner, 1 */
     double slip[3];    /* velocity of the node minus that of the partner's surface, m/s */
-    double stiffness;  /* N/m (N/m2) */
+    double stiffness;  /* tangential, and normal before softening but for share, N/m (N/m2) */
+    double share;      /* normal stiffness before softening over the tangential one, 1 */
     int support_count; /* particles of an elastic partner */
 } mor_contact_touch;
+
+/** How deep two surfaces lie in one another. */
+typedef struct mor_contact_depth {
+    int first, second; /* bodies; second >= n_bodies: wall second - n_bodies */
+    double depth;      /* m */
+    double limit;      /* deepest that is allowed, m */
+} mor_contact_depth;
 
 /** Lists and scratch. */
 typedef struct mor_contact_work {
@@ -75,6 +91,10 @@ typedef struct mor_contact_work {
     double wall_travel;                      /* bound of the path of any wall so far, m */
     double *free_until;                      /* shape [n_pairs]; a pair is apart until it has traveled so far, m */
     int32_t *near_of;                        /* shape [n_pairs]; place in near plus one; 0: not near */
+    double *curvatures;                      /* shape [n_nodes] as the history; zero for elastic bodies, 1/m */
+    double *normals;                         /* shape [n_nodes, 3]; of rigid bodies, reference configuration, 1 */
+    unsigned char *is_smooth;                /* shape [n_nodes]; of rigid bodies: not on an edge or a corner */
+    double window[MOR_CONTACT_WINDOW];       /* weights of points around a node, 1 */
     unsigned char *law_of;                   /* shape [n_pairs]; 0: default, else listed pair plus one */
     int64_t n_pairs;
     mor_contact_near *near; /* shape [near_capacity]; entries without pair are free */
@@ -96,6 +116,7 @@ typedef struct mor_contact_work {
     bool is_warm;                              /* the lists of slots and pairs have been found from the state */
     double group_spring[MOR_BODY_GROUPS_MAX];  /* spring energy, J (J/m) */
     double group_deepest[MOR_BODY_GROUPS_MAX]; /* m */
+    mor_contact_depth group_worst[MOR_BODY_GROUPS_MAX]; /* the deepest for its limit */
     double *wall_force;                        /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3], N (N/m) */
     int field_partners, field_springs;         /* of the history */
 } mor_contact_work;
@@ -123,19 +144,99 @@ static inline double mor_contact_inverse_mass(const mor_contact *contact, int se
     return body->is_held ? 0.0 : 1.0 / body->mass;
 }
 
-/** Stiffness of a pair per area: harmonic mean of contact modulus over spacing; against a wall the body's own.
+/** The larger spacing of a pair, unit m.
+ *  @param contact [in]  one object
+ *  @param first   [in]  index of a body
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
+double mor_contact_spacing(const mor_contact *contact, int first, int second);
+
+/** Whether a pair of rigid bodies, or a rigid body and a wall, touches by Hertz's law; elastic bodies yield by
+ *  themselves.
+ *  @param contact [in]  one object
+ *  @param first   [in]  index of a body
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
+bool mor_contact_is_hertzian(const mor_contact *contact, int first, int second);
+
+/** Modulus of a pair of rigid sides, 1 / ((1 - nu1^2)/E1 + (1 - nu2^2)/E2), Johnson (1985) eq. 4.3a; unit Pa.
+ *  @param contact [in]  one object
+ *  @param first   [in]  index of a body
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
+double mor_contact_pair_modulus(const mor_contact *contact, int first, int second);
+
+/** Stiffness of a pair per area. With an elastic side: harmonic mean of contact modulus over spacing; against a wall the
+ *  body's own. Rigid: that of the node where the surface is most curved, before the contact is wider than a node.
  *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall
  *  Returns: unit Pa/m. */
 double mor_contact_bedding(const mor_contact *contact, int first, int second);
 
-/** Stiffness of one node of a pair, unit N/m (N/m2 in plane strain).
+/** Stiffness of one node of a pair, unit N/m (N/m2 in plane strain); it depends on nothing that moves.
  *  @param contact [in]  one object
  *  @param near    [in]  one object
  *  @param side    [in]  0: node of the first; 1: of the second
  *  @param node    [in]  index of the node in its group */
 double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near *near, int side, int64_t node);
+
+/** Fills in what the curvature of the other side, at a place on it, does to a touch of rigid sides: curvature, share.
+ *  @param contact   [in]      one object
+ *  @param near      [in]      one object
+ *  @param touch     [in,out]  one object
+ *  @param curvature [in]      of the wall there, unit 1/m; not used for a body, which has one of its own */
+void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
+                      double curvature);
+
+/** Curvature of a surface at a point near it, mean of the two in space, unit 1/m; positive: convex.
+ *  @param shape     [in]  one object
+ *  @param dimension [in]  2 or 3
+ *  @param place     [in]  shape [3]; in the frame of the shape, unit m
+ *  @param spacing   [in]  of the body that asks: curvature is resolved to this length, unit m */
+double mor_contact_curvature(const mor_shape *shape, int dimension, const double *place, double spacing);
+
+/** Gap below which the surface around a node may touch though the node does not, unit m.
+ *  @param contact [in]  one object
+ *  @param near    [in]  one object
+ *  @param touch   [in]  one object, whose side and node are known */
+double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch);
+
+/** Follows the surface around a node of a rigid body: fills in depth, mean_depth, mean_square, and moves place and
+ *  normal to the center of the pressure. Elastic sides and edges: those of the node.
+ *  @param contact [in]      one object
+ *  @param near    [in]      one object
+ *  @param touch   [in,out]  one object, whose gap, normal and curvature are known */
+void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch);
+
+/** Writes the weights of the points around a node.
+ *  @param weights [out]  shape [MOR_CONTACT_WINDOW], unit 1; they add up to 1 */
+void mor_contact_window_weights(double *weights);
+
+/** Factor on the normal forces of a pair of rigid sides: as the contact widens, each node carries less. Hertz's law as
+ *  a function of the energy that its nodes would store without it, docs/theory/contact.md (C3b).
+ *  @param contact [in]   one object
+ *  @param near    [in]   one object
+ *  @param energy  [in]   sum over nodes of half the stiffness times the squared depth, unit J (J/m)
+ *  @param stored  [out]  one number; energy with the factor, unit J (J/m)
+ *  Returns: unit 1, at most 1. */
+double mor_contact_soften(const mor_contact *contact, const mor_contact_near *near, double energy, double *stored);
+
+/** Stiffness of a pair of rigid sides as it begins to touch, unit N/m (N/m2).
+ *  @param contact [in]  one object
+ *  @param first   [in]  index of a body
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
+double mor_contact_least_stiffness(const mor_contact *contact, int first, int second);
+
+/** Largest stiffness, normal or tangential, of a pair of rigid sides once it has stored an energy, unit N/m (N/m2).
+ *  @param contact [in]  one object
+ *  @param first   [in]  index of a body
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall
+ *  @param energy  [in]  unit J (J/m) */
+double mor_contact_largest_stiffness(const mor_contact *contact, int first, int second, double energy);
+
+/** Measures the curvature of all rigid bodies at their nodes; the history and the list of bodies must be there.
+ *  @param context [in,out]  one object
+ *  @param contact [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_contact_measure_curvatures(mor_context *context, mor_contact *contact);
 
 /** Finds boxes and travels of the bodies of the members.
  *  @param context [in]      one object
@@ -163,7 +264,8 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_contact_search(mor_context *context, mor_contact *contact, uint64_t members);
 
-/** Looks one node up in its partner: fills in gap and, when that is below zero or is_whole, all else.
+/** Looks one node up in its partner: fills in gap and, when is_whole and it touches, all else; depth is zero
+ *  when it does not.
  *  @param contact   [in]      one object
  *  @param near      [in]      one object
  *  @param touch     [in,out]  one object; near, side and node are set
@@ -178,6 +280,27 @@ void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *nea
  *  @param members [in]      bits of steppers
  *  @param length  [in]      of the sub-step, unit s */
 void mor_contact_act(mor_contact *contact, uint64_t members, double length);
+
+/** Strength of the gravity that acts on a body, unit m/s2.
+ *  @param c [in]  one object */
+double mor_contact_gravity(const mor_contact_body *c);
+
+/** Finds boxes and largest speeds of all bodies now.
+ *  @param contact [in]   one object; its boxes are written
+ *  @param speeds  [out]  shape [n_bodies], unit m/s */
+void mor_contact_find_boxes(const mor_contact *contact, double *speeds);
+
+/** Depth of a pair that stops a run, unit m.
+ *  @param contact [in]  one object
+ *  @param first   [in]  index of a body
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
+double mor_contact_depth_limit(const mor_contact *contact, int first, int second);
+
+/** Looks at the deepest touch of the last evaluation: warns once, docs/theory/contact.md "How deep".
+ *  @param context [in,out]  one object
+ *  @param contact [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_NUMERIC, naming both sides, when surfaces lie too deep in one another. */
+mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact);
 
 /** Returns the group of a body or NULL for a wall.
  *  @param contact [in]  one object

@@ -163,7 +163,8 @@ static inline mor_body_request contact_scene_ask(contact_scene *it, int k)
                             .shape_turn = {1, 0, 0, 0, 1, 0, 0, 0, 1},
                             .density = body->density > 0.0 ? body->density : it->request.density,
                             .soil_friction = MOR_WALL_ROUGH,
-                            .contact_modulus = body->modulus > 0.0 ? body->modulus : it->request.modulus};
+                            .contact_modulus = body->modulus > 0.0 ? body->modulus : it->request.modulus,
+                            .contact_poisson = it->request.poisson};
     const double length = mor_vector_length(body->axis);
     if (length > 0.0) {
         const double axis[3] = {body->axis[0] / length, body->axis[1] / length, body->axis[2] / length};
@@ -249,7 +250,12 @@ static inline void contact_scene_make_contact(contact_scene *it)
             groups[g]->domain_maximum[a] = INFINITY;
         }
     }
-    const mor_contact_settings settings = {request->law, request->pairs, request->n_pairs, request->slowest_impact};
+    double fastest = 0.0;
+    for (int k = 0; k < request->n_bodies; ++k) {
+        fastest = fmax(fastest, mor_vector_length(request->bodies[k].velocity));
+    }
+    const mor_contact_settings settings = {request->law, request->pairs, request->n_pairs, request->slowest_impact,
+                                           2.0 * fastest};
     contact_scene_require(
         it, mor_contact_init(&it->context, &it->contact, &settings, groups, bits, n, walls, request->n_walls));
     mor_contact_exchange(&it->contact, &it->exchange);

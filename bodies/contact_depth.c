@@ -1,0 +1,76 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* How deep surfaces may lie in one another: docs/theory/contact.md, "How deep". */
+#include "bodies/contact_work.h"
+
+#include <math.h>
+
+/* Depth that stops a run: a share of the spacing, or of the thickness of the thinner body where that is more. */
+#define LIMIT_SPACINGS 0.5
+#define LIMIT_THICKNESS 0.05
+
+/* Share of that limit that is warned of: a tenth of a spacing. */
+#define WARNING_SHARE 0.2
+
+/* Least side of the box around a body, m. */
+static double thickness(const mor_contact_body *c)
+{
+    double least = INFINITY;
+    for (int a = 0; a < c->group->dimension; ++a) {
+        least = fmin(least, 2.0 * c->half[a]);
+    }
+    return least;
+}
+
+double mor_contact_depth_limit(const mor_contact *contact, int first, int second)
+{
+    const mor_contact_work *work = contact->work;
+    const double thin = second < work->n_bodies
+                            ? fmin(thickness(&work->bodies[first]), thickness(&work->bodies[second]))
+                            : thickness(&work->bodies[first]);
+    return fmax(LIMIT_SPACINGS * mor_contact_spacing(contact, first, second), LIMIT_THICKNESS * thin);
+}
+
+/* A side of a pair in words. */
+static void name_side(const mor_contact *contact, int side, const char **kind, const char **name)
+{
+    const mor_contact_work *work = contact->work;
+    const bool is_wall = side >= work->n_bodies;
+    *kind = is_wall ? "wall" : "body";
+    *name = is_wall ? contact->walls[side - work->n_bodies].name
+                    : work->bodies[side].group->bodies[work->bodies[side].body].name;
+}
+
+mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact)
+{
+    const mor_contact_depth *worst = &contact->work->group_worst[0];
+    for (int g = 1; g < contact->n_groups; ++g) {
+        const mor_contact_depth *it = &contact->work->group_worst[g];
+        if (it->limit > 0.0 && (worst->limit == 0.0 || it->depth * worst->limit > worst->depth * it->limit)) {
+            worst = it;
+        }
+    }
+    if (worst->limit == 0.0) {
+        return MOR_OK;
+    }
+    const double share = worst->depth / worst->limit;
+    const bool is_new = share > WARNING_SHARE && contact->deepest_share <= WARNING_SHARE;
+    contact->deepest_share = fmax(contact->deepest_share, share);
+    if (!is_new && share <= 1.0) {
+        return MOR_OK;
+    }
+    const char *kind, *name, *other_kind, *other_name;
+    name_side(contact, worst->first, &kind, &name);
+    name_side(contact, worst->second, &other_kind, &other_name);
+    const double spacing = mor_contact_spacing(contact, worst->first, worst->second);
+    MOR_CHECK(context, share <= 1.0, MOR_ERROR_NUMERIC,
+              "%s '%s' lies %.3g m deep in %s '%s' at t = %.6g s, %.2g spacings; allowed is up to %.3g m, half a spacing "
+              "or a twentieth of the thickness of the body; raise contact_modulus, or lower what presses them together",
+              kind, name, worst->depth, other_kind, other_name, contact->time, worst->depth / spacing, worst->limit);
+    mor_context_log(context, MOR_LOG_WARNING,
+                    "%s '%s' lies %.3g m deep in %s '%s' at t = %.6g s, %.2g spacings; below a tenth of a spacing is "
+                    "advisable, and above %.3g m the run stops: raise contact_modulus if it was not the material's own",
+                    kind, name, worst->depth, other_kind, other_name, contact->time, worst->depth / spacing,
+                    worst->limit);
+    return MOR_OK;
+}
