@@ -145,6 +145,8 @@ typedef struct mor_case_wall {
     mor_case_friction friction;
     double friction_coefficient; /* Coulomb only, 1 */
     double velocity[3];          /* prescribed velocity, m/s */
+    double contact_modulus;      /* Young's modulus of its surface for bodies that touch it; 0: it does not yield, Pa */
+    double contact_poisson;      /* Poisson's ratio of it, 1 */
     uint64_t written;
 } mor_case_wall;
 
@@ -177,6 +179,7 @@ typedef struct mor_case_body {
     double density;                             /* kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI; not of "rigid" */
     double contact_modulus;                     /* Pa; NaN (rigid bodies only): what mor_case_contact_modulus chooses */
+    double contact_poisson;                     /* Poisson's ratio of a rigid body's surface in contact, 1 */
     mor_case_friction soil_friction;
     double soil_friction_coefficient; /* Coulomb only, 1 */
     bool is_prescribed;               /* rigid: moves with its velocities whatever pushes it */

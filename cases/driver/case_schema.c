@@ -317,6 +317,14 @@ static const mor_case_key wall_keys[] = {
     {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "prescribed velocity"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, velocity)},
+    {{"contact_modulus", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL,
+      "Young's modulus of its surface, for rigid bodies that touch it; 0: it does not yield"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_wall, contact_modulus)},
+    {{"contact_poissons_ratio", SCALAR, "1", DEFAULT(0.25), 0.0, 0.5, 0, 1, NULL,
+      "Poisson's ratio of its surface, with contact_modulus"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_wall, contact_poisson)},
     END};
 
 static const mor_case_part wall_parts[] = {{"shape", true, "shape", "the solid"}, {NULL, false, NULL, NULL}};

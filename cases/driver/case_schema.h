@@ -196,9 +196,14 @@ const char *mor_case_start_condition(mor_case_motion motion, const char *name);
  *  Returns: unit m/s; > 0. */
 double mor_case_largest_speed(const mor_case *the_case);
 
-/** Contact modulus of a body: the one given, else density * (30 v)^2, with v the largest speed of the case. A block of
- *  height H that hits at v with all of its face then goes sqrt(H * spacing) / 30 deep.
+/** Largest of the speeds at the start of bodies and walls.
  *  @param the_case [in]  one object, whole
+ *  Returns: unit m/s. */
+double mor_case_start_speed(const mor_case *the_case);
+
+/** Young's modulus of a body's surface in contact: the one given, else that of a rigid body in which sound travels at
+ *  1000 m/s. It depends on the body alone.
+ *  @param the_case [in]  one object; its units
  *  @param body     [in]  one object; of the case
  *  Returns: unit Pa; > 0. */
 double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body);

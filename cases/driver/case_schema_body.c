@@ -10,6 +10,10 @@
 #include <math.h>
 #include <string.h>
 
+/* Speed of sound of a rigid body in contact where no modulus is given, m/s: a third of that of hard rock, so that steps
+ * are three times as long. */
+#define CHOSEN_WAVE_SPEED 1000.0
+
 /* Bodies and their contact: the tables, and what depends on the kind of a body. Entries follow mor_schema as in
  * case_schema.c. */
 #define BODY(member) AT(mor_case_body, member)
@@ -51,11 +55,15 @@ static const mor_case_key body_keys[] = {
      MOR_CASE_STORE_REALS,
      BODY(soil_friction_coefficient)},
     {{"contact_modulus", SCALAR, "Pa", DEFAULT(NAN), POSITIVE, NULL,
-      "pressure that pushes the surfaces of two bodies into one another by a spacing"},
+      "Young's modulus of its surface in contact with bodies and walls; two rigid sides touch by Hertz's law"},
      MOR_CASE_STORE_REALS,
      BODY(contact_modulus),
-     .computed = "youngs_modulus; of a rigid body density * (30 v)^2, v the largest speed at the start or of a fall "
-                 "through the domain"},
+     .computed = "youngs_modulus; of a rigid body density * (1000 m/s)^2, which is chosen for speed: forces of its "
+                 "contacts depend on it"},
+    {{"contact_poissons_ratio", SCALAR, "1", DEFAULT(0.25), 0.0, 0.5, 0, 1, NULL,
+      "Poisson's ratio of its surface, with contact_modulus"},
+     MOR_CASE_STORE_REALS,
+     BODY(contact_poisson)},
     {{"motion", CHOICE, "1", DEFAULT(0.0), ANY, "free|prescribed",
       "of a rigid body; free: as it is pushed; prescribed: with velocity and angular_velocity whatever pushes it"},
      MOR_CASE_STORE_BOOL,
@@ -201,6 +209,7 @@ const char *mor_case_body_condition(const mor_case_body *body, const char *name)
         int kinds;
         const char *condition;
     } uses[] = {{"motion", FREE | PRESCRIBED, "with model = \"rigid\""},
+                {"contact_poissons_ratio", FREE | PRESCRIBED, "with model = \"rigid\""},
                 {"locked", FREE, with_free},
                 {"spring", FREE, with_free},
                 {"clamp", ELASTIC, with_elastic},
@@ -262,6 +271,20 @@ static double find_body_speed(const mor_case_body *body, int dimension)
     return fmax(fmax(mor_vector_dot(body->velocity, body->velocity), is_twisted ? 0.0 : own), edge);
 }
 
+/* Square of the largest speed of bodies and walls at the start, m2/s2. */
+static double find_start_speed2(const mor_case *the_case)
+{
+    double squared_speed = 0.0;
+    for (int k = 0; k < the_case->n_bodies; ++k) {
+        squared_speed = fmax(squared_speed, find_body_speed(&the_case->bodies[k], the_case->dimension));
+    }
+    for (int k = 0; k < the_case->n_walls; ++k) {
+        const double *velocity = the_case->walls[k].velocity;
+        squared_speed = fmax(squared_speed, mor_vector_dot(velocity, velocity));
+    }
+    return squared_speed;
+}
+
 /* Square of the largest speed of a case, m2/s2. */
 static double find_squared_speed(const mor_case *the_case)
 {
@@ -272,13 +295,7 @@ static double find_squared_speed(const mor_case *the_case)
         squared_speed += 2.0 * fabs(the_case->gravity[a]) * extent;
         squared_diagonal += extent * extent;
     }
-    for (int k = 0; k < the_case->n_bodies; ++k) {
-        squared_speed = fmax(squared_speed, find_body_speed(&the_case->bodies[k], the_case->dimension));
-    }
-    for (int k = 0; k < the_case->n_walls; ++k) {
-        const double *velocity = the_case->walls[k].velocity;
-        squared_speed = fmax(squared_speed, mor_vector_dot(velocity, velocity));
-    }
+    squared_speed = fmax(squared_speed, find_start_speed2(the_case));
     for (int k = 0; k < the_case->n_soils; ++k) {
         const double *velocity = the_case->soils[k].velocity;
         squared_speed = fmax(squared_speed, mor_vector_dot(velocity, velocity));
@@ -294,7 +311,13 @@ double mor_case_largest_speed(const mor_case *the_case)
     return sqrt(find_squared_speed(the_case));
 }
 
+double mor_case_start_speed(const mor_case *the_case)
+{
+    return sqrt(find_start_speed2(the_case));
+}
+
 double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body)
 {
-    return isnan(body->contact_modulus) ? 900.0 * find_squared_speed(the_case) * body->density : body->contact_modulus;
+    const double speed = CHOSEN_WAVE_SPEED * the_case->scale_length / the_case->scale_time;
+    return isnan(body->contact_modulus) ? body->density * speed * speed : body->contact_modulus;
 }

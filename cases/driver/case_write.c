@@ -301,7 +301,7 @@ static mor_case_presence judge_rocks(const mor_case_key *key, const void *record
             return rules[k].is_written ? MOR_CASE_WRITE : MOR_CASE_OMIT;
         }
     }
-    return strcmp(key->schema.key, "contact_modulus") == 0 || strcmp(key->schema.key, "friction_coefficient") == 0
+    return strncmp(key->schema.key, "contact_", 8) == 0 || strcmp(key->schema.key, "friction_coefficient") == 0
                ? judge_body(key, body)
                : MOR_CASE_WRITE;
 }

@@ -58,7 +58,8 @@ static mor_status make_request(mor_context *context, const mor_case *c, const mo
                                   .density = it->density,
                                   .soil_friction = (mor_wall_friction)it->soil_friction,
                                   .soil_friction_coefficient = it->soil_friction_coefficient,
-                                  .contact_modulus = mor_case_contact_modulus(c, it)};
+                                  .contact_modulus = mor_case_contact_modulus(c, it),
+                                  .contact_poisson = it->contact_poisson};
     mor_simulation_body_frame(c, it, request->shape_turn, request->shape_move);
     MOR_TRY(context, mor_shape_find_moments(context, it->shape, c->dimension, &request->geometry));
     mor_shape_moments_place(&request->geometry, request->shape_turn, request->shape_move);
@@ -438,6 +439,8 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
         memcpy(walls[w].turn, c->turn, sizeof walls[w].turn);
         memcpy(walls[w].move, c->move, sizeof walls[w].move);
         mor_matrix_apply(c->turn, c->walls[w].velocity, walls[w].velocity);
+        walls[w].modulus = c->walls[w].contact_modulus;
+        walls[w].poisson = c->walls[w].contact_poisson;
     }
     for (int p = 0; p < c->contact.n_pairs; ++p) {
         const mor_case_contact_pair *it = &c->contact.pairs[p];
@@ -448,8 +451,11 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
     for (int g = 0; g < bodies->n_groups; ++g) {
         bits[g] = MOR_BIT(first_bit + g);
     }
-    const mor_contact_settings settings = {
-        {c->contact.friction_coefficient, c->contact.restitution}, bodies->pairs, c->contact.n_pairs, slowest};
+    const mor_contact_settings settings = {{c->contact.friction_coefficient, c->contact.restitution},
+                                           bodies->pairs,
+                                           c->contact.n_pairs,
+                                           slowest,
+                                           mor_case_start_speed(c)};
     MOR_TRY(context, mor_contact_init(context, &bodies->contact, &settings, bodies->groups, bits, bodies->n_groups,
                                       walls, c->n_walls));
     bodies->has_contact = true;
