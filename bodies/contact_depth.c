@@ -41,9 +41,28 @@ static void name_side(const mor_contact *contact, int side, const char **kind, c
                     : work->bodies[side].group->bodies[work->bodies[side].body].name;
 }
 
+/* Sides that no force moves, as a body that is driven into a wall, do not push each other. */
+static void warn_of_driven(mor_context *context, mor_contact *contact)
+{
+    mor_contact_work *work = contact->work;
+    const mor_contact_depth *it = &work->driven;
+    if (work->is_driven_told || !(it->depth > 0.0) || !(it->depth > WARNING_SHARE * it->limit)) {
+        return;
+    }
+    const char *kind, *name, *other_kind, *other_name;
+    name_side(contact, it->first, &kind, &name);
+    name_side(contact, it->second, &other_kind, &other_name);
+    work->is_driven_told = true;
+    mor_context_log(context, MOR_LOG_WARNING,
+                    "%s '%s' is driven %.3g m deep into %s '%s' at t = %.6g s; neither yields to a force, so there is none "
+                    "between them: shorten the prescribed motion if that is not meant",
+                    kind, name, it->depth, other_kind, other_name, contact->time);
+}
+
 mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact)
 {
     const mor_contact_depth *worst = &contact->work->group_worst[0];
+    warn_of_driven(context, contact);
     for (int g = 1; g < contact->n_groups; ++g) {
         const mor_contact_depth *it = &contact->work->group_worst[g];
         if (it->limit > 0.0 && (worst->limit == 0.0 || it->depth * worst->limit > worst->depth * it->limit)) {

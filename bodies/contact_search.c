@@ -297,9 +297,6 @@ static mor_status visit_pairs(mor_context *context, mor_contact *contact, uint64
         const bool is_member = (contact->stepper_bits[work->bodies[first].group_index] & members) != 0;
         for (int second = first + 1; second < work->n_bodies + contact->n_walls; ++second, ++pair) {
             const bool is_wall = second >= work->n_bodies;
-            if (mor_contact_inverse_mass(contact, first) + mor_contact_inverse_mass(contact, second) == 0.0) {
-                continue; /* no force moves either */
-            }
             if (is_member && (is_wall || (contact->stepper_bits[work->bodies[second].group_index] & members) != 0)) {
                 MOR_TRY(context, visit_pair(context, contact, first, second, pair));
             }

@@ -117,6 +117,8 @@ typedef struct mor_contact_work {
     double group_spring[MOR_BODY_GROUPS_MAX];  /* spring energy, J (J/m) */
     double group_deepest[MOR_BODY_GROUPS_MAX]; /* m */
     mor_contact_depth group_worst[MOR_BODY_GROUPS_MAX]; /* the deepest for its limit */
+    mor_contact_depth driven; /* deepest so far of sides that no force moves */
+    bool is_driven_told;      /* has been warned of */
     double *wall_force;                        /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3], N (N/m) */
     int field_partners, field_springs;         /* of the history */
 } mor_contact_work;
@@ -274,6 +276,18 @@ mor_status mor_contact_search(mor_context *context, mor_contact *contact, uint64
  *  @param weights   [out]     shape [MOR_CONTACT_SUPPORT], unit 1 */
 void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
                          bool is_whole, int32_t *particles, double *weights);
+
+/** Stiffness of a friction spring over that of the normal spring, 1. */
+#define MOR_CONTACT_TANGENTIAL_RATIO 0.8
+
+/** Lists what the state remembers, once after a start or a resume.
+ *  @param contact [in,out]  one object */
+void mor_contact_recall(mor_contact *contact);
+
+/** Forgets friction springs and speeds of impact of contacts that ended; those of other members' bodies stay.
+ *  @param contact [in,out]  one object
+ *  @param members [in]      bits of steppers */
+void mor_contact_forget(mor_contact *contact, uint64_t members);
 
 /** Turns touches into forces, pair by pair; keeps the books.
  *  @param contact [in,out]  one object

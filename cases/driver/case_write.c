@@ -258,9 +258,25 @@ static void write_locks(const mor_case_writer *w, const mor_case_body *body)
     }
 }
 
-static mor_status write_body(mor_case_writer *w, const mor_case_body *body)
+/* The stiffness that was chosen where none is given: forces of contacts depend on it. */
+static mor_status mention_modulus(const mor_case_writer *w, const mor_case *the_case, const mor_case_body *body)
+{
+    if (!isnan(body->contact_modulus)) {
+        return MOR_OK;
+    }
+    const int at = mor_case_key_find(mor_case_body_group.keys, "contact_modulus");
+    const double modulus = mor_case_contact_modulus(the_case, body);
+    char value[MOR_CASE_VALUE_BYTES];
+    MOR_TRY(w->reader.context, mor_case_writer_numbers(w, &mor_case_body_group.keys[at].schema, false, &modulus, 1,
+                                                       value, sizeof value));
+    fprintf(w->stream, "%*s# contact_modulus used: %s\n", w->depth * MOR_CASE_INDENT, "", value);
+    return MOR_OK;
+}
+
+static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const mor_case_body *body)
 {
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_group, body, judge_body));
+    MOR_TRY(w->reader.context, mention_modulus(w, the_case, body));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
     MOR_TRY(w->reader.context, write_body_material(w, body));
     write_locks(w, body);
@@ -412,7 +428,7 @@ static mor_status write_entry(mor_case_writer *w, const mor_case *the_case, list
     case WALLS:
         return write_wall(w, &the_case->walls[k]);
     case BODIES:
-        return write_body(w, &the_case->bodies[k]);
+        return write_body(w, the_case, &the_case->bodies[k]);
     case ROCKS:
         return write_rocks(w, &the_case->rocks[k]);
     case PAIRS:

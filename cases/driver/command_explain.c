@@ -6,6 +6,7 @@
 #include "bodies/contact.h"
 #include "bodies/terrain.h"
 #include "cases/driver/clock.h"
+#include "cases/driver/contact_report.h"
 #include "cases/driver/rocks_report.h"
 #include "cases/driver/simulation_warnings.h"
 
@@ -132,6 +133,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     for (int w = 0; w < c->n_walls; ++w) {
         print_ground(out, &c->walls[w]);
     }
+    mor_contact_report_print(c, out);
     mor_rocks_report_print(c, out);
 }
 

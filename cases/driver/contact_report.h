@@ -1,0 +1,29 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CONTACT_REPORT_H
+#define MOR_CASES_DRIVER_CONTACT_REPORT_H
+
+#include "cases/driver/case.h"
+
+#include <stdio.h>
+
+/** @file
+ *  How stiff the surfaces of rigid bodies are, in words: forces of contacts depend on it, so whoever reads one is told
+ *  whether the stiffness was given or chosen. */
+
+/** Whether the modulus of a body's surface was chosen for speed because the case gives none.
+ *  @param body [in]  one object */
+bool mor_contact_report_is_chosen(const mor_case_body *body);
+
+/** Prints the moduli of all rigid bodies, one line for each that differs.
+ *  @param the_case [in]      one object
+ *  @param out      [in,out]  one open stream */
+void mor_contact_report_print(const mor_case *the_case, FILE *out);
+
+/** Says what is to be known of a probe that measures a force of contacts.
+ *  @param the_case [in]  one object
+ *  @param probe    [in]  index of the probe
+ *  Returns: a static sentence without its stop; NULL: nothing to say, or another kind of probe. */
+const char *mor_contact_report_remark(const mor_case *the_case, int probe);
+
+#endif
