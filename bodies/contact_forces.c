@@ -8,6 +8,7 @@
 
 #define STICK_DAMPING 0.2    /* damping ratio of the friction spring, 1 */
 #define DAMPING_LIMIT 0.5    /* share of a relative velocity that damping may take away in a step, 1 */
+#define TURNING_SHARE 4.0    /* acceleration of a point of a free block over that of its center, at most, 1 */
 
 /* What one pair needs to know while its touches become forces. The pair force acts on the first body along normal. */
 typedef struct pair_sums {
@@ -18,7 +19,9 @@ typedef struct pair_sums {
     double normal[3]; /* their mean direction, 1 */
     double stiffness; /* sum over touching nodes, N/m */
     double softening; /* factor on the nodes' normal forces, 1 */
-    double factor;    /* damped over elastic normal force, 1 */
+    double factor;    /* damped over elastic normal force of the whole pair, 1 */
+    double rate;      /* of damping, s/m */
+    bool is_hertzian; /* two rigid sides */
     double length;    /* of the sub-step, s */
     int64_t begin;    /* its touches */
     int64_t end;
@@ -260,31 +263,22 @@ static bool sum_pair(mor_contact *contact, pair_sums *sums)
     return true;
 }
 
-/* Restitution: the normal force of the pair grows with the speed of closing, docs/theory/contact.md. */
-static void damp_pair(mor_contact *contact, pair_sums *sums)
+/* Velocity of closing of a pair at the center of its forces, as if both were rigid, m/s. */
+static double find_closing(mor_contact *contact, const pair_sums *sums)
+{
+    double own[3], other[3];
+    whole_velocity(contact, sums->near->first, sums->center, own);
+    whole_velocity(contact, sums->near->second, sums->center, other);
+    const double difference[3] = {other[0] - own[0], other[1] - own[1], other[2] - own[2]};
+    return mor_vector_dot(difference, sums->normal);
+}
+
+/* What the normal force of the whole pair gains by damping, at its center: an elastic body has no damper of its own
+ * there. */
+static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, double inverse)
 {
     const mor_contact_work *work = contact->work;
-    const mor_contact_near *near = sums->near;
-    const double inverse =
-        mor_contact_inverse_mass(contact, near->first) + mor_contact_inverse_mass(contact, near->second);
-    const double y = work->rebound[work->law_of[near->pair]];
-    double *impact = &contact->impacts[near->pair];
-    double own[3], other[3];
-    sums->factor = 1.0;
-    if (!(y > 0.0) || !(inverse > 0.0) || mor_vector_dot(sums->normal, sums->normal) == 0.0) {
-        return;
-    }
-    whole_velocity(contact, near->first, sums->center, own);
-    whole_velocity(contact, near->second, sums->center, other);
-    const double difference[3] = {other[0] - own[0], other[1] - own[1], other[2] - own[2]};
-    const double closing = mor_vector_dot(difference, sums->normal);
-    /* The fastest closing of an episode is its impact: a touch at rest may be hit later. */
-    *impact = fmax(*impact, fmax(closing, contact->settings.slowest_impact));
-    if (!(*impact > 0.0)) {
-        return;
-    }
-    const double rate = fmin(y / *impact, DAMPING_LIMIT / (sums->force * inverse * sums->length));
-    sums->factor = fmax(0.0, 1.0 + rate * closing);
+    sums->factor = fmax(0.0, 1.0 + sums->rate * closing);
     /* The nodes' forces need not be parallel; what is damped is their resultant. */
     double resultant = 0.0;
     for (int64_t k = sums->begin; k < sums->end; ++k) {
@@ -296,13 +290,70 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
     const double extra = resultant * (sums->factor - 1.0);
     const double force[3] = {extra * sums->normal[0], extra * sums->normal[1], extra * sums->normal[2]};
     const double opposite[3] = {-force[0], -force[1], -force[2]};
-    push_whole(contact, near->first, sums->center, force);
-    push_whole(contact, near->second, sums->center, opposite);
-    push_wall(contact, near, force);
+    push_whole(contact, sums->near->first, sums->center, force);
+    push_whole(contact, sums->near->second, sums->center, opposite);
+    push_wall(contact, sums->near, force);
     /* What the motion loses is force times the velocity in the middle of the kick; of that, the pair's own part, as
      * if nothing turned. */
     const double kick = (resultant + extra) * inverse * sums->length;
     contact->damping_energy += extra * (closing - 0.5 * kick) * sums->length;
+}
+
+/* Damped over elastic normal force of one node, 1. Of rigid sides each node is damped by its own speed of closing, so
+ * that rocking dies out as bouncing does. */
+static double node_factor(const pair_sums *sums, const mor_contact_touch *touch)
+{
+    return sums->is_hertzian ? fmax(0.0, 1.0 - sums->rate * mor_vector_dot(touch->slip, touch->normal))
+                             : sums->factor;
+}
+
+/* Books what damping of each node takes, with the speed in the middle of the kick as above. */
+static void book_nodes(mor_contact *contact, const pair_sums *sums, double inverse)
+{
+    const mor_contact_work *work = contact->work;
+    double whole = 0.0;
+    for (int64_t k = sums->begin; k < sums->end; ++k) {
+        const mor_contact_touch *touch = &work->touches[k];
+        whole += touch->depth > 0.0 ? normal_force(sums, touch) * node_factor(sums, touch) : 0.0;
+    }
+    const double kick = whole * inverse * sums->length;
+    for (int64_t k = sums->begin; k < sums->end; ++k) {
+        const mor_contact_touch *touch = &work->touches[k];
+        if (touch->depth > 0.0) {
+            const double extra = normal_force(sums, touch) * (node_factor(sums, touch) - 1.0);
+            const double closing = -mor_vector_dot(touch->slip, touch->normal);
+            contact->damping_energy += extra * (closing - 0.5 * kick) * sums->length;
+        }
+    }
+}
+
+/* Restitution: the normal force of the pair grows with the speed of closing, docs/theory/contact.md. */
+static void damp_pair(mor_contact *contact, pair_sums *sums)
+{
+    const mor_contact_work *work = contact->work;
+    const mor_contact_near *near = sums->near;
+    const double inverse =
+        mor_contact_inverse_mass(contact, near->first) + mor_contact_inverse_mass(contact, near->second);
+    const double y = work->rebound[work->law_of[near->pair]];
+    double *impact = &contact->impacts[near->pair];
+    sums->factor = 1.0;
+    sums->rate = 0.0;
+    if (!(y > 0.0) || mor_vector_dot(sums->normal, sums->normal) == 0.0) {
+        return;
+    }
+    const double closing = find_closing(contact, sums);
+    /* The fastest closing of an episode is its impact: a touch at rest may be hit later. */
+    *impact = fmax(*impact, fmax(closing, contact->settings.slowest_impact));
+    if (!(*impact > 0.0)) {
+        return;
+    }
+    const double limit = DAMPING_LIMIT / (sums->is_hertzian ? TURNING_SHARE : 1.0);
+    sums->rate = fmin(y / *impact, limit / (sums->force * inverse * sums->length));
+    if (sums->is_hertzian) {
+        book_nodes(contact, sums, inverse);
+    } else {
+        damp_whole(contact, sums, closing, inverse);
+    }
 }
 
 /* Place of a partner among the slots of a node: its own, else a free one, else -1. */
@@ -350,7 +401,7 @@ static void rub_node(mor_contact *contact, const pair_sums *sums, int64_t index)
     const double stiffness = MOR_CONTACT_TANGENTIAL_RATIO * touch->stiffness;
     const double inverse =
         inverse_share(contact, sums, own, touch->stiffness) + inverse_share(contact, sums, other, touch->stiffness);
-    const double cap = sums->law->friction_coefficient * sums->factor * normal_force(sums, touch);
+    const double cap = sums->law->friction_coefficient * node_factor(sums, touch) * normal_force(sums, touch);
     const double before2 = mor_vector_dot(spring, spring);
     const double along = mor_vector_dot(spring, touch->normal);
     const double off = mor_vector_dot(touch->slip, touch->normal);
@@ -394,6 +445,7 @@ static void act_on_pair(mor_contact *contact, int k, double length)
     pair_sums sums = {.near = &work->near[work->active[k]], .length = length};
     const int law = work->law_of[sums.near->pair];
     sums.law = law == 0 ? &contact->settings.law : &contact->settings.pairs[law - 1].law;
+    sums.is_hertzian = mor_contact_is_hertzian(contact, sums.near->first, sums.near->second);
     sums.begin = work->first_touch[k];
     sums.end = work->first_touch[k + 1];
     if (mor_contact_inverse_mass(contact, sums.near->first) + mor_contact_inverse_mass(contact, sums.near->second) ==
@@ -415,7 +467,8 @@ static void act_on_pair(mor_contact *contact, int k, double length)
         }
         double force[3];
         for (int a = 0; a < 3; ++a) {
-            force[a] = normal_force(&sums, touch) * touch->normal[a];
+            force[a] = normal_force(&sums, touch) * (sums.is_hertzian ? node_factor(&sums, touch) : 1.0) *
+                       touch->normal[a];
         }
         push_both(contact, sums.near, index, force);
         if (sums.law->friction_coefficient > 0.0) {
