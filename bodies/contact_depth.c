@@ -54,8 +54,8 @@ static void warn_of_driven(mor_context *context, mor_contact *contact)
     name_side(contact, it->second, &other_kind, &other_name);
     work->is_driven_told = true;
     mor_context_log(context, MOR_LOG_WARNING,
-                    "%s '%s' is driven %.3g m deep into %s '%s' at t = %.6g s; neither yields to a force, so there is none "
-                    "between them: shorten the prescribed motion if that is not meant",
+                    "%s '%s' is driven %.3g m deep into %s '%s' at t = %.6g s; neither yields to a force, so there is "
+                    "none between them: shorten the prescribed motion if that is not meant",
                     kind, name, it->depth, other_kind, other_name, contact->time);
 }
 
@@ -83,8 +83,9 @@ mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact)
     name_side(contact, worst->second, &other_kind, &other_name);
     const double spacing = mor_contact_spacing(contact, worst->first, worst->second);
     MOR_CHECK(context, share <= 1.0, MOR_ERROR_NUMERIC,
-              "%s '%s' lies %.3g m deep in %s '%s' at t = %.6g s, %.2g spacings; allowed is up to %.3g m, half a spacing "
-              "or a twentieth of the thickness of the body; raise contact_modulus, or lower what presses them together",
+              "%s '%s' lies %.3g m deep in %s '%s' at t = %.6g s, %.2g spacings; allowed is up to %.3g m, half a "
+              "spacing or a twentieth of the thickness of the body; raise contact_modulus, or lower what presses them "
+              "together",
               kind, name, worst->depth, other_kind, other_name, contact->time, worst->depth / spacing, worst->limit);
     mor_context_log(context, MOR_LOG_WARNING,
                     "%s '%s' lies %.3g m deep in %s '%s' at t = %.6g s, %.2g spacings; below a tenth of a spacing is "

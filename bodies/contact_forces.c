@@ -6,9 +6,9 @@
 
 #include <string.h>
 
-#define STICK_DAMPING 0.2    /* damping ratio of the friction spring, 1 */
-#define DAMPING_LIMIT 0.5    /* share of a relative velocity that damping may take away in a step, 1 */
-#define TURNING_SHARE 4.0    /* acceleration of a point of a free block over that of its center, at most, 1 */
+#define STICK_DAMPING 0.2 /* damping ratio of the friction spring, 1 */
+#define DAMPING_LIMIT 0.5 /* share of a relative velocity that damping may take away in a step, 1 */
+#define TURNING_SHARE 4.0 /* acceleration of a point of a free block over that of its center, at most, 1 */
 
 /* What one pair needs to know while its touches become forces. The pair force acts on the first body along normal. */
 typedef struct pair_sums {
@@ -303,8 +303,7 @@ static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, do
  * that rocking dies out as bouncing does. */
 static double node_factor(const pair_sums *sums, const mor_contact_touch *touch)
 {
-    return sums->is_hertzian ? fmax(0.0, 1.0 - sums->rate * mor_vector_dot(touch->slip, touch->normal))
-                             : sums->factor;
+    return sums->is_hertzian ? fmax(0.0, 1.0 - sums->rate * mor_vector_dot(touch->slip, touch->normal)) : sums->factor;
 }
 
 /* Books what damping of each node takes, with the speed in the middle of the kick as above. */
@@ -467,8 +466,8 @@ static void act_on_pair(mor_contact *contact, int k, double length)
         }
         double force[3];
         for (int a = 0; a < 3; ++a) {
-            force[a] = normal_force(&sums, touch) * (sums.is_hertzian ? node_factor(&sums, touch) : 1.0) *
-                       touch->normal[a];
+            force[a] =
+                normal_force(&sums, touch) * (sums.is_hertzian ? node_factor(&sums, touch) : 1.0) * touch->normal[a];
         }
         push_both(contact, sums.near, index, force);
         if (sums.law->friction_coefficient > 0.0) {

@@ -56,7 +56,7 @@ static void release_slot(mor_contact *contact, int64_t slot, int own)
     const mor_contact_near pair = {.first = own < other ? own : other, .second = own < other ? other : own};
     const double stiffness =
         MOR_CONTACT_TANGENTIAL_RATIO * mor_contact_stiffness(contact, &pair, own < other ? 0 : 1,
-                                                 entry - work->first_node[work->bodies[own].group_index]);
+                                                             entry - work->first_node[work->bodies[own].group_index]);
     contact->friction_energy += 0.5 * stiffness * mor_vector_dot(spring, spring);
     *partner = 0.0;
     memset(spring, 0, 3 * sizeof *spring);

@@ -8,7 +8,7 @@
 /* Share of 1/frequency of a body on the springs of its contacts that a step may take, 1. */
 #define STEP_SHARE 0.2
 
-/* Likewise of rigid sides, whose stiffness is that of the whole contact and not a bound: some thirty steps an impact. */
+/* Likewise of rigid sides, whose stiffness is that of the contact and not a bound: some thirty steps an impact. */
 #define HERTZ_SHARE 0.1
 
 /* Likewise of the particles under the nodes of an elastic body: on top of the body's own waves. */

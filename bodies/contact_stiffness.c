@@ -39,8 +39,7 @@ typedef struct exponents {
 
 static exponents exponents_of(int dimension)
 {
-    return dimension == 3 ? (exponents){ENERGY_SPACE, 5.0 / 6.0, 0.4}
-                          : (exponents){ENERGY_PLANE, 0.8, 0.5};
+    return dimension == 3 ? (exponents){ENERGY_SPACE, 5.0 / 6.0, 0.4} : (exponents){ENERGY_PLANE, 0.8, 0.5};
 }
 
 double mor_contact_spacing(const mor_contact *contact, int first, int second)
@@ -80,8 +79,7 @@ double mor_contact_pair_modulus(const mor_contact *contact, int first, int secon
 static double largest_radius(const mor_contact *contact, int first, int second)
 {
     const mor_contact_body *c = &contact->work->bodies[first];
-    const double face =
-        second < contact->work->n_bodies ? fmin(c->face, contact->work->bodies[second].face) : c->face;
+    const double face = second < contact->work->n_bodies ? fmin(c->face, contact->work->bodies[second].face) : c->face;
     return c->group->dimension == 3 ? sqrt(face / MOR_PI) : 0.5 * face;
 }
 
@@ -148,8 +146,7 @@ double mor_contact_bedding(const mor_contact *contact, int first, int second)
     const mor_contact_body *a = &contact->work->bodies[first];
     if (mor_contact_is_hertzian(contact, first, second)) {
         double weight;
-        return FINENESS * reference_softening(contact, first, second) *
-               node_bedding(contact, first, second, &weight);
+        return FINENESS * reference_softening(contact, first, second) * node_bedding(contact, first, second, &weight);
     }
     const double own = body_of(a)->contact_modulus / a->group->spacing;
     if (mor_contact_group(contact, second) == NULL) {
@@ -209,8 +206,7 @@ void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, 
     const double here = other < work->n_bodies ? usual : own + curvature;
     touch->curvature = own;
     touch->other_curvature = here - own;
-    touch->share = weigh(contact, near->first, near->second, here) /
-                   weigh(contact, near->first, near->second, usual) /
+    touch->share = weigh(contact, near->first, near->second, here) / weigh(contact, near->first, near->second, usual) /
                    reference_softening(contact, near->first, near->second);
 }
 
@@ -234,8 +230,7 @@ double mor_contact_soften(const mor_contact *contact, const mor_contact_near *ne
 static double finest(const mor_contact *contact, int first, int second)
 {
     const mor_contact_work *work = contact->work;
-    const bool is_edged =
-        work->bodies[first].is_edged || (second < work->n_bodies && work->bodies[second].is_edged);
+    const bool is_edged = work->bodies[first].is_edged || (second < work->n_bodies && work->bodies[second].is_edged);
     return mor_contact_spacing(contact, first, second) / (is_edged ? 1.0 : FINENESS);
 }
 
@@ -268,8 +263,7 @@ double mor_contact_largest_stiffness(const mor_contact *contact, int first, int 
     const double curvature = c->flattest + (partner != NULL ? partner->flattest : 0.0);
     const double radius = fmin(1.0 / fmax(curvature, 0.0), FLATTEST * widest);
     const double least = mor_contact_least_stiffness(contact, first, second);
-    const double tangential =
-        reference_softening(contact, first, second) * narrow_bedding(contact, first, second);
+    const double tangential = reference_softening(contact, first, second) * narrow_bedding(contact, first, second);
     if (c->group->dimension == 3) {
         const double depth = radius * pow(15.0 * energy / (8.0 * modulus * radius * radius * radius), 0.4);
         const double reach = fmin(widest, sqrt(radius * depth));
@@ -298,7 +292,8 @@ static double find_slope(const mor_body *body, int dimension, const double *plac
         double behind[3] = {place[0], place[1], place[2]};
         before[a] -= spacing;
         behind[a] += spacing;
-        gradient[a] = 0.5 * (mor_shape_distance(body->shape, behind) - mor_shape_distance(body->shape, before)) / spacing;
+        gradient[a] =
+            0.5 * (mor_shape_distance(body->shape, behind) - mor_shape_distance(body->shape, before)) / spacing;
     }
     const double slope = mor_vector_length(gradient);
     for (int a = 0; a < 3 && slope > 0.0; ++a) {

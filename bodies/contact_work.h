@@ -11,7 +11,7 @@
  *  resume, and no result depends on when. */
 
 enum {
-    MOR_CONTACT_SLOTS = 3,   /* partners whose friction a node remembers */
+    MOR_CONTACT_SLOTS = 3,    /* partners whose friction a node remembers */
     MOR_CONTACT_SUPPORT = 96, /* particles of an elastic body around a point, at most */
     MOR_CONTACT_WINDOW = 21   /* points across the surface around a node */
 };
@@ -20,17 +20,17 @@ enum {
 typedef struct mor_contact_body {
     mor_body_group *group;
     int group_index;
-    int body;         /* in its group */
-    double half[3];   /* half the sides of the box of its nodes, reference configuration, m */
-    double middle[3]; /* of that box, from the center of mass, m */
-    double radius;    /* half its diagonal plus the distance of the middle, m */
-    double face;      /* largest side of its box in the shape's frame, m2 (m) */
-    double softness;  /* elastic: squared frequency over stiffness per area, at most; m2/kg */
-    double curvature; /* rigid: median over its nodes, 1/m */
+    int body;                  /* in its group */
+    double half[3];            /* half the sides of the box of its nodes, reference configuration, m */
+    double middle[3];          /* of that box, from the center of mass, m */
+    double radius;             /* half its diagonal plus the distance of the middle, m */
+    double face;               /* largest side of its box in the shape's frame, m2 (m) */
+    double softness;           /* elastic: squared frequency over stiffness per area, at most; m2/kg */
+    double curvature;          /* rigid: median over its nodes, 1/m */
     double sharpest, flattest; /* rigid: largest and least curvature of its nodes, 1/m */
     double mean_weight;        /* rigid: mean stiffness per area of its nodes over that of the sharpest, 1 */
     bool is_edged;             /* rigid: some nodes lie on edges or corners */
-    double travel;    /* bound of the path of any of its points so far, m */
+    double travel;             /* bound of the path of any of its points so far, m */
     double *previous; /* shape [n_particles, 3] of an elastic body, else [12]: where it was at the last look, m and 1 */
     bool is_seen;     /* previous is valid */
     mor_tree tree;    /* of an elastic body's particles */
@@ -58,19 +58,20 @@ typedef struct mor_contact_near {
 
 /** One node against one body or wall. */
 typedef struct mor_contact_touch {
-    int near;          /* index in the list of near pairs */
-    int side;          /* 0: node of the first; 1: of the second */
-    int64_t node;      /* in its group */
-    double gap;        /* of the node; negative: depth, m */
+    int near;                          /* index in the list of near pairs */
+    int side;                          /* 0: node of the first; 1: of the second */
+    int64_t node;                      /* in its group */
+    double gap;                        /* of the node; negative: depth, m */
     double curvature, other_curvature; /* of the node's surface and of the other one there, 1/m */
-    double depth;      /* deepest point of the surface around the node, m; 0: no touch */
-    double mean_depth, mean_square; /* of the depth over the area of the node, m and m2 */
-    double place[3];   /* m */
-    double normal[3];  /* out of the partner, 1 */
-    double slip[3];    /* velocity of the node minus that of the partner's surface, m/s */
-    double stiffness;  /* tangential, and normal before softening but for share, N/m (N/m2) */
-    double share;      /* normal stiffness before softening over the tangential one, 1 */
-    int support_count; /* particles of an elastic partner */
+    double depth;                      /* deepest point of the surface around the node, m; 0: no touch */
+    double mean_depth;                 /* over the area of the node, m */
+    double mean_square;                /* of the depth over that area, m2 */
+    double place[3];                   /* m */
+    double normal[3];                  /* out of the partner, 1 */
+    double slip[3];                    /* velocity of the node minus that of the partner's surface, m/s */
+    double stiffness;                  /* tangential, and normal before softening but for share, N/m (N/m2) */
+    double share;                      /* normal stiffness before softening over the tangential one, 1 */
+    int support_count;                 /* particles of an elastic partner */
 } mor_contact_touch;
 
 /** How deep two surfaces lie in one another. */
@@ -117,10 +118,10 @@ typedef struct mor_contact_work {
     double group_spring[MOR_BODY_GROUPS_MAX];  /* spring energy, J (J/m) */
     double group_deepest[MOR_BODY_GROUPS_MAX]; /* m */
     mor_contact_depth group_worst[MOR_BODY_GROUPS_MAX]; /* the deepest for its limit */
-    mor_contact_depth driven; /* deepest so far of sides that no force moves */
-    bool is_driven_told;      /* has been warned of */
-    double *wall_force;                        /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3], N (N/m) */
-    int field_partners, field_springs;         /* of the history */
+    mor_contact_depth driven;                           /* deepest so far of sides that no force moves */
+    bool is_driven_told;                                /* has been warned of */
+    double *wall_force;                                 /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3], N (N/m) */
+    int field_partners, field_springs;                  /* of the history */
 } mor_contact_work;
 
 /** Index of a pair of bodies, first < second; or of a body and wall second - n_bodies.
@@ -165,8 +166,8 @@ bool mor_contact_is_hertzian(const mor_contact *contact, int first, int second);
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 double mor_contact_pair_modulus(const mor_contact *contact, int first, int second);
 
-/** Stiffness of a pair per area. With an elastic side: harmonic mean of contact modulus over spacing; against a wall the
- *  body's own. Rigid: that of the node where the surface is most curved, before the contact is wider than a node.
+/** Stiffness of a pair per area. With an elastic side: harmonic mean of contact modulus over spacing; against a wall
+ *  the body's own. Rigid: that of the node where the surface is most curved, before the contact is wider than a node.
  *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall

@@ -267,8 +267,8 @@ static mor_status mention_modulus(const mor_case_writer *w, const mor_case *the_
     const int at = mor_case_key_find(mor_case_body_group.keys, "contact_modulus");
     const double modulus = mor_case_contact_modulus(the_case, body);
     char value[MOR_CASE_VALUE_BYTES];
-    MOR_TRY(w->reader.context, mor_case_writer_numbers(w, &mor_case_body_group.keys[at].schema, false, &modulus, 1,
-                                                       value, sizeof value));
+    MOR_TRY(w->reader.context,
+            mor_case_writer_numbers(w, &mor_case_body_group.keys[at].schema, false, &modulus, 1, value, sizeof value));
     fprintf(w->stream, "%*s# contact_modulus used: %s\n", w->depth * MOR_CASE_INDENT, "", value);
     return MOR_OK;
 }

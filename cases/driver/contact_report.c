@@ -37,8 +37,9 @@ void mor_contact_report_print(const mor_case *the_case, FILE *out)
         }
         int n_same = 1;
         for (int m = k + 1; m < the_case->n_bodies; ++m) {
-            n_same += mor_case_body_is_rigid(&the_case->bodies[m]) && is_told(the_case, m) &&
-                      mor_case_contact_modulus(the_case, &the_case->bodies[m]) == mor_case_contact_modulus(the_case, it);
+            n_same +=
+                mor_case_body_is_rigid(&the_case->bodies[m]) && is_told(the_case, m) &&
+                mor_case_contact_modulus(the_case, &the_case->bodies[m]) == mor_case_contact_modulus(the_case, it);
         }
         fprintf(out, "  contact stiffness       '%s'", it->name);
         if (n_same > 1) {

@@ -159,7 +159,8 @@ static void oblique_balls_part_along_their_line_as_restitution_says(void **state
     for (int option = 0; option < 8; ++option) {
         const double restitution = option / 2 % 2 == 0 ? 1.0 : 0.5;
         const double friction = option / 4 == 0 ? 0.05 : 0.5; /* slides throughout, sticks part of the time */
-        const outcome o = meet(&(meeting){kinds[option % 2], 3, restitution, friction, 1.0, kinds[option % 2] == MOR_BODY_RIGID ? 1.0e9 : 1.0e7});
+        const outcome o = meet(&(meeting){kinds[option % 2], 3, restitution, friction, 1.0,
+                                          kinds[option % 2] == MOR_BODY_RIGID ? 1.0e9 : 1.0e7});
         expect_momenta_kept(&o);
         contact_scene_expect("rebound", o.rebound, restitution,
                              0.03 * restitution); /* required; 0.63 % at most was measured */
@@ -178,7 +179,7 @@ static void frictionless_undamped_contact_gives_back_the_energy(void **state)
         const outcome o = meet(&(meeting){kinds[option % 2], 2 + option / 2, 1.0, 0.0, 1.0, 1.0e8});
         expect_momenta_kept(&o);
         contact_scene_expect("energy after / before", o.energy_after / o.energy_before, 1.0,
-                             kinds[option % 2] == MOR_BODY_RIGID ? 2.0e-3   /* thirty steps an impact, windows of 8 nodes
+                             kinds[option % 2] == MOR_BODY_RIGID ? 2.0e-3 /* thirty steps an impact, windows of 8 nodes
                                                                    a radius; 1.4e-3 (discs, 300 MPa) measured */
                                                                  : 5.0e-3); /* the fit; 2.6e-3 (discs) measured */
     }

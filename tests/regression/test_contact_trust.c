@@ -1,0 +1,147 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Forces of contacts that may be reported come from the bodies, and surfaces do not pass through each other without a
+ * word. */
+#include "tests/common/finished_run.h"
+#include "tests/common/program.h"
+
+#include <math.h>
+
+/* A ball of 1.5 m that hits a post at 10 m/s; what follows the shape is left open. */
+#define POST                                                                                                           \
+    "title = 'ball on a post'; dimension = 3; spacing = '0.15 m'; end = '20 ms'; gravity = (0, 0, '-9.81 m/s2');"      \
+    "domain = { min = (-3, -3, 0); max = (3, 3, 8); };"                                                                \
+    "walls = ( { name = 'post'; shape = { type = 'box'; min = (0, -0.5, 0); max = (1, 0.5, 3); }; } );"                \
+    "bodies = ( { name = 'ball'; shape = { type = 'sphere'; center = (0, 0, 0); radius = '0.75 m'; };"                 \
+    "    position = ('-0.755 m', 0, 1.5); velocity = ('10 m/s', 0, 0); motion = 'free';"                               \
+    "    material = { model = 'rigid'; density = '2600 kg/m3'; }; } );"                                                \
+    "contact = { friction_coefficient = 0.0; restitution = 1.0; };"                                                    \
+    "probes = ( { name = 'push'; type = 'wall_contact_force'; wall = 'post'; direction = (1, 0, 0); } );"              \
+    "output = { snapshots = 1; series_interval = '1 us'; pictures = false; };"
+
+/* Runs the case above with settings up to a NULL; the exit code must be as expected. */
+static program_outcome run_post(run_folder *folder, const char *name, const char *const *settings, int exit_code)
+{
+    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
+    const char *words[PROGRAM_ARGUMENTS_MAX] = {"run", path, "-o", results, "-t", "1"};
+    int n = 6;
+    finished_run_store_text(folder, POST, path);
+    run_folder_file(folder, results, name);
+    for (int k = 0; settings[k] != NULL; ++k) {
+        words[n++] = "--set";
+        words[n++] = settings[k];
+    }
+    words[n] = NULL;
+    return program_run(folder, words, exit_code);
+}
+
+/* Largest value of the last column of the series of a run. */
+static double find_peak(run_folder *folder, const char *name)
+{
+    char path[MOR_PATH_BYTES];
+    char line[1024];
+    double peak = -INFINITY;
+    FILE *file = fopen(finished_run_file(folder, path, name, "series.csv"), "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file) != NULL) {
+        const char *last = strrchr(line, ',');
+        char *end = NULL;
+        const double value = last != NULL ? strtod(last + 1, &end) : NAN;
+        peak = end != last + 1 && value > peak ? value : peak;
+    }
+    fclose(file);
+    return peak;
+}
+
+static void the_domain_does_not_change_the_force_of_an_impact(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const tops[] = {"domain.max=(3, 3, 3)", "domain.max=(3, 3, 8)", "domain.max=(3, 3, 50)",
+                                       "domain.max=(30, 30, 200)"};
+    double first = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        char name[16];
+        snprintf(name, sizeof name, "top%d", k);
+        program_outcome outcome = run_post(folder, name, (const char *[]){tops[k], NULL}, 0);
+        const double peak = find_peak(folder, name);
+        first = k == 0 ? peak : first;
+        assert_true(peak == first && peak > 0.0); /* exact: nothing that is computed changes */
+        program_clear(&outcome);
+    }
+}
+
+/* Johnson (1985) section 11.4: d = (15 m v^2 / (16 E sqrt R))^(2/5), F = 4/3 E sqrt(R) d^(3/2). */
+static void the_force_of_an_impact_follows_from_the_moduli_of_both_sides(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const settings[][4] = {
+        {"bodies[0].contact_modulus=50 GPa", NULL},
+        {"bodies[0].contact_modulus=50 GPa", "walls[0].contact_modulus=30 GPa", NULL},
+    };
+    const double mass = 2600.0 * 4.0 / 3.0 * 3.14159265358979 * 0.75 * 0.75 * 0.75;
+    const double share = 1.0 - 0.25 * 0.25;
+    const double compliances[2] = {share / 50e9, share / 50e9 + share / 30e9};
+    for (int k = 0; k < 2; ++k) {
+        char name[16];
+        snprintf(name, sizeof name, "moduli%d", k);
+        program_outcome outcome = run_post(folder, name, settings[k], 0);
+        const double modulus = 1.0 / compliances[k];
+        const double depth = pow(15.0 * mass * 100.0 / (16.0 * modulus * sqrt(0.75)), 0.4);
+        const double force = 4.0 / 3.0 * modulus * sqrt(0.75) * pow(depth, 1.5);
+        const double peak = find_peak(folder, name);
+        if (!(fabs(peak / force - 1.0) < 0.05)) { /* five nodes a radius; under 2 % measured */
+            fail_msg("peak %.4g N, Hertz %.4g N", peak, force);
+        }
+        program_clear(&outcome);
+    }
+}
+
+static void surfaces_that_pass_through_each_other_stop_the_run(void **state)
+{
+    run_folder *folder = *state;
+    program_outcome outcome =
+        run_post(folder, "soft", (const char *[]){"bodies[0].contact_modulus=2 MPa", "end=0.1 s", NULL}, 1);
+    program_expect_text(outcome.errors, "warning: body 'ball' lies");
+    program_expect_text(outcome.errors, "deep in wall 'post'");
+    program_expect_text(outcome.errors, "raise contact_modulus");
+    program_clear(&outcome);
+}
+
+static void a_body_that_is_driven_into_a_wall_is_warned_of(void **state)
+{
+    run_folder *folder = *state;
+    program_outcome outcome = run_post(folder, "driven", (const char *[]){"bodies[0].motion=\"prescribed\"", NULL}, 0);
+    program_expect_text(outcome.errors, "body 'ball' is driven");
+    assert_true(find_peak(folder, "driven") == 0.0); /* exact: no force moves either */
+    program_clear(&outcome);
+}
+
+static void a_stiffness_that_was_chosen_is_told(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, POST, path);
+    program_outcome chosen = program_run(folder, (const char *[]){"explain", path, "-t", "1", NULL}, 0);
+    program_expect_text(chosen.output, "Young's modulus 2.6e+09 Pa, Poisson's ratio 0.25 (chosen for speed");
+    program_clear(&chosen);
+    program_outcome given = program_run(
+        folder, (const char *[]){"explain", path, "-t", "1", "-s", "bodies[0].contact_modulus=50 GPa", NULL}, 0);
+    program_expect_text(given.output, "Young's modulus 5e+10 Pa, Poisson's ratio 0.25 (as given)");
+    program_clear(&given);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(the_domain_does_not_change_the_force_of_an_impact, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(the_force_of_an_impact_follows_from_the_moduli_of_both_sides, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(surfaces_that_pass_through_each_other_stop_the_run, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_body_that_is_driven_into_a_wall_is_warned_of, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_stiffness_that_was_chosen_is_told, run_folder_setup, run_folder_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
