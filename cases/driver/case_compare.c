@@ -13,8 +13,6 @@
 /* Mark of a value that the case file did not give. */
 #define DEFAULT_MARK " # default"
 
-/* Words of a default that follows from the domain, see case_schema_body.c. */
-#define DOMAIN_MARK "fall through the domain (default)"
 /* Over before a run begins; its default follows the end. */
 #define SETTLE_TIME ".settle_time"
 
@@ -265,19 +263,6 @@ static bool compare_domain(const char *given, const char *saved, walk *one, walk
     return false;
 }
 
-/* A default that is taken from the domain would change with it, in the middle of a run. */
-static bool compare_default(const char *given, const char *saved, mor_case_difference *it)
-{
-    if (strstr(saved, DOMAIN_MARK) == NULL || !mor_case_compare_domains(given, saved)) {
-        return false;
-    }
-    *it = (mor_case_difference){.is_found = true,
-                                .reason = "; contacts without a contact_modulus of their own take it from the domain"};
-    snprintf(it->found, sizeof it->found, "another domain");
-    snprintf(it->expected, sizeof it->expected, "the domain that contact_modulus was chosen for");
-    return true;
-}
-
 /* Walks over both cases side by side. */
 static void compare_fixed(const char *given, const char *saved, int n_probes, walk *one, walk *other,
                           mor_case_difference *it)
@@ -313,7 +298,7 @@ void mor_case_compare(const char *given, const char *saved, mor_case_difference 
         const int n_given = count_probes(given, &has_audit);
         compare_fixed(given, saved, n_probes, one, other, difference);
         if (!difference->is_found && !compare_domain(given, saved, one, other, difference) &&
-            !compare_default(given, saved, difference) && has_audit && !had_audit) {
+            has_audit && !had_audit) {
             *difference = (mor_case_difference){.is_found = true,
                                                 .reason = "; what becomes of energy is followed from the start or not "
                                                           "at all, so that such a probe cannot be added later"};

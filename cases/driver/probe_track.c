@@ -3,6 +3,7 @@
 #include "cases/driver/probe_track.h"
 
 #include "cases/driver/case_schema.h"
+#include "cases/driver/contact_report.h"
 #include "cases/driver/probe_measure.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -267,10 +268,15 @@ void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_
     };
 }
 
+#define LATE_REMARK                                                                                                    \
+    "bodies with clocks of their own pressed on the wall at once: in its maximum and minimum the force of some of "    \
+    "them is up to one common step old"
+
 const char *mor_probe_remark(const mor_simulation *simulation, int probe)
 {
-    return simulation->probes.records[probe][MOR_PROBE_RECORD_LATE] > 0.0
-               ? "bodies with clocks of their own pressed on the wall at once: in its maximum and minimum the force of "
-                 "some of them is up to one common step old"
-               : NULL;
+    const bool is_late = simulation->probes.records[probe][MOR_PROBE_RECORD_LATE] > 0.0;
+    if (mor_contact_report_depends_on_choice(simulation->the_case, probe)) {
+        return is_late ? MOR_CONTACT_REPORT_CHOICE "; " LATE_REMARK : MOR_CONTACT_REPORT_CHOICE;
+    }
+    return is_late ? LATE_REMARK : NULL;
 }
