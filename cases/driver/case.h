@@ -72,11 +72,11 @@ typedef struct mor_case_ground {
     double offset[3];               /* subtracted from the raster's coordinates and heights, m; NaN: chosen */
     bool fills_no_data;
     bool extends_edge; /* the ground goes on level beyond the raster, as far as the domain reaches */
-    double thickness; /* of the ground below its lowest point, or of a release, m */
-    double rim;       /* of a release, m */
-    double size[2];   /* of a post along x and y, m */
-    double height;    /* of posts above the ground at their middle, m; NaN: top is given */
-    double top;       /* height of the tops of all posts, m; NaN: height is given */
+    double thickness;  /* of the ground below its lowest point, or of a release, m */
+    double rim;        /* of a release, m */
+    double size[2];    /* of a post along x and y, m */
+    double height;     /* of posts above the ground at their middle, m; NaN: top is given */
+    double top;        /* height of the tops of all posts, m; NaN: height is given */
 } mor_case_ground;
 
 /** A rock from a file, or drawn at random. At most one of the sizes is given; the others are NaN. */
@@ -168,13 +168,15 @@ typedef enum mor_case_particles {
 typedef struct mor_case_body {
     char name[MOR_CASE_NAME_BYTES];
     mor_case_place place;
-    mor_shape *shape;                           /* in the body's own frame; owned by the case */
-    mor_case_shape outline;                     /* what shape was built from; owned by the case */
-    double position[3];                         /* of the origin of the body's frame, m */
-    double axis[3];                             /* of the turn of the body's frame, any length but zero, 1 */
-    double angle;                               /* of that turn, rad */
-    double velocity[3];                         /* of the center of mass, m/s */
-    double angular_velocity[3];                 /* about the center of mass, rad/s */
+    mor_shape *shape;           /* in the body's own frame; owned by the case */
+    mor_case_shape outline;     /* what shape was built from; owned by the case */
+    double position[3];         /* of the origin of the body's frame, m */
+    double height_over_ground;  /* least distance from walls and soil, found by moving it along gravity, m; NaN: where
+                                * position says */
+    double axis[3];             /* of the turn of the body's frame, any length but zero, 1 */
+    double angle;               /* of that turn, rad */
+    double velocity[3];         /* of the center of mass, m/s */
+    double angular_velocity[3]; /* about the center of mass, rad/s */
     char model[MOR_CASE_NAME_BYTES];            /* "rigid", or a model in total form */
     double density;                             /* kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI; not of "rigid" */

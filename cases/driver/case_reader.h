@@ -254,4 +254,11 @@ mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_n
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
+/** Places a body that is to have a height over the ground: changes its position along gravity alone.
+ *  @param reader   [in]      one object
+ *  @param the_case [in]      one object; its walls, soil, domain and gravity are read
+ *  @param body     [in,out]  one object, whole
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when there is no ground below it; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_height(const mor_case_reader *reader, const mor_case *the_case, mor_case_body *body);
+
 #endif

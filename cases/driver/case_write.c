@@ -208,7 +208,9 @@ static mor_case_presence judge_body(const mor_case_key *key, const void *record)
 {
     const mor_case_body *body = record;
     const char *name = key->schema.key;
-    if (strcmp(name, "contact_modulus") == 0 && isnan(body->contact_modulus)) {
+    const bool is_open = (strcmp(name, "contact_modulus") == 0 && isnan(body->contact_modulus)) ||
+                         (strcmp(name, "height_over_ground") == 0 && isnan(body->height_over_ground));
+    if (is_open) {
         return MOR_CASE_MENTION;
     }
     const bool is_idle =
