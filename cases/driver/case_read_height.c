@@ -11,10 +11,10 @@
 #include <string.h>
 
 enum {
-    ACROSS = 24,      /* samples across a body */
-    PROJECTIONS = 8,  /* steps of a sample to the surface */
-    REFINEMENTS = 40, /* halvings of the way around the nearest sample */
-    DESCENTS = 4000   /* steps down to the ground, at most */
+    ACROSS = 24,       /* samples across a body */
+    PROJECTIONS = 8,   /* steps of a sample to the surface */
+    REFINEMENTS = 120, /* halvings of the way around the nearest sample */
+    DESCENTS = 4000    /* steps down to the ground, at most */
 };
 
 /* What is left of a height that counts as reached, over the size of the body. */

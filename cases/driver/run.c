@@ -201,6 +201,27 @@ static void warn_of_outflow(mor_context *context, const mor_simulation *s)
     }
 }
 
+/* Energies that do not add up say that forces were wrong, whatever else looks right. */
+static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 0.05;
+    for (int k = 0; k < s->the_case->n_probes; ++k) {
+        const char *type = s->the_case->probes[k].type;
+        double value = 1.0;
+        if (strcmp(type, "energy_balance") != 0) {
+            continue;
+        }
+        MOR_TRY(context, mor_probe_evaluate(context, s, k, &value));
+        if (!(fabs(value - 1.0) <= advisable)) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "the energies of the run do not add up: '%s' is %.4g, not 1 within %g; do not report its "
+                            "results before a smaller numerics.courant or spacing has mended that",
+                            s->the_case->probes[k].name, value, advisable);
+        }
+    }
+    return MOR_OK;
+}
+
 /* Particles, steps and speed of a run that has reached its end. */
 static void print_end(const mor_run_files *files, const pace *p, double speed)
 {
@@ -254,6 +275,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     }
     print_end(files, p, speed);
     warn_of_outflow(context, s);
+    MOR_TRY(context, warn_of_energy(context, s));
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
     fflush(options->output); /* a signal may end the program while it draws */
     if (mor_stop_is_requested(options->stop)) {

@@ -6,17 +6,17 @@
 /* Statistics of probes against closed forms of a collision and against what solvers add up themselves. */
 
 static const double density = 2400.0;
-static const double side = 0.4;
+static const double radius = 0.2;
 static const double speed = 1.0;
 
 #define SCENE                                                                                                          \
-    "dimension = 2; spacing = '0.05 m'; end = '0.2 s'; gravity = (0, 0, 0);"                                           \
+    "dimension = 2; spacing = '0.025 m'; end = '0.2 s'; gravity = (0, 0, 0);"                                          \
     "domain = { min = (-8, -8, -1); max = (8, 8, 1); };"                                                               \
     "contact = { friction_coefficient = 0; restitution = 1; };"
 
 #define BOX(name, place)                                                                                               \
-    "{ name = '" name "'; shape = { type = 'box'; min = (-0.2, -0.2); max = (0.2, 0.2); }; " place                     \
-    "  contact_modulus = '1 MPa'; material = { model = 'rigid'; density = 2400; }; }"
+    "{ name = '" name "'; shape = { type = 'sphere'; center = (0, 0); radius = 0.2; }; " place                         \
+    "  contact_modulus = '10 MPa'; material = { model = 'rigid'; density = 2400; }; }"
 
 #define FLOOR "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"
 
@@ -28,7 +28,7 @@ static const char bouncing[] = SCENE FLOOR "bodies = (" BOX(
                                                         "'floor'; direction = (0, 1); },"
                                                         "  { name = 'half'; type = 'body_force_contact'; body = 'box'; "
                                                         "direction = (0, 1);"
-                                                        "    window = (0, '0.0602617 s'); },"
+                                                        "    window = (0, '0.0594248 s'); },"
                                                         "  { name = 'after'; type = 'wall_contact_force'; wall = "
                                                         "'floor'; direction = (0, 1);"
                                                         "    window = ('0.15 s', '0.2 s'); },"
@@ -57,17 +57,22 @@ static mor_probe_statistics find(const scene *it, const char *name)
     return found;
 }
 
-/* Stiffness of the face of a box: per area modulus / spacing; the corners carry half a cell of the sides, too. */
+static double find_mass(void)
+{
+    return density * MOR_PI * radius * radius;
+}
+
+/* Stiffness of a disc on a floor, docs/theory/contact.md: pi/4 of the modulus over 1 - nu^2. */
 static double find_stiffness(void)
 {
-    return 1.0e6 / 0.05 * (side + 0.05);
+    return 0.25 * MOR_PI * 1.0e7 / (1.0 - 0.25 * 0.25);
 }
 
 /* Half a swing on a linear spring: from t = 0.05 s on for pi sqrt(m / k), the peak v sqrt(k m) in its middle. */
 static void peak_of_a_bounce_is_that_of_a_linear_spring(void **state)
 {
     (void)state;
-    const double mass = density * side * side;
+    const double mass = find_mass();
     const double peak = speed * sqrt(find_stiffness() * mass);
     const double middle = 0.05 / speed + 0.5 * MOR_PI * sqrt(mass / find_stiffness());
     const double change = 2.0 * mass * speed;
@@ -75,17 +80,17 @@ static void peak_of_a_bounce_is_that_of_a_linear_spring(void **state)
     scene_advance(it, 0.2);
     const mor_probe_statistics box = find(it, "box");
     const mor_probe_statistics wall = find(it, "floor");
-    scene_expect_near("peak", box.maximum, peak, 0.01 * peak); /* steps of a thirtieth of the swing, and corners */
-    scene_expect_near("time of the peak", box.time_of_maximum, middle, it->simulation.schedule.step_length);
+    scene_expect_near("peak", box.maximum, peak, 0.02 * peak); /* steps of a thirtieth of the swing, sums over nodes */
+    scene_expect_near("time of the peak", box.time_of_maximum, middle, 0.03 * (middle - 0.05));
     scene_expect_near("minimum", box.minimum, 0.0, 1e-12 * peak);
     scene_expect_near("wall", wall.minimum, -box.maximum, 1e-12 * peak);
     assert_true(wall.time_of_minimum == box.time_of_maximum);
-    scene_expect_near("depth", find(it, "depth").maximum, peak / find_stiffness(), 0.01 * peak / find_stiffness());
+    scene_expect_near("depth", find(it, "depth").maximum, peak / find_stiffness(), 0.02 * peak / find_stiffness());
     assert_true(scene_probe(it, "box") == 0.0);                     /* all over at the end */
     scene_expect_near("speed", find(it, "v").maximum, speed, 1e-3); /* restitution 1: error of the step */
-    scene_expect_near("lowest", find(it, "y").minimum, 0.2 - peak / find_stiffness(), 1e-3 * side);
+    scene_expect_near("lowest", find(it, "y").minimum, radius - peak / find_stiffness(), 1e-3 * radius);
     /* Exact but for rounding: an impulse is the change of a momentum. */
-    const double given = mass * (scene_probe(it, "v") + speed);
+    const double given = it->simulation.bodies.groups[0]->bodies[0].mass * (scene_probe(it, "v") + speed);
     scene_expect_near("impulse", box.impulse, given, 1e-12 * change);
     scene_expect_near("impulse of the wall", wall.impulse, -given, 1e-12 * change);
     scene_expect_near("mean", box.mean, given / 0.2, 1e-12 * change / 0.2);
@@ -97,12 +102,12 @@ static void peak_of_a_bounce_is_that_of_a_linear_spring(void **state)
 static void window_cuts_statistics(void **state)
 {
     (void)state;
-    const double change = 2.0 * density * side * side * speed;
+    const double change = 2.0 * find_mass() * speed;
     scene *it = make(bouncing);
     scene_advance(it, 0.2);
     const mor_probe_statistics half = find(it, "half");
     const mor_probe_statistics after = find(it, "after");
-    scene_expect_near("half", half.impulse, 0.5 * change, 0.02 * change); /* up to the middle, within half a step */
+    scene_expect_near("half", half.impulse, 0.5 * change, 0.04 * change); /* up to the middle, within half a step */
     assert_true(after.impulse == 0.0 && after.maximum == 0.0 && after.minimum == 0.0 && after.mean == 0.0);
     assert_true(after.n_measured > 1.0 && after.n_measured < find(it, "floor").n_measured);
     scene_free(it);
@@ -116,8 +121,8 @@ static const char sub_steps[] =
     "soil = ( { name = 'sand'; shape = { type = 'box'; min = (-4, 2); max = (-3, 3); };"
     "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '10 kPa'; poissons_ratio = 0.3;"
     "    friction_angle = '30 deg'; cohesion = '1 kPa'; }; } );" FLOOR
-    "bodies = ( { name = 'box'; shape = { type = 'box'; min = (-0.2, -0.2); max = (0.2, 0.2); };"
-    "  position = (0, 0.25); velocity = (0, -1); contact_modulus = '30 MPa';"
+    "bodies = ( { name = 'box'; shape = { type = 'sphere'; center = (0, 0); radius = 0.2; };"
+    "  position = (0, 0.25); velocity = (0, -1); contact_modulus = '300 MPa';"
     "  material = { model = 'rigid'; density = 2400; }; } );"
     "probes = ( { name = 'box'; type = 'body_force_contact'; body = 'box'; direction = (0, 1); },"
     "  { name = 'floor'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, 1); },"
@@ -127,7 +132,7 @@ static const char sub_steps[] =
 static void peak_within_one_step_of_the_soil_is_found(void **state)
 {
     (void)state;
-    const double mass = density * side * side;
+    const double mass = find_mass();
     const double stiffness = 30.0 * find_stiffness();
     const double peak = speed * sqrt(stiffness * mass);
     scene *it = make(sub_steps);
@@ -141,14 +146,14 @@ static void peak_within_one_step_of_the_soil_is_found(void **state)
         ratio = mor_schedule_rate_ratio(schedule) > ratio ? mor_schedule_rate_ratio(schedule) : ratio;
     }
     const mor_probe_statistics box = find(it, "box");
-    const double given = mass * (scene_probe(it, "v") + speed);
+    const double given = it->simulation.bodies.groups[0]->bodies[0].mass * (scene_probe(it, "v") + speed);
     assert_true(ratio > 10);
     assert_true(seen < 0.9 * peak); /* at the ends of the soil's steps, that is all there is to see */
-    scene_expect_near("peak", box.maximum, peak, 0.02 * peak); /* sub-steps, and corners */
+    scene_expect_near("peak", box.maximum, peak, 0.04 * peak); /* four nodes a radius */
     scene_expect_near("wall", find(it, "floor").minimum, -box.maximum, 1e-12 * peak);
     scene_expect_near("impulse", box.impulse, given, 1e-11 * given);
     scene_expect_near("impulse of the wall", find(it, "floor").impulse, -given, 1e-11 * given);
-    scene_expect_near("depth", find(it, "depth").maximum, peak / stiffness, 0.02 * peak / stiffness);
+    scene_expect_near("depth", find(it, "depth").maximum, peak / stiffness, 0.04 * peak / stiffness);
     assert_true(mor_probe_remark(&it->simulation, 1) == NULL); /* one clock of bodies */
     scene_free(it);
 }
