@@ -26,15 +26,23 @@ static void normalize(int dimension, double *vector)
     }
 }
 
+/* A point in the frame of a wall's shape. */
+static void find_wall_place(const mor_contact *contact, const mor_contact_wall *wall, const double *point,
+                            double *place)
+{
+    double offset[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = point[a] - wall->velocity[a] * contact->time - wall->move[a];
+    }
+    mor_matrix_apply_transposed(wall->turn, offset, place);
+}
+
 static void look_at_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
                          double reach, mor_contact_touch *touch)
 {
     const mor_body_group *group = contact->work->bodies[near->first].group;
-    double offset[3], place[3], normal[3];
-    for (int a = 0; a < 3; ++a) {
-        offset[a] = touch->place[a] - wall->velocity[a] * contact->time - wall->move[a];
-    }
-    mor_matrix_apply_transposed(wall->turn, offset, place);
+    double place[3], normal[3];
+    find_wall_place(contact, wall, touch->place, place);
     touch->gap = mor_shape_distance(wall->shape, place);
     if (touch->gap < reach) {
         mor_shape_normal(wall->shape, place, NORMAL_STEP * group->spacing, normal);
@@ -61,24 +69,55 @@ static double reference_gap(const mor_body_group *group, const mor_body *body, c
     return gap;
 }
 
-static void look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,
-                          double reach, mor_contact_touch *touch)
+/* Where a point now was in the reference configuration of a rigid body. */
+static void find_reference(const mor_body *body, const double *point, double *reference)
 {
-    const mor_body *body = &partner->group->bodies[partner->body];
-    double offset[3], reference[3], normal[3];
+    double offset[3];
     for (int a = 0; a < 3; ++a) {
-        offset[a] = touch->place[a] - body->center[a];
+        offset[a] = point[a] - body->center[a];
     }
     mor_matrix_apply_transposed(body->turn, offset, reference);
     for (int a = 0; a < 3; ++a) {
         reference[a] += body->geometry.center[a];
     }
+}
+
+double mor_contact_gap(const mor_contact *contact, int other, const double *point)
+{
+    double reference[3];
+    if (other < contact->work->n_bodies) {
+        const mor_contact_body *partner = &contact->work->bodies[other];
+        const mor_body *body = &partner->group->bodies[partner->body];
+        find_reference(body, point, reference);
+        return reference_gap(partner->group, body, reference, NULL);
+    }
+    find_wall_place(contact, &contact->walls[other - contact->work->n_bodies], point, reference);
+    return mor_shape_distance(contact->walls[other - contact->work->n_bodies].shape, reference);
+}
+
+/* Curvature of a body at a point of the reference configuration, 1/m. */
+static double body_curvature(const mor_body_group *group, const mor_body *body, const double *reference)
+{
+    double offset[3], place[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = reference[a] - body->shape_move[a];
+    }
+    mor_matrix_apply_transposed(body->shape_turn, offset, place);
+    return mor_contact_curvature(body->shape, group->dimension, place, group->spacing);
+}
+
+static void look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,
+                          double reach, mor_contact_touch *touch)
+{
+    const mor_body *body = &partner->group->bodies[partner->body];
+    double reference[3], normal[3];
+    find_reference(body, touch->place, reference);
     touch->gap = reference_gap(partner->group, body, reference, NULL);
     if (touch->gap < reach) {
         reference_gap(partner->group, body, reference, normal);
         mor_matrix_apply(body->turn, normal, touch->normal);
         normalize(partner->group->dimension, touch->normal);
-        mor_contact_meet(contact, near, touch, 0.0);
+        mor_contact_meet(contact, near, touch, body_curvature(partner->group, body, reference));
     }
 }
 

@@ -24,8 +24,10 @@
 /* Step of the differences that give a curvature, spacings. */
 #define CURVATURE_STEP 1.0
 
-/* A node is on an edge where the level set rises by less than this share of the way, over a spacing to both sides. */
-#define SMOOTH_SLOPE 0.95
+/* The surface around a node is followed only if no edge is within this reach, spacings: there the gradient of the level
+ * set over the reach differs from the one on the spot by no more than this, 1. */
+#define EDGE_REACH 1.5
+#define EDGE_DIFFERENCE 0.05
 
 /* The surface around a node is resolved to a quarter of its length, contact_window.c. */
 #define FINENESS 4.0
@@ -203,10 +205,11 @@ void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, 
     }
     const double own = work->curvatures[work->first_node[c->group_index] + touch->node];
     const double usual = own + usual_curvature(contact, other);
-    const double here = other < work->n_bodies ? usual : own + curvature;
+    /* Of a body the usual one: stiffness must not change as nodes slide, or their forces were no gradient. */
+    const double felt = other < work->n_bodies ? usual : own + curvature;
     touch->curvature = own;
-    touch->other_curvature = here - own;
-    touch->share = weigh(contact, near->first, near->second, here) / weigh(contact, near->first, near->second, usual) /
+    touch->other_curvature = curvature;
+    touch->share = weigh(contact, near->first, near->second, felt) / weigh(contact, near->first, near->second, usual) /
                    reference_softening(contact, near->first, near->second);
 }
 
@@ -282,25 +285,36 @@ static int compare_numbers(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* Rise of the level set over a spacing to both sides of a node, 1; its direction is the normal, in the reference
- * configuration. */
-static double find_slope(const mor_body *body, int dimension, const double *place, double spacing, double *normal)
+/* Gradient of the level set by central differences, in the frame of the shape. */
+static void find_gradient(const mor_shape *shape, int dimension, const double *place, double step, double *gradient)
 {
-    double gradient[3] = {0.0, 0.0, 0.0};
+    gradient[2] = 0.0;
     for (int a = 0; a < dimension; ++a) {
         double before[3] = {place[0], place[1], place[2]};
         double behind[3] = {place[0], place[1], place[2]};
-        before[a] -= spacing;
-        behind[a] += spacing;
-        gradient[a] =
-            0.5 * (mor_shape_distance(body->shape, behind) - mor_shape_distance(body->shape, before)) / spacing;
+        before[a] -= step;
+        behind[a] += step;
+        gradient[a] = 0.5 * (mor_shape_distance(shape, behind) - mor_shape_distance(shape, before)) / step;
     }
-    const double slope = mor_vector_length(gradient);
-    for (int a = 0; a < 3 && slope > 0.0; ++a) {
-        gradient[a] /= slope;
+}
+
+/* Normal of the surface at a node, in the reference configuration. Returns whether the surface goes on as it curves there
+ * as far as a window reaches: the gradient over that reach is the one on the spot, unless an edge is near. */
+static bool look_at_surface(const mor_body *body, int dimension, const double *place, double spacing, double *normal)
+{
+    double near[3], far[3];
+    double difference2 = 0.0;
+    find_gradient(body->shape, dimension, place, 0.125 * spacing, near);
+    find_gradient(body->shape, dimension, place, EDGE_REACH * spacing, far);
+    for (int a = 0; a < dimension; ++a) {
+        difference2 += (far[a] - near[a]) * (far[a] - near[a]);
     }
-    mor_matrix_apply(body->shape_turn, gradient, normal);
-    return slope;
+    const double slope = mor_vector_length(near);
+    for (int a = 0; a < 3; ++a) {
+        near[a] /= slope > 0.0 ? slope : 1.0;
+    }
+    mor_matrix_apply(body->shape_turn, near, normal);
+    return slope > 1.0 - EDGE_DIFFERENCE && difference2 < EDGE_DIFFERENCE * EDGE_DIFFERENCE;
 }
 
 /* Curvatures of one rigid body: at each node, and what of them its pairs need. Scratch, shape [n_nodes]. */
@@ -327,9 +341,9 @@ static void measure_rigid(mor_contact *contact, mor_contact_body *c, double *scr
         }
         mor_matrix_apply_transposed(body->shape_turn, offset, place);
         const double found = mor_contact_curvature(body->shape, group->dimension, place, group->spacing);
-        const double slope = find_slope(body, group->dimension, place, group->spacing, normals + 3 * k);
+        const bool goes_on = look_at_surface(body, group->dimension, place, group->spacing, normals + 3 * k);
         curvatures[k] = fmin(fmax(found, 0.0), sharpest);
-        is_smooth[k] = slope >= SMOOTH_SLOPE && found < 0.5 * sharpest;
+        is_smooth[k] = goes_on && found < 0.5 * sharpest;
         c->is_edged = c->is_edged || !is_smooth[k];
         scratch[k] = curvatures[k];
         c->sharpest = fmax(c->sharpest, curvatures[k]);

@@ -15,6 +15,9 @@ enum { HALF_POINTS = 10, POINTS = 2 * HALF_POINTS + 1 };
 /* A surface is followed around a node only while it faces the other one, cosine. */
 #define FACING 0.8
 
+/* Share of the depth expected at the center of the pressure that must be found there, 1. */
+#define TRUSTED 0.5
+
 void mor_contact_window_weights(double *weights)
 {
     double sum = 0.0;
@@ -68,6 +71,21 @@ double mor_contact_reach(const mor_contact *contact, const mor_contact_near *nea
     return fmin(0.5 * half * half * diagonal2 * curvature, 0.5 * owner->group->spacing);
 }
 
+/* Whether the surfaces are where the window takes them to be, at the center of the pressure: an edge of the other side may
+ * lie between it and the node. `own` is the normal of the node's surface. */
+static bool is_there(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
+                     const double *own, const double *tilt, double slope, double shift, double curvature)
+{
+    const int other = touch->side == 0 ? near->second : near->first;
+    const double expected = -touch->gap - slope * shift - 0.5 * curvature * shift * shift;
+    const double sag = 0.5 * touch->curvature * shift * shift;
+    double point[3];
+    for (int a = 0; a < 3; ++a) {
+        point[a] = touch->place[a] - sag * own[a] + (slope > 0.0 ? shift * tilt[a] / slope : 0.0);
+    }
+    return -mor_contact_gap(contact, other, point) > TRUSTED * expected;
+}
+
 void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch)
 {
     const mor_contact_work *work = contact->work;
@@ -95,16 +113,19 @@ void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near
     double means[4];
     const double curvature = fmax(touch->other_curvature - facing * touch->curvature, 0.0);
     sum_window(work->window, group->dimension, -touch->gap, slope, curvature, length, means);
+    if (!(means[0] > 0.0)) {
+        return;
+    }
+    const double shift = slope > 0.0 ? means[2] / means[0] : 0.0;
+    if (!is_there(contact, near, touch, own, tilt, slope, shift, curvature)) {
+        return;
+    }
     touch->mean_depth = means[0];
     touch->mean_square = means[1];
     touch->depth = means[3];
-    if (!(slope > 0.0) || !(means[0] > 0.0)) {
-        return;
-    }
-    const double along = means[2] / means[0] / slope;
-    for (int a = 0; a < 3; ++a) {
-        touch->place[a] += along * tilt[a];
-        touch->normal[a] += touch->other_curvature * along * tilt[a];
+    for (int a = 0; a < 3 && slope > 0.0; ++a) {
+        touch->place[a] += shift * tilt[a] / slope;
+        touch->normal[a] += touch->other_curvature * shift * tilt[a] / slope;
     }
     const double size = mor_vector_length(touch->normal);
     for (int a = 0; a < 3; ++a) {

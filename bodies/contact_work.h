@@ -185,7 +185,7 @@ double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near 
  *  @param contact   [in]      one object
  *  @param near      [in]      one object
  *  @param touch     [in,out]  one object
- *  @param curvature [in]      of the wall there, unit 1/m; not used for a body, which has one of its own */
+ *  @param curvature [in]      of the other side there, unit 1/m */
 void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
                       double curvature);
 
@@ -201,6 +201,12 @@ double mor_contact_curvature(const mor_shape *shape, int dimension, const double
  *  @param near    [in]  one object
  *  @param touch   [in]  one object, whose side and node are known */
 double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch);
+
+/** Gap of a point to a rigid body or a wall, unit m.
+ *  @param contact [in]  one object
+ *  @param other   [in]  index of a rigid body, or n_bodies plus that of a wall
+ *  @param point   [in]  shape [3], unit m */
+double mor_contact_gap(const mor_contact *contact, int other, const double *point);
 
 /** Follows the surface around a node of a rigid body: fills in depth, mean_depth, mean_square, and moves place and
  *  normal to the center of the pressure. Elastic sides and edges: those of the node.

@@ -93,7 +93,12 @@ static void run_killed_at_random_moments_ends_as_if_never_killed(void **state)
 
 static void run_with_rocks_killed_at_random_moments_ends_as_if_never_killed(void **state)
 {
-    kill_at_random_moments(*state, body_plane, "spacing=5 mm");
+    static const char probes[] =
+        "probes = ( { type = 'kinetic_energy'; }, { type = 'contact_depth'; },"
+        "  { type = 'wall_contact_force'; wall = 'floor'; direction = (0, 1, 0); } );";
+    char text[sizeof body_plane + sizeof probes];
+    snprintf(text, sizeof text, "%s%s", body_plane, probes);
+    kill_at_random_moments(*state, text, "spacing=5 mm");
 }
 
 /* Runs the case into two folders: one undisturbed, one stopped half-way with a checkpoint and one before it. */

@@ -226,6 +226,35 @@ static void bodies_that_do_not_touch_feel_nothing(void **state)
     contact_scene_close(&scene);
 }
 
+/* Surfaces are followed around nodes; beyond an edge there is no surface to follow. A ball is carried past the edge of a
+ * block, as near as a tenth of a spacing. */
+static void nothing_touches_beyond_an_edge(void **state)
+{
+    (void)state;
+    const double radius = 0.6 * SIDE;
+    for (int option = 0; option < 2; ++option) {
+        for (int step = 0; step <= 18; ++step) {
+            const double angle =
+                step * 5.0 / 180.0 * 3.14159265358979; /* around the corner, from one face to the next */
+            const double reach = radius + 0.1 * SIDE / 4;
+            const contact_scene_body bodies[2] = {
+                block_at(MOR_BODY_RIGID, 0.0, 0.0),
+                {.kind = MOR_BODY_RIGID,
+                 .radius = radius,
+                 .position = {0.5 * SIDE + reach * cos(angle), 0.5 * SIDE + reach * sin(angle), 0.0}}};
+            contact_scene_request request = plain_request(bodies, 2);
+            request.dimension = 2 + option;
+            contact_scene scene;
+            contact_scene_open(&scene, &request);
+            contact_scene_step(&scene, request.end);
+            if (scene.contact.deepest != 0.0) {
+                fail_msg("%d degrees: %g m deep", 5 * step, scene.contact.deepest);
+            }
+            contact_scene_close(&scene);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,6 +267,7 @@ int main(void)
         cmocka_unit_test(a_rising_wall_lifts_a_block),
         cmocka_unit_test(a_held_body_counts_as_infinitely_heavy),
         cmocka_unit_test(bodies_that_do_not_touch_feel_nothing),
+        cmocka_unit_test(nothing_touches_beyond_an_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
