@@ -6,9 +6,10 @@
 
 #include <string.h>
 
-#define STICK_DAMPING 0.2 /* damping ratio of the friction spring, 1 */
-#define DAMPING_LIMIT 0.5 /* share of a relative velocity that damping may take away in a step, 1 */
-#define TURNING_SHARE 4.0 /* acceleration of a point of a free block over that of its center, at most, 1 */
+#define STICK_DAMPING 0.2  /* damping ratio of the friction spring, 1 */
+#define DAMPING_LIMIT 0.5  /* share of a relative velocity that damping may take away in a step, 1 */
+#define KEPT_RADIANS 200.0 /* of the contact's swing in which the speed of an impact fades, 1 */
+#define TURNING_SHARE 4.0  /* acceleration of a point of a free block over that of its center, at most, 1 */
 
 /* What one pair needs to know while its touches become forces. The pair force acts on the first body along normal. */
 typedef struct pair_sums {
@@ -326,6 +327,23 @@ static void book_nodes(mor_contact *contact, const pair_sums *sums, double inver
     }
 }
 
+/* What is left of the speed of an impact: of rigid sides it fades within some periods of the contact, so that what goes
+ * on swinging after a hard landing is damped by its own speed. */
+static double keep_impact(const mor_contact *contact, const pair_sums *sums, double impact)
+{
+    return sums->is_hertzian ? impact * exp(-sums->length * mor_contact_frequency(contact, sums->near) / KEPT_RADIANS)
+                             : impact;
+}
+
+/* Slowest impact: no faster than what a weight at rest swings with on the contact, or that would hardly be damped. */
+static double slowest_impact(const mor_contact *contact, const pair_sums *sums)
+{
+    const double given = contact->settings.slowest_impact;
+    const double gravity = mor_contact_gravity(&contact->work->bodies[sums->near->first]);
+    return sums->is_hertzian && gravity > 0.0 ? fmin(given, gravity / mor_contact_frequency(contact, sums->near))
+                                              : given;
+}
+
 /* Restitution: the normal force of the pair grows with the speed of closing, docs/theory/contact.md. */
 static void damp_pair(mor_contact *contact, pair_sums *sums)
 {
@@ -342,7 +360,7 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
     }
     const double closing = find_closing(contact, sums);
     /* The fastest closing of an episode is its impact: a touch at rest may be hit later. */
-    *impact = fmax(*impact, fmax(closing, contact->settings.slowest_impact));
+    *impact = fmax(keep_impact(contact, sums, *impact), fmax(closing, slowest_impact(contact, sums)));
     if (!(*impact > 0.0)) {
         return;
     }

@@ -127,17 +127,29 @@ static double find_knee(const mor_contact *contact, int first, int second)
     return bedding * knee * (dimension == 3 ? volume * spacing : volume);
 }
 
+/* Inverse of the mass that two rigid sides have together, whether or not they are held now, 1/kg (m/kg). */
+static double pair_inverse(const mor_contact *contact, int first, int second)
+{
+    const mor_contact_work *work = contact->work;
+    const double own = 1.0 / body_of(&work->bodies[first])->mass;
+    return own + (second < work->n_bodies ? 1.0 / body_of(&work->bodies[second])->mass : 0.0);
+}
+
+/* Energy of an impact at the reference speed, or after a fall over the size of the body, J (J/m). */
+static double reference_energy(const mor_contact *contact, int first, int second)
+{
+    const mor_contact_body *c = &contact->work->bodies[first];
+    const double fall2 = 4.0 * mor_contact_gravity(c) * c->radius;
+    const double speed = contact->settings.reference_speed;
+    return 0.5 * fmax(fall2, speed * speed) / pair_inverse(contact, first, second);
+}
+
 /* Softening at the energy of an impact at the reference speed, 1: tangential springs are as stiff as the normal ones
  * are then. They must not change while they are loaded, or they would give back more than they took. */
 static double reference_softening(const mor_contact *contact, int first, int second)
 {
-    const mor_contact_work *work = contact->work;
-    const mor_contact_body *c = &work->bodies[first];
-    double inverse = 1.0 / body_of(c)->mass;
-    inverse += second < work->n_bodies ? 1.0 / body_of(&work->bodies[second])->mass : 0.0;
-    const double fall2 = 4.0 * mor_contact_gravity(c) * c->radius;
-    const double speed = contact->settings.reference_speed;
-    const double energy = 0.5 * fmax(fall2, speed * speed) / inverse;
+    const mor_contact_body *c = &contact->work->bodies[first];
+    const double energy = reference_energy(contact, first, second);
     const double knee = find_knee(contact, first, second);
     const double n = exponents_of(c->group->dimension).power;
     return n * energy > knee ? pow(n * energy / knee, (n - 1.0) / n) : 1.0;
@@ -276,6 +288,13 @@ double mor_contact_largest_stiffness(const mor_contact *contact, int first, int 
     const double depth = sqrt(8.0 * energy / (MOR_PI * modulus));
     const double reach = fmin(widest, sqrt(2.0 * radius * depth));
     return fmax(0.25 * MOR_PI * modulus, fmax(least, tangential * (2.0 * reach + 2.0 * spacing)));
+}
+
+double mor_contact_frequency(const mor_contact *contact, const mor_contact_near *near)
+{
+    const double energy = reference_energy(contact, near->first, near->second);
+    return sqrt(mor_contact_largest_stiffness(contact, near->first, near->second, energy) *
+                pair_inverse(contact, near->first, near->second));
 }
 
 static int compare_numbers(const void *a, const void *b)

@@ -241,6 +241,12 @@ double mor_contact_least_stiffness(const mor_contact *contact, int first, int se
  *  @param energy  [in]  unit J (J/m) */
 double mor_contact_largest_stiffness(const mor_contact *contact, int first, int second, double energy);
 
+/** Frequency of a pair of rigid sides on their contact after a fall over the size of a body or at the reference speed,
+ *  unit rad/s.
+ *  @param contact [in]  one object
+ *  @param near    [in]  one object */
+double mor_contact_frequency(const mor_contact *contact, const mor_contact_near *near);
+
 /** Measures the curvature of all rigid bodies at their nodes; the history and the list of bodies must be there.
  *  @param context [in,out]  one object
  *  @param contact [in,out]  one object
