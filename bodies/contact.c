@@ -223,7 +223,12 @@ static mor_status make_lists(mor_context *context, mor_contact *contact)
     MOR_TRY(context, MOR_NEW(context, &work->hit_pairs, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->kept_pairs, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->pair_mark, work->n_pairs, "contact"));
-    return MOR_NEW(context, &work->wall_force, (int64_t)3 * MOR_BODY_GROUPS_MAX * contact->n_walls, "contact");
+    contact->n_sums = MOR_BODY_GROUPS_MAX * (2 + 3 * (int64_t)contact->n_walls);
+    MOR_TRY(context, MOR_NEW(context, &contact->sums, contact->n_sums, "contact"));
+    work->group_spring = contact->sums;
+    work->group_deepest = contact->sums + MOR_BODY_GROUPS_MAX;
+    work->wall_force = contact->sums + 2 * MOR_BODY_GROUPS_MAX;
+    return MOR_OK;
 }
 
 static mor_status make_all(mor_context *context, mor_contact *contact, const mor_contact_wall *walls)
@@ -299,7 +304,6 @@ static void clear_work(mor_context *context, mor_contact_work *work)
     MOR_FREE(context, &work->held_slots);
     MOR_FREE(context, &work->kept_slots);
     MOR_FREE(context, &work->slot_mark);
-    MOR_FREE(context, &work->wall_force);
 }
 
 void mor_contact_clear(mor_context *context, mor_contact *contact)
@@ -316,6 +320,7 @@ void mor_contact_clear(mor_context *context, mor_contact *contact)
     MOR_FREE(context, &contact->work);
     MOR_FREE(context, &contact->walls);
     MOR_FREE(context, &contact->impacts);
+    MOR_FREE(context, &contact->sums);
     mor_set_clear(context, &contact->history);
     memset(contact, 0, sizeof *contact);
 }

@@ -62,10 +62,13 @@ typedef struct mor_contact {
     double friction_energy; /* lost to sliding since the start, J (J/m) */
     double damping_energy;  /* lost to restitution since the start, J (J/m) */
     double deepest;         /* deepest penetration at the last sub-step, m */
-    double deepest_share;   /* largest so far of a penetration over what is allowed, 1; not saved */
-    mor_set history;        /* one entry per surface node of all groups: what friction remembers; fields evolve and are
+    double deepest_share;   /* largest so far of a penetration over what is allowed, saved with the run's values; 1 */
+    double *sums; /* shape [n_sums]; of each group at its last sub-step: spring energy [J], deepest penetration
+                             * [m], forces on walls [N]; saved with the run's values */
+    int64_t n_sums;
+    mor_set history; /* one entry per surface node of all groups: what friction remembers; fields evolve and are
                               * saved with the run's sets */
-    double *impacts;        /* shape [n_impacts]; impact speeds of touching pairs, saved with the run's values; m/s */
+    double *impacts; /* shape [n_impacts]; impact speeds of touching pairs, saved with the run's values; m/s */
     int64_t n_impacts;
     struct mor_contact_work *work; /* lists and scratch; owned */
 } mor_contact;

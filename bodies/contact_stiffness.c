@@ -139,7 +139,9 @@ static double pair_inverse(const mor_contact *contact, int first, int second)
 static double reference_energy(const mor_contact *contact, int first, int second)
 {
     const mor_contact_body *c = &contact->work->bodies[first];
-    const double fall2 = 4.0 * mor_contact_gravity(c) * c->radius;
+    const bool is_wall = second >= contact->work->n_bodies;
+    const double radius = is_wall ? c->radius : fmax(c->radius, contact->work->bodies[second].radius);
+    const double fall2 = 4.0 * mor_contact_gravity(c) * radius;
     const double speed = contact->settings.reference_speed;
     return 0.5 * fmax(fall2, speed * speed) / pair_inverse(contact, first, second);
 }

@@ -113,14 +113,14 @@ typedef struct mor_contact_work {
     unsigned char *slot_mark;        /* shape [SLOTS * n_nodes]; 1: in kept_slots */
     int64_t *hit_pairs, *kept_pairs; /* shape [n_pairs]; pairs with an impact speed, before and in this evaluation */
     int64_t n_hit, n_kept_pairs;
-    unsigned char *pair_mark;                  /* shape [n_pairs] */
-    bool is_warm;                              /* the lists of slots and pairs have been found from the state */
-    double group_spring[MOR_BODY_GROUPS_MAX];  /* spring energy, J (J/m) */
-    double group_deepest[MOR_BODY_GROUPS_MAX]; /* m */
+    unsigned char *pair_mark; /* shape [n_pairs] */
+    bool is_warm;             /* the lists of slots and pairs have been found from the state */
+    double *group_spring;     /* shape [MOR_BODY_GROUPS_MAX]; spring energy, of the contact's sums; J (J/m) */
+    double *group_deepest;    /* shape [MOR_BODY_GROUPS_MAX]; likewise, m */
     mor_contact_depth group_worst[MOR_BODY_GROUPS_MAX]; /* the deepest for its limit */
     mor_contact_depth driven;                           /* deepest so far of sides that no force moves */
     bool is_driven_told;                                /* has been warned of */
-    double *wall_force;                                 /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3], N (N/m) */
+    double *wall_force;                                 /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3]; likewise, N (N/m) */
     int field_partners, field_springs;                  /* of the history */
 } mor_contact_work;
 

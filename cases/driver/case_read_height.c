@@ -31,6 +31,7 @@ typedef struct descent {
     double up[3];           /* against gravity, 1 */
     double size;            /* diagonal of the body's box, m */
     double lowest, highest; /* of the domain along up, m */
+    double bottom, top;     /* of the body along up, from the origin of its frame, m */
     double *samples;        /* shape [n_samples, 3]; on the surface, own frame, m */
     int64_t n_samples;
 } descent;
@@ -136,11 +137,28 @@ static void start_descent(const mor_case *c, const mor_case_body *body, descent 
     const double strength = mor_vector_length(c->gravity);
     const double length = mor_vector_length(body->axis);
     const double axis[3] = {body->axis[0] / length, body->axis[1] / length, body->axis[2] / length};
-    *it = (descent){.the_case = c, .shape = body->shape, .lowest = INFINITY, .highest = -INFINITY};
+    *it = (descent){.the_case = c,
+                    .shape = body->shape,
+                    .lowest = INFINITY,
+                    .highest = -INFINITY,
+                    .bottom = INFINITY,
+                    .top = -INFINITY};
     mor_matrix_rotation(axis, body->angle, it->turn);
     it->up[c->dimension - 1] = 1.0;
     for (int a = 0; a < 3 && strength > 0.0; ++a) {
         it->up[a] = -c->gravity[a] / strength;
+    }
+    mor_bounds bounds;
+    mor_shape_bounds(body->shape, &bounds);
+    for (int corner = 0; corner < 1 << c->dimension; ++corner) {
+        double own[3] = {0.0, 0.0, 0.0};
+        double place[3];
+        for (int a = 0; a < c->dimension; ++a) {
+            own[a] = corner >> a & 1 ? bounds.maximum[a] : bounds.minimum[a];
+        }
+        mor_matrix_apply(it->turn, own, place);
+        it->bottom = fmin(it->bottom, mor_vector_dot(place, it->up));
+        it->top = fmax(it->top, mor_vector_dot(place, it->up));
     }
     for (int corner = 0; corner < 1 << c->dimension; ++corner) {
         double along = 0.0;
@@ -156,7 +174,7 @@ static void start_descent(const mor_case *c, const mor_case_body *body, descent 
 static mor_status lower_body(mor_context *context, const descent *it, mor_case_body *body)
 {
     double along = mor_vector_dot(body->position, it->up);
-    double rise = it->highest + it->size - along;
+    double rise = it->highest - it->bottom - along;
     for (int k = 0; k < DESCENTS; ++k) {
         double position[3];
         for (int a = 0; a < 3; ++a) {
@@ -164,23 +182,27 @@ static mor_status lower_body(mor_context *context, const descent *it, mor_case_b
         }
         const double left = find_gap(it, position) - body->height_over_ground;
         if (left <= REACHED * it->size) {
-            MOR_CHECK(context, k > 0, MOR_ERROR_CONFIG,
-                      "%s:%d: found body '%s' with walls or soil up to the top of the domain above it; "
-                      "height_over_ground needs free ground under the sky; give 'position' alone",
-                      body->place.file, body->place.line, body->name);
+            MOR_CHECK(
+                context, k > 0, MOR_ERROR_CONFIG,
+                "%s:%d: found body '%s' with walls or soil nearer than its height_over_ground, %g m, at the top of "
+                "the domain above it already; the height is the least distance, walls beside it count; "
+                "move it away from them, or give 'position' alone",
+                body->place.file, body->place.line, body->name, body->height_over_ground);
             memcpy(body->position, position, sizeof position);
             return MOR_OK;
         }
         rise -= left;
-        if (along + rise < it->lowest - it->size) {
-            break;
+        if (along + rise + it->top < it->lowest) {
+            return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                            "%s:%d: found body '%s' with height_over_ground, but no wall and no soil below it; allowed "
+                            "are places over walls or soil; move it, or give its height by 'position' alone",
+                            body->place.file, body->place.line, body->name);
         }
     }
-    return MOR_FAIL(
-        context, MOR_ERROR_CONFIG,
-        "%s:%d: found body '%s' with height_over_ground, but no wall and no soil below it; allowed are places "
-        "over walls or soil; move it, or give its height by 'position' alone",
-        body->place.file, body->place.line, body->name);
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "%s:%d: found body '%s' with height_over_ground %g m beside a wall that is nearly as near; allowed "
+                    "are places at least twice that far from walls beside them; move it, or give 'position' alone",
+                    body->place.file, body->place.line, body->name, body->height_over_ground);
 }
 
 mor_status mor_case_reader_height(const mor_case_reader *reader, const mor_case *the_case, mor_case_body *body)

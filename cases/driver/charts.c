@@ -115,14 +115,18 @@ static void add_mark(plate *p, int curve, const mor_summary_statistics *it, cons
     const double factor = mor_ticks_prefix(unit, fabs(value), shown);
     const double time_factor = mor_ticks_prefix("s", fabs(time), clock);
     const int k = p->n_series;
-    if (!isfinite(value) || !isfinite(time) || k >= MOR_CHART_SERIES_MAX) {
+    const mor_chart_series *line = &p->series[curve];
+    const bool is_windowed =
+        line->n_points > 0 && (it->window[0] > line->x[0] || it->window[1] < line->x[line->n_points - 1]);
+    if (!isfinite(value) || !isfinite(time) || it->maximum == it->minimum || k >= MOR_CHART_SERIES_MAX) {
         return;
     }
     p->places[k][0] = time;
     p->places[k][1] = value;
-    snprintf(p->names[k], TEXT_BYTES, "%s%s%s %.4g%s%s at %.4g %s", p->n_curves > 1 ? name : "",
-             p->n_curves > 1 ? ": " : "", is_least ? "minimum" : "maximum", factor * value,
-             strcmp(unit, "1") == 0 ? "" : " ", strcmp(unit, "1") == 0 ? "" : shown, time_factor * time, clock);
+    snprintf(p->names[k], TEXT_BYTES, "%s%s%s%s %.4g%s%s at %.4g %s", p->n_curves > 1 ? name : "",
+             p->n_curves > 1 ? ": " : "", is_least ? "minimum" : "maximum", is_windowed ? " of its window" : "",
+             factor * value, strcmp(unit, "1") == 0 ? "" : " ", strcmp(unit, "1") == 0 ? "" : shown, time_factor * time,
+             clock);
     p->series[k] = (mor_chart_series){.name = p->names[k],
                                       .x = &p->places[k][0],
                                       .y = &p->places[k][1],

@@ -12,43 +12,62 @@ bool mor_contact_report_is_chosen(const mor_case_body *body)
     return mor_case_body_is_rigid(body) && isnan(body->contact_modulus);
 }
 
-/* Whether an earlier rigid body has the same surface. */
-static bool is_told(const mor_case *the_case, int number)
+enum { SURFACES_MAX = 8 };
+
+/* Bodies with the same Poisson's ratio, and all with a modulus of their own or all with one that was chosen. */
+typedef struct surface {
+    const mor_case_body *first;
+    int n_bodies;
+    double least, largest; /* modulus, Pa */
+} surface;
+
+static bool is_same_surface(const mor_case_body *a, const mor_case_body *b)
 {
-    const mor_case_body *it = &the_case->bodies[number];
-    for (int k = 0; k < number; ++k) {
-        const mor_case_body *before = &the_case->bodies[k];
-        if (mor_case_body_is_rigid(before) &&
-            mor_case_contact_modulus(the_case, before) == mor_case_contact_modulus(the_case, it) &&
-            before->contact_poisson == it->contact_poisson &&
-            mor_contact_report_is_chosen(before) == mor_contact_report_is_chosen(it)) {
-            return true;
+    return a->contact_poisson == b->contact_poisson &&
+           mor_contact_report_is_chosen(a) == mor_contact_report_is_chosen(b);
+}
+
+static int gather(const mor_case *the_case, surface *surfaces)
+{
+    int n = 0;
+    for (int k = 0; k < the_case->n_bodies; ++k) {
+        const mor_case_body *it = &the_case->bodies[k];
+        int m = 0;
+        while (m < n && !is_same_surface(surfaces[m].first, it)) {
+            ++m;
         }
+        if (!mor_case_body_is_rigid(it) || m == SURFACES_MAX) {
+            continue;
+        }
+        const double modulus = mor_case_contact_modulus(the_case, it);
+        if (m == n) {
+            surfaces[n++] = (surface){it, 0, modulus, modulus};
+        }
+        surfaces[m].n_bodies += 1;
+        surfaces[m].least = fmin(surfaces[m].least, modulus);
+        surfaces[m].largest = fmax(surfaces[m].largest, modulus);
     }
-    return false;
+    return n;
 }
 
 void mor_contact_report_print(const mor_case *the_case, FILE *out)
 {
-    for (int k = 0; k < the_case->n_bodies; ++k) {
-        const mor_case_body *it = &the_case->bodies[k];
-        if (!mor_case_body_is_rigid(it) || is_told(the_case, k)) {
-            continue;
+    surface surfaces[SURFACES_MAX];
+    const int n = gather(the_case, surfaces);
+    for (int k = 0; k < n; ++k) {
+        const surface *it = &surfaces[k];
+        fprintf(out, "  contact stiffness       '%s'", it->first->name);
+        if (it->n_bodies > 1) {
+            fprintf(out, " and %d more", it->n_bodies - 1);
         }
-        int n_same = 1;
-        for (int m = k + 1; m < the_case->n_bodies; ++m) {
-            n_same +=
-                mor_case_body_is_rigid(&the_case->bodies[m]) && is_told(the_case, m) &&
-                mor_case_contact_modulus(the_case, &the_case->bodies[m]) == mor_case_contact_modulus(the_case, it);
+        fprintf(out, ": Hertz's law, Young's modulus %.4g", it->least);
+        if (it->largest > it->least) {
+            fprintf(out, " to %.4g", it->largest);
         }
-        fprintf(out, "  contact stiffness       '%s'", it->name);
-        if (n_same > 1) {
-            fprintf(out, " and %d more", n_same - 1);
-        }
-        fprintf(out, ": Hertz's law, Young's modulus %.4g Pa, Poisson's ratio %g (%s)\n",
-                mor_case_contact_modulus(the_case, it), it->contact_poisson,
-                mor_contact_report_is_chosen(it) ? "chosen for speed: give contact_modulus before a force is reported"
-                                                 : "as given");
+        fprintf(out, " Pa, Poisson's ratio %g (%s)\n", it->first->contact_poisson,
+                mor_contact_report_is_chosen(it->first)
+                    ? "chosen for speed: give contact_modulus before a force is reported"
+                    : "as given");
     }
 }
 

@@ -407,7 +407,15 @@ static void keep(sight *all, int *n, const sight *at)
                        (all[k].own == at->other && all[k].other == at->own))) {
         ++k;
     }
-    if (k == *n && *n < FINDINGS_MAX) {
+    if (k == FINDINGS_MAX) { /* the narrowest of all pairs are told */
+        k = 0;
+        for (int m = 1; m < *n; ++m) {
+            k = all[m].width > all[k].width ? m : k;
+        }
+        if (at->width < all[k].width) {
+            all[k] = *at;
+        }
+    } else if (k == *n) {
         all[(*n)++] = *at;
     } else if (k < *n && at->width < (1.0 - ROUNDING) * all[k].width) {
         all[k] = *at;
@@ -442,6 +450,13 @@ static mor_status search(mor_context *context, const gap_scene *s, sight *gaps, 
 
 /* ---- Words ------------------------------------------------------------------------------------------------------- */
 
+/* A length with two digits that is not more. */
+static double round_down(double length)
+{
+    const double unit = pow(10.0, floor(log10(length)) - 1.0);
+    return floor(0.999 * length / unit) * unit;
+}
+
 static mor_status tell_gap(mor_context *context, const gap_scene *s, const sight *it)
 {
     enum { PLACE_BYTES = 640 };
@@ -462,7 +477,7 @@ static mor_status tell_gap(mor_context *context, const gap_scene *s, const sight
         "better %.2g m, widen or close the gap, or accept that it is closed to soil: numerics.narrow_gaps = "
         "\"allow\"",
         a->place->file, a->place->line, it->width, n, a->kind, a->name, other, x[0], x[1], x[2], GAP_LEAST * s->spacing,
-        0.99 * it->width / GAP_LEAST, 0.99 * it->width / GAP_ADVISED);
+        round_down(it->width / GAP_LEAST), round_down(it->width / GAP_ADVISED));
     mor_context_log(context, MOR_LOG_WARNING,
                     "%s:%d: a gap of %.3g m (%.3g spacings) between %s '%s' and %s at (%.4g, %.4g, %.4g) m is %s; four "
                     "spacings are advisable: a spacing of %.2g m",

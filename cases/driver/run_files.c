@@ -284,6 +284,8 @@ static void list_state(mor_simulation *s, saved_state *state)
         {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},
         {"bodies", MOR_HDF5_DOUBLE, s->bodies.n_packed, s->bodies.packed},
         {"contact_impacts", MOR_HDF5_DOUBLE, s->bodies.contact.n_impacts, s->bodies.contact.impacts},
+        {"contact_sums", MOR_HDF5_DOUBLE, s->bodies.contact.n_sums, s->bodies.contact.sums},
+        {"contact_deepest_share", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.deepest_share},
         {"contact_spring_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.spring_energy},
         {"contact_friction_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.friction_energy},
         {"contact_damping_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.damping_energy},

@@ -130,6 +130,38 @@ static void a_stiffness_that_was_chosen_is_told(void **state)
     program_clear(&given);
 }
 
+/* A rigid and an elastic block on one floor: what one group pressed with last is not found anew by a resume, which may
+ * come between the sub-steps of the two. */
+static void a_resume_keeps_the_forces_of_all_groups(void **state)
+{
+    static const char text[] =
+        "title = 'two blocks'; dimension = 2; spacing = '0.05 m'; end = '20 ms'; gravity = (0, '-9.81 m/s2', 0);"
+        "domain = { min = (-2, -1, -1); max = (2, 2, 1); };"
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"
+        "bodies = ( { name = 'hard'; shape = { type = 'box'; min = (-0.9, 0); max = (-0.4, 0.5); };"
+        "    contact_modulus = '100 MPa'; material = { model = 'rigid'; density = 2400; }; },"
+        "  { name = 'soft'; shape = { type = 'box'; min = (0.4, 0); max = (0.9, 0.5); };"
+        "    material = { model = 'neo_hookean'; density = 2400; youngs_modulus = '20 MPa'; poissons_ratio = 0.25; }; "
+        "} );"
+        "probes = ( { name = 'w'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, -1);"
+        "    window = ('11 ms', '20 ms'); },"
+        "  { name = 'd'; type = 'contact_depth'; window = ('11 ms', '20 ms'); } );"
+        "output = { snapshots = 1; pictures = false; };";
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES], whole[MOR_PATH_BYTES], parts[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, path);
+    run_folder_file(folder, whole, "whole");
+    run_folder_file(folder, parts, "parts");
+    const char *const runs[3][9] = {{"run", path, "-t", "1", "-o", whole, NULL},
+                                    {"run", path, "-t", "1", "-o", parts, "--stop-at", "12 ms", NULL},
+                                    {"run", path, "-t", "1", "-o", parts, "--resume", NULL}};
+    for (int k = 0; k < 3; ++k) {
+        program_outcome outcome = program_run(folder, runs[k], 0);
+        program_clear(&outcome);
+    }
+    finished_run_compare_results(folder, "whole", "parts");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +173,7 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_body_that_is_driven_into_a_wall_is_warned_of, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_resume_keeps_the_forces_of_all_groups, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stiffness_that_was_chosen_is_told, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -68,7 +68,7 @@ static void what_has_no_ground_is_refused(void **state)
 {
     case_reading *f = *state;
     case_reading_refuse(f, space_text, (const char *[]){"walls[0].shape.normal=(0, 0, -1)", NULL},
-                        "t.cfg:3:", "walls or soil up to the top of the domain");
+                        "t.cfg:3:", "at the top of the domain above it already");
     case_reading_refuse(
         f, space_text,
         (const char *[]){"walls[0].shape={ type = \"box\"; min = (-3, -3, -3); max = (0, 3, 0); }", NULL},
