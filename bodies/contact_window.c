@@ -71,8 +71,8 @@ double mor_contact_reach(const mor_contact *contact, const mor_contact_near *nea
     return fmin(0.5 * half * half * diagonal2 * curvature, 0.5 * owner->group->spacing);
 }
 
-/* Whether the surfaces are where the window takes them to be, at the center of the pressure: an edge of the other side may
- * lie between it and the node. `own` is the normal of the node's surface. */
+/* Whether the surfaces are where the window takes them to be, at the center of the pressure: an edge of the other side
+ * may lie between it and the node. `own` is the normal of the node's surface. */
 static bool is_there(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
                      const double *own, const double *tilt, double slope, double shift, double curvature)
 {

@@ -226,8 +226,8 @@ static void bodies_that_do_not_touch_feel_nothing(void **state)
     contact_scene_close(&scene);
 }
 
-/* Surfaces are followed around nodes; beyond an edge there is no surface to follow. A ball is carried past the edge of a
- * block, as near as a tenth of a spacing. */
+/* Surfaces are followed around nodes; beyond an edge there is no surface to follow. A ball is carried past the edge of
+ * a block, as near as a tenth of a spacing. */
 static void nothing_touches_beyond_an_edge(void **state)
 {
     (void)state;
