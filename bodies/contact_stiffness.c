@@ -319,8 +319,8 @@ static void find_gradient(const mor_shape *shape, int dimension, const double *p
     }
 }
 
-/* Normal of the surface at a node, in the reference configuration. Returns whether the surface goes on as it curves there
- * as far as a window reaches: the gradient over that reach is the one on the spot, unless an edge is near. */
+/* Normal of the surface at a node, in the reference configuration. Returns whether the surface goes on as it curves
+ * there as far as a window reaches: the gradient over that reach is the one on the spot, unless an edge is near. */
 static bool look_at_surface(const mor_body *body, int dimension, const double *place, double spacing, double *normal)
 {
     double near[3], far[3];

@@ -10,6 +10,7 @@
 #include "cases/driver/run_failure.h"
 #include "cases/driver/run_settle.h"
 #include "cases/driver/simulation_warnings.h"
+#include "core/base/math.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -106,6 +107,34 @@ static bool is_stopping(const mor_run_options *options, const mor_simulation *s)
            (!isnan(options->stop_at) && mor_schedule_time(&s->schedule) >= options->stop_at);
 }
 
+/* Springs that are loaded before anything has moved throw bodies apart. */
+static void warn_of_overlap(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 0.01;
+    double kinetic = 0.0;
+    double potential = 0.0;
+    double elastic = 0.0;
+    double lifted = 0.0; /* of all bodies by a spacing, J (J/m) */
+    if (s->schedule.n_steps != 1 || !s->bodies.has_contact) {
+        return;
+    }
+    mor_simulation_bodies_energy(&s->bodies, (const double[3]){0.0, 0.0, 0.0}, &kinetic, &potential, &elastic);
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        const mor_body_group *group = s->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            lifted += group->bodies[b].mass * mor_vector_length(group->gravity) * s->the_case->spacing;
+        }
+    }
+    const double stored = s->bodies.contact.spring_energy;
+    if (stored > advisable * (kinetic + lifted)) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts hold %.3g "
+            "%s, which throws them apart: leave them a gap, or let them touch",
+            s->bodies.contact.deepest, stored, s->the_case->dimension == 2 ? "J/m" : "J");
+    }
+}
+
 /* Steps until the end or until the user stops. Snapshots fall on their times exactly; rows of the series are written at
  * the first step at or after theirs, so that they do not change the steps. */
 static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
@@ -120,6 +149,7 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
         p->loop_seconds += mor_clock_now() - before;
         p->n_loop_steps += 1;
+        warn_of_overlap(context, s);
         p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
         if (s->soil.largest_speed > p->fastest) {
             p->fastest = s->soil.largest_speed;

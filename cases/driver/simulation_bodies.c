@@ -364,6 +364,26 @@ static mor_status check_walls(mor_context *context, const mor_case *c, const mor
     return MOR_OK;
 }
 
+/* A point of a body may not lie deep in another one. */
+static mor_status check_others(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_bounds *boxes, int number, const double *point)
+{
+    const mor_case_body *it = &c->bodies[number];
+    for (int b = 0; b < c->n_bodies; ++b) {
+        if (b == number || !mor_simulation_body_may_hold(&boxes[b], point)) {
+            continue;
+        }
+        const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
+        const double depth = -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, point);
+        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' overlapping body '%s' by about %.2g m at (%g, %g, %g) m; allowed is less "
+                  "than %g m; move one of them",
+                  it->place.file, it->place.line, it->name, c->bodies[b].name, depth, point[0], point[1], point[2],
+                  TOUCHING * c->spacing);
+    }
+    return MOR_OK;
+}
+
 static mor_status check_node(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
                              const mor_simulation_frame *frame, const mor_bounds *boxes, int number, const double *node)
 {
@@ -377,18 +397,7 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
               "(%g, %g, %g) m; allowed are bodies inside it; %s",
               it->place.file, it->place.line, it->name, local[0], local[1], local[2], low[0], low[1], low[2], high[0],
               high[1], high[2], advise_place(it, "enlarge 'domain' or move the body"));
-    for (int b = 0; b < c->n_bodies; ++b) {
-        if (b == number || !mor_simulation_body_may_hold(&boxes[b], node)) {
-            continue;
-        }
-        const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
-        const double depth = -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, node);
-        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' overlapping body '%s' by about %.2g m at (%g, %g, %g) m; allowed is less "
-                  "than %g m; move one of them",
-                  it->place.file, it->place.line, it->name, c->bodies[b].name, depth, node[0], node[1], node[2],
-                  TOUCHING * c->spacing);
-    }
+    MOR_TRY(context, check_others(context, bodies, c, boxes, number, node));
     return check_walls(context, c, it, node);
 }
 
@@ -401,6 +410,11 @@ static mor_status check_groups(mor_context *context, const mor_simulation_bodies
         for (int b = 0; b < group->n_bodies; ++b) {
             const mor_body *body = &group->bodies[b];
             const int number = case_number(bodies, c, body);
+            /* Of bodies in one place the surfaces coincide, and no point of one lies in the other. */
+            for (int k = 0; k < 3; ++k) {
+                const int64_t i = body->first + k * (body->n_particles - 1) / 2;
+                MOR_TRY(context, check_others(context, bodies, c, boxes, number, group->reference + 3 * i));
+            }
             for (int64_t s = body->first_node; s < body->first_node + body->n_nodes; ++s) {
                 MOR_TRY(context, check_node(context, bodies, c, frame, boxes, number, group->node_reference + 3 * s));
             }

@@ -116,6 +116,36 @@ static void a_body_that_is_driven_into_a_wall_is_warned_of(void **state)
     program_clear(&outcome);
 }
 
+static void bodies_that_overlap_as_the_run_begins_are_warned_of(void **state)
+{
+    run_folder *folder = *state;
+    program_outcome pressed = run_post(
+        folder, "pressed",
+        (const char *[]){"bodies[0].position=(-0.745, 0, 1.5)", "bodies[0].velocity=(0, 0, 0)", "end=1 ms", NULL}, 0);
+    program_expect_text(pressed.errors, "bodies overlap one another or walls by up to 0.0052");
+    program_clear(&pressed);
+    program_outcome clear = run_post(
+        folder, "clear",
+        (const char *[]){"bodies[0].position=(-0.75, 0, 1.5)", "bodies[0].velocity=(0, 0, 0)", "end=1 ms", NULL}, 0);
+    assert_null(strstr(clear.errors, "overlap"));
+    program_clear(&clear);
+}
+
+static void bodies_in_one_place_are_refused(void **state)
+{
+    run_folder *folder = *state;
+    program_outcome outcome =
+        run_post(folder, "twice",
+                 (const char *[]){
+                     "bodies=({name=\"a\"; shape={type=\"sphere\"; center=(0,0,0); radius=0.75;}; position=(-1,0,1.5);"
+                     "material={model=\"rigid\"; density=2600;};}, {name=\"b\"; shape={type=\"sphere\"; "
+                     "center=(0,0,0); radius=0.75;}; position=(-1,0,1.5); material={model=\"rigid\"; density=2600;};})",
+                     NULL},
+                 2);
+    program_expect_text(outcome.errors, "overlapping body");
+    program_clear(&outcome);
+}
+
 static void a_stiffness_that_was_chosen_is_told(void **state)
 {
     run_folder *folder = *state;
@@ -173,6 +203,9 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_body_that_is_driven_into_a_wall_is_warned_of, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(bodies_that_overlap_as_the_run_begins_are_warned_of, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(bodies_in_one_place_are_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_resume_keeps_the_forces_of_all_groups, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stiffness_that_was_chosen_is_told, run_folder_setup, run_folder_teardown),
     };
