@@ -122,7 +122,7 @@ static const char sub_steps[] =
     "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '10 kPa'; poissons_ratio = 0.3;"
     "    friction_angle = '30 deg'; cohesion = '1 kPa'; }; } );" FLOOR
     "bodies = ( { name = 'box'; shape = { type = 'sphere'; center = (0, 0); radius = 0.2; };"
-    "  position = (0, 0.25); velocity = (0, -1); contact_modulus = '300 MPa';"
+    "  position = (0, 0.255); velocity = (0, -1); contact_modulus = '300 MPa';"
     "  material = { model = 'rigid'; density = 2400; }; } );"
     "probes = ( { name = 'box'; type = 'body_force_contact'; body = 'box'; direction = (0, 1); },"
     "  { name = 'floor'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, 1); },"
@@ -153,7 +153,8 @@ static void peak_within_one_step_of_the_soil_is_found(void **state)
     scene_expect_near("wall", find(it, "floor").minimum, -box.maximum, 1e-12 * peak);
     scene_expect_near("impulse", box.impulse, given, 1e-11 * given);
     scene_expect_near("impulse of the wall", find(it, "floor").impulse, -given, 1e-11 * given);
-    scene_expect_near("depth", find(it, "depth").maximum, peak / stiffness, 0.04 * peak / stiffness);
+    /* The contact is narrower than half a spacing: nodes off the middle of the disc see it deeper or shallower. */
+    scene_expect_near("depth", find(it, "depth").maximum, peak / stiffness, 0.15 * peak / stiffness);
     assert_true(mor_probe_remark(&it->simulation, 1) == NULL); /* one clock of bodies */
     scene_free(it);
 }
