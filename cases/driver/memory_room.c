@@ -46,7 +46,7 @@ static double read_available(void)
 static double read_left(const char *limit, const char *used)
 {
     const double left = read_number(limit) - read_number(used);
-    return left > 0.0 ? left : INFINITY; /* not a number where neither is told */
+    return isnan(left) ? INFINITY : fmax(left, 0.0); /* not a number where neither is told */
 }
 
 double mor_memory_room(void)

@@ -147,12 +147,12 @@ static mor_status report_unrest(mor_context *context, const mor_simulation *simu
                         found, 1.0 / judgment.decay, judgment.time_needed, judgment.displacement,
                         judgment.displacement / spacing, TIME_MARGIN * judgment.time_needed);
     }
-    return MOR_FAIL(
-        context, MOR_NOT_CONVERGED,
-        "the soil did not come to rest: %s; it has moved by up to %.3g m (%.3g spacings), and its speed "
-        "neither decays steadily nor does the soil yield steadily. Give a longer 'settle_time' to see which, "
-        "or a larger 'settle_speed_ratio'%s",
-        found, judgment.displacement, judgment.displacement / spacing, may_creep ? creep_advice : "");
+    return MOR_FAIL(context, MOR_NOT_CONVERGED,
+                    "the soil did not come to rest: %s; it has moved by up to %.3g m (%.3g spacings), and its speed "
+                    "neither decays steadily nor does the soil yield steadily, as far as that can be told in the time "
+                    "given. Give a longer 'settle_time' to see which, "
+                    "or a larger 'settle_speed_ratio'%s",
+                    found, judgment.displacement, judgment.displacement / spacing, may_creep ? creep_advice : "");
 }
 
 /* Soil that came to rest in another form than the one described. */
