@@ -34,7 +34,7 @@ static mor_status report_stray(mor_context *context, const mor_soil *soil, const
         context, MOR_ERROR_NUMERIC,
         "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step "
         "%llu; the domain is (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m. Enlarge 'domain', close the walls, "
-        "or let soil leave with domain.outflow = \"remove\" (while it settles nothing may leave)",
+        "or let soil leave with domain.outflow = \"remove\"",
         (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2], s->placement != NULL ? " before 'placement'" : "",
         step->time + step->length, (unsigned long long)step->number, s->domain_minimum[0], s->domain_minimum[1],
         s->domain_minimum[2], s->domain_maximum[0], s->domain_maximum[1], s->domain_maximum[2]);
