@@ -323,6 +323,9 @@ typedef enum copy_way { MEASURE, STORE, LOAD } copy_way;
 
 static int64_t copy_array(char *bytes, int64_t at, void *data, int64_t n_bytes, copy_way way)
 {
+    if (n_bytes == 0) {
+        return at; /* an array of nothing has no place */
+    }
     if (way == STORE) {
         memcpy(bytes + at, data, (size_t)n_bytes);
     } else if (way == LOAD) {
