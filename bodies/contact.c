@@ -353,13 +353,9 @@ static mor_status find_partners(mor_context *context, void *owner, double length
             if (mor_contact_apart(contact, a, b, work->boxes) <= path + rim) {
                 const int s = bit_index(contact->stepper_bits[p->group_index]);
                 const int t = bit_index(contact->stepper_bits[q->group_index]);
-                MOR_CHECK(
-                    context,
-                    s < n_steppers &&
-                            t<n_steppers, MOR_ERROR_INTERNAL, "contact knows stepper %d, but there are only %d", s> t
-                        ? s
-                        : t,
-                    n_steppers);
+                const int last = s > t ? s : t;
+                MOR_CHECK(context, last < n_steppers, MOR_ERROR_INTERNAL,
+                          "contact knows stepper %d, but there are only %d", last, n_steppers);
                 partners[s] |= contact->stepper_bits[q->group_index];
                 partners[t] |= contact->stepper_bits[p->group_index];
             }

@@ -33,13 +33,7 @@
 /* Faces of a plate; edges of thick walls are no plates. */
 #define OF_PLATE (-0.98)
 
-enum {
-    SOLIDS_MAX = MOR_CASE_WALLS_MAX + MOR_CASE_BODIES_MAX,
-    FINDINGS_MAX = 16,
-    DESCENT_STEPS = 30,
-    BALLS = 40,
-    AT_ONCE = 64
-};
+enum { FINDINGS_MAX = 16, DESCENT_STEPS = 30, BALLS = 40, AT_ONCE = 64 };
 
 /* A wall or a body that does not give way. */
 typedef struct solid {

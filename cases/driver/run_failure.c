@@ -56,16 +56,6 @@ static mor_status write_results(mor_context *context, mor_run_files *files, cons
                     : MOR_OK;
 }
 
-static void restore_error(mor_context *context, const mor_context *reason)
-{
-    context->status = reason->status;
-    memcpy(context->message, reason->message, sizeof context->message);
-    memcpy(context->frames, reason->frames, sizeof context->frames);
-    context->n_frames = reason->n_frames;
-    context->particle = reason->particle;
-    memcpy(context->particle_set, reason->particle_set, sizeof context->particle_set);
-}
-
 mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files, retake_step retake)
 {
     const mor_context reason = *context;
@@ -84,6 +74,6 @@ mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files, 
         mor_context_log(context, MOR_LOG_WARNING, "not all results of the stopped run could be written: %s",
                         context->message);
     }
-    restore_error(context, &reason);
+    mor_context_restore_error(context, &reason);
     return reason.status;
 }

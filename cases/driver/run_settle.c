@@ -63,9 +63,6 @@ mor_status mor_run_settle(mor_context *context, mor_run_files *files)
         mor_context_log(context, MOR_LOG_WARNING, "the soil at the end of settling could not be drawn: %s",
                         context->message);
     }
-    context->status = reason.status;
-    memcpy(context->message, reason.message, sizeof context->message);
-    memcpy(context->frames, reason.frames, sizeof context->frames);
-    context->n_frames = reason.n_frames;
+    mor_context_restore_error(context, &reason);
     return status;
 }

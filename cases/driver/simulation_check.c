@@ -68,7 +68,7 @@ static mor_status find_first_step(mor_context *context, mor_simulation *s)
 {
     const mor_schedule *schedule = &s->schedule;
     const mor_status status = mor_schedule_preview(context, &s->schedule, &s->first_step);
-    if (status == MOR_OK || status != MOR_ERROR_NUMERIC) {
+    if (status != MOR_ERROR_NUMERIC) {
         return status;
     }
     s->first_step = s->the_case->end;

@@ -25,6 +25,16 @@ void mor_context_clear_error(mor_context *context)
     context->particle_set[0] = '\0';
 }
 
+void mor_context_restore_error(mor_context *context, const mor_context *earlier)
+{
+    context->status = earlier->status;
+    memcpy(context->message, earlier->message, sizeof context->message);
+    memcpy(context->frames, earlier->frames, sizeof context->frames);
+    context->n_frames = earlier->n_frames;
+    context->particle = earlier->particle;
+    memcpy(context->particle_set, earlier->particle_set, sizeof context->particle_set);
+}
+
 mor_status mor_context_fail(mor_context *context, mor_status status, const mor_frame *place, const char *format, ...)
 {
     /* Formatted aside first: an argument may be the message itself. */

@@ -56,6 +56,11 @@ void mor_context_init(mor_context *context);
  *  @param context [in,out]  one object */
 void mor_context_clear_error(mor_context *context);
 
+/** Makes an earlier error the last one again: what was done about it may have failed, too.
+ *  @param context [in,out]  one object
+ *  @param earlier [in]      one object; a copy of the context as it was then */
+void mor_context_restore_error(mor_context *context, const mor_context *earlier);
+
 /** Records an error and returns its code. Use MOR_FAIL, which fills in the place.
  *  @param context  [in,out]  one object
  *  @param status   [in]      the code to record; must not be MOR_OK
