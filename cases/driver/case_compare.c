@@ -297,8 +297,7 @@ void mor_case_compare(const char *given, const char *saved, mor_case_difference 
         const int n_probes = count_probes(saved, &had_audit);
         const int n_given = count_probes(given, &has_audit);
         compare_fixed(given, saved, n_probes, one, other, difference);
-        if (!difference->is_found && !compare_domain(given, saved, one, other, difference) &&
-            has_audit && !had_audit) {
+        if (!difference->is_found && !compare_domain(given, saved, one, other, difference) && has_audit && !had_audit) {
             *difference = (mor_case_difference){.is_found = true,
                                                 .reason = "; what becomes of energy is followed from the start or not "
                                                           "at all, so that such a probe cannot be added later"};
