@@ -162,14 +162,14 @@ static mor_status grow_cover(mor_context *context, cover *c)
 static bool project(const cover *c, double *point)
 {
     const double spacing = c->group->spacing;
-    double gap = mor_shape_distance(c->body->shape, point);
+    double gap = mor_shape_exact_distance(c->body->shape, point);
     for (int k = 0; k < PROJECTIONS_MAX && fabs(gap) > CLOSE_ENOUGH * spacing; ++k) {
         double normal[3];
-        mor_shape_normal(c->body->shape, point, NORMAL_STEP * spacing, normal);
+        mor_shape_exact_normal(c->body->shape, point, NORMAL_STEP * spacing, normal);
         for (int a = 0; a < c->group->dimension; ++a) {
             point[a] -= gap * normal[a];
         }
-        gap = mor_shape_distance(c->body->shape, point);
+        gap = mor_shape_exact_distance(c->body->shape, point);
     }
     return fabs(gap) <= FAR_OFF * spacing;
 }
@@ -188,7 +188,7 @@ static bool sharpen(const cover *c, double *point)
         if (!project(c, q)) {
             return false;
         }
-        mor_shape_normal(c->body->shape, q, NORMAL_STEP * spacing, normals[k]);
+        mor_shape_exact_normal(c->body->shape, q, NORMAL_STEP * spacing, normals[k]);
         for (int j = 0; j < k; ++j) {
             smallest = fmin(smallest, mor_vector_dot(normals[j], normals[k]));
         }

@@ -64,7 +64,8 @@ static void ground_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &ground);
 }
 
-static const mor_shape_operations ground_operations = {"terrain", ground_distance, ground_bounds, ground_free, NULL};
+static const mor_shape_operations ground_operations = {"terrain", ground_distance, ground_bounds, ground_free, NULL,
+                                                       NULL};
 
 mor_status mor_shape_new_terrain(mor_context *context, const mor_terrain *terrain, double thickness, double reach,
                                  mor_shape **shape)
@@ -148,7 +149,7 @@ static void release_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &release);
 }
 
-static const mor_shape_operations release_operations = {"release", release_distance, release_bounds, release_free,
+static const mor_shape_operations release_operations = {"release", release_distance, release_bounds, release_free, NULL,
                                                         NULL};
 
 /* Heights below the polygon: those of the nodes of all squares it may touch. */

@@ -31,6 +31,7 @@ typedef struct level_set_shape {
     mor_bounds bounds;
     bool knows_moments;
     mor_shape_moments moments; /* without meaning unless they are known */
+    mor_mesh_distance *mesh;   /* what the grid was filled from; owned; NULL: a shape */
 } level_set_shape;
 
 /* Where a point lies in the grid. */
@@ -128,6 +129,18 @@ static double level_set_distance(const mor_shape *shape, const double *point)
     return place.beyond == 0.0 ? value : sqrt(value * value + place.beyond * place.beyond);
 }
 
+/* Between nodes a grid rounds edges and bulges beside them by a hundredth of a cell; the mesh does not. */
+static double level_set_exact_distance(const mor_shape *shape, const double *point)
+{
+    const level_set_shape *set = (const level_set_shape *)shape;
+    const double band = set->grid.band;
+    const double distance = set->mesh != NULL ? mor_mesh_distance_find(set->mesh, point, band, NULL) : band;
+    if (!(distance < band)) {
+        return level_set_distance(shape, point);
+    }
+    return mor_mesh_distance_is_inside(set->mesh, point) ? -distance : distance;
+}
+
 static void level_set_bounds(const mor_shape *shape, mor_bounds *bounds)
 {
     *bounds = ((const level_set_shape *)shape)->bounds;
@@ -136,6 +149,7 @@ static void level_set_bounds(const mor_shape *shape, mor_bounds *bounds)
 static void level_set_free(mor_context *context, mor_shape *shape)
 {
     level_set_shape *set = (level_set_shape *)shape;
+    mor_mesh_distance_free(context, &set->mesh);
     MOR_FREE(context, &set->grid.values);
     MOR_FREE(context, &set);
 }
@@ -147,8 +161,8 @@ static bool level_set_moments(const mor_shape *shape, int dimension, mor_shape_m
     return set->knows_moments && dimension == set->grid.dimension;
 }
 
-static const mor_shape_operations level_set_operations = {"level set", level_set_distance, level_set_bounds,
-                                                          level_set_free, level_set_moments};
+static const mor_shape_operations level_set_operations = {"level set",    level_set_distance, level_set_bounds,
+                                                          level_set_free, level_set_moments,  level_set_exact_distance};
 
 void mor_level_set_normal(const mor_shape *shape, const double *point, double *normal, double *curvature)
 {
@@ -296,9 +310,12 @@ mor_status mor_shape_new_mesh(mor_context *context, const mor_mesh *mesh, const 
     MOR_TRY(context, mor_mesh_distance_new(context, mesh, &distance));
     const mor_level_set_source source = {distance, measure_mesh, is_inside_mesh};
     const mor_status status = make_level_set(context, request, &bounds, &source, shape);
-    mor_mesh_distance_free(context, &distance);
-    MOR_TRY(context, status);
+    if (status != MOR_OK) {
+        mor_mesh_distance_free(context, &distance);
+        return mor_context_pass(context, status, MOR_HERE);
+    }
     level_set_shape *set = (level_set_shape *)*shape;
+    set->mesh = distance;
     mor_mesh_moments(mesh, &set->moments);
     set->knows_moments = true;
     return MOR_OK;

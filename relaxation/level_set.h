@@ -9,6 +9,7 @@
  *  Signed distance on a grid: fast to ask and smooth, for shapes whose own distance is slow. Between grid points the
  *  value is that of tricubic (bicubic in two dimensions) interpolation, so that normals are continuous. Nodes within a
  *  band about the surface hold the exact distance; beyond the band the magnitude is a lower bound, the sign is right.
+ *  A level set of a mesh keeps the mesh: mor_shape_exact_distance asks it.
  *  The value changes by at most 1.1 m per m over two cells and more; within a cell of a kink (edges, inside) by 1.4. */
 
 /** How fine. */

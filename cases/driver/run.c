@@ -130,7 +130,8 @@ static void warn_of_overlap(mor_context *context, const mor_simulation *s)
         mor_context_log(
             context, MOR_LOG_WARNING,
             "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts hold %.3g "
-            "%s, which throws them apart: leave them a gap, or let them touch",
+            "%s, which throws them apart: leave them a gap (surfaces of meshes bulge beside edges by up to a 25th of a "
+            "spacing)",
             s->bodies.contact.deepest, stored, s->the_case->dimension == 2 ? "J/m" : "J");
     }
 }

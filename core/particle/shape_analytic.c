@@ -171,13 +171,14 @@ static void half_space_bounds(const mor_shape *shape, mor_bounds *bounds)
     }
 }
 
-static const mor_shape_operations box_operations = {"box", box_distance, box_bounds, free_plain, NULL};
-static const mor_shape_operations cylinder_operations = {"cylinder", cylinder_distance, cylinder_bounds, free_plain,
-                                                         NULL};
-static const mor_shape_operations cone_operations = {"cone", cone_distance, cone_bounds, free_plain, NULL};
-static const mor_shape_operations sphere_operations = {"sphere", sphere_distance, sphere_bounds, free_plain, NULL};
-static const mor_shape_operations half_space_operations = {"half_space", half_space_distance, half_space_bounds,
-                                                           free_plain, NULL};
+static const mor_shape_operations box_operations = {"box", box_distance, box_bounds, free_plain, NULL, NULL};
+static const mor_shape_operations cylinder_operations = {
+    "cylinder", cylinder_distance, cylinder_bounds, free_plain, NULL, NULL};
+static const mor_shape_operations cone_operations = {"cone", cone_distance, cone_bounds, free_plain, NULL, NULL};
+static const mor_shape_operations sphere_operations = {"sphere", sphere_distance, sphere_bounds, free_plain, NULL,
+                                                       NULL};
+static const mor_shape_operations half_space_operations = {
+    "half_space", half_space_distance, half_space_bounds, free_plain, NULL, NULL};
 
 mor_status mor_shape_new_box(mor_context *context, const double *minimum, const double *maximum, mor_shape **shape)
 {
@@ -285,24 +286,41 @@ double mor_shape_distance(const mor_shape *shape, const double *point)
     return shape->operations->distance(shape, point);
 }
 
+double mor_shape_exact_distance(const mor_shape *shape, const double *point)
+{
+    return shape->operations->exact_distance != NULL ? shape->operations->exact_distance(shape, point)
+                                                     : shape->operations->distance(shape, point);
+}
+
 void mor_shape_bounds(const mor_shape *shape, mor_bounds *bounds)
 {
     shape->operations->bounds(shape, bounds);
 }
 
-void mor_shape_normal(const mor_shape *shape, const double *point, double step, double *normal)
+static void find_normal(const mor_shape *shape, mor_shape_measure measure, const double *point, double step,
+                        double *normal)
 {
     for (int a = 0; a < 3; ++a) {
         double ahead[3] = {point[0], point[1], point[2]};
         double behind[3] = {point[0], point[1], point[2]};
         ahead[a] += step;
         behind[a] -= step;
-        normal[a] = mor_shape_distance(shape, ahead) - mor_shape_distance(shape, behind);
+        normal[a] = measure(shape, ahead) - measure(shape, behind);
     }
     const double length = mor_vector_length(normal);
     for (int a = 0; a < 3 && length > 0.0; ++a) {
         normal[a] /= length;
     }
+}
+
+void mor_shape_normal(const mor_shape *shape, const double *point, double step, double *normal)
+{
+    find_normal(shape, mor_shape_distance, point, step, normal);
+}
+
+void mor_shape_exact_normal(const mor_shape *shape, const double *point, double step, double *normal)
+{
+    find_normal(shape, mor_shape_exact_distance, point, step, normal);
 }
 
 void mor_shape_free(mor_context *context, mor_shape **shape)

@@ -169,6 +169,16 @@ bool mor_shape_moments_known(const mor_shape *shape, int dimension, mor_shape_mo
  *  Cost: that of the shape. Threads: safe to call concurrently. */
 double mor_shape_distance(const mor_shape *shape, const double *point);
 
+/** Returns the signed distance of a point as mor_shape_distance, from the surface itself where that one interpolates.
+ *  For what is made once, such as nodes on a surface.
+ *  @param shape [in]  one object
+ *  @param point [in]  shape [3]; unit m
+ *  Returns: unit m, negative inside. Cost: of a mesh, a search and some rays. Threads: safe to call concurrently. */
+double mor_shape_exact_distance(const mor_shape *shape, const double *point);
+
+/** How the distance of a point is asked for: mor_shape_distance or mor_shape_exact_distance. */
+typedef double (*mor_shape_measure)(const mor_shape *shape, const double *point);
+
 /** Writes axis-aligned bounds that hold the inside of the shape.
  *  @param shape  [in]   one object
  *  @param bounds [out]  one object; unit m; infinite where the shape has no end
@@ -182,6 +192,14 @@ void mor_shape_bounds(const mor_shape *shape, mor_bounds *bounds);
  *  @param normal [out]  shape [3]; unit 1; zero where the differences vanish (the center of a ball)
  *  Cost: six distances. Threads: safe to call concurrently. */
 void mor_shape_normal(const mor_shape *shape, const double *point, double step, double *normal);
+
+/** Writes the normal as mor_shape_normal, from exact distances.
+ *  @param shape  [in]   one object
+ *  @param point  [in]   shape [3]; unit m
+ *  @param step   [in]   unit m; half the width of the differences; > 0
+ *  @param normal [out]  shape [3]; unit 1; zero where the differences vanish
+ *  Cost: six exact distances. Threads: safe to call concurrently. */
+void mor_shape_exact_normal(const mor_shape *shape, const double *point, double step, double *normal);
 
 /** Frees a shape with its children and sets the pointer to NULL. NULL is accepted.
  *  @param context [in,out]  one object

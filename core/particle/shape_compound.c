@@ -39,12 +39,12 @@ typedef struct placed_shape {
     double move[3];
 } placed_shape;
 
-static double union_distance(const mor_shape *shape, const double *point)
+static double measure_union(const mor_shape *shape, const double *point, mor_shape_measure measure)
 {
     const union_shape *whole = (const union_shape *)shape;
     double nearest = INFINITY;
     for (int i = 0; i < whole->n_parts; ++i) {
-        nearest = fmin(nearest, mor_shape_distance(whole->parts[i], point));
+        nearest = fmin(nearest, measure(whole->parts[i], point));
     }
     return nearest;
 }
@@ -73,10 +73,10 @@ static void union_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &whole);
 }
 
-static double difference_distance(const mor_shape *shape, const double *point)
+static double measure_difference(const mor_shape *shape, const double *point, mor_shape_measure measure)
 {
     const difference_shape *rest = (const difference_shape *)shape;
-    return fmax(mor_shape_distance(rest->from, point), -mor_shape_distance(rest->minus, point));
+    return fmax(measure(rest->from, point), -measure(rest->minus, point));
 }
 
 static void difference_bounds(const mor_shape *shape, mor_bounds *bounds)
@@ -92,13 +92,13 @@ static void difference_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &rest);
 }
 
-static double placed_distance(const mor_shape *shape, const double *point)
+static double measure_placed(const mor_shape *shape, const double *point, mor_shape_measure measure)
 {
     const placed_shape *placed = (const placed_shape *)shape;
     const double offset[3] = {point[0] - placed->move[0], point[1] - placed->move[1], point[2] - placed->move[2]};
     double local[3];
     mor_matrix_apply_transposed(placed->turn, offset, local);
-    return mor_shape_distance(placed->child, local);
+    return measure(placed->child, local);
 }
 
 static void placed_bounds(const mor_shape *shape, mor_bounds *bounds)
@@ -127,11 +127,11 @@ static void placed_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &placed);
 }
 
-static double scaled_distance(const mor_shape *shape, const double *point)
+static double measure_scaled(const mor_shape *shape, const double *point, mor_shape_measure measure)
 {
     const scaled_shape *scaled = (const scaled_shape *)shape;
     const double local[3] = {point[0] / scaled->factor, point[1] / scaled->factor, point[2] / scaled->factor};
-    return scaled->factor * mor_shape_distance(scaled->child, local);
+    return scaled->factor * measure(scaled->child, local);
 }
 
 static void scaled_bounds(const mor_shape *shape, mor_bounds *bounds)
@@ -169,9 +169,9 @@ static void scaled_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &scaled);
 }
 
-static double view_distance(const mor_shape *shape, const double *point)
+static double measure_view(const mor_shape *shape, const double *point, mor_shape_measure measure)
 {
-    return mor_shape_distance(((const view_shape *)shape)->other, point);
+    return measure(((const view_shape *)shape)->other, point);
 }
 
 static void view_bounds(const mor_shape *shape, mor_bounds *bounds)
@@ -190,13 +190,33 @@ static void view_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &view);
 }
 
-static const mor_shape_operations union_operations = {"union", union_distance, union_bounds, union_free, NULL};
-static const mor_shape_operations difference_operations = {"difference", difference_distance, difference_bounds,
-                                                           difference_free, NULL};
-static const mor_shape_operations placed_operations = {"placed", placed_distance, placed_bounds, placed_free, NULL};
-static const mor_shape_operations scaled_operations = {"scaled", scaled_distance, scaled_bounds, scaled_free,
-                                                       scaled_moments};
-static const mor_shape_operations view_operations = {"view", view_distance, view_bounds, view_free, view_moments};
+/* Both ways to measure a compound, from those of its parts. */
+#define MEASURE(kind)                                                                                                  \
+    static double kind##_distance(const mor_shape *shape, const double *point)                                         \
+    {                                                                                                                  \
+        return measure_##kind(shape, point, mor_shape_distance);                                                       \
+    }                                                                                                                  \
+    static double kind##_exact_distance(const mor_shape *shape, const double *point)                                   \
+    {                                                                                                                  \
+        return measure_##kind(shape, point, mor_shape_exact_distance);                                                 \
+    }
+
+MEASURE(union)
+MEASURE(difference)
+MEASURE(placed)
+MEASURE(scaled)
+MEASURE(view)
+
+static const mor_shape_operations union_operations = {"union",    union_distance, union_bounds,
+                                                      union_free, NULL,           union_exact_distance};
+static const mor_shape_operations difference_operations = {
+    "difference", difference_distance, difference_bounds, difference_free, NULL, difference_exact_distance};
+static const mor_shape_operations placed_operations = {"placed", placed_distance,      placed_bounds, placed_free,
+                                                       NULL,     placed_exact_distance};
+static const mor_shape_operations scaled_operations = {"scaled",    scaled_distance, scaled_bounds,
+                                                       scaled_free, scaled_moments,  scaled_exact_distance};
+static const mor_shape_operations view_operations = {"view",    view_distance, view_bounds,
+                                                     view_free, view_moments,  view_exact_distance};
 
 mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_parts, mor_shape **shape)
 {

@@ -169,6 +169,35 @@ static void shipped_blocks_slide_and_rest_as_coulomb_says(void **state)
     }
 }
 
+/* A cube from a mesh lies as flat as a box: its nodes are on the faces of the mesh, not on the level set that bulges
+ * beside edges, or the floor would throw it up and it would slide without friction. The way is that of Coulomb's law. */
+static void a_cube_from_a_mesh_slides_as_coulomb_says(void **state)
+{
+    static const char mesh[] = "v -0.5 -0.5 -0.5\nv 0.5 -0.5 -0.5\nv 0.5 0.5 -0.5\nv -0.5 0.5 -0.5\n"
+                               "v -0.5 -0.5 0.5\nv 0.5 -0.5 0.5\nv 0.5 0.5 0.5\nv -0.5 0.5 0.5\n"
+                               "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    static const char text[] =
+        "title = 'cube'; dimension = 3; spacing = '0.125 m'; gravity = (4.905, 0, -8.4957092); end = '0.2 s';"
+        "domain = { min = (-1, -1, -1); max = (1, 1, 2); };"
+        "bodies = ( { name = 'cube'; position = (0, 0, 0.5); shape = { type = 'mesh'; file = 'cube.obj'; };"
+        "    material = { model = 'rigid'; density = 2000; }; } );"
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }; } );"
+        "contact = { friction_coefficient = 0.3; restitution = 0.5; };"
+        "probes = ( { name = 'way'; type = 'body_position'; body = 'cube'; direction = (1, 0, 0); },"
+        "  { name = 'yaw'; type = 'body_rotation_angle'; body = 'cube'; direction = (0, 0, 1); } );"
+        "expect = ( { probe = 'way'; value = 0.0471256; tolerance = 0.01; source = 'Coulomb friction'; },"
+        "  { probe = 'yaw'; value = 0.0; tolerance = 1e-5; absolute = true; source = 'symmetry'; } );"
+        "output = { snapshots = 1; pictures = false; };";
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES], file[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, path);
+    run_folder_store(run_folder_file(folder, file, "cube.obj"), mesh, sizeof mesh - 1);
+    run_folder_file(folder, results, "cube");
+    const char *const words[] = {"run", path, "-o", results, "-t", "1", NULL};
+    program_outcome outcome = program_run(folder, words, 0); /* 3 where an expectation is missed */
+    program_clear(&outcome);
+}
+
 static void a_stiffness_that_was_chosen_is_told(void **state)
 {
     run_folder *folder = *state;
@@ -231,6 +260,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(bodies_in_one_place_are_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_resume_keeps_the_forces_of_all_groups, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(shipped_blocks_slide_and_rest_as_coulomb_says, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_cube_from_a_mesh_slides_as_coulomb_says, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stiffness_that_was_chosen_is_told, run_folder_setup, run_folder_teardown),
     };
