@@ -54,7 +54,7 @@ static void set_path(walk *w, const char *name)
 {
     size_t used = 0;
     w->path[0] = '\0';
-    for (int d = 0; d < w->depth && used < sizeof w->path; ++d) {
+    for (int d = 0; d < w->depth && d < DEPTH_MAX && used < sizeof w->path; ++d) {
         const bool is_entry = w->names[d][0] == '\0';
         const int n = is_entry
                           ? snprintf(w->path + used, sizeof w->path - used, "[%d]", d > 0 ? w->counts[d - 1] - 1 : 0)
@@ -66,15 +66,20 @@ static void set_path(walk *w, const char *name)
     }
 }
 
+/* Number of the next entry of the group; groups deeper than those that are followed count as one. */
+static int next_number(walk *w)
+{
+    return w->depth > 0 && w->depth <= DEPTH_MAX ? w->counts[w->depth - 1]++ : 0;
+}
+
 static void open_group(walk *w, const char *name, size_t n_name)
 {
-    if (w->depth > 0) {
-        w->counts[w->depth - 1] += 1;
-    }
+    next_number(w);
     if (w->depth < DEPTH_MAX) {
         snprintf(w->names[w->depth], MOR_CASE_NAME_BYTES, "%.*s", (int)n_name, name);
-        w->counts[w->depth++] = 0;
+        w->counts[w->depth] = 0;
     }
+    w->depth += 1;
 }
 
 /* Takes "key = value;" apart. */
@@ -88,7 +93,7 @@ static void take_entry(walk *w, char *line)
     w->is_content = false;
     if (equals == NULL || line[0] == '(') { /* a point of a list */
         char number[16];
-        snprintf(number, sizeof number, "[%d]", w->depth > 0 ? w->counts[w->depth - 1]++ : 0);
+        snprintf(number, sizeof number, "[%d]", next_number(w));
         set_path(w, "");
         strncat(w->path, number, sizeof w->path - strlen(w->path) - 1);
         snprintf(w->value, sizeof w->value, "%s", line);
@@ -164,42 +169,34 @@ static void step_to_fixed(walk *w, int n_probes)
 /* Writes a value by its path; false when there is none. */
 static bool find_value(const char *text, const char *path, char *value)
 {
-    walk *w = calloc(1, sizeof *w);
+    walk w = {.at = text};
     bool is_found = false;
     value[0] = '\0';
-    if (w != NULL) {
-        w->at = text;
-        for (step_on(w); !w->is_over && !is_found; step_on(w)) {
-            is_found = strcmp(w->path, path) == 0;
-            if (is_found) {
-                snprintf(value, LINE_BYTES, "%s", w->value);
-            }
+    for (step_on(&w); !w.is_over && !is_found; step_on(&w)) {
+        is_found = strcmp(w.path, path) == 0;
+        if (is_found) {
+            snprintf(value, LINE_BYTES, "%s", w.value);
         }
     }
-    free(w);
     return is_found;
 }
 
 /* Number of probes, and whether one of them needs the audit of the soil's energy. */
 static int count_probes(const char *text, bool *has_audit)
 {
-    walk *w = calloc(1, sizeof *w);
+    walk w = {.at = text};
     int n = 0;
     *has_audit = false;
-    if (w != NULL) {
-        w->at = text;
-        for (step_on(w); !w->is_over; step_on(w)) {
-            const int probe = find_probe(w->path);
-            n = probe >= n ? probe + 1 : n;
-            if (probe >= 0 && ends_with(w->path, ".type")) {
-                char name[MOR_CASE_NAME_BYTES];
-                snprintf(name, sizeof name, "%.*s", (int)strcspn(w->value + 1, "\""), w->value + 1);
-                const mor_case_probe_type *type = mor_case_probe_type_find(name);
-                *has_audit = *has_audit || (type != NULL && (type->traits & MOR_CASE_PROBE_OF_AUDIT) != 0);
-            }
+    for (step_on(&w); !w.is_over; step_on(&w)) {
+        const int probe = find_probe(w.path);
+        n = probe >= n ? probe + 1 : n;
+        if (probe >= 0 && ends_with(w.path, ".type")) {
+            char name[MOR_CASE_NAME_BYTES];
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(w.value + 1, "\""), w.value + 1);
+            const mor_case_probe_type *type = mor_case_probe_type_find(name);
+            *has_audit = *has_audit || (type != NULL && (type->traits & MOR_CASE_PROBE_OF_AUDIT) != 0);
         }
     }
-    free(w);
     return n;
 }
 
@@ -243,20 +240,22 @@ static bool is_smaller(const char *given, const char *saved, double sign)
 }
 
 /* A value of the domain that is not what a run may go on with. */
-static bool compare_domain(const char *given, const char *saved, walk *one, walk *other, mor_case_difference *it)
+static bool compare_domain(const char *given, const char *saved, mor_case_difference *it)
 {
     static const char *const paths[] = {"domain.min", "domain.max", "domain.outflow"};
     static const char *const reasons[] = {"; the domain can only become larger", "; the domain can only become larger",
                                           "; what has left cannot be called back"};
+    walk one = {.at = given};
+    walk other = {.at = saved};
     for (int k = 0; k < 3; ++k) {
-        snprintf(one->path, sizeof one->path, "%s", paths[k]);
-        snprintf(other->path, sizeof other->path, "%s", paths[k]);
-        one->is_over = !find_value(given, paths[k], one->value);
-        other->is_over = !find_value(saved, paths[k], other->value);
-        const bool is_refused = k < 2 ? is_smaller(one->value, other->value, k == 0 ? -1.0 : 1.0)
-                                      : strcmp(one->value, other->value) != 0 && strcmp(other->value, "\"stop\"") != 0;
+        snprintf(one.path, sizeof one.path, "%s", paths[k]);
+        snprintf(other.path, sizeof other.path, "%s", paths[k]);
+        one.is_over = !find_value(given, paths[k], one.value);
+        other.is_over = !find_value(saved, paths[k], other.value);
+        const bool is_refused = k < 2 ? is_smaller(one.value, other.value, k == 0 ? -1.0 : 1.0)
+                                      : strcmp(one.value, other.value) != 0 && strcmp(other.value, "\"stop\"") != 0;
         if (is_refused) {
-            set_difference(it, one, other, reasons[k]);
+            set_difference(it, &one, &other, reasons[k]);
             return true;
         }
     }
@@ -264,49 +263,40 @@ static bool compare_domain(const char *given, const char *saved, walk *one, walk
 }
 
 /* Walks over both cases side by side. */
-static void compare_fixed(const char *given, const char *saved, int n_probes, walk *one, walk *other,
-                          mor_case_difference *it)
+static void compare_fixed(const char *given, const char *saved, int n_probes, mor_case_difference *it)
 {
-    memset(one, 0, sizeof *one);
-    memset(other, 0, sizeof *other);
-    one->at = given;
-    other->at = saved;
+    walk one = {.at = given};
+    walk other = {.at = saved};
     do {
-        step_to_fixed(one, n_probes);
-        step_to_fixed(other, n_probes);
-        if (one->is_over != other->is_over ||
-            (!one->is_over && (strcmp(one->path, other->path) != 0 || strcmp(one->value, other->value) != 0))) {
-            const bool is_probe = find_probe(one->path) >= 0 && find_probe(other->path) >= 0;
-            set_difference(it, one, other,
-                           is_probe                           ? "; new probes go behind those that are there"
-                           : one->is_content && !one->is_over ? "; the file has changed since"
-                                                              : "");
+        step_to_fixed(&one, n_probes);
+        step_to_fixed(&other, n_probes);
+        if (one.is_over != other.is_over ||
+            (!one.is_over && (strcmp(one.path, other.path) != 0 || strcmp(one.value, other.value) != 0))) {
+            const bool is_probe = find_probe(one.path) >= 0 && find_probe(other.path) >= 0;
+            set_difference(it, &one, &other,
+                           is_probe                         ? "; new probes go behind those that are there"
+                           : one.is_content && !one.is_over ? "; the file has changed since"
+                                                            : "");
             return;
         }
-    } while (!one->is_over);
+    } while (!one.is_over);
 }
 
 void mor_case_compare(const char *given, const char *saved, mor_case_difference *difference)
 {
-    walk *one = calloc(1, sizeof *one);
-    walk *other = calloc(1, sizeof *other);
     bool has_audit = false;
     bool had_audit = false;
-    *difference = (mor_case_difference){.is_found = one == NULL || other == NULL, .reason = "; there is no memory"};
-    if (!difference->is_found) {
-        const int n_probes = count_probes(saved, &had_audit);
-        const int n_given = count_probes(given, &has_audit);
-        compare_fixed(given, saved, n_probes, one, other, difference);
-        if (!difference->is_found && !compare_domain(given, saved, one, other, difference) && has_audit && !had_audit) {
-            *difference = (mor_case_difference){.is_found = true,
-                                                .reason = "; what becomes of energy is followed from the start or not "
-                                                          "at all, so that such a probe cannot be added later"};
-            snprintf(difference->found, sizeof difference->found, "a probe of the audit of energy among %d", n_given);
-            snprintf(difference->expected, sizeof difference->expected, "none among %d", n_probes);
-        }
+    const int n_probes = count_probes(saved, &had_audit);
+    const int n_given = count_probes(given, &has_audit);
+    *difference = (mor_case_difference){.is_found = false};
+    compare_fixed(given, saved, n_probes, difference);
+    if (!difference->is_found && !compare_domain(given, saved, difference) && has_audit && !had_audit) {
+        *difference = (mor_case_difference){.is_found = true,
+                                            .reason = "; what becomes of energy is followed from the start or not "
+                                                      "at all, so that such a probe cannot be added later"};
+        snprintf(difference->found, sizeof difference->found, "a probe of the audit of energy among %d", n_given);
+        snprintf(difference->expected, sizeof difference->expected, "none among %d", n_probes);
     }
-    free(one);
-    free(other);
 }
 
 bool mor_case_compare_domains(const char *given, const char *saved)

@@ -4,6 +4,7 @@
 #include "cases/driver/case_reader.h"
 
 #include "core/base/math.h"
+#include "core/sph/kernel.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -209,10 +210,25 @@ static mor_status check_series(const mor_case_reader *reader, const mor_case_nod
                               c->output.series_interval, c->end);
 }
 
+/* Soil looks for rocks within the support of its kernel. */
+static mor_status check_barrier(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    const double support = MOR_KERNEL_SUPPORT * c->numerics.smoothing_ratio * c->spacing;
+    if (!(c->numerics.barrier_stiffness > 0.0) || c->numerics.barrier_radius <= support) {
+        return MOR_OK;
+    }
+    const mor_case_node *node = mor_case_node_find(mor_case_node_find(root, "numerics"), "barrier_radius");
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found numerics.barrier_radius = %g m; allowed: up to the support of the kernel, %g m; "
+                              "the spacing, which is the default, is a good value",
+                              c->numerics.barrier_radius, support);
+}
+
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)
 {
     MOR_TRY(reader->context, check_ramp(reader, root, the_case));
     MOR_TRY(reader->context, check_series(reader, root, the_case));
+    MOR_TRY(reader->context, check_barrier(reader, root, the_case));
     warn_of_idle_settings(reader, root, the_case);
     return MOR_OK;
 }

@@ -244,6 +244,21 @@ static mor_status check_scene(const mor_case_reader *reader, const mor_case_node
                               missing, missing, missing);
 }
 
+/* The name becomes a column of the series, which has some of its own. */
+static mor_status check_column(const mor_case_reader *reader, const mor_case_node *node, const char *name)
+{
+    static const char *const taken[] = {"time", "step", "step_length"};
+    for (size_t k = 0; k < sizeof taken / sizeof *taken; ++k) {
+        if (strcmp(taken[k], name) == 0) {
+            return MOR_CASE_NODE_FAIL(reader->context, node,
+                                      "found the probe name '%s'; allowed: any but time, step and step_length, which "
+                                      "series.csv has anyway; give it another name",
+                                      name);
+        }
+    }
+    return MOR_OK;
+}
+
 static mor_status read_probe(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
                              mor_case_probe *probe)
 {
@@ -257,6 +272,7 @@ static mor_status read_probe(const mor_case_reader *reader, const mor_case_node 
     MOR_TRY(reader->context, complete_probe(reader, node, the_case->spacing, type, probe));
     MOR_TRY(reader->context, check_window(reader, node, the_case->end, probe));
     MOR_TRY(reader->context, check_probe_names(reader, node, the_case, probe));
+    MOR_TRY(reader->context, check_column(reader, node, probe->name));
     for (const mor_case_probe *other = the_case->probes; other < probe; ++other) {
         if (strcmp(other->name, probe->name) == 0) {
             return MOR_CASE_NODE_FAIL(reader->context, node,

@@ -73,12 +73,12 @@ void mor_contact_report_print(const mor_case *the_case, FILE *out)
 
 bool mor_contact_report_depends_on_choice(const mor_case *the_case, int probe)
 {
-    static const char *const types[] = {"body_force_contact", "wall_contact_force"};
-    bool is_force = false;
+    static const char *const types[] = {"body_force_contact", "wall_contact_force", "contact_depth"};
+    bool is_about_contact = false;
     for (size_t k = 0; k < sizeof types / sizeof types[0]; ++k) {
-        is_force = is_force || strcmp(the_case->probes[probe].type, types[k]) == 0;
+        is_about_contact = is_about_contact || strcmp(the_case->probes[probe].type, types[k]) == 0;
     }
-    for (int k = 0; k < the_case->n_bodies && is_force; ++k) {
+    for (int k = 0; k < the_case->n_bodies && is_about_contact; ++k) {
         if (mor_contact_report_is_chosen(&the_case->bodies[k])) {
             return true;
         }

@@ -20,10 +20,10 @@ bool mor_contact_report_is_chosen(const mor_case_body *body);
  *  @param out      [in,out]  one open stream */
 void mor_contact_report_print(const mor_case *the_case, FILE *out);
 
-/** What is to be known of a force of contacts whose stiffness was chosen, a sentence without its stop. */
+/** What is to be known of a force or a depth of contacts whose stiffness was chosen, a sentence without its stop. */
 #define MOR_CONTACT_REPORT_CHOICE "depends on a contact stiffness that was chosen for speed: give contact_modulus"
 
-/** Whether a probe measures a force of contacts some of which have a stiffness that was chosen for speed.
+/** Whether a probe measures a force or a depth of contacts some of which have a stiffness that was chosen for speed.
  *  @param the_case [in]  one object
  *  @param probe    [in]  index of the probe */
 bool mor_contact_report_depends_on_choice(const mor_case *the_case, int probe);

@@ -74,9 +74,8 @@ static mor_status soil_work_on_bodies(mor_context *context, const view *v, doubl
 
 /* What bodies that move as prescribed took out, beside what the soil gave them: contact with others, and height that
  * they gained or lost without anyone's energy. */
-static double find_driven_bodies(const view *v)
+static double find_driven_bodies(const mor_simulation *s)
 {
-    const mor_simulation *s = v->simulation;
     const double time = mor_schedule_time(&s->schedule);
     double sum = 0.0;
     for (int b = 0; b < s->the_case->n_bodies; ++b) {
@@ -94,7 +93,7 @@ static double find_driven_bodies(const view *v)
 static mor_status external_work(mor_context *context, const view *v, double *value)
 {
     (void)context;
-    *value = -taken(v, MOR_SOIL_ENERGY_DRIVEN) - taken(v, MOR_SOIL_ENERGY_RAMP) - find_driven_bodies(v);
+    *value = -taken(v, MOR_SOIL_ENERGY_DRIVEN) - taken(v, MOR_SOIL_ENERGY_RAMP) - find_driven_bodies(v->simulation);
     return MOR_OK;
 }
 
@@ -163,6 +162,50 @@ static mor_status energy_balance(mor_context *context, const view *v, double *va
     turned = fmax(turned, v->past[MOR_PROBE_RECORD_MAXIMUM]);
     *value = turned == 0.0 ? 1.0 : 1.0 + error / turned;
     return MOR_OK;
+}
+
+/* Whether nothing but the bodies and what the audit knows of them gives or takes energy. */
+static bool is_closed(const mor_case *c)
+{
+    bool is_closed = c->n_soils == 0 && !(c->numerics.gravity_ramp > 0.0);
+    for (int w = 0; w < c->n_walls; ++w) {
+        is_closed = is_closed && mor_vector_length(c->walls[w].velocity) == 0.0;
+    }
+    for (int b = 0; b < c->n_bodies; ++b) {
+        is_closed = is_closed && !(c->bodies[b].spring_damping > 0.0);
+    }
+    return is_closed;
+}
+
+double mor_probe_bodies_error(const mor_simulation *s, double *share)
+{
+    double origin[3];
+    double energies[3];
+    double lifted = 0.0; /* of all bodies by a spacing: less moves nothing that is resolved */
+    *share = 0.0;
+    if (!is_closed(s->the_case)) {
+        return 0.0;
+    }
+    mor_simulation_place_point(s->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    mor_simulation_bodies_energy(&s->bodies, origin, &energies[0], &energies[1], &energies[2]);
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        const mor_body_group *group = s->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            lifted += group->bodies[b].mass * mor_vector_length(group->gravity) * group->spacing;
+        }
+    }
+    const double lost = find_bodies_lost(&s->bodies);
+    const double driven = find_driven_bodies(s);
+    double error = lost + driven;
+    double turned = 0.5 * (fabs(lost) + fabs(driven));
+    for (int k = 0; k < 3; ++k) {
+        const double change = energies[k] - s->initial_energies[k];
+        error += change;
+        turned += 0.5 * fabs(change);
+    }
+    const double scale = fmax(turned, fmax(lifted, s->initial_energies[0]));
+    *share = scale > 0.0 ? error / scale : 0.0;
+    return error;
 }
 
 const mor_probe_measure mor_probe_energy_measures[] = {

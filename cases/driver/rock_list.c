@@ -3,6 +3,7 @@
 #include "cases/driver/rock_list.h"
 
 #include "core/base/memory.h"
+#include "core/base/number.h"
 
 #include <errno.h>
 #include <math.h>
@@ -221,9 +222,8 @@ static mor_status read_number(const table *t, const cell *found, int column, dou
     const int kind = t->kind_of[column];
     const char *unit = t->unit_of[column][0] != '\0' ? t->unit_of[column] : kinds[kind].unit;
     char text[2 * CELL_BYTES];
-    char *end = NULL;
-    (void)strtod(found->text, &end);
-    if (found->n == 0 || *end != '\0' || found->text[strspn(found->text, "0123456789+-.eE")] != '\0') {
+    double plain;
+    if (!mor_number_read(found->text, (size_t)found->n, &plain)) {
         return CELL_FAIL(t, found->first, "found '%s' as %s; allowed: a number with a decimal point; correct it",
                          found->text, kinds[kind].name);
     }

@@ -236,6 +236,17 @@ static void warn_of_outflow(mor_context *context, const mor_simulation *s)
 static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
 {
     const double advisable = 0.05;
+    double share = 0.0;
+    const double error = mor_probe_bodies_error(s, &share);
+    if (!(fabs(share) <= advisable)) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "the energies of the bodies do not add up: %.3g %s too %s, %.3g %% of what changed hands; do not "
+            "report results before that is mended: bodies that overlapped at the start, or too large a "
+            "numerics.courant",
+            fabs(error), s->the_case->dimension == 2 ? "J/m" : "J", error > 0.0 ? "much" : "little",
+            100.0 * fabs(share));
+    }
     for (int k = 0; k < s->the_case->n_probes; ++k) {
         const char *type = s->the_case->probes[k].type;
         double value = 1.0;

@@ -127,12 +127,22 @@ static void settings_of_the_method_need_something_to_work_on(void **state)
     }
 }
 
+static void a_barrier_beyond_the_kernel_is_refused(void **state)
+{
+    case_reading *f = *state;
+    case_reading_refuse(f, soil_text,
+                        (const char *[]){"numerics.barrier_stiffness=1e6", "numerics.barrier_radius=3", NULL}, "--set",
+                        "found numerics.barrier_radius = 3 m; allowed: up to the support of the kernel");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(settings_without_effect_are_warned_of, case_reading_set_up,
                                         case_reading_tear_down),
         cmocka_unit_test_setup_teardown(settings_of_the_method_need_something_to_work_on, case_reading_set_up,
+                                        case_reading_tear_down),
+        cmocka_unit_test_setup_teardown(a_barrier_beyond_the_kernel_is_refused, case_reading_set_up,
                                         case_reading_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
