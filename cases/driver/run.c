@@ -9,6 +9,7 @@
 #include "cases/driver/rocks_report.h"
 #include "cases/driver/run_failure.h"
 #include "cases/driver/run_settle.h"
+#include "cases/driver/run_warnings.h"
 #include "cases/driver/simulation_warnings.h"
 #include "core/base/math.h"
 
@@ -225,10 +226,12 @@ static void warn_of_outflow(mor_context *context, const mor_simulation *s)
     const double n_out = s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES];
     const double share = s->has_soil ? n_out / (double)s->soil.set.n_created : 0.0;
     if (share > advisable) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "%.0f of %lld soil particles (%.3g %%) left the domain and were removed; results are those of "
-                        "the rest. Above %g %%, see whether the domain is large enough",
-                        n_out, (long long)s->soil.set.n_created, 100.0 * share, 100.0 * advisable);
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            MOR_RUN_WARNING_AT_END
+            "%.0f of %lld soil particles (%.3g %%) had left the domain and were removed; results are those of "
+            "the rest. Above %g %%, see whether the domain is large enough",
+            n_out, (long long)s->soil.set.n_created, 100.0 * share, 100.0 * advisable);
     }
 }
 
@@ -241,6 +244,7 @@ static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
     if (!(fabs(share) <= advisable)) {
         mor_context_log(
             context, MOR_LOG_WARNING,
+            MOR_RUN_WARNING_AT_END
             "the energies of the bodies do not add up: %.3g %s too %s, %.3g %% of what changed hands; do not "
             "report results before that is mended: bodies that overlapped at the start, or too large a "
             "numerics.courant",
@@ -256,6 +260,7 @@ static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
         MOR_TRY(context, mor_probe_evaluate(context, s, k, &value));
         if (!(fabs(value - 1.0) <= advisable)) {
             mor_context_log(context, MOR_LOG_WARNING,
+                            MOR_RUN_WARNING_AT_END
                             "the energies of the run do not add up: '%s' is %.4g, not 1 within %g; do not report its "
                             "results before a smaller numerics.courant or spacing has mended that",
                             s->the_case->probes[k].name, value, advisable);

@@ -33,9 +33,11 @@ void mor_run_warnings_load(mor_run_warnings *warnings, const char *path)
     size_t room = 0;
     FILE *log = fopen(path, "rb");
     while (log != NULL && getline(&line, &room, log) > 0) {
-        if (strncmp(line, line_start, sizeof line_start - 1) == 0) {
+        const char *text = line + sizeof line_start - 1;
+        if (strncmp(line, line_start, sizeof line_start - 1) == 0 &&
+            strncmp(text, MOR_RUN_WARNING_AT_END, sizeof MOR_RUN_WARNING_AT_END - 1) != 0) {
             line[strcspn(line, "\n")] = '\0';
-            mor_run_warnings_add(warnings, line + sizeof line_start - 1);
+            mor_run_warnings_add(warnings, text);
         }
     }
     free(line);

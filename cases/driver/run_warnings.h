@@ -11,6 +11,9 @@
 
 enum { MOR_RUN_WARNINGS_MAX = 64 };
 
+/** Begins what is judged at the end of a run: a run that is resumed beyond its end is judged anew. */
+#define MOR_RUN_WARNING_AT_END "at the end of the run "
+
 /** The texts of a run. Zeroed: none. Owner: the run's files, which end it with mor_run_warnings_clear. */
 typedef struct mor_run_warnings {
     char *texts[MOR_RUN_WARNINGS_MAX]; /* shape [n]; zero-terminated; owned */
@@ -23,7 +26,7 @@ typedef struct mor_run_warnings {
  *  Returns: whether the text was new and had room. */
 bool mor_run_warnings_add(mor_run_warnings *warnings, const char *text);
 
-/** Adds the warnings that a log of an earlier part of the run tells.
+/** Adds the warnings that a log of an earlier part of the run tells, but for those of its end.
  *  @param warnings [in,out]  one object
  *  @param path     [in]      zero-terminated; of the log; one that is missing tells none */
 void mor_run_warnings_load(mor_run_warnings *warnings, const char *path);

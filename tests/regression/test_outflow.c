@@ -86,7 +86,7 @@ static void debris_flow_that_loses_particles_runs_to_its_end(void **state)
     assert_true(fabs(read_result(folder, "run", "energy_balance") - 1.0) < 0.02);        /* as without outflow */
     char *summary = load_text(folder, "run", MOR_SUMMARY_FILE);
     program_expect_text(summary, "of 3000 soil particles");
-    program_expect_text(summary, "left the domain and were removed");
+    program_expect_text(summary, "had left the domain and were removed");
     free(summary);
 }
 

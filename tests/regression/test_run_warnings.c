@@ -84,12 +84,14 @@ static void series_finer_than_steps_has_a_row_for_each_step(void **state)
     free(series);
 }
 
-/* A log of an earlier part tells what was warned of then; info lines and texts known already add nothing. */
+/* A log of an earlier part tells what was warned of then; info lines, texts known already and what was judged at the end
+ * of that part add nothing. */
 static void warnings_are_read_from_a_log_each_once(void **state)
 {
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
-    static const char log[] = "info: moraine\nwarning: deep\nwarning: fast\nerror: no\nwarning: deep\n";
+    static const char log[] = "info: moraine\nwarning: deep\nwarning: at the end of the run much had left\nwarning: "
+                              "fast\nerror: no\nwarning: deep\n";
     mor_run_warnings warnings = {.n = 0};
     run_folder_store(run_folder_file(folder, path, "log.txt"), log, strlen(log));
     assert_true(mor_run_warnings_add(&warnings, "fast"));
