@@ -253,7 +253,7 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
     const double *position = group->set.data[MOR_FIELD_POSITION];
     const double *velocity = group->set.data[MOR_FIELD_VELOCITY];
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
-    MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
+    MOR_PARALLEL_FOR (&team, p, group->is_unseen ? 0 : group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
         for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
             double *record = group->boundary.records + i * MOR_BOUNDARY_RECORD + MOR_BOUNDARY_POSITION;
@@ -269,6 +269,9 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
 {
     const double *position = group->set.data[MOR_FIELD_POSITION];
     const double *velocity = group->set.data[MOR_FIELD_VELOCITY];
+    if (group->is_unseen) {
+        return;
+    }
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];

@@ -80,6 +80,7 @@ typedef struct mor_body_group {
     mor_body *bodies;      /* shape [n_bodies] */
     int n_bodies;
     mor_boundary boundary; /* what the soil sees; patch b is body b; boundary.force is the soil's force on particles */
+    bool is_unseen;        /* no soil sees the group: its boundary is not kept up to date */
     double *start;         /* shape [n_particles, 3]; positions at the start of the common step, for eq. 60, m */
     double *mean_velocity; /* shape [n_particles, 3]; over the last common step, eq. 60, m/s */
     /* Surface nodes carry contact. A node is a weighted mean of particles of its body, exact for linear fields:

@@ -18,11 +18,10 @@
 enum { ALL_LOCKED = 0x3f };
 
 static const mor_stage rigid_stages[] = {
-    {"first drift", mor_rigid_drift_first, BIT(POSITION) | BIT(VELOCITY), BIT(POSITION) | BIT(VELOCITY), 0,
-     "bodies to the middle of the step"},
-    {"kick", mor_rigid_kick, BIT(POSITION), 0, 0, "momentum and angular momentum to the end of the step"},
-    {"second drift", mor_rigid_drift_second, BIT(POSITION) | BIT(VELOCITY), BIT(POSITION) | BIT(VELOCITY), 0,
-     "bodies to the end of the step"},
+    {"first drift", mor_rigid_drift_first, 0, 0, 0, "bodies to the middle of the step"},
+    {"kick", mor_rigid_kick, 0, 0, 0, "momentum and angular momentum to the end of the step"},
+    {"second drift", mor_rigid_drift_second, 0, BIT(POSITION) | BIT(VELOCITY), 0,
+     "bodies to the end of the step; their particles at the end of a common one"},
 };
 
 /* Motion at the start. Angular momenta about locked axes mean nothing and are zero. */

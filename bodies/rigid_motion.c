@@ -18,14 +18,38 @@ static bool is_in_domain(const mor_body_group *group, const double *x)
     return mor_domain_holds(group->domain_minimum, group->domain_maximum, group->dimension, local);
 }
 
-/* Particles of a piece follow their body. Keeps the first one outside the domain, or -1. */
-static void place_piece(const mor_body_group *group, const mor_body_piece *piece, double *stray)
+/* Whether the ball around a body lies in the domain, so that no particle needs a look. */
+static bool is_well_inside(const mor_body_group *group, const mor_body *body, double radius)
+{
+    double local[3];
+    bool is_inside = isfinite(body->turn[0]); /* a rotation that is no number has no entry that is one */
+    mor_domain_localize(group->placement, body->center, local);
+    for (int a = 0; a < group->dimension; ++a) {
+        is_inside =
+            is_inside && local[a] - radius > group->domain_minimum[a] && local[a] + radius < group->domain_maximum[a];
+    }
+    return is_inside;
+}
+
+/* First particle of a piece outside the domain, or -1. */
+static double find_stray(const mor_body_group *group, const mor_body_piece *piece)
+{
+    const double *position = group->set.data[MOR_FIELD_POSITION];
+    for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
+        if (!is_in_domain(group, position + 3 * i)) {
+            return (double)i;
+        }
+    }
+    return -1.0;
+}
+
+/* Particles of a piece follow their body. */
+static void place_piece(const mor_body_group *group, const mor_body_piece *piece)
 {
     const mor_body *body = &group->bodies[piece->body];
-    double *position = group->set.data[MOR_FIELD_POSITION];
-    double *velocity = group->set.data[MOR_FIELD_VELOCITY];
-    *stray = -1.0;
-    for (int64_t i = piece->first + piece->n_particles - 1; i >= piece->first; --i) {
+    double *restrict position = group->set.data[MOR_FIELD_POSITION];
+    double *restrict velocity = group->set.data[MOR_FIELD_VELOCITY];
+    for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
         double *x = position + 3 * i;
         double *v = velocity + 3 * i;
         double arm[3];
@@ -39,11 +63,11 @@ static void place_piece(const mor_body_group *group, const mor_body_piece *piece
             v[a] = body->velocity[a];
         }
         mor_vector_cross_add(1.0, body->angular_velocity, turned, v);
-        *stray = is_in_domain(group, x) ? *stray : (double)i;
     }
 }
 
-void mor_rigid_place(mor_context *context, mor_rigid *rigid)
+/* Center, velocity and turn of the bodies, as the states say. */
+static void place_bodies(mor_rigid *rigid)
 {
     mor_body_group *group = &rigid->group;
     for (int b = 0; b < group->n_bodies; ++b) {
@@ -63,9 +87,19 @@ void mor_rigid_place(mor_context *context, mor_rigid *rigid)
                                        body->angular_velocity);
         }
     }
+}
+
+void mor_rigid_place(mor_context *context, mor_rigid *rigid)
+{
+    const mor_body_group *group = &rigid->group;
+    place_bodies(rigid);
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
-        place_piece(group, &group->pieces[p], &group->piece_values[p * MOR_BODY_PIECE_VALUES + STRAY]);
+        const mor_body_piece *piece = &group->pieces[p];
+        const double radius = rigid->work->constants[piece->body].outermost;
+        place_piece(group, piece);
+        group->piece_values[p * MOR_BODY_PIECE_VALUES + STRAY] =
+            is_well_inside(group, &group->bodies[piece->body], radius) ? -1.0 : find_stray(group, piece);
     }
 }
 
@@ -104,8 +138,9 @@ static void drift_half(mor_rigid *rigid, double half_step, double time)
 mor_status mor_rigid_drift_first(mor_context *context, void *owner, const mor_step *step)
 {
     mor_rigid *rigid = owner;
+    (void)context;
     drift_half(rigid, 0.5 * step->length, step->time + 0.5 * step->length);
-    mor_rigid_place(context, rigid);
+    place_bodies(rigid);
     return MOR_OK;
 }
 
@@ -151,6 +186,10 @@ mor_status mor_rigid_drift_second(mor_context *context, void *owner, const mor_s
     mor_rigid *rigid = owner;
     const mor_body_group *group = &rigid->group;
     drift_half(rigid, 0.5 * step->length, step->time + step->length);
+    if (step->part + 1 < step->n_parts) {
+        place_bodies(rigid); /* nobody looks at particles before the end of the common step */
+        return MOR_OK;
+    }
     mor_rigid_place(context, rigid);
     for (int64_t p = 0; p < group->n_pieces; ++p) {
         const double stray = group->piece_values[p * MOR_BODY_PIECE_VALUES + STRAY];
@@ -297,7 +336,7 @@ mor_status mor_rigid_kick(mor_context *context, void *owner, const mor_step *ste
 {
     mor_rigid *rigid = owner;
     (void)context;
-    if (step->part == 0) {
+    if (step->part == 0 && !rigid->group.is_unseen) {
         hold_soil_forces(rigid);
     }
     for (int b = 0; b < rigid->group.n_bodies; ++b) {

@@ -573,6 +573,7 @@ mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodie
             mor_rigid_stepper(&bodies->rigid, &stepper, &evolving);
         }
         MOR_TRY(context, mor_schedule_add(context, schedule, &stepper, evolving));
+        bodies->groups[g]->is_unseen = soil == NULL;
         if (soil != NULL) {
             MOR_TRY(context, show_to_soil(context, the_case, soil, &bodies->groups[g]->boundary));
         }
