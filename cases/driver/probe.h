@@ -63,12 +63,12 @@ void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_
  *  @param probe      [in]  index of the probe in the case */
 const char *mor_probe_remark(const mor_simulation *simulation, int probe);
 
-/** Error of the energy of bodies without soil: what they have now, more than at the start less what contact and damping
- *  took and what drives them gave.
+/** Error of the energy of bodies without soil: what they have now, more than at the start less what contact and
+ *  damping took and what drives them gave.
  *  @param simulation [in]   one object
  *  @param share      [out]  one number; the error over the energy that changed hands, or that of the start, or the work
- *                           to lift all bodies by a spacing, whichever is most; unit 1. Zero with soil, walls in motion,
- *                           a ramp of gravity or dampers, which this audit does not follow
+ *                           to lift all bodies by a spacing, whichever is most; unit 1. Zero with soil, moving walls, a
+ *                           ramp of gravity or dampers, which this audit does not follow
  *  Returns: unit J (J/m in plane strain). */
 double mor_probe_bodies_error(const mor_simulation *simulation, double *share);
 

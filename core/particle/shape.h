@@ -44,8 +44,8 @@ typedef struct mor_shape_operations {
     /** Writes the exact moments of the inside, of plane strain when dimension is 2. Returns false when the shape does
      *  not know them; they are then to be found by integration. NULL: never known. Safe to call concurrently. */
     bool (*moments)(const mor_shape *shape, int dimension, mor_shape_moments *moments);
-    /** Signed distance as `distance`, from the surface itself where `distance` only approximates it; may be slow. NULL:
-     *  `distance` is all there is. Safe to call concurrently. */
+    /** Signed distance [m] of a point, shape [3], unit m, as `distance`, but from the surface itself where that only
+     *  approximates it; may be slow. NULL: `distance` is all there is. Safe to call concurrently. */
     double (*exact_distance)(const mor_shape *shape, const double *point);
 } mor_shape_operations;
 

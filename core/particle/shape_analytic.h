@@ -176,7 +176,10 @@ double mor_shape_distance(const mor_shape *shape, const double *point);
  *  Returns: unit m, negative inside. Cost: of a mesh, a search and some rays. Threads: safe to call concurrently. */
 double mor_shape_exact_distance(const mor_shape *shape, const double *point);
 
-/** How the distance of a point is asked for: mor_shape_distance or mor_shape_exact_distance. */
+/** How the distance of a point, shape [3], unit m, is asked for: mor_shape_distance or mor_shape_exact_distance.
+ *  @param shape [in]  one object
+ *  @param point [in]  shape [3]; unit m
+ *  Returns: unit m, negative inside. */
 typedef double (*mor_shape_measure)(const mor_shape *shape, const double *point);
 
 /** Writes axis-aligned bounds that hold the inside of the shape.

@@ -172,8 +172,8 @@ static void shipped_blocks_slide_and_rest_as_coulomb_says(void **state)
     }
 }
 
-/* A cube from a mesh lies as flat as a box: its nodes are on the faces of the mesh, not on the level set that bulges
- * beside edges, or the floor would throw it up and it would slide without friction. The way is that of Coulomb's law. */
+/* A cube from a mesh lies as flat as a box: its nodes are on the faces of the mesh, not on the level set, which bulges
+ * beside edges, or the floor would throw it up and it would slide without friction. The way is that of Coulomb. */
 static void a_cube_from_a_mesh_slides_as_coulomb_says(void **state)
 {
     static const char mesh[] = "v -0.5 -0.5 -0.5\nv 0.5 -0.5 -0.5\nv 0.5 0.5 -0.5\nv -0.5 0.5 -0.5\n"

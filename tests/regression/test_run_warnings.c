@@ -84,8 +84,8 @@ static void series_finer_than_steps_has_a_row_for_each_step(void **state)
     free(series);
 }
 
-/* A log of an earlier part tells what was warned of then; info lines, texts known already and what was judged at the end
- * of that part add nothing. */
+/* A log of an earlier part tells what was warned of then; info lines, texts known already and what was judged at the
+ * end of that part add nothing. */
 static void warnings_are_read_from_a_log_each_once(void **state)
 {
     run_folder *folder = *state;
