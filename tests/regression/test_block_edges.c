@@ -29,7 +29,7 @@ static void slide(run_folder *folder, const char *spacing)
     const char *const words[] = {"run", "case.cfg", "-o", spacing, "--set", spacing, "-t", "1", NULL};
     run_folder_store(run_folder_file(folder, path, "case.cfg"), slope_case, strlen(slope_case));
     program_outcome outcome = program_run(folder, words, 0); /* 3: an expectation was missed */
-    assert_null(strstr(outcome.output, "NO")); /* as its table says */
+    assert_null(strstr(outcome.output, "NO"));               /* as its table says */
     program_clear(&outcome);
 }
 
