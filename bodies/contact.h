@@ -63,6 +63,7 @@ typedef struct mor_contact {
     double damping_energy;  /* lost to restitution since the start, J (J/m) */
     double deepest;         /* deepest penetration at the last sub-step, m */
     double deepest_share;   /* largest so far of a penetration over what is allowed, saved with the run's values; 1 */
+    double driven_share;    /* likewise, of sides that no force moves, when it was warned of, saved, too; 0: never */
     double *sums; /* shape [n_sums]; of each group at its last sub-step: spring energy [J], deepest penetration
                              * [m], forces on walls [N]; saved with the run's values */
     int64_t n_sums;
@@ -96,6 +97,11 @@ void mor_contact_clear(mor_context *context, mor_contact *contact);
  *  @param contact  [in]   one object; becomes the owner
  *  @param exchange [out]  one object */
 void mor_contact_exchange(mor_contact *contact, mor_exchange *exchange);
+
+/** Sums over the groups what each had in its last sub-step: spring energy, deepest penetration, forces on walls. After
+ *  a resume the groups' numbers are there, and these are found from them.
+ *  @param contact [in,out]  one object */
+void mor_contact_add_sums(mor_contact *contact);
 
 /** Writes the force on a wall in the last sub-step of some steppers, of their bodies alone.
  *  @param contact [in]   one object

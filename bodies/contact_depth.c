@@ -46,13 +46,13 @@ static void warn_of_driven(mor_context *context, mor_contact *contact)
 {
     mor_contact_work *work = contact->work;
     const mor_contact_depth *it = &work->driven;
-    if (work->is_driven_told || !(it->depth > 0.0) || !(it->depth > WARNING_SHARE * it->limit)) {
+    if (contact->driven_share > 0.0 || !(it->depth > 0.0) || !(it->depth > WARNING_SHARE * it->limit)) {
         return;
     }
     const char *kind, *name, *other_kind, *other_name;
     name_side(contact, it->first, &kind, &name);
     name_side(contact, it->second, &other_kind, &other_name);
-    work->is_driven_told = true;
+    contact->driven_share = it->depth / it->limit;
     mor_context_log(context, MOR_LOG_WARNING,
                     "%s '%s' is driven %.3g m deep into %s '%s' at t = %.6g s; neither yields to a force, so there is "
                     "none between them: shorten the prescribed motion if that is not meant",

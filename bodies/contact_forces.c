@@ -524,7 +524,7 @@ void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t membe
     }
 }
 
-static void add_sums(mor_contact *contact)
+void mor_contact_add_sums(mor_contact *contact)
 {
     const mor_contact_work *work = contact->work;
     contact->spring_energy = 0.0;
@@ -546,5 +546,5 @@ void mor_contact_act(mor_contact *contact, uint64_t members, double length)
         act_on_pair(contact, k, length);
     }
     mor_contact_forget(contact, members);
-    add_sums(contact);
+    mor_contact_add_sums(contact);
 }

@@ -53,14 +53,20 @@ static void look_at_wall(const mor_contact *contact, const mor_contact_near *nea
     }
 }
 
-/* Gap and normal of a point of the reference configuration; the normal in that configuration. */
-static double reference_gap(const mor_body_group *group, const mor_body *body, const double *reference, double *normal)
+void mor_contact_shape_place(const mor_body *body, const double *reference, double *place)
 {
-    double offset[3], place[3], own[3];
+    double offset[3];
     for (int a = 0; a < 3; ++a) {
         offset[a] = reference[a] - body->shape_move[a];
     }
     mor_matrix_apply_transposed(body->shape_turn, offset, place);
+}
+
+/* Gap and normal of a point of the reference configuration; the normal in that configuration. */
+static double reference_gap(const mor_body_group *group, const mor_body *body, const double *reference, double *normal)
+{
+    double place[3], own[3];
+    mor_contact_shape_place(body, reference, place);
     const double gap = mor_shape_distance(body->shape, place);
     if (normal != NULL) {
         mor_shape_normal(body->shape, place, NORMAL_STEP * group->spacing, own);
@@ -98,11 +104,8 @@ double mor_contact_gap(const mor_contact *contact, int other, const double *poin
 /* Curvature of a body at a point of the reference configuration, 1/m. */
 static double body_curvature(const mor_body_group *group, const mor_body *body, const double *reference)
 {
-    double offset[3], place[3];
-    for (int a = 0; a < 3; ++a) {
-        offset[a] = reference[a] - body->shape_move[a];
-    }
-    mor_matrix_apply_transposed(body->shape_turn, offset, place);
+    double place[3];
+    mor_contact_shape_place(body, reference, place);
     return mor_contact_curvature(body->shape, group->dimension, place, group->spacing);
 }
 

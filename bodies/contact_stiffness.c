@@ -356,11 +356,8 @@ static void measure_rigid(mor_contact *contact, mor_contact_body *c, double *scr
     c->mean_weight = 0.0;
     for (int64_t k = 0; k < body->n_nodes; ++k) {
         const double *reference = group->node_reference + 3 * (body->first_node + k);
-        double offset[3], place[3];
-        for (int a = 0; a < 3; ++a) {
-            offset[a] = reference[a] - body->shape_move[a];
-        }
-        mor_matrix_apply_transposed(body->shape_turn, offset, place);
+        double place[3];
+        mor_contact_shape_place(body, reference, place);
         const double found = mor_contact_curvature(body->shape, group->dimension, place, group->spacing);
         const bool goes_on = look_at_surface(body, group->dimension, place, group->spacing, normals + 3 * k);
         curvatures[k] = fmin(fmax(found, 0.0), sharpest);

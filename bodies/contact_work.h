@@ -7,8 +7,8 @@
 #include "bodies/contact.h"
 
 /** @file
- *  What the files of contact share: lists, bounds and scratch. Nothing here is state: all of it is found anew after a
- *  resume, and no result depends on when. */
+ *  What the files of contact share: lists, bounds and scratch. None of it is saved but what points
+ *  into `sums` of the contact; the rest is found anew after a resume, and no result depends on when. */
 
 enum {
     MOR_CONTACT_SLOTS = 3,    /* partners whose friction a node remembers */
@@ -119,7 +119,6 @@ typedef struct mor_contact_work {
     double *group_deepest;    /* shape [MOR_BODY_GROUPS_MAX]; likewise, m */
     mor_contact_depth group_worst[MOR_BODY_GROUPS_MAX]; /* the deepest for its limit */
     mor_contact_depth driven;                           /* deepest so far of sides that no force moves */
-    bool is_driven_told;                                /* has been warned of */
     double *wall_force;                                 /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3]; likewise, N (N/m) */
     int field_partners, field_springs;                  /* of the history */
 } mor_contact_work;
@@ -201,6 +200,12 @@ double mor_contact_curvature(const mor_shape *shape, int dimension, const double
  *  @param near    [in]  one object
  *  @param touch   [in]  one object, whose side and node are known */
 double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch);
+
+/** A point of the reference configuration in the frame of the body's shape.
+ *  @param body      [in]   one object
+ *  @param reference [in]   shape [3], unit m
+ *  @param place     [out]  shape [3], unit m */
+void mor_contact_shape_place(const mor_body *body, const double *reference, double *place);
 
 /** Gap of a point to a rigid body or a wall, unit m.
  *  @param contact [in]  one object

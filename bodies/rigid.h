@@ -26,13 +26,14 @@ typedef struct mor_rigid_motion {
 
 /** What evolves of a rigid body, beside its particles; saved in checkpoints as plain doubles. */
 typedef struct mor_rigid_state {
-    double center[3];           /* m */
-    double velocity[3];         /* m/s */
-    double quaternion[4];       /* w, x, y, z; rotation since the reference configuration, 1 */
-    double angular_momentum[3]; /* about the center, kg m2/s (kg m/s) */
-    double rotation_angle[3];   /* integral of the angular velocity, rad */
-    double soil_impulse[3];     /* N s */
-    double contact_impulse[3];  /* N s */
+    double center[3];                  /* m */
+    double velocity[3];                /* m/s */
+    double quaternion[4];              /* w, x, y, z; rotation since the reference configuration, 1 */
+    double angular_momentum[3];        /* about the center, kg m2/s (kg m/s) */
+    double rotation_angle[3];          /* integral of the angular velocity, rad */
+    double soil_impulse[3];            /* N s */
+    double contact_impulse[3];         /* N s */
+    double contact_angular_impulse[3]; /* about the center, N m s (N s) */
 } mor_rigid_state;
 
 /** A group of rigid bodies. Owner: the run. */

@@ -153,7 +153,8 @@ static mor_status report_stray(mor_context *context, const mor_rigid *rigid, int
     MOR_CHECK(context, isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), MOR_ERROR_NUMERIC,
               "rigid body '%s' of group '%s' has a motion that is not a number: center (%.6g, %.6g, %.6g) m, velocity "
               "(%.4g, %.4g, %.4g) m/s, angular velocity (%.4g, %.4g, %.4g) rad/s at t = %.6g s, step %llu. Look at "
-              "the forces on it in the last snapshot; a smaller 'courant' may help",
+              "the forces on it in the last snapshot; in soil a smaller 'courant' may help, else a smaller "
+              "'contact_modulus'",
               body->name, group->set.name, body->center[0], body->center[1], body->center[2], body->velocity[0],
               body->velocity[1], body->velocity[2], body->angular_velocity[0], body->angular_velocity[1],
               body->angular_velocity[2], time, (unsigned long long)step->number);
@@ -164,7 +165,7 @@ static mor_status report_stray(mor_context *context, const mor_rigid *rigid, int
         "rigid body '%s' of group '%s' was thrown out of the domain, to (%.6g, %.6g, %.6g) m, by %.3g m in one step "
         "of %.3g s at t = %.6g s, step %llu: the forces on it and its mass of %.3g kg (per meter of thickness in "
         "plane strain) do not go together at steps of this length. A larger domain does not help; give it the "
-        "density it has in nature, or a smaller 'courant'",
+        "density it has in nature, in soil a smaller 'courant', else a smaller 'contact_modulus'",
         body->name, group->set.name, x[0], x[1], x[2], way, step->length, time, (unsigned long long)step->number,
         body->mass);
     double local[3];
@@ -312,6 +313,7 @@ static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
     for (int a = 0; a < 3; ++a) {
         state->soil_impulse[a] += h * constants->held_force[a];
         state->contact_impulse[a] += h * body->contact_force[a];
+        state->contact_angular_impulse[a] += h * body->contact_moment[a];
         moment[a] = constants->held_moment[a] + body->contact_moment[a];
     }
     if (body->is_held) {

@@ -129,7 +129,7 @@ static double level_set_distance(const mor_shape *shape, const double *point)
     return place.beyond == 0.0 ? value : sqrt(value * value + place.beyond * place.beyond);
 }
 
-/* Between nodes a grid rounds edges and bulges beside them by a hundredth of a cell; the mesh does not. */
+/* Between nodes a grid rounds edges and bulges beside them by up to 7 % of a cell; the mesh does not. */
 static double level_set_exact_distance(const mor_shape *shape, const double *point)
 {
     const level_set_shape *set = (const level_set_shape *)shape;

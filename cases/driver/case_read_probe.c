@@ -244,16 +244,15 @@ static mor_status check_scene(const mor_case_reader *reader, const mor_case_node
                               missing, missing, missing);
 }
 
-/* The name becomes a column of the series, which has some of its own. */
-static mor_status check_column(const mor_case_reader *reader, const mor_case_node *node, const char *name)
+/* The name becomes a column of the series, which has some of its own; the one of the ratio of rates is the same. */
+static mor_status check_column(const mor_case_reader *reader, const mor_case_node *node, const mor_case_probe *probe)
 {
-    static const char *const taken[] = {"time", "step", "step_length"};
-    for (size_t k = 0; k < sizeof taken / sizeof *taken; ++k) {
-        if (strcmp(taken[k], name) == 0) {
+    for (const mor_case_own_column *own = mor_case_own_columns; own->name != NULL; ++own) {
+        if (strcmp(own->name, probe->name) == 0 && strcmp(own->name, probe->type) != 0) {
             return MOR_CASE_NODE_FAIL(reader->context, node,
-                                      "found the probe name '%s'; allowed: any but time, step and step_length, which "
-                                      "series.csv has anyway; give it another name",
-                                      name);
+                                      "found the probe name '%s'; allowed: any but time, step, step_length and "
+                                      "rate_ratio, which series.csv has anyway; give it another name",
+                                      probe->name);
         }
     }
     return MOR_OK;
@@ -272,7 +271,7 @@ static mor_status read_probe(const mor_case_reader *reader, const mor_case_node 
     MOR_TRY(reader->context, complete_probe(reader, node, the_case->spacing, type, probe));
     MOR_TRY(reader->context, check_window(reader, node, the_case->end, probe));
     MOR_TRY(reader->context, check_probe_names(reader, node, the_case, probe));
-    MOR_TRY(reader->context, check_column(reader, node, probe->name));
+    MOR_TRY(reader->context, check_column(reader, node, probe));
     for (const mor_case_probe *other = the_case->probes; other < probe; ++other) {
         if (strcmp(other->name, probe->name) == 0) {
             return MOR_CASE_NODE_FAIL(reader->context, node,

@@ -143,6 +143,12 @@ typedef struct mor_case_probe_type {
 /** The types of probes; ends with name NULL. */
 extern const mor_case_probe_type mor_case_probe_types[];
 
+/** A column that a series of results has beside its probes. A table ends with name NULL. */
+typedef struct mor_case_own_column {
+    const char *name, *unit;
+} mor_case_own_column;
+extern const mor_case_own_column mor_case_own_columns[];
+
 /** Names of the keys that MOR_CASE_PROBE_ bits stand for, in the order of the bits; ends with NULL. */
 extern const char *const mor_case_probe_key_names[];
 

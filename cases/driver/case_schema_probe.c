@@ -112,6 +112,9 @@ const mor_case_group mor_case_expectation_group = {"expect", "Reference values (
 #define CONTACT MOR_CASE_PROBE_OF_CONTACT
 
 /* Name, unit, unit in plane strain, keys allowed, keys required, traits, percentile, text. */
+const mor_case_own_column mor_case_own_columns[] = {
+    {"time", "s"}, {"step", "1"}, {"step_length", "s"}, {"rate_ratio", "1"}, {NULL, NULL}};
+
 const mor_case_probe_type mor_case_probe_types[] = {
     /* Soil and bodies together. */
     {"kinetic_energy", "J", "J/m", 0, 0, 0, 100.0, "kinetic energy of soil and bodies"},

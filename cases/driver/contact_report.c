@@ -12,7 +12,7 @@ bool mor_contact_report_is_chosen(const mor_case_body *body)
     return mor_case_body_is_rigid(body) && isnan(body->contact_modulus);
 }
 
-enum { SURFACES_MAX = 8 };
+enum { SURFACES_MAX = 8 }; /* lines; bodies beyond are counted */
 
 /* Bodies with the same Poisson's ratio, and all with a modulus of their own or all with one that was chosen. */
 typedef struct surface {
@@ -27,9 +27,10 @@ static bool is_same_surface(const mor_case_body *a, const mor_case_body *b)
            mor_contact_report_is_chosen(a) == mor_contact_report_is_chosen(b);
 }
 
-static int gather(const mor_case *the_case, surface *surfaces)
+static int gather(const mor_case *the_case, surface *surfaces, int *n_left_out)
 {
     int n = 0;
+    *n_left_out = 0;
     for (int k = 0; k < the_case->n_bodies; ++k) {
         const mor_case_body *it = &the_case->bodies[k];
         int m = 0;
@@ -37,6 +38,7 @@ static int gather(const mor_case *the_case, surface *surfaces)
             ++m;
         }
         if (!mor_case_body_is_rigid(it) || m == SURFACES_MAX) {
+            *n_left_out += mor_case_body_is_rigid(it);
             continue;
         }
         const double modulus = mor_case_contact_modulus(the_case, it);
@@ -53,7 +55,8 @@ static int gather(const mor_case *the_case, surface *surfaces)
 void mor_contact_report_print(const mor_case *the_case, FILE *out)
 {
     surface surfaces[SURFACES_MAX];
-    const int n = gather(the_case, surfaces);
+    int n_left_out = 0;
+    const int n = gather(the_case, surfaces, &n_left_out);
     for (int k = 0; k < n; ++k) {
         const surface *it = &surfaces[k];
         fprintf(out, "  contact stiffness       '%s'", it->first->name);
@@ -68,6 +71,9 @@ void mor_contact_report_print(const mor_case *the_case, FILE *out)
                 mor_contact_report_is_chosen(it->first)
                     ? "chosen for speed: give contact_modulus before a force is reported"
                     : "as given");
+    }
+    if (n_left_out > 0) {
+        fprintf(out, "  contact stiffness       of %d more bodies with other Poisson's ratios\n", n_left_out);
     }
 }
 

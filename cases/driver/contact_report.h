@@ -15,7 +15,8 @@
  *  @param body [in]  one object */
 bool mor_contact_report_is_chosen(const mor_case_body *body);
 
-/** Prints the moduli of all rigid bodies, one line for each that differs.
+/** Prints the moduli of all rigid bodies, from the least to the largest: one line for each Poisson's ratio, given or
+ *  chosen.
  *  @param the_case [in]      one object
  *  @param out      [in,out]  one open stream */
 void mor_contact_report_print(const mor_case *the_case, FILE *out);

@@ -68,7 +68,7 @@ const char *mor_probe_remark(const mor_simulation *simulation, int probe);
  *  @param simulation [in]   one object
  *  @param share      [out]  one number; the error over the energy that changed hands, or that of the start, or the work
  *                           to lift all bodies by a spacing, whichever is most; unit 1. Zero with soil, moving walls, a
- *                           ramp of gravity or dampers, which this audit does not follow
+ *                           ramp of gravity, numerics.damping or dampers, which this audit does not follow
  *  Returns: unit J (J/m in plane strain). */
 double mor_probe_bodies_error(const mor_simulation *simulation, double *share);
 

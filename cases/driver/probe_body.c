@@ -231,9 +231,7 @@ static mor_status bodies_damped_energy(mor_context *context, const view *v, doub
 
 static mor_status bodies_energy_balance(mor_context *context, const view *v, double *value)
 {
-    const mor_contact *contact = &v->simulation->bodies.contact;
-    MOR_TRY(context, bodies_damped_energy(context, v, value));
-    *value += contact->friction_energy + contact->damping_energy + mor_probe_total_energy(context, v);
+    *value = mor_simulation_bodies_lost(&v->simulation->bodies) + mor_probe_total_energy(context, v);
     *value /= mor_simulation_initial_energy(v->simulation);
     return MOR_OK;
 }

@@ -82,8 +82,10 @@ static double find_driven_bodies(const mor_simulation *s)
         const mor_simulation_body *it = &s->bodies.of[b];
         if (s->the_case->bodies[b].is_prescribed && it->rigid != NULL) {
             const mor_body *body = &it->group->bodies[it->index];
-            const double *velocity = it->rigid->states[it->index].velocity;
-            sum += mor_vector_dot(velocity, body->contact_impulse) +
+            const mor_rigid_state *state = &it->rigid->states[it->index];
+            const double *velocity = state->velocity;
+            sum += mor_vector_dot(velocity, state->contact_impulse) +
+                   mor_vector_dot(body->angular_velocity, state->contact_angular_impulse) +
                    body->mass * time * mor_vector_dot(it->group->gravity, velocity);
         }
     }
@@ -95,16 +97,6 @@ static mor_status external_work(mor_context *context, const view *v, double *val
     (void)context;
     *value = -taken(v, MOR_SOIL_ENERGY_DRIVEN) - taken(v, MOR_SOIL_ENERGY_RAMP) - find_driven_bodies(v->simulation);
     return MOR_OK;
-}
-
-/* Energy of the bodies that contact and viscous damping took. */
-static double find_bodies_lost(const mor_simulation_bodies *bodies)
-{
-    double lost = bodies->contact.friction_energy + bodies->contact.damping_energy;
-    for (int g = 0; g < bodies->n_elastics; ++g) {
-        lost += bodies->elastics[g].damped_energy;
-    }
-    return lost;
 }
 
 /* Energy of the soil that has left the domain, about the same origin as the simulation's. */
@@ -135,7 +127,7 @@ static mor_status find_changes(mor_context *context, const view *v, double *erro
     MOR_TRY(context, external_work(context, v, &changes[EXTERNAL]));
     MOR_TRY(context, friction_strain_energy(context, v, &passed_on));
     changes[BOUNDARY] -= passed_on;
-    changes[BODIES] = find_bodies_lost(&s->bodies);
+    changes[BODIES] = mor_simulation_bodies_lost(&s->bodies);
     changes[EXTERNAL] = -changes[EXTERNAL];
     changes[OUTFLOW] = find_outflow(s);
     *error = 0.0;
@@ -167,7 +159,7 @@ static mor_status energy_balance(mor_context *context, const view *v, double *va
 /* Whether nothing but the bodies and what the audit knows of them gives or takes energy. */
 static bool is_closed(const mor_case *c)
 {
-    bool is_closed = c->n_soils == 0 && !(c->numerics.gravity_ramp > 0.0);
+    bool is_closed = c->n_soils == 0 && !(c->numerics.gravity_ramp > 0.0) && !(c->numerics.damping > 0.0);
     for (int w = 0; w < c->n_walls; ++w) {
         is_closed = is_closed && mor_vector_length(c->walls[w].velocity) == 0.0;
     }
@@ -181,20 +173,13 @@ double mor_probe_bodies_error(const mor_simulation *s, double *share)
 {
     double origin[3];
     double energies[3];
-    double lifted = 0.0; /* of all bodies by a spacing: less moves nothing that is resolved */
     *share = 0.0;
     if (!is_closed(s->the_case)) {
         return 0.0;
     }
     mor_simulation_place_point(s->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
     mor_simulation_bodies_energy(&s->bodies, origin, &energies[0], &energies[1], &energies[2]);
-    for (int g = 0; g < s->bodies.n_groups; ++g) {
-        const mor_body_group *group = s->bodies.groups[g];
-        for (int b = 0; b < group->n_bodies; ++b) {
-            lifted += group->bodies[b].mass * mor_vector_length(group->gravity) * group->spacing;
-        }
-    }
-    const double lost = find_bodies_lost(&s->bodies);
+    const double lost = mor_simulation_bodies_lost(&s->bodies);
     const double driven = find_driven_bodies(s);
     double error = lost + driven;
     double turned = 0.5 * (fabs(lost) + fabs(driven));
@@ -203,7 +188,7 @@ double mor_probe_bodies_error(const mor_simulation *s, double *share)
         error += change;
         turned += 0.5 * fabs(change);
     }
-    const double scale = fmax(turned, fmax(lifted, s->initial_energies[0]));
+    const double scale = fmax(turned, fmax(mor_simulation_bodies_lift(&s->bodies), s->initial_energies[0]));
     *share = scale > 0.0 ? error / scale : 0.0;
     return error;
 }

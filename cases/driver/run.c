@@ -115,19 +115,12 @@ static void warn_of_overlap(mor_context *context, const mor_simulation *s)
     double kinetic = 0.0;
     double potential = 0.0;
     double elastic = 0.0;
-    double lifted = 0.0; /* of all bodies by a spacing, J (J/m) */
     if (s->schedule.n_steps != 1 || !s->bodies.has_contact) {
         return;
     }
     mor_simulation_bodies_energy(&s->bodies, (const double[3]){0.0, 0.0, 0.0}, &kinetic, &potential, &elastic);
-    for (int g = 0; g < s->bodies.n_groups; ++g) {
-        const mor_body_group *group = s->bodies.groups[g];
-        for (int b = 0; b < group->n_bodies; ++b) {
-            lifted += group->bodies[b].mass * mor_vector_length(group->gravity) * s->the_case->spacing;
-        }
-    }
     const double stored = s->bodies.contact.spring_energy;
-    if (stored > advisable * (kinetic + lifted)) {
+    if (stored > advisable * (kinetic + mor_simulation_bodies_lift(&s->bodies))) {
         mor_context_log(
             context, MOR_LOG_WARNING,
             "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts hold %.3g "
@@ -246,8 +239,8 @@ static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
             context, MOR_LOG_WARNING,
             MOR_RUN_WARNING_AT_END
             "the energies of the bodies do not add up: %.3g %s too %s, %.3g %% of what changed hands; do not "
-            "report results before that is mended: bodies that overlapped at the start, or too large a "
-            "numerics.courant",
+            "report results before that is mended: bodies that overlapped at the start, or a contact stiffness "
+            "too large for their steps (contact_modulus; of elastic bodies also numerics.body_courant)",
             fabs(error), s->the_case->dimension == 2 ? "J/m" : "J", error > 0.0 ? "much" : "little",
             100.0 * fabs(share));
     }

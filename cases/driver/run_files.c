@@ -3,6 +3,7 @@
 #include "cases/driver/run_files.h"
 
 #include "cases/driver/case_compare.h"
+#include "cases/driver/case_schema.h"
 #include "cases/driver/probe.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
@@ -158,10 +159,9 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
     const mor_snapshot_options options = {.facts = files->facts, .n_facts = files->n_facts};
     MOR_TRY(context, mor_snapshot_writer_init(context, &files->snapshots, folder, &options,
                                               is_resume ? (int64_t)schedule->n_steps : -1));
-    add_column(files, "time", "s");
-    add_column(files, "step", "1");
-    add_column(files, "step_length", "s");
-    add_column(files, "rate_ratio", "1");
+    for (const mor_case_own_column *own = mor_case_own_columns; own->name != NULL; ++own) {
+        add_column(files, own->name, own->unit);
+    }
     files->first_probe = files->n_columns;
     for (int k = 0; k < files->the_case->n_probes; ++k) {
         add_column(files, files->the_case->probes[k].name, mor_probe_unit(files->the_case, k));
@@ -286,6 +286,7 @@ static void list_state(mor_simulation *s, saved_state *state)
         {"contact_impacts", MOR_HDF5_DOUBLE, s->bodies.contact.n_impacts, s->bodies.contact.impacts},
         {"contact_sums", MOR_HDF5_DOUBLE, s->bodies.contact.n_sums, s->bodies.contact.sums},
         {"contact_deepest_share", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.deepest_share},
+        {"contact_driven_share", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.driven_share},
         {"contact_spring_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.spring_energy},
         {"contact_friction_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.friction_energy},
         {"contact_damping_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.damping_energy},
@@ -381,6 +382,9 @@ static mor_status take_up(mor_context *context, mor_simulation *s)
         mor_soil_fit(&s->soil);
     }
     s->bodies.contact.time = mor_schedule_time(&s->schedule);
+    if (s->bodies.has_contact) {
+        mor_contact_add_sums(&s->bodies.contact);
+    }
     return mor_simulation_bodies_pack(context, &s->bodies, false);
 }
 

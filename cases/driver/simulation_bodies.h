@@ -103,6 +103,14 @@ bool mor_simulation_body_may_hold(const mor_bounds *box, const double *point);
 double mor_simulation_placed_distance(const mor_shape *shape, const double *turn, const double *move,
                                       const double *point);
 
+/** Work to lift all bodies by a spacing of their own: less moves nothing that is resolved; unit J (J/m).
+ *  @param bodies [in]  one object */
+double mor_simulation_bodies_lift(const mor_simulation_bodies *bodies);
+
+/** Energy that contact and viscous damping took from all bodies since the start, unit J (J/m).
+ *  @param bodies [in]  one object */
+double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies);
+
 /** Energies of all bodies, unit J (J/m).
  *  @param bodies    [in]   one object
  *  @param datum     [in]   shape [3]; potential energy counts from here, unit m

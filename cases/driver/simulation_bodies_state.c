@@ -38,6 +38,27 @@ static double spring_energy(const mor_rigid *rigid, int body)
     return 0.5 * motion->spring_stiffness * stretch * stretch;
 }
 
+double mor_simulation_bodies_lift(const mor_simulation_bodies *bodies)
+{
+    double lift = 0.0;
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        const mor_body_group *group = bodies->groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            lift += group->bodies[b].mass * mor_vector_length(group->gravity) * group->spacing;
+        }
+    }
+    return lift;
+}
+
+double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies)
+{
+    double lost = bodies->contact.friction_energy + bodies->contact.damping_energy;
+    for (int g = 0; g < bodies->n_elastics; ++g) {
+        lost += bodies->elastics[g].damped_energy;
+    }
+    return lost;
+}
+
 void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const double *datum, double *kinetic,
                                   double *potential, double *elastic)
 {
@@ -198,6 +219,7 @@ static void set_rigid(const mor_case *c, const mor_case_body *it, const mor_simu
         state->rotation_angle[a] = 0.0;
         state->soil_impulse[a] = 0.0;
         state->contact_impulse[a] = 0.0;
+        state->contact_angular_impulse[a] = 0.0;
     }
 }
 

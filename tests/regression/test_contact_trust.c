@@ -141,6 +141,39 @@ static void bodies_that_overlap_as_the_run_begins_are_warned_of(void **state)
     program_clear(&clear);
 }
 
+/* A roller that turns as prescribed drives a slab that lies on it: its work is in the books. Damping of all velocities
+ * is not, so that nothing is said. What is left unexplained is far below the 5 % that are warned of. */
+static void energy_that_is_accounted_for_is_not_warned_of(void **state)
+{
+    static const char text[] =
+        "title = 'roller'; dimension = 2; spacing = '0.05 m'; end = '0.2 s'; gravity = (0, '-9.81 m/s2', 0);"
+        "domain = { min = (-3, -2, -1); max = (3, 2, 1); };"
+        "walls = ( { name = 'side'; shape = { type = 'half_space'; point = (0, -1.5); normal = (0, 1); }; } );"
+        "bodies = ( { name = 'left'; shape = { type = 'sphere'; center = (0, 0); radius = 0.3; };"
+        "    position = (-0.6, 0); motion = 'prescribed'; angular_velocity = (0, 0, -5); contact_modulus = '50 MPa';"
+        "    material = { model = 'rigid'; density = 2400; }; },"
+        "  { name = 'right'; shape = { type = 'sphere'; center = (0, 0); radius = 0.3; };"
+        "    position = (0.6, 0); motion = 'prescribed'; angular_velocity = (0, 0, -5); contact_modulus = '50 MPa';"
+        "    material = { model = 'rigid'; density = 2400; }; },"
+        "  { name = 'slab'; shape = { type = 'box'; min = (-1, 0); max = (1, 0.25); }; position = (0, 0.3);"
+        "    contact_modulus = '50 MPa'; material = { model = 'rigid'; density = 2400; }; } );"
+        "contact = { friction_coefficient = 0.5; restitution = 0.5; };"
+        "probes = ( { name = 'speed'; type = 'body_velocity'; body = 'slab'; direction = (1, 0); } );"
+        "output = { snapshots = 1; pictures = false; };";
+    static const char *const settings[] = {"numerics.damping=0", "numerics.damping=5"};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, path);
+    for (int k = 0; k < 2; ++k) {
+        run_folder_file(folder, results, k == 0 ? "driven" : "damped");
+        program_outcome outcome =
+            program_run(folder, (const char *[]){"run", path, "-t", "1", "-o", results, "-s", settings[k], NULL}, 0);
+        assert_null(strstr(outcome.errors, "do not add up"));
+        program_clear(&outcome);
+    }
+    assert_true(find_peak(folder, "driven") > 0.4); /* 0.5 g 0.2 s = 0.98 m/s, but for what bounces */
+}
+
 static void bodies_in_one_place_are_refused(void **state)
 {
     run_folder *folder = *state;
@@ -173,7 +206,8 @@ static void shipped_blocks_slide_and_rest_as_coulomb_says(void **state)
 }
 
 /* A cube from a mesh lies as flat as a box: its nodes are on the faces of the mesh, not on the level set, which bulges
- * beside edges, or the floor would throw it up and it would slide without friction. The way is that of Coulomb. */
+ * beside edges, or the floor would throw it up and it would slide without friction. The way is that of Coulomb,
+ * found within 0.1 %; on the level set it was 3 % more, and the yaw 1e-3 rad in place of 1e-7. */
 static void a_cube_from_a_mesh_slides_as_coulomb_says(void **state)
 {
     static const char mesh[] = "v -0.5 -0.5 -0.5\nv 0.5 -0.5 -0.5\nv 0.5 0.5 -0.5\nv -0.5 0.5 -0.5\n"
@@ -215,6 +249,18 @@ static void a_stiffness_that_was_chosen_is_told(void **state)
     program_clear(&given);
 }
 
+/* First number of the line of a table that begins with a name: a force per length. */
+static double read_result(const char *table, const char *name)
+{
+    char start[64];
+    snprintf(start, sizeof start, "\n%s", name);
+    const char *line = strstr(table, start);
+    assert_non_null(line);
+    line = strstr(line, "N/m ");
+    assert_non_null(line);
+    return strtod(line + strlen("N/m "), NULL);
+}
+
 /* A rigid and an elastic block on one floor: what one group pressed with last is not found anew by a resume, which may
  * come between the sub-steps of the two. */
 static void a_resume_keeps_the_forces_of_all_groups(void **state)
@@ -245,6 +291,20 @@ static void a_resume_keeps_the_forces_of_all_groups(void **state)
         program_clear(&outcome);
     }
     finished_run_compare_results(folder, "whole", "parts");
+    /* A probe that is added when all is over reads what the old one of its kind does. */
+    program_outcome again =
+        program_run(folder,
+                    (const char *[]){
+                        "run", path, "-t", "1", "-o", parts, "--resume", "-s",
+                        "probes=({name=\"w\"; type=\"wall_contact_force\"; wall=\"floor\"; direction=(0, -1); "
+                        "window=(\"11 ms\", \"20 ms\");}, {name=\"d\"; type=\"contact_depth\"; window=(\"11 ms\", "
+                        "\"20 ms\");}, {name=\"w2\"; type=\"wall_contact_force\"; wall=\"floor\"; direction=(0, -1);})",
+                        NULL},
+                    0);
+    const double old = read_result(again.output, "w ");
+    assert_true(old > 0.0);
+    assert_true(read_result(again.output, "w2 ") == old);
+    program_clear(&again);
 }
 
 int main(void)
@@ -259,6 +319,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_body_that_is_driven_into_a_wall_is_warned_of, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(bodies_that_overlap_as_the_run_begins_are_warned_of, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(energy_that_is_accounted_for_is_not_warned_of, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(bodies_in_one_place_are_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_resume_keeps_the_forces_of_all_groups, run_folder_setup, run_folder_teardown),

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tests/common/body_variant.h"
 #include "tests/common/finished_run.h"
+#include "tests/common/sanitized.h"
 
 #include "cases/driver/run.h"
 
@@ -90,20 +91,13 @@ static void check_many_stops(run_folder *folder, const char *text, const char *w
     }
 }
 
-/* Sanitizers make a run six times as long: of the variants in space, every third. */
-#if defined(__SANITIZE_ADDRESS__)
-enum { STRIDE_IN_SPACE = 3 };
-#else
-enum { STRIDE_IN_SPACE = 1 };
-#endif
-
 /* Variants that keep more between steps than others do, and are stopped in every way; for the cost, in space the first
- * and the last, and with sanitizers, ten times slower, the first in the plane. */
-#if defined(__SANITIZE_ADDRESS__)
-enum { OFTEN_IN_PLANE = 1, OFTEN_IN_SPACE = 0 };
-#else
-enum { OFTEN_IN_PLANE = 5, OFTEN_IN_SPACE = 2 };
-#endif
+ * and the last. With sanitizers only the first in the plane, and of all variants in space every third. */
+enum {
+    OFTEN_IN_PLANE = TEST_IS_SANITIZED ? 1 : 5,
+    OFTEN_IN_SPACE = TEST_IS_SANITIZED ? 0 : 2,
+    STRIDE_IN_SPACE = TEST_IS_SANITIZED ? 3 : 1
+};
 static const char *const often[] = {"as it comes", "single rate", "barrier", "angular momentum", "settled stress"};
 
 static bool is_stopped_often(const scene_variant *it, const char *text)

@@ -4,11 +4,12 @@
 #include "core/io/checkpoint.h"
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
+#include "tests/common/sanitized.h"
 
 #include <time.h>
 #include <unistd.h>
 
-/* Whatever the program is at, a signal is answered within a second, and nothing is lost that was there. */
+/* Whatever the program is at, a signal is answered, and nothing is lost that was there. */
 
 /* Rocks are drawn, filled, relaxed and packed before the first step, and soil settles around them. */
 static const char rocks[] =
@@ -26,11 +27,12 @@ static const char rocks[] =
     "probes = ( { type = 'total_energy'; } );"
     "output = { snapshots = 3; checkpoint_seconds = 0.05; };";
 
-enum { N_SIGNALS = 5 };
+enum { N_SIGNALS = TEST_IS_SANITIZED ? 2 : 5 };
 
-/* Seconds in which a signal is answered; the disk, on which a checkpoint is synced, is not only ours. */
-#define ANSWER 1.0
-#define ANSWER_WITH_CHECKPOINT 5.0
+/* Seconds after which a signal counts as not answered. By itself the program answers within one; but neither processor
+ * nor disk, on which a checkpoint is synced, is only ours. */
+#define ANSWER (TEST_IS_SANITIZED ? 30.0 : 5.0)
+#define ANSWER_WITH_CHECKPOINT (TEST_IS_SANITIZED ? 60.0 : 10.0)
 
 static double read_clock(void)
 {
@@ -62,6 +64,7 @@ static answer stop_after(run_folder *folder, const char *const *arguments, doubl
         fail_msg("signal %d after %g s: ended with code %d (signal %d): %s", number, seconds, outcome.exit_code,
                  outcome.signal, outcome.errors);
     }
+    print_message("signal %d after %.3g s was answered in %.2g s\n", number, seconds, duration);
     if (duration > longest) {
         fail_msg("signal %d after %g s was answered in %g s", number, seconds, duration);
     }

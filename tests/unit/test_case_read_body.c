@@ -302,6 +302,7 @@ static void a_probe_of_what_is_not_there_is_refused(void **state)
         {"probes=( { name = \"far\"; type = \"run_out\"; } )", "found the probe 'far' of type 'run_out'"},
         {"probes=( { type = \"rate_ratio\"; } )", "in a case without soil"},
         {"probes=( { name = \"time\"; type = \"contact_energy\"; } )", "which series.csv has anyway"},
+        {"probes=( { name = \"rate_ratio\"; type = \"contact_energy\"; } )", "which series.csv has anyway"},
         {"probes=( { type = \"body_force_soil\"; body = \"wheel\"; direction = (0, 1); } )", "without soil"},
         {"probes=( { type = \"body_velocity\"; body = \"weel\"; direction = (0, 1); } )", "did you mean 'wheel'?"},
         {"probes=( { type = \"body_velocity\"; body = \"floor\"; direction = (0, 1); } )", "name of a body"},
