@@ -177,6 +177,9 @@ static mor_status list_bodies(mor_context *context, mor_contact *contact)
             c->group_index = g;
             c->body = b;
             measure_body(c);
+            if (is_rigid) {
+                mor_contact_measure_inertia(c);
+            }
             const int64_t n = is_rigid ? 12 : 3 * group->bodies[b].n_particles;
             MOR_TRY(context, MOR_NEW(context, &c->previous, n, "contact"));
             if (!is_rigid) {

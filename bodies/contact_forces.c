@@ -9,7 +9,7 @@
 #define STICK_DAMPING 0.2  /* damping ratio of the friction spring, 1 */
 #define DAMPING_LIMIT 0.5  /* share of a relative velocity that damping may take away in a step, 1 */
 #define KEPT_RADIANS 200.0 /* of the contact's swing in which the speed of an impact fades, 1 */
-#define TURNING_SHARE 4.0  /* acceleration of a point of a free block over that of its center, at most, 1 */
+#define NODES_LIMIT 0.8    /* likewise, of any motion of a rigid body, by all its contacts together, 1 */
 
 /* What one pair needs to know while its touches become forces. The pair force acts on the first body along normal. */
 typedef struct pair_sums {
@@ -344,6 +344,22 @@ static double slowest_impact(const mor_contact *contact, const pair_sums *sums)
                                               : given;
 }
 
+/* Largest rate of damping that takes no more than its share of a motion in one step, s/m. */
+static double limit_damping(const mor_contact *contact, const pair_sums *sums, double inverse)
+{
+    if (!sums->is_hertzian) {
+        return DAMPING_LIMIT / (sums->force * inverse * sums->length);
+    }
+    const mor_contact_near *near = sums->near;
+    const mor_contact_work *work = contact->work;
+    int n_touching = work->bodies[near->first].n_touching;
+    if (near->second < work->n_bodies && work->bodies[near->second].n_touching > n_touching) {
+        n_touching = work->bodies[near->second].n_touching;
+    }
+    const double response = sums->softening * mor_contact_response(contact, near, sums->begin, sums->end);
+    return NODES_LIMIT / (n_touching * response * sums->length);
+}
+
 /* Restitution: the normal force of the pair grows with the speed of closing, docs/theory/contact.md. */
 static void damp_pair(mor_contact *contact, pair_sums *sums)
 {
@@ -364,8 +380,7 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
     if (!(*impact > 0.0)) {
         return;
     }
-    const double limit = DAMPING_LIMIT / (sums->is_hertzian ? TURNING_SHARE : 1.0);
-    sums->rate = fmin(y / *impact, limit / (sums->force * inverse * sums->length));
+    sums->rate = fmin(y / *impact, limit_damping(contact, sums, inverse));
     if (sums->is_hertzian) {
         book_nodes(contact, sums, inverse);
     } else {
@@ -542,6 +557,7 @@ void mor_contact_act(mor_contact *contact, uint64_t members, double length)
 {
     mor_contact_recall(contact);
     clear_sums(contact, members);
+    mor_contact_count_pairs(contact);
     for (int k = 0; k < contact->work->n_active; ++k) {
         act_on_pair(contact, k, length);
     }

@@ -18,6 +18,10 @@ enum { HALF_POINTS = 10, POINTS = 2 * HALF_POINTS + 1 };
 /* Share of the depth expected at the center of the pressure that must be found there, 1. */
 #define TRUSTED 0.5
 
+/* How far the own surface may lie under the one that is followed, spacings: an edge may lie between, too shallow to be
+ * known as one. */
+#define FOLLOWED 0.02
+
 void mor_contact_window_weights(double *weights)
 {
     double sum = 0.0;
@@ -37,7 +41,7 @@ static void sum_window(const double *weights, int dimension, double depth, doubl
 {
     const double step = POINT_STEP * length;
     const int across = dimension == 3 ? HALF_POINTS : 0;
-    means[0] = means[1] = means[2] = means[3] = 0.0;
+    means[0] = means[1] = means[2] = 0.0;
     for (int b = 0; b <= across; ++b) {
         const double y = b * step;
         const double weight = dimension == 3 ? (b == 0 ? 1.0 : 2.0) * weights[HALF_POINTS + b] : 1.0;
@@ -48,7 +52,6 @@ static void sum_window(const double *weights, int dimension, double depth, doubl
             means[0] += w * d;
             means[1] += w * d * d;
             means[2] += w * d * x;
-            means[3] = fmax(means[3], d);
         }
     }
 }
@@ -71,19 +74,20 @@ double mor_contact_reach(const mor_contact *contact, const mor_contact_near *nea
     return fmin(0.5 * half * half * diagonal2 * curvature, 0.5 * owner->group->spacing);
 }
 
-/* Whether the surfaces are where the window takes them to be, at the center of the pressure: an edge of the other side
- * may lie between it and the node. `own` is the normal of the node's surface. */
+/* Whether the surfaces are where the window takes them to be, at the center of the pressure: an edge of either side may
+ * lie between it and the node. `own` is the normal of the node's surface, `expected` the depth there. */
 static bool is_there(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
-                     const double *own, const double *tilt, double slope, double shift, double curvature)
+                     const double *own, const double *tilt, double slope, double shift, double expected)
 {
+    const int owner = touch->side == 0 ? near->first : near->second;
     const int other = touch->side == 0 ? near->second : near->first;
-    const double expected = -touch->gap - slope * shift - 0.5 * curvature * shift * shift;
     const double sag = 0.5 * touch->curvature * shift * shift;
     double point[3];
     for (int a = 0; a < 3; ++a) {
         point[a] = touch->place[a] - sag * own[a] + (slope > 0.0 ? shift * tilt[a] / slope : 0.0);
     }
-    return -mor_contact_gap(contact, other, point) > TRUSTED * expected;
+    return -mor_contact_gap(contact, other, point) > TRUSTED * expected &&
+           mor_contact_gap(contact, owner, point) < FOLLOWED * contact->work->bodies[owner].group->spacing;
 }
 
 void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch)
@@ -110,19 +114,20 @@ void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near
     const double slope = mor_vector_length(tilt);
     const double area = group->node_area[touch->node];
     const double length = group->dimension == 3 ? sqrt(area) : area;
-    double means[4];
+    double means[3];
     const double curvature = fmax(touch->other_curvature - facing * touch->curvature, 0.0);
     sum_window(work->window, group->dimension, -touch->gap, slope, curvature, length, means);
     if (!(means[0] > 0.0)) {
         return;
     }
     const double shift = slope > 0.0 ? means[2] / means[0] : 0.0;
-    if (!is_there(contact, near, touch, own, tilt, slope, shift, curvature)) {
+    const double expected = -touch->gap - slope * shift - 0.5 * curvature * shift * shift;
+    if (!is_there(contact, near, touch, own, tilt, slope, shift, expected)) {
         return;
     }
     touch->mean_depth = means[0];
     touch->mean_square = means[1];
-    touch->depth = means[3];
+    touch->depth = expected;
     for (int a = 0; a < 3 && slope > 0.0; ++a) {
         touch->place[a] += shift * tilt[a] / slope;
         touch->normal[a] += touch->other_curvature * shift * tilt[a] / slope;

@@ -29,6 +29,8 @@ typedef struct mor_contact_body {
     double curvature;          /* rigid: median over its nodes, 1/m */
     double sharpest, flattest; /* rigid: largest and least curvature of its nodes, 1/m */
     double mean_weight;        /* rigid: mean stiffness per area of its nodes over that of the sharpest, 1 */
+    double inverse_inertia[6]; /* rigid: symmetric tensor about the center, reference configuration, 1/(kg m2) */
+    int n_touching;            /* pairs of it that touch in this evaluation */
     bool is_edged;             /* rigid: some nodes lie on edges or corners */
     double travel;             /* bound of the path of any of its points so far, m */
     double *previous; /* shape [n_particles, 3] of an elastic body, else [12]: where it was at the last look, m and 1 */
@@ -206,6 +208,22 @@ double mor_contact_reach(const mor_contact *contact, const mor_contact_near *nea
  *  @param reference [in]   shape [3], unit m
  *  @param place     [out]  shape [3], unit m */
 void mor_contact_shape_place(const mor_body *body, const double *reference, double *place);
+
+/** Inverts the inertia of a rigid body, for mor_contact_response.
+ *  @param c [in,out]  one object */
+void mor_contact_measure_inertia(mor_contact_body *c);
+
+/** Counts the pairs of each body that touch.
+ *  @param contact [in,out]  one object, whose touches have been looked up */
+void mor_contact_count_pairs(mor_contact *contact);
+
+/** How fast the motions of two rigid sides would change, over the speed of closing, if each node that touches were
+ *  damped by its undamped force times its speed of closing: a bound of the largest eigenvalue, unit N/kg.
+ *  @param contact [in]  one object
+ *  @param near    [in]  one object
+ *  @param begin   [in]  first touch of the pair
+ *  @param end     [in]  the one behind its last */
+double mor_contact_response(const mor_contact *contact, const mor_contact_near *near, int64_t begin, int64_t end);
 
 /** Gap of a point to a rigid body or a wall, unit m.
  *  @param contact [in]  one object

@@ -129,7 +129,7 @@ static void bodies_that_overlap_as_the_run_begins_are_warned_of(void **state)
     program_outcome pressed = run_post(
         folder, "pressed",
         (const char *[]){"bodies[0].position=(-0.745, 0, 1.5)", "bodies[0].velocity=(0, 0, 0)", "end=1 ms", NULL}, 0);
-    program_expect_text(pressed.errors, "bodies overlap one another or walls by up to 0.0052");
+    program_expect_text(pressed.errors, "bodies overlap one another or walls by up to 0.005 m");
     program_expect_text(pressed.errors,
                         "the energies of the bodies do not add up"); /* no one gave the springs theirs */
     program_clear(&pressed);
@@ -235,6 +235,68 @@ static void a_cube_from_a_mesh_slides_as_coulomb_says(void **state)
     program_clear(&outcome);
 }
 
+/* A face that rises from the floor by 20 degrees behind an edge too shallow to be known as one: followed beyond it, the
+ * face would lie in the floor, and threw the rock up by 2 mm. It stands still on its base; its depth under 12 kN is some
+ * 1e-6 m. */
+static void a_rock_stands_on_its_base_beside_a_shallow_edge(void **state)
+{
+    static const char text[] =
+        "title = 'bevel'; dimension = 2; spacing = '0.05 m'; end = '20 ms'; gravity = (0, '-9.81 m/s2');"
+        "domain = { min = (-2, -1, -1); max = (2, 2, 1); };"
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"
+        "bodies = ( { name = 'rock'; material = { model = 'rigid'; density = 2400; };"
+        "    shape = { type = 'polygon'; points = ((-0.5, 0), (0.2, 0), (0.5, 0.1), (0.5, 0.6), (-0.5, 0.6)); }; } );"
+        "contact = { restitution = 0.3; };"
+        "probes = ( { name = 'depth'; type = 'contact_depth'; },"
+        "  { name = 'turn'; type = 'body_rotation_angle'; body = 'rock'; direction = (0, 0, 1); } );"
+        "expect = ( { probe = 'depth'; statistic = 'maximum'; value = 0.0; tolerance = 1e-5; absolute = true; source = "
+        "'Hertz'; },"
+        "  { probe = 'turn'; value = 0.0; tolerance = 1e-5; absolute = true; source = 'rest'; } );"
+        "output = { snapshots = 1; pictures = false; };";
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, path);
+    run_folder_file(folder, results, "bevel");
+    const char *const words[] = {"run", path, "-o", results, "-t", "1", NULL};
+    program_outcome outcome = program_run(folder, words, 0); /* 3 where an expectation is missed */
+    assert_null(strstr(outcome.errors, "overlap"));
+    program_clear(&outcome);
+}
+
+/* A box that falls flat on a floor rebounds with the restitution that was given, however stiff it is and however little
+ * it is to leave. Within 1 %: the steps of an impact. */
+static void a_flat_box_rebounds_as_it_is_told_to(void **state)
+{
+    static const char text[] =
+        "title = 'flat'; dimension = 3; spacing = 0.05; end = 0.02; gravity = (0, 0, 0);"
+        "domain = { min = (-1, -1, -0.5); max = (1, 1, 1); };"
+        "walls = ( { name = 'w'; shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }; } );"
+        "bodies = ( { name = 'b'; position = (0, 0, 0.21); velocity = (0, 0, -2.0); contact_modulus = '50 GPa';"
+        "    shape = { type = 'box'; min = (-0.2, -0.2, -0.2); max = (0.2, 0.2, 0.2); };"
+        "    material = { model = 'rigid'; density = 2600; }; } );"
+        "contact = { restitution = 0.1; };"
+        "probes = ( { name = 'v'; type = 'body_velocity'; body = 'b'; direction = (0, 0, 1); } );"
+        "expect = ( { probe = 'v'; value = 0.2; tolerance = 0.01; source = 'restitution'; } );"
+        "output = { snapshots = 1; pictures = false; };";
+    static const char *const settings[][2] = {
+        {"contact.restitution=0.05", "expect[0].value=0.1"},
+        {"contact.restitution=0.1", "expect[0].value=0.2"},
+        {"contact.restitution=0.3", "expect[0].value=0.6"},
+        {"contact.restitution=0.1", "bodies[0].contact_modulus=100 MPa"},
+    };
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES], name[16];
+    finished_run_store_text(folder, text, path);
+    for (size_t k = 0; k < sizeof settings / sizeof *settings; ++k) {
+        snprintf(name, sizeof name, "flat%zu", k);
+        run_folder_file(folder, results, name);
+        const char *const words[] = {"run", path,           "-o", results,        "-t", "1",
+                                     "-s",  settings[k][0], "-s", settings[k][1], NULL};
+        program_outcome outcome = program_run(folder, words, 0); /* 3 where the expectation is missed */
+        program_clear(&outcome);
+    }
+}
+
 static void a_stiffness_that_was_chosen_is_told(void **state)
 {
     run_folder *folder = *state;
@@ -328,6 +390,9 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_cube_from_a_mesh_slides_as_coulomb_says, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_rock_stands_on_its_base_beside_a_shallow_edge, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_flat_box_rebounds_as_it_is_told_to, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stiffness_that_was_chosen_is_told, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
