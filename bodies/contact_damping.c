@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* How strongly the nodes of a contact of rigid sides may be damped in one step: docs/theory/contact.md, "Restitution". */
+/* How strongly the nodes of rigid sides may be damped in one step: docs/theory/contact.md, "Restitution". */
 #include "bodies/contact_work.h"
 
 #include "core/base/math.h"

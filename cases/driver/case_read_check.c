@@ -27,7 +27,8 @@ enum {
     BARRIER = 256,
     TURN = 512,
     BODY_TURN = 1024,
-    STIFF_SPRING = 2048
+    STIFF_SPRING = 2048,
+    YIELDING = 4096
 };
 
 static const struct {
@@ -44,7 +45,8 @@ static const struct {
              {BARRIER, "with barrier_stiffness above 0"},
              {TURN, "with an angle other than 0"},
              {BODY_TURN, "with an angle other than 0"},
-             {STIFF_SPRING, "with a stiffness above 0"}};
+             {STIFF_SPRING, "with a stiffness above 0"},
+             {YIELDING, "with contact_modulus"}};
 
 /* Settings that are idle alone or in some company. Keys that only one kind of record takes are refused where that kind
  * is read: mor_case_body_condition, mor_case_start_condition and their like. */
@@ -91,6 +93,7 @@ static const struct {
             {"bodies", "friction", SOIL},
             {"bodies", "friction_coefficient", SOIL},
             {"bodies", "axis", BODY_TURN},
+            {"walls", "contact_poissons_ratio", BODIES | YIELDING},
             {"spring", "length", STIFF_SPRING}};
 
 static unsigned find_given(const mor_case *c)
@@ -170,7 +173,8 @@ static void warn_of_idle_settings(const mor_case_reader *reader, const mor_case_
     const mor_case_node *walls = mor_case_node_find(root, "walls");
     const mor_case_wall *wall = c->walls;
     for (const mor_case_node *it = walls == NULL ? NULL : walls->first_child; it != NULL; it = it->next) {
-        warn_of_group(reader, it, c, &mor_case_wall_group, wall++, given);
+        const unsigned own = given | (wall->contact_modulus > 0.0 ? YIELDING : 0U);
+        warn_of_group(reader, it, c, &mor_case_wall_group, wall++, own);
     }
     const mor_case_node *bodies = mor_case_node_find(root, "bodies");
     const mor_case_body *body = c->bodies;

@@ -77,17 +77,36 @@ void mor_contact_report_print(const mor_case *the_case, FILE *out)
     }
 }
 
-bool mor_contact_report_depends_on_choice(const mor_case *the_case, int probe)
+#define CHOICE "depends on a contact stiffness that was chosen for speed: give contact_modulus"
+#define ELASTIC                                                                                                        \
+    "peaks of elastic bodies are right to 5 % only where the contact is over four spacings wide, and up to 45 % off "  \
+    "below"
+#define LATE                                                                                                           \
+    "bodies with clocks of their own pressed on the wall at once: in its maximum and minimum the force of some of "    \
+    "them is up to one common step old"
+
+/* What a force or a depth of contacts depends on. */
+typedef enum reason { NONE, CHOSEN, BY_LAYERS, REASONS } reason;
+
+static reason find_reason(const mor_case *the_case, int probe)
 {
     static const char *const types[] = {"body_force_contact", "wall_contact_force", "contact_depth"};
     bool is_about_contact = false;
+    reason found = NONE;
     for (size_t k = 0; k < sizeof types / sizeof types[0]; ++k) {
         is_about_contact = is_about_contact || strcmp(the_case->probes[probe].type, types[k]) == 0;
     }
-    for (int k = 0; k < the_case->n_bodies && is_about_contact; ++k) {
-        if (mor_contact_report_is_chosen(&the_case->bodies[k])) {
-            return true;
-        }
+    for (int k = 0; k < the_case->n_bodies && is_about_contact && found != CHOSEN; ++k) {
+        found = mor_contact_report_is_chosen(&the_case->bodies[k]) ? CHOSEN
+                : !mor_case_body_is_rigid(&the_case->bodies[k])    ? BY_LAYERS
+                                                                   : found;
     }
-    return false;
+    return found;
+}
+
+const char *mor_contact_report_remark(const mor_case *the_case, int probe, bool is_late)
+{
+    static const char *const remarks[REASONS][2] = {
+        [NONE] = {NULL, LATE}, [CHOSEN] = {CHOICE, CHOICE "; " LATE}, [BY_LAYERS] = {ELASTIC, ELASTIC "; " LATE}};
+    return remarks[find_reason(the_case, probe)][is_late];
 }

@@ -21,12 +21,12 @@ bool mor_contact_report_is_chosen(const mor_case_body *body);
  *  @param out      [in,out]  one open stream */
 void mor_contact_report_print(const mor_case *the_case, FILE *out);
 
-/** What is to be known of a force or a depth of contacts whose stiffness was chosen, a sentence without its stop. */
-#define MOR_CONTACT_REPORT_CHOICE "depends on a contact stiffness that was chosen for speed: give contact_modulus"
-
-/** Whether a probe measures a force or a depth of contacts some of which have a stiffness that was chosen for speed.
+/** What is to be known of a force or a depth of contacts, a sentence without its stop: that their stiffness was chosen
+ *  for speed, or that elastic bodies meet on springs between their nodes.
  *  @param the_case [in]  one object
- *  @param probe    [in]  index of the probe */
-bool mor_contact_report_depends_on_choice(const mor_case *the_case, int probe);
+ *  @param probe    [in]  index of the probe
+ *  @param is_late  [in]  whether its maximum or minimum is from when bodies of several clocks pressed on a wall
+ *  Returns: a static text; NULL when there is nothing to be known. */
+const char *mor_contact_report_remark(const mor_case *the_case, int probe, bool is_late);
 
 #endif

@@ -209,7 +209,8 @@ static mor_status total_energy(mor_context *context, const view *v, double *valu
 static mor_status energy_left(mor_context *context, const view *v, double *value)
 {
     MOR_TRY(context, total_energy(context, v, value));
-    *value /= mor_simulation_initial_energy(v->simulation) + find_offset(v);
+    const double initial = mor_simulation_initial_energy(v->simulation) + find_offset(v);
+    *value = initial != 0.0 ? *value / initial : NAN; /* nothing to measure by */
     return MOR_OK;
 }
 

@@ -232,7 +232,8 @@ static mor_status bodies_damped_energy(mor_context *context, const view *v, doub
 static mor_status bodies_energy_balance(mor_context *context, const view *v, double *value)
 {
     *value = mor_simulation_bodies_lost(&v->simulation->bodies) + mor_probe_total_energy(context, v);
-    *value /= mor_simulation_initial_energy(v->simulation);
+    const double initial = mor_simulation_initial_energy(v->simulation);
+    *value = initial != 0.0 ? *value / initial : NAN; /* nothing to measure by */
     return MOR_OK;
 }
 

@@ -268,15 +268,8 @@ void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_
     };
 }
 
-#define LATE_REMARK                                                                                                    \
-    "bodies with clocks of their own pressed on the wall at once: in its maximum and minimum the force of some of "    \
-    "them is up to one common step old"
-
 const char *mor_probe_remark(const mor_simulation *simulation, int probe)
 {
     const bool is_late = simulation->probes.records[probe][MOR_PROBE_RECORD_LATE] > 0.0;
-    if (mor_contact_report_depends_on_choice(simulation->the_case, probe)) {
-        return is_late ? MOR_CONTACT_REPORT_CHOICE "; " LATE_REMARK : MOR_CONTACT_REPORT_CHOICE;
-    }
-    return is_late ? LATE_REMARK : NULL;
+    return mor_contact_report_remark(simulation->the_case, probe, is_late);
 }

@@ -4,6 +4,7 @@
 
 #include "cases/driver/simulation_resolution.h"
 #include "core/base/math.h"
+#include "core/particle/shape_analytic.h"
 
 #include <stdio.h>
 
@@ -39,6 +40,49 @@ static void warn_of_softness(mor_context *context, const mor_simulation *s)
                     "the soil is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% "
                     "is advisable: raise youngs_modulus to %.3g %s or more",
                     100.0 * weight / stiffness, weight / compression_advisable / units[k].size, units[k].name);
+}
+
+/* A contact looks at the surface over a spacing: on a wall thinner than two it meets the other side. */
+static void warn_of_thin_walls(mor_context *context, const mor_case *c)
+{
+    const double advisable = 2.0;
+    for (int w = 0; w < c->n_walls && c->n_bodies > 0; ++w) {
+        mor_bounds bounds;
+        double thickness = INFINITY;
+        mor_shape_bounds(c->walls[w].shape, &bounds);
+        for (int a = 0; a < c->dimension; ++a) {
+            thickness = fmin(thickness, bounds.maximum[a] - bounds.minimum[a]);
+        }
+        if (thickness < advisable * c->spacing) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "wall '%s' is %.3g m thick, %.2g spacings; below two, forces of bodies on it are up to a "
+                            "fifth too small: make it thicker, or use a spacing of %.2g m",
+                            c->walls[w].name, thickness, thickness / c->spacing, 0.99 * thickness / advisable);
+        }
+    }
+}
+
+/* Densities that nothing has which slides down a slope: a unit was forgotten. */
+static void warn_of_density(mor_context *context, const char *what, const char *name, double density, double least,
+                            double largest)
+{
+    if (density < least || density > largest) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s '%s' has a density of %.4g kg/m3, which no %s has: a bare number is in kg/m3; give the unit, "
+            "such as \"1.8 t/m3\"",
+            what, name, density, what);
+    }
+}
+
+static void warn_of_densities(mor_context *context, const mor_case *c)
+{
+    for (int k = 0; k < c->n_soils; ++k) {
+        warn_of_density(context, "soil", c->soils[k].name, c->soils[k].density, 100.0, 1.0e4);
+    }
+    for (int k = 0; k < c->n_listed_bodies; ++k) {
+        warn_of_density(context, "body", c->bodies[k].name, c->bodies[k].density, 5.0, 1.0e5);
+    }
 }
 
 /* Smallest distance of a soil particle from the face of a wall, in spacings. */
@@ -123,6 +167,8 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     warn_of_thinness(context, simulation);
     warn_of_gaps(context, simulation);
     warn_of_softness(context, simulation);
+    warn_of_densities(context, c);
+    warn_of_thin_walls(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
     warn_of_outputs(context, simulation);
     if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {

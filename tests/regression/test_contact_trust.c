@@ -235,8 +235,8 @@ static void a_cube_from_a_mesh_slides_as_coulomb_says(void **state)
     program_clear(&outcome);
 }
 
-/* A face that rises from the floor by 20 degrees behind an edge too shallow to be known as one: followed beyond it, the
- * face would lie in the floor, and threw the rock up by 2 mm. It stands still on its base; its depth under 12 kN is some
+/* A face that rises by 20 degrees behind an edge too shallow to be known as one: followed beyond it, it
+ * would lie in the floor, and threw the rock up by 2 mm. It stands still on its base; its depth under 12 kN is some
  * 1e-6 m. */
 static void a_rock_stands_on_its_base_beside_a_shallow_edge(void **state)
 {

@@ -45,6 +45,35 @@ static void soil_off_a_wall_is_warned_of(void **state)
     }
 }
 
+/* A unit that was forgotten, and a plate on which contact would meet the other side. */
+static void forgotten_units_and_thin_walls_are_warned_of(void **state)
+{
+    static const char block[] = MOR_SOURCE_DIR "/cases/incline-block/case.cfg";
+    static const char *const plates[] = {
+        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.15 m\"); max=(\"4 m\", \"0 m\");}",
+        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.3 m\"); max=(\"4 m\", \"0 m\");}"};
+    const struct {
+        const char *path, *setting, *warning;
+    } rows[] = {
+        {COLUMN, "soil[0].material.density=2.1", "soil 'soil' has a density of 2.1 kg/m3, which no soil has"},
+        {block, "bodies[0].material.density=2.6", "body 'block' has a density of 2.6 kg/m3, which no body has"},
+        {block, "bodies[0].material.density=20 kg/m3", NULL},
+        {block, plates[0], "wall 'incline' is 0.15 m thick, 1.5 spacings; below two, forces of bodies on it"},
+        {block, plates[1], NULL},
+    };
+    run_folder *folder = *state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+        program_outcome outcome =
+            program_run(folder, (const char *[]){"explain", rows[k].path, "-t", "1", "-s", rows[k].setting, NULL}, 0);
+        if (rows[k].warning != NULL) {
+            program_expect_text(outcome.output, rows[k].warning);
+        } else {
+            assert_null(strstr(outcome.output, "warning"));
+        }
+        program_clear(&outcome);
+    }
+}
+
 /* 50 particles of 20 mm stand on each other, so H = 1 m, and rho g H = 2100 * 9.81 * 1 Pa = 20.6 kPa, which is 1 % of
  * 2.06 MPa and 1.98 % of 1.04 MPa. */
 static void soil_too_soft_for_its_weight_is_warned_of(void **state)
@@ -131,6 +160,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(soil_off_a_wall_is_warned_of, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(forgotten_units_and_thin_walls_are_warned_of, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_too_soft_for_its_weight_is_warned_of, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(scene_that_cannot_take_a_step_is_explained, run_folder_setup,

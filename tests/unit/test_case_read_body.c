@@ -260,15 +260,15 @@ static void what_makes_no_body_is_refused(void **state)
 static void a_contact_that_cannot_be_is_refused(void **state)
 {
     static const refusal rows[] = {
-        {"contact.restitution=0", "allowed: in (0, 1]"},
-        {"contact.restitution=1.5", "allowed: in (0, 1]"},
+        {"contact.restitution=0", "allowed: in [0.01, 1]"},
+        {"contact.restitution=1.5", "allowed: in [0.01, 1]"},
         {"contact.friction_coefficient=-0.1", "allowed: >= 0"},
         {"contact.pairs[0].second=flor", "did you mean 'floor'?"},
         {"contact.pairs[0].first=bed", "allowed: ball, block, mill, bar, beam, floor, gate (name of a body or a wall)"},
         {"contact.pairs[0].first=gate", "a pair of two walls, 'gate' and 'floor'"},
         {"contact.pairs[0].second=ball", "a pair of 'ball' with itself"},
         {"contact.pairs[0].second=block", "the pair of 'block' and 'ball' again"},
-        {"contact.pairs[0].restitution=0", "allowed: in (0, 1]"},
+        {"contact.pairs[0].restitution=0", "allowed: in [0.01, 1]"},
         {"contact.stiffness=1", "unknown name 'stiffness' in contact"}};
     refuse_all(*state, rocks_text, "", rows, sizeof rows / sizeof rows[0]);
 }
