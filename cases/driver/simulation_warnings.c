@@ -42,6 +42,35 @@ static void warn_of_softness(mor_context *context, const mor_simulation *s)
                     100.0 * weight / stiffness, weight / compression_advisable / units[k].size, units[k].name);
 }
 
+/* A lateral stress that the soil cannot bear is none of rest: it yields in the first step. The limits are Rankine's at
+ * the largest depth, where cohesion matters least. */
+static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    const double slack = 1.05; /* cones differ from Mohr and Coulomb by some per cent */
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        const mor_material *law = s->material->material;
+        const double angle = mor_simulation_parameter(law, it->parameters, "friction_angle", NAN);
+        const double cohesion = mor_simulation_parameter(law, it->parameters, "cohesion", 0.0);
+        const double vertical = it->density * mor_vector_length(c->gravity) * s->soil_depth;
+        if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(angle) || !(vertical > 0.0)) {
+            continue;
+        }
+        const double passive = (1.0 + sin(angle)) / (1.0 - sin(angle));
+        const double share = 2.0 * cohesion * sqrt(passive) / vertical;
+        const double least = (1.0 - share) / passive;
+        const double largest = passive + share;
+        const double ratio = mor_simulation_lateral_ratio(law, it);
+        if (ratio < least / slack || ratio > largest * slack) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s' begins with a lateral stress of %.3g of the vertical one, but at its foot its "
+                            "strength holds %.3g to %.3g: it yields at once, with a jerk; correct lateral_ratio",
+                            it->name, ratio, fmax(least, 0.0), largest);
+        }
+    }
+}
+
 /* A contact looks at the surface over a spacing: on a wall thinner than two it meets the other side. */
 static void warn_of_thin_walls(mor_context *context, const mor_case *c)
 {
@@ -167,6 +196,9 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     warn_of_thinness(context, simulation);
     warn_of_gaps(context, simulation);
     warn_of_softness(context, simulation);
+    if (simulation->has_soil) {
+        warn_of_lateral_stress(context, simulation);
+    }
     warn_of_densities(context, c);
     warn_of_thin_walls(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));

@@ -55,6 +55,9 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
     const struct {
         const char *path, *setting, *warning;
     } rows[] = {
+        /* the shipped soil has 25 degrees and no cohesion: Rankine's limits are 0.406 and 2.46 */
+        {COLUMN, "soil[0].initial_stress.lateral_ratio=4.3", "begins with a lateral stress of 4.3 of the vertical one"},
+        {COLUMN, "soil[0].initial_stress.lateral_ratio=0.05", "begins with a lateral stress of 0.05 of the vertical"},
         {COLUMN, "soil[0].material.density=2.1", "soil 'soil' has a density of 2.1 kg/m3, which no soil has"},
         {block, "bodies[0].material.density=2.6", "body 'block' has a density of 2.6 kg/m3, which no body has"},
         {block, "bodies[0].material.density=20 kg/m3", NULL},
