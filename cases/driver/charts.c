@@ -91,11 +91,12 @@ static void add_note(plate *p, const char *text)
     }
 }
 
-/* A summary of an earlier part of the run does not know the rows that came after it. */
+/* A summary of an earlier part of the run does not know the rows that came after it. The first row is of the start,
+ * before any force has acted; statistics begin with the first step. */
 static bool is_of_series(const mor_chart_series *curve, const mor_summary_statistics *it)
 {
     bool is_known = true;
-    for (int64_t k = 0; k < curve->n_points; ++k) {
+    for (int64_t k = curve->n_points > 1 ? 1 : 0; k < curve->n_points; ++k) {
         const bool is_inside = curve->x[k] >= it->window[0] && curve->x[k] <= it->window[1];
         const double rounding = 1.0e-9 * fmax(fabs(it->maximum), fabs(it->minimum));
         is_known = is_known &&
@@ -116,8 +117,10 @@ static void add_mark(plate *p, int curve, const mor_summary_statistics *it, cons
     const double time_factor = mor_ticks_prefix("s", fabs(time), clock);
     const int k = p->n_series;
     const mor_chart_series *line = &p->series[curve];
+    const double last = line->n_points > 0 ? line->x[line->n_points - 1] : 0.0;
+    /* The clock may end a rounding beyond the window. */
     const bool is_windowed =
-        line->n_points > 0 && (it->window[0] > line->x[0] || it->window[1] < line->x[line->n_points - 1]);
+        line->n_points > 0 && (it->window[0] > line->x[0] || it->window[1] < last * (1.0 - 1.0e-9));
     if (!isfinite(value) || !isfinite(time) || it->maximum == it->minimum || k >= MOR_CHART_SERIES_MAX) {
         return;
     }

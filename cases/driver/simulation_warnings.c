@@ -104,6 +104,28 @@ static void warn_of_density(mor_context *context, const char *what, const char *
     }
 }
 
+static void warn_of_modulus(mor_context *context, const char *what, const char *name, double modulus)
+{
+    const double least = 1.0e5; /* Pa; below, bodies of any size lie deep in one another */
+    if (modulus > 0.0 && modulus < least) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s '%s' has a contact_modulus of %.4g Pa, softer than any rock or wall: a bare number is in Pa; "
+            "give the unit, such as \"50 GPa\"",
+            what, name, modulus);
+    }
+}
+
+static void warn_of_moduli(mor_context *context, const mor_case *c)
+{
+    for (int k = 0; k < c->n_listed_bodies; ++k) {
+        warn_of_modulus(context, "body", c->bodies[k].name, c->bodies[k].contact_modulus);
+    }
+    for (int k = 0; k < c->n_walls; ++k) {
+        warn_of_modulus(context, "wall", c->walls[k].name, c->walls[k].contact_modulus);
+    }
+}
+
 static void warn_of_densities(mor_context *context, const mor_case *c)
 {
     for (int k = 0; k < c->n_soils; ++k) {
@@ -200,6 +222,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
         warn_of_lateral_stress(context, simulation);
     }
     warn_of_densities(context, c);
+    warn_of_moduli(context, c);
     warn_of_thin_walls(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
     warn_of_outputs(context, simulation);

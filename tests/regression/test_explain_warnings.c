@@ -61,6 +61,9 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         {COLUMN, "soil[0].material.density=2.1", "soil 'soil' has a density of 2.1 kg/m3, which no soil has"},
         {block, "bodies[0].material.density=2.6", "body 'block' has a density of 2.6 kg/m3, which no body has"},
         {block, "bodies[0].material.density=20 kg/m3", NULL},
+        {block, "bodies[0].contact_modulus=50", "body 'block' has a contact_modulus of 50 Pa, softer than any rock"},
+        {block, "walls[0].contact_modulus=30", "wall 'incline' has a contact_modulus of 30 Pa, softer than any"},
+        {block, "walls[0].contact_modulus=30 MPa", NULL},
         {block, plates[0], "wall 'incline' is 0.15 m thick, 1.5 spacings; below two, forces of bodies on it"},
         {block, plates[1], NULL},
     };
