@@ -17,6 +17,7 @@ void mor_probe_record_clear(double *record)
     record[MOR_PROBE_RECORD_TIME_OF_MINIMUM] = NAN;
     record[MOR_PROBE_RECORD_LAST_VALUE] = NAN;
     record[MOR_PROBE_RECORD_LAST_TIME] = NAN;
+    record[MOR_PROBE_RECORD_BEGAN] = NAN;
 }
 
 /* Written so that the first value replaces the NaN of an empty record. */

@@ -25,6 +25,7 @@ enum {
     MOR_PROBE_RECORD_LAST_VALUE,      /* of the last measurement, inside the window or not; NaN: none, or not finite */
     MOR_PROBE_RECORD_LAST_TIME,       /* of the last measurement, s */
     MOR_PROBE_RECORD_LATE,            /* measurements with a part that was up to one common step old, 1 */
+    MOR_PROBE_RECORD_BEGAN,           /* when the probe was added, s; 0: with the run; NaN: not yet */
     MOR_PROBE_RECORD_NUMBERS
 };
 

@@ -216,9 +216,22 @@ static mor_status measure(mor_context *context, mor_probe_track *track, int k)
     return MOR_OK;
 }
 
+void mor_probe_track_resume(mor_probe_track *track)
+{
+    const mor_simulation *s = track->simulation;
+    for (int k = 0; k < s->the_case->n_probes; ++k) {
+        double *record = track->records[k];
+        const bool is_new = isnan(record[MOR_PROBE_RECORD_BEGAN]);
+        record[MOR_PROBE_RECORD_BEGAN] = is_new ? mor_schedule_time(&s->schedule) : record[MOR_PROBE_RECORD_BEGAN];
+    }
+}
+
 mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track)
 {
     forget(track);
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        track->records[k][MOR_PROBE_RECORD_BEGAN] = 0.0;
+    }
     return mor_probe_follow(context, track->simulation);
 }
 
@@ -263,7 +276,8 @@ void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_
         .impulse = is_force ? mor_probe_record_integral(record) : NAN,
         .n_measured = record[MOR_PROBE_RECORD_MEASURED],
         .n_skipped = record[MOR_PROBE_RECORD_SKIPPED],
-        .window = simulation->probes.windows[probe],
+        .window = {fmax(simulation->probes.windows[probe].begin, record[MOR_PROBE_RECORD_BEGAN]),
+                   simulation->probes.windows[probe].end},
         .interval = simulation->probes.intervals[probe],
     };
 }

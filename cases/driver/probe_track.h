@@ -52,6 +52,10 @@ void mor_probe_track_clear(mor_context *context, mor_probe_track *track);
  *  Returns: MOR_OK; what a measurement returns. */
 mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track);
 
+/** After a resume: probes that were not there before begin now.
+ *  @param track [in,out]  one object, as the checkpoint left it */
+void mor_probe_track_resume(mor_probe_track *track);
+
 /** Lists what a checkpoint saves.
  *  @param track  [in,out]  one object; the values point into it
  *  @param values [out]     shape [MOR_PROBE_TRACK_VALUES] */

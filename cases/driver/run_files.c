@@ -441,6 +441,7 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
     const mor_status status = mor_checkpoint_read_latest(context, folder, &state.checkpoint);
     MOR_TRY(context, status == MOR_OK ? status : explain_refusal(context, files, status));
     MOR_TRY(context, set_clock(context, s));
+    mor_probe_track_resume(&s->probes);
     MOR_TRY(context, take_up(context, s));
     mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu", mor_schedule_time(&s->schedule),
                     (unsigned long long)s->schedule.n_steps);

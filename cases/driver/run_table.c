@@ -64,7 +64,7 @@ static void write_note(const mor_case *c, const mor_summary_result *result, int 
     text[0] = '\0';
     if (kind == REMARK && result->remark != NULL) {
         snprintf(text, NOTE_BYTES, "%s", result->remark);
-    } else if (kind == WINDOW && !isnan(c->probes[k].window[0])) {
+    } else if (kind == WINDOW && (!isnan(c->probes[k].window[0]) || it->window[0] > 0.0)) {
         snprintf(text, NOTE_BYTES, "maximum, minimum, mean and impulse are those from %.6g s to %.6g s", it->window[0],
                  it->window[1]);
     } else if (kind == SKIPPED && it->n_skipped > 0.0) {

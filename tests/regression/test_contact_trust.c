@@ -367,6 +367,17 @@ static void a_resume_keeps_the_forces_of_all_groups(void **state)
     assert_true(old > 0.0);
     assert_true(read_result(again.output, "w2 ") == old);
     program_clear(&again);
+    /* What it does from then on is not taken for what it did in the whole run. */
+    again = program_run(folder,
+                        (const char *[]){"run", path, "-t", "1", "-o", parts, "--resume", "-s", "end=25 ms", "-s",
+                                         "probes=({name=\"w\"; type=\"wall_contact_force\"; wall=\"floor\"; "
+                                         "direction=(0, -1); window=(\"11 ms\", \"20 ms\");}, {name=\"d\"; "
+                                         "type=\"contact_depth\"; window=(\"11 ms\", \"20 ms\");}, {name=\"w2\"; "
+                                         "type=\"wall_contact_force\"; wall=\"floor\"; direction=(0, -1);})",
+                                         NULL},
+                        0);
+    program_expect_text(again.output, "are those from 0.02 s to 0.025 s");
+    program_clear(&again);
 }
 
 int main(void)
