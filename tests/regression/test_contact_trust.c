@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Forces of contacts that may be reported come from the bodies, and surfaces do not pass through each other without a
  * word. */
+#include "core/base/math.h"
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
 
@@ -19,13 +20,15 @@
     "probes = ( { name = 'push'; type = 'wall_contact_force'; wall = 'post'; direction = (1, 0, 0); } );"              \
     "output = { snapshots = 1; series_interval = '1 us'; pictures = false; };"
 
-/* Runs the case above with settings up to a NULL; the exit code must be as expected. */
-static program_outcome run_post(run_folder *folder, const char *name, const char *const *settings, int exit_code)
+/* Runs a case, zero-terminated text, with settings up to a NULL; the exit code must be as expected: 3 where an
+ * expectation of the case is missed. */
+static program_outcome run_text(run_folder *folder, const char *text, const char *name, const char *const *settings,
+                                int exit_code)
 {
     char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
     const char *words[PROGRAM_ARGUMENTS_MAX] = {"run", path, "-o", results, "-t", "1"};
     int n = 6;
-    finished_run_store_text(folder, POST, path);
+    finished_run_store_text(folder, text, path);
     run_folder_file(folder, results, name);
     for (int k = 0; settings[k] != NULL; ++k) {
         words[n++] = "--set";
@@ -34,6 +37,13 @@ static program_outcome run_post(run_folder *folder, const char *name, const char
     words[n] = NULL;
     return program_run(folder, words, exit_code);
 }
+
+static program_outcome run_post(run_folder *folder, const char *name, const char *const *settings, int exit_code)
+{
+    return run_text(folder, POST, name, settings, exit_code);
+}
+
+static const char *const as_it_is[] = {NULL};
 
 /* Largest value of the last column of the series of a run. */
 static double find_peak(run_folder *folder, const char *name)
@@ -162,12 +172,9 @@ static void energy_that_is_accounted_for_is_not_warned_of(void **state)
         "output = { snapshots = 1; pictures = false; };";
     static const char *const settings[] = {"numerics.damping=0", "numerics.damping=5"};
     run_folder *folder = *state;
-    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
-    finished_run_store_text(folder, text, path);
     for (int k = 0; k < 2; ++k) {
-        run_folder_file(folder, results, k == 0 ? "driven" : "damped");
         program_outcome outcome =
-            program_run(folder, (const char *[]){"run", path, "-t", "1", "-o", results, "-s", settings[k], NULL}, 0);
+            run_text(folder, text, k == 0 ? "driven" : "damped", (const char *[]){settings[k], NULL}, 0);
         assert_null(strstr(outcome.errors, "do not add up"));
         program_clear(&outcome);
     }
@@ -226,12 +233,9 @@ static void a_cube_from_a_mesh_slides_as_coulomb_says(void **state)
         "  { probe = 'yaw'; value = 0.0; tolerance = 1e-5; absolute = true; source = 'symmetry'; } );"
         "output = { snapshots = 1; pictures = false; };";
     run_folder *folder = *state;
-    char path[MOR_PATH_BYTES], file[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
-    finished_run_store_text(folder, text, path);
+    char file[MOR_PATH_BYTES];
     run_folder_store(run_folder_file(folder, file, "cube.obj"), mesh, sizeof mesh - 1);
-    run_folder_file(folder, results, "cube");
-    const char *const words[] = {"run", path, "-o", results, "-t", "1", NULL};
-    program_outcome outcome = program_run(folder, words, 0); /* 3 where an expectation is missed */
+    program_outcome outcome = run_text(folder, text, "cube", as_it_is, 0);
     program_clear(&outcome);
 }
 
@@ -254,11 +258,7 @@ static void a_rock_stands_on_its_base_beside_a_shallow_edge(void **state)
         "  { probe = 'turn'; value = 0.0; tolerance = 1e-5; absolute = true; source = 'rest'; } );"
         "output = { snapshots = 1; pictures = false; };";
     run_folder *folder = *state;
-    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
-    finished_run_store_text(folder, text, path);
-    run_folder_file(folder, results, "bevel");
-    const char *const words[] = {"run", path, "-o", results, "-t", "1", NULL};
-    program_outcome outcome = program_run(folder, words, 0); /* 3 where an expectation is missed */
+    program_outcome outcome = run_text(folder, text, "bevel", as_it_is, 0);
     assert_null(strstr(outcome.errors, "overlap"));
     program_clear(&outcome);
 }
@@ -285,14 +285,47 @@ static void a_flat_box_rebounds_as_it_is_told_to(void **state)
         {"contact.restitution=0.1", "bodies[0].contact_modulus=100 MPa"},
     };
     run_folder *folder = *state;
-    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES], name[16];
-    finished_run_store_text(folder, text, path);
+    char name[16];
     for (size_t k = 0; k < sizeof settings / sizeof *settings; ++k) {
         snprintf(name, sizeof name, "flat%zu", k);
-        run_folder_file(folder, results, name);
-        const char *const words[] = {"run", path,           "-o", results,        "-t", "1",
-                                     "-s",  settings[k][0], "-s", settings[k][1], NULL};
-        program_outcome outcome = program_run(folder, words, 0); /* 3 where the expectation is missed */
+        program_outcome outcome =
+            run_text(folder, text, name, (const char *[]){settings[k][0], settings[k][1], NULL}, 0);
+        program_clear(&outcome);
+    }
+}
+
+/* A smooth box that meets the floor with a corner leaves it, at the corner, with the restitution that was given: the
+ * impulse (1 + e) m v / (1 + r^2 m / I) acts at the lever r of the corner. Within half a per cent of the impact's 2 m/s
+ * and of its 9.6 rad/s: the box turns by 5 degrees on the way. */
+static void a_corner_rebounds_as_it_is_told_to(void **state)
+{
+    static const char text[] =
+        "title = 'corner'; dimension = 2; spacing = 0.05; end = 0.02; gravity = (0, 0);"
+        "domain = { min = (-2, -1); max = (2, 2); };"
+        "walls = ( { name = 'w'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"
+        "bodies = ( { name = 'b'; angle = '20 deg'; position = (0, 0.293); velocity = (0, -2.0);"
+        "    contact_modulus = '1 GPa'; shape = { type = 'box'; min = (-0.3, -0.2); max = (0.3, 0.2); };"
+        "    material = { model = 'rigid'; density = 2600; }; } );"
+        "contact = { restitution = 0.1; friction_coefficient = 0.0; };"
+        "probes = ( { name = 'v'; type = 'body_velocity'; body = 'b'; direction = (0, 1); },"
+        "  { name = 'w'; type = 'body_angular_velocity'; body = 'b'; direction = (0, 0, 1); } );"
+        "expect = ( { probe = 'v'; value = 0.0; tolerance = 0.01; absolute = true; source = 'restitution'; },"
+        "  { probe = 'w'; value = 0.0; tolerance = 0.05; absolute = true; source = 'restitution'; } );"
+        "output = { snapshots = 1; pictures = false; };";
+    static const double restitutions[] = {0.05, 0.3, 1.0};
+    const double turn = MOR_PI / 9.0; /* the lowest corner is that of (-0.3, -0.2) */
+    const double lever = -0.3 * cos(turn) + 0.2 * sin(turn);
+    const double inertia = (0.6 * 0.6 + 0.4 * 0.4) / 12.0; /* over the mass, m2 */
+    run_folder *folder = *state;
+    for (int k = 0; k < 3; ++k) {
+        const double impulse = (1.0 + restitutions[k]) * 2.0 / (1.0 + lever * lever / inertia);
+        char name[16], settings[3][64];
+        snprintf(name, sizeof name, "corner%d", k);
+        snprintf(settings[0], sizeof settings[0], "contact.restitution=%g", restitutions[k]);
+        snprintf(settings[1], sizeof settings[1], "expect[0].value=%.9g", impulse - 2.0);
+        snprintf(settings[2], sizeof settings[2], "expect[1].value=%.9g", impulse * lever / inertia);
+        program_outcome outcome =
+            run_text(folder, text, name, (const char *[]){settings[0], settings[1], settings[2], NULL}, 0);
         program_clear(&outcome);
     }
 }
@@ -403,6 +436,7 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_rock_stands_on_its_base_beside_a_shallow_edge, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_corner_rebounds_as_it_is_told_to, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_flat_box_rebounds_as_it_is_told_to, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stiffness_that_was_chosen_is_told, run_folder_setup, run_folder_teardown),
     };
