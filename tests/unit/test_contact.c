@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/contact_work.h"
 #include "tests/common/contact_scene.h"
 
 static const double SIDE = 0.1;
@@ -255,10 +256,55 @@ static void nothing_touches_beyond_an_edge(void **state)
     }
 }
 
+/* A block on the floor, turned by an angle: how strongly its motions answer to its nodes, against its two motions in
+ * closed form, up along the floor's normal and about its center. */
+static void expect_response(double angle, double height)
+{
+    contact_scene_body block = block_at(MOR_BODY_RIGID, 0.0, height);
+    block.axis[2] = 1.0;
+    block.angle = angle;
+    contact_scene_request request = plain_request(&block, 1);
+    request.walls = &floor_wall;
+    request.n_walls = 1;
+    contact_scene scene;
+    contact_scene_open(&scene, &request);
+    contact_scene_step(&scene, 1.0);
+    const mor_contact_work *work = scene.contact.work;
+    const mor_body *body = contact_scene_of(&scene, 0);
+    const double inertia = body->mass * SIDE * SIDE / 6.0;
+    double lift = 0.0, tilt = 0.0, both = 0.0;
+    assert_int_equal(work->n_active, 1);
+    for (int64_t k = work->first_touch[0]; k < work->first_touch[1]; ++k) {
+        const mor_contact_touch *touch = &work->touches[k];
+        const double force = touch->depth > 0.0 ? touch->share * touch->stiffness * touch->mean_depth : 0.0;
+        const double lever = touch->depth > 0.0 ? touch->place[0] - body->center[0] : 0.0;
+        lift += force / body->mass;
+        tilt += force * lever * lever / inertia;
+        both += force * lever / sqrt(body->mass * inertia);
+    }
+    const double mean = 0.5 * (lift + tilt);
+    const double half = sqrt(0.25 * (lift - tilt) * (lift - tilt) + both * both);
+    const double expected = pow(pow(mean + half, 8.0) + pow(mean - half, 8.0), 0.125);
+    const double found =
+        mor_contact_response(&scene.contact, &work->near[work->active[0]], work->first_touch[0], work->first_touch[1]);
+    assert_true(lift > 0.0 && tilt > 0.1 * lift);
+    contact_scene_expect("response over that of its motions", found / expected, 1.0, 1e-12); /* rounding */
+    assert_int_equal(work->bodies[0].n_touching, 1);
+    contact_scene_close(&scene);
+}
+
+static void damping_is_limited_by_what_the_nodes_move_and_turn(void **state)
+{
+    (void)state;
+    expect_response(0.0, 0.4999 * SIDE);
+    expect_response(0.3, 0.5 * SIDE * (sin(0.3) + cos(0.3)) - 1e-4 * SIDE); /* one corner alone */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_settings_are_refused),
+        cmocka_unit_test(damping_is_limited_by_what_the_nodes_move_and_turn),
         cmocka_unit_test(bodies_alone_may_take_any_step),
         cmocka_unit_test(the_step_is_a_part_of_the_period_on_the_contact_spring),
         cmocka_unit_test(the_step_of_touching_bodies_does_not_depend_on_gaps),
