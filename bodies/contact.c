@@ -245,6 +245,7 @@ static mor_status make_all(mor_context *context, mor_contact *contact, const mor
     MOR_TRY(context, make_lists(context, contact));
     MOR_TRY(context, make_history(context, contact));
     MOR_TRY(context, mor_contact_measure_curvatures(context, contact));
+    MOR_TRY(context, mor_contact_list_neighbors(context, contact));
     return assign_laws(context, contact);
 }
 
@@ -297,7 +298,10 @@ static void clear_work(mor_context *context, mor_contact_work *work)
     MOR_FREE(context, &work->support_weights);
     MOR_FREE(context, &work->curvatures);
     MOR_FREE(context, &work->normals);
+    MOR_FREE(context, &work->levels);
     MOR_FREE(context, &work->is_smooth);
+    MOR_FREE(context, &work->first_neighbor);
+    MOR_FREE(context, &work->neighbors);
     MOR_FREE(context, &work->free_until);
     MOR_FREE(context, &work->near_of);
     MOR_FREE(context, &work->law_of);

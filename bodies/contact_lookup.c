@@ -37,20 +37,27 @@ static void find_wall_place(const mor_contact *contact, const mor_contact_wall *
     mor_matrix_apply_transposed(wall->turn, offset, place);
 }
 
-static void look_at_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
-                         double reach, mor_contact_touch *touch)
+/* Whether the surface around the node may touch; then normal and curvature are filled in. */
+static bool look_at_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
+                         bool is_whole, mor_contact_touch *touch)
 {
     const mor_body_group *group = contact->work->bodies[near->first].group;
     double place[3], normal[3];
     find_wall_place(contact, wall, touch->place, place);
-    touch->gap = mor_shape_distance(wall->shape, place);
-    if (touch->gap < reach) {
-        mor_shape_normal(wall->shape, place, NORMAL_STEP * group->spacing, normal);
-        mor_matrix_apply(wall->turn, normal, touch->normal);
-        normalize(group->dimension, touch->normal);
-        mor_contact_meet(contact, near, touch,
-                         mor_contact_curvature(wall->shape, group->dimension, place, group->spacing));
+    touch->gap = mor_contact_shape_gap(wall->shape, group->dimension, place, group->spacing, NULL);
+    if (!is_whole || !(touch->gap < mor_contact_reach(contact, near, touch, 1.0 / group->spacing))) {
+        return false;
     }
+    mor_contact_shape_gap(wall->shape, group->dimension, place, group->spacing, normal);
+    const double curvature =
+        mor_contact_curvature(wall->shape, group->dimension, place, touch->gap, normal, group->spacing);
+    if (!(touch->gap < mor_contact_reach(contact, near, touch, curvature))) {
+        return false;
+    }
+    mor_matrix_apply(wall->turn, normal, touch->normal);
+    normalize(group->dimension, touch->normal);
+    mor_contact_meet(contact, near, touch, curvature);
+    return true;
 }
 
 void mor_contact_shape_place(const mor_body *body, const double *reference, double *place)
@@ -62,15 +69,19 @@ void mor_contact_shape_place(const mor_body *body, const double *reference, doub
     mor_matrix_apply_transposed(body->shape_turn, offset, place);
 }
 
-/* Gap and normal of a point of the reference configuration; the normal in that configuration. */
-static double reference_gap(const mor_body_group *group, const mor_body *body, const double *reference, double *normal)
+/* Gap of a point of the reference configuration, and unless NULL, the normal in that configuration and the curvature. */
+static double reference_gap(const mor_body_group *group, const mor_body *body, const double *reference, double *normal,
+                            double *curvature)
 {
     double place[3], own[3];
     mor_contact_shape_place(body, reference, place);
-    const double gap = mor_shape_distance(body->shape, place);
+    const double gap =
+        mor_contact_shape_gap(body->shape, group->dimension, place, group->spacing, normal != NULL ? own : NULL);
     if (normal != NULL) {
-        mor_shape_normal(body->shape, place, NORMAL_STEP * group->spacing, own);
         mor_matrix_apply(body->shape_turn, own, normal);
+    }
+    if (curvature != NULL) {
+        *curvature = mor_contact_curvature(body->shape, group->dimension, place, gap, own, group->spacing);
     }
     return gap;
 }
@@ -88,40 +99,36 @@ static void find_reference(const mor_body *body, const double *point, double *re
     }
 }
 
-double mor_contact_gap(const mor_contact *contact, int other, const double *point)
+double mor_contact_gap(const mor_contact *contact, const mor_body_group *asking, int other, const double *point)
 {
     double reference[3];
     if (other < contact->work->n_bodies) {
         const mor_contact_body *partner = &contact->work->bodies[other];
         const mor_body *body = &partner->group->bodies[partner->body];
         find_reference(body, point, reference);
-        return reference_gap(partner->group, body, reference, NULL);
+        return reference_gap(partner->group, body, reference, NULL, NULL);
     }
-    find_wall_place(contact, &contact->walls[other - contact->work->n_bodies], point, reference);
-    return mor_shape_distance(contact->walls[other - contact->work->n_bodies].shape, reference);
+    const mor_contact_wall *wall = &contact->walls[other - contact->work->n_bodies];
+    find_wall_place(contact, wall, point, reference);
+    return mor_contact_shape_gap(wall->shape, asking->dimension, reference, asking->spacing, NULL);
 }
 
-/* Curvature of a body at a point of the reference configuration, 1/m. */
-static double body_curvature(const mor_body_group *group, const mor_body *body, const double *reference)
-{
-    double place[3];
-    mor_contact_shape_place(body, reference, place);
-    return mor_contact_curvature(body->shape, group->dimension, place, group->spacing);
-}
-
-static void look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,
-                          double reach, mor_contact_touch *touch)
+static bool look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,
+                          bool is_whole, mor_contact_touch *touch)
 {
     const mor_body *body = &partner->group->bodies[partner->body];
     double reference[3], normal[3];
     find_reference(body, touch->place, reference);
-    touch->gap = reference_gap(partner->group, body, reference, NULL);
-    if (touch->gap < reach) {
-        reference_gap(partner->group, body, reference, normal);
-        mor_matrix_apply(body->turn, normal, touch->normal);
-        normalize(partner->group->dimension, touch->normal);
-        mor_contact_meet(contact, near, touch, body_curvature(partner->group, body, reference));
+    touch->gap = reference_gap(partner->group, body, reference, NULL, NULL);
+    if (!is_whole || !(touch->gap < mor_contact_reach(contact, near, touch, partner->curvature))) {
+        return false;
     }
+    double curvature;
+    reference_gap(partner->group, body, reference, normal, &curvature);
+    mor_matrix_apply(body->turn, normal, touch->normal);
+    normalize(partner->group->dimension, touch->normal);
+    mor_contact_meet(contact, near, touch, curvature);
+    return true;
 }
 
 static double spread_of(const double *weights, int n)
@@ -170,7 +177,7 @@ static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *
             reference[a] += weights[k] * group->reference[3 * (int64_t)particles[k] + a];
         }
     }
-    const double gap = reference_gap(group, body, reference, normal);
+    const double gap = reference_gap(group, body, reference, normal, NULL);
     mor_matrix_apply_transposed(gradient, normal, touch->normal);
     /* The level set falls with the slope |gradient^T normal| per length of the present configuration. */
     const double slope = mor_vector_length(touch->normal);
@@ -187,18 +194,19 @@ void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *nea
     const mor_contact_body *partner = mor_contact_group(contact, other) != NULL ? &contact->work->bodies[other] : NULL;
     const mor_contact_wall *wall = partner == NULL ? &contact->walls[other - contact->work->n_bodies] : NULL;
     mor_body_node_place(owner->group, owner->body, touch->node, touch->place);
-    const double reach = is_whole ? mor_contact_reach(contact, near, touch) : 0.0;
+    bool may_touch;
     touch->support_count = 0;
     touch->share = 1.0;
     touch->depth = 0.0;
     if (wall != NULL) {
-        look_at_wall(contact, near, wall, reach, touch);
+        may_touch = look_at_wall(contact, near, wall, is_whole, touch);
     } else if (partner->group->kind == MOR_BODY_RIGID) {
-        look_at_rigid(contact, near, partner, reach, touch);
+        may_touch = look_at_rigid(contact, near, partner, is_whole, touch);
     } else {
         look_at_elastic(partner, touch, particles, weights);
+        may_touch = is_whole && touch->gap < 0.0;
     }
-    if (!is_whole || !(touch->gap < reach)) {
+    if (!may_touch) {
         return;
     }
     mor_contact_spread(contact, near, touch);

@@ -21,16 +21,15 @@
 #define ENERGY_SPACE 0.5132254840066531  /* 8/15 (3/pi)^(5/6) */
 #define ENERGY_PLANE 0.49209494645110324 /* pi/8 (15/(8 sqrt 2))^(4/5) */
 
-/* Step of the differences that give a curvature, spacings. */
-#define CURVATURE_STEP 1.0
-
 /* The surface around a node is followed only if no edge is within this reach, spacings: there the gradient of the level
  * set over the reach differs from the one on the spot by no more than this, 1. */
 #define EDGE_REACH 1.5
 #define EDGE_DIFFERENCE 0.05
 
-/* The surface around a node is resolved to a quarter of its length, contact_window.c. */
-#define FINENESS 4.0
+/* How many times narrower than a node a contact may be. Around nodes of smooth surfaces, contact_window.c resolves any
+ * width: what ends the rise of the stiffness there is the length of a step alone. Edges are points. */
+#define FINENESS_SMOOTH 64.0
+#define FINENESS_EDGED 4.0
 
 /* What follows from the dimension: energy = B E s^-m W^n with weights (C s)^p. */
 typedef struct exponents {
@@ -56,6 +55,17 @@ bool mor_contact_is_hertzian(const mor_contact *contact, int first, int second)
     const mor_body_group *group = mor_contact_group(contact, second);
     return contact->work->bodies[first].group->kind == MOR_BODY_RIGID &&
            (group == NULL || group->kind == MOR_BODY_RIGID);
+}
+
+static bool is_edged(const mor_contact *contact, int first, int second)
+{
+    const mor_contact_work *work = contact->work;
+    return work->bodies[first].is_edged || (second < work->n_bodies && work->bodies[second].is_edged);
+}
+
+static double fineness(const mor_contact *contact, int first, int second)
+{
+    return is_edged(contact, first, second) ? FINENESS_EDGED : FINENESS_SMOOTH;
 }
 
 static const mor_body *body_of(const mor_contact_body *c)
@@ -119,10 +129,11 @@ static double find_knee(const mor_contact *contact, int first, int second)
     const exponents e = exponents_of(dimension);
     const double spacing = mor_contact_spacing(contact, first, second);
     double weight;
-    const double bedding = FINENESS * node_bedding(contact, first, second, &weight) / weight;
+    const double fine = fineness(contact, first, second);
+    const double bedding = fine * node_bedding(contact, first, second, &weight) / weight;
     /* There d(energy)/dW = n B E s^-m W^(n - 1) is the bedding. Powers of numbers without a unit only, so that a change
      * of units by powers of two changes no bit. */
-    const double knee = pow(e.power * e.energy * weight / (FINENESS * NODE_STIFFNESS), 1.0 / (1.0 - e.power));
+    const double knee = pow(e.power * e.energy * weight / (fine * NODE_STIFFNESS), 1.0 / (1.0 - e.power));
     const double volume = spacing * spacing * spacing;
     return bedding * knee * (dimension == 3 ? volume * spacing : volume);
 }
@@ -162,7 +173,8 @@ double mor_contact_bedding(const mor_contact *contact, int first, int second)
     const mor_contact_body *a = &contact->work->bodies[first];
     if (mor_contact_is_hertzian(contact, first, second)) {
         double weight;
-        return FINENESS * reference_softening(contact, first, second) * node_bedding(contact, first, second, &weight);
+        return fineness(contact, first, second) * reference_softening(contact, first, second) *
+               node_bedding(contact, first, second, &weight);
     }
     const double own = body_of(a)->contact_modulus / a->group->spacing;
     if (mor_contact_group(contact, second) == NULL) {
@@ -189,21 +201,6 @@ double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near 
     const double own = work->curvatures[work->first_node[owner->group_index] + node];
     const double other = usual_curvature(contact, side == 0 ? near->second : near->first);
     return bedding * weigh(contact, near->first, near->second, own + other) / largest * area;
-}
-
-double mor_contact_curvature(const mor_shape *shape, int dimension, const double *place, double spacing)
-{
-    const double step = CURVATURE_STEP * spacing;
-    const double here = mor_shape_distance(shape, place);
-    double sum = 0.0;
-    for (int a = 0; a < dimension; ++a) {
-        for (int side = -1; side <= 1; side += 2) {
-            double beside[3] = {place[0], place[1], place[2]};
-            beside[a] += side * step;
-            sum += mor_shape_distance(shape, beside) - here;
-        }
-    }
-    return sum / (step * step) / (dimension == 3 ? 2.0 : 1.0);
 }
 
 void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
@@ -246,9 +243,8 @@ double mor_contact_soften(const mor_contact *contact, const mor_contact_near *ne
 /* Length of the smallest contact that nodes resolve, m. */
 static double finest(const mor_contact *contact, int first, int second)
 {
-    const mor_contact_work *work = contact->work;
-    const bool is_edged = work->bodies[first].is_edged || (second < work->n_bodies && work->bodies[second].is_edged);
-    return mor_contact_spacing(contact, first, second) / (is_edged ? 1.0 : FINENESS);
+    return mor_contact_spacing(contact, first, second) /
+           (is_edged(contact, first, second) ? 1.0 : fineness(contact, first, second));
 }
 
 /* Mean over the nodes of stiffness per area while a contact is narrow, Pa/m. */
@@ -258,8 +254,8 @@ static double narrow_bedding(const mor_contact *contact, int first, int second)
     const mor_contact_body *c = &work->bodies[first];
     const double weight =
         second < work->n_bodies ? fmax(c->mean_weight, work->bodies[second].mean_weight) : c->mean_weight;
-    return FINENESS * NODE_STIFFNESS * weight * mor_contact_pair_modulus(contact, first, second) /
-           mor_contact_spacing(contact, first, second);
+    return fineness(contact, first, second) * NODE_STIFFNESS * weight *
+           mor_contact_pair_modulus(contact, first, second) / mor_contact_spacing(contact, first, second);
 }
 
 double mor_contact_least_stiffness(const mor_contact *contact, int first, int second)
@@ -358,9 +354,12 @@ static void measure_rigid(mor_contact *contact, mor_contact_body *c, double *scr
         const double *reference = group->node_reference + 3 * (body->first_node + k);
         double place[3];
         mor_contact_shape_place(body, reference, place);
-        const double found = mor_contact_curvature(body->shape, group->dimension, place, group->spacing);
         const bool goes_on = look_at_surface(body, group->dimension, place, group->spacing, normals + 3 * k);
+        double normal[3];
+        mor_matrix_apply_transposed(body->shape_turn, normals + 3 * k, normal);
+        const double found = mor_contact_curvature(body->shape, group->dimension, place, 0.0, normal, group->spacing);
         curvatures[k] = fmin(fmax(found, 0.0), sharpest);
+        contact->work->levels[entry + k] = mor_shape_distance(body->shape, place);
         is_smooth[k] = goes_on && found < 0.5 * sharpest;
         c->is_edged = c->is_edged || !is_smooth[k];
         scratch[k] = curvatures[k];
@@ -385,6 +384,7 @@ mor_status mor_contact_measure_curvatures(mor_context *context, mor_contact *con
     mor_contact_window_weights(work->window);
     MOR_TRY(context, MOR_NEW(context, &work->curvatures, n, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->normals, 3 * n, "contact"));
+    MOR_TRY(context, MOR_NEW(context, &work->levels, n, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->is_smooth, n, "contact"));
     MOR_TRY(context, MOR_NEW(context, &scratch, n, "contact"));
     for (int b = 0; b < work->n_bodies; ++b) {

@@ -5,15 +5,25 @@
 
 #include "core/base/math.h"
 
-enum { HALF_POINTS = 10, POINTS = 2 * HALF_POINTS + 1 };
+enum { HALF_POINTS = 10, POINTS = 2 * HALF_POINTS + 1, NARROW_POINTS = 4 };
 
-/* Distance of the points of a window, and its standard deviation: over the square root of the node's area. The windows
- * of a square lattice of nodes add up to one within 4 % along one axis and 8 % along both. */
+/* Distance of the points of a window over the square root of the node's area, and the share of a Gaussian that they
+ * stand for, along each axis. */
 #define POINT_STEP 0.125
-#define DEVIATION 0.45
+#define WITHIN 0.9965
+
+/* Variance of a contact over the node's area where it is wide enough for windows to add up to one on the average. */
+#define WIDE 0.1
+
+/* The curvature is corrected by the depth at the center of the pressure, taken at least so far away from the node; over
+ * the square root of its area. */
+#define LEVER 0.25
+
+/* A contact narrower than this gets points of its own, its radius over the distance of the window's points. */
+#define NARROW 3.0
 
 /* A surface is followed around a node only while it faces the other one, cosine. */
-#define FACING 0.8
+#define FACING 0.5
 
 /* Share of the depth expected at the center of the pressure that must be found there, 1. */
 #define TRUSTED 0.5
@@ -26,7 +36,7 @@ void mor_contact_window_weights(double *weights)
 {
     double sum = 0.0;
     for (int k = 0; k < POINTS; ++k) {
-        const double x = POINT_STEP * (k - HALF_POINTS) / DEVIATION;
+        const double x = POINT_STEP * (k - HALF_POINTS) / MOR_CONTACT_DEVIATION;
         weights[k] = exp(-0.5 * x * x);
         sum += weights[k];
     }
@@ -35,30 +45,98 @@ void mor_contact_window_weights(double *weights)
     }
 }
 
-/* Means over the window of the depth g - tilt x - C (x^2 + y^2) / 2 where it is positive, of its square, and of x. */
-static void sum_window(const double *weights, int dimension, double depth, double tilt, double curvature, double length,
-                       double *means)
+/* The depth g - tilt x - C (x^2 + y^2) / 2 around a node, lengths in m. */
+typedef struct dip {
+    double depth, tilt, curvature;
+    double length; /* of the node */
+    int dimension;
+} dip;
+
+static double depth_at(const dip *it, double x, double y)
 {
-    const double step = POINT_STEP * length;
-    const int across = dimension == 3 ? HALF_POINTS : 0;
-    means[0] = means[1] = means[2] = 0.0;
+    return it->depth - it->tilt * x - 0.5 * it->curvature * (x * x + y * y);
+}
+
+/* Means over the window of the depth where it is positive, of its square, and of x and of the squared distance from the
+ * node times the depth. */
+static void sum_window(const double *weights, const dip *it, double *means)
+{
+    const double step = POINT_STEP * it->length;
+    const int across = it->dimension == 3 ? HALF_POINTS : 0;
+    means[0] = means[1] = means[2] = means[3] = 0.0;
     for (int b = 0; b <= across; ++b) {
         const double y = b * step;
-        const double weight = dimension == 3 ? (b == 0 ? 1.0 : 2.0) * weights[HALF_POINTS + b] : 1.0;
+        const double weight = it->dimension == 3 ? (b == 0 ? 1.0 : 2.0) * weights[HALF_POINTS + b] : 1.0;
         for (int a = 0; a < POINTS; ++a) {
             const double x = (a - HALF_POINTS) * step;
-            const double d = fmax(0.0, depth - tilt * x - 0.5 * curvature * (x * x + y * y));
+            const double d = fmax(0.0, depth_at(it, x, y));
             const double w = weight * weights[a];
             means[0] += w * d;
             means[1] += w * d * d;
             means[2] += w * d * x;
+            means[3] += w * d * (x * x + y * y);
         }
     }
 }
 
+/* The same where all of the contact lies between a few points: points in the contact itself, and the integrals of a
+ * paraboloid. `lowest` is where it is deepest, `radius` how far it reaches from there. */
+static void sum_narrow(const dip *it, double lowest, double radius, double *means)
+{
+    const double scale = 1.0 / (MOR_CONTACT_DEVIATION * it->length);
+    const double bottom = depth_at(it, lowest, 0.0);
+    const int across = it->dimension == 3 ? NARROW_POINTS : 0;
+    double sums[4] = {0.0}, plain[2] = {0.0};
+    for (int b = 0; b <= across; ++b) {
+        const double v = b / (NARROW_POINTS + 0.5);
+        for (int a = -NARROW_POINTS; a <= NARROW_POINTS; ++a) {
+            const double u = a / (NARROW_POINTS + 0.5);
+            const double x = lowest + radius * u;
+            const double y = radius * v;
+            const double d = fmax(0.0, 1.0 - u * u - v * v) * (b == 0 ? 1.0 : 2.0);
+            const double w = exp(-0.5 * scale * scale * (x * x + y * y));
+            const double d2 = d * fmax(0.0, 1.0 - u * u - v * v);
+            sums[0] += w * d;
+            sums[1] += w * d2;
+            sums[2] += w * d * x;
+            sums[3] += w * d * (x * x + y * y);
+            plain[0] += d;
+            plain[1] += d2;
+        }
+    }
+    /* Integrals of the depth and of its square over the contact, over the normalization of the window. */
+    const double area = it->dimension == 3 ? MOR_PI * radius * radius : 2.0 * radius;
+    const double window = scale / (WITHIN * sqrt(2.0 * MOR_PI));
+    const double share = area * (it->dimension == 3 ? window * window : window);
+    const double mean = it->dimension == 3 ? 0.5 : 2.0 / 3.0;
+    const double square = it->dimension == 3 ? 1.0 / 3.0 : 8.0 / 15.0;
+    means[0] = share * mean * bottom * sums[0] / plain[0];
+    means[1] = share * square * bottom * bottom * sums[1] / plain[1];
+    means[2] = share * mean * bottom * sums[2] / plain[0];
+    means[3] = share * mean * bottom * sums[3] / plain[0];
+}
+
+static void sum_dip(const double *weights, const dip *it, double *means)
+{
+    const double reach = POINT_STEP * HALF_POINTS * it->length;
+    const double lowest = it->curvature > 0.0 ? -it->tilt / it->curvature : 2.0 * reach;
+    const double bottom = depth_at(it, lowest, 0.0);
+    const double radius = bottom > 0.0 && it->curvature > 0.0 ? sqrt(2.0 * bottom / it->curvature) : 0.0;
+    means[0] = means[1] = means[2] = means[3] = 0.0;
+    if (it->curvature > 0.0 && (bottom <= 0.0 || fabs(lowest) - radius > reach)) {
+        return;
+    }
+    if (it->curvature > 0.0 && radius < NARROW * POINT_STEP * it->length) {
+        sum_narrow(it, lowest, radius, means);
+        return;
+    }
+    sum_window(weights, it, means);
+}
+
 /* The bottom of a ball lies below a node beside it by at most the square of the reach of a window over twice its
  * radius. The lists of near nodes hold all within half a spacing. */
-double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch)
+double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
+                         double other_curvature)
 {
     const mor_contact_work *work = contact->work;
     const mor_contact_body *owner = &work->bodies[touch->side == 0 ? near->first : near->second];
@@ -66,71 +144,122 @@ double mor_contact_reach(const mor_contact *contact, const mor_contact_near *nea
     if (!mor_contact_is_hertzian(contact, near->first, near->second) || !work->is_smooth[entry]) {
         return 0.0;
     }
-    const int other = touch->side == 0 ? near->second : near->first;
-    const double curvature = work->curvatures[entry] + (other < work->n_bodies ? work->bodies[other].curvature : 0.0);
+    const double curvature = fmax(0.0, work->curvatures[entry] + other_curvature);
     const double area = owner->group->node_area[touch->node];
     const double diagonal2 = owner->group->dimension == 3 ? 2.0 * area : area * area;
     const double half = POINT_STEP * HALF_POINTS;
     return fmin(0.5 * half * half * diagonal2 * curvature, 0.5 * owner->group->spacing);
 }
 
-/* Whether the surfaces are where the window takes them to be, at the center of the pressure: an edge of either side may
- * lie between it and the node. `own` is the normal of the node's surface, `expected` the depth there. */
-static bool is_there(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
-                     const double *own, const double *tilt, double slope, double shift, double expected)
+/* Around one node: its frame and what is expected of the surfaces there. */
+typedef struct follower {
+    const mor_contact_body *owner;
+    double own[3];          /* normal of the own surface, 1 */
+    double along[3];        /* in the tangent plane, where the surfaces part fastest, 1 */
+    double other_curvature; /* of the other side at the node, 1/m */
+    dip dip;
+    double shift;    /* of the center of the pressure from the node, along that, m */
+    double means[4]; /* as sum_window gives them */
+} follower;
+
+/* Place on the own surface, from the node. */
+static void find_offset(const follower *it, const mor_contact_touch *touch, double *offset)
+{
+    const double sag = 0.5 * touch->curvature * it->shift * it->shift;
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = it->shift * it->along[a] - sag * it->own[a];
+    }
+}
+
+/* Whether the surface around a node can be followed: the frame there. */
+static bool open_follower(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
+                          follower *it)
+{
+    const mor_contact_work *work = contact->work;
+    it->owner = &work->bodies[touch->side == 0 ? near->first : near->second];
+    const mor_body_group *group = it->owner->group;
+    const int64_t entry = work->first_node[it->owner->group_index] + touch->node;
+    if (!mor_contact_is_hertzian(contact, near->first, near->second) || !work->is_smooth[entry]) {
+        return false;
+    }
+    mor_matrix_apply(group->bodies[it->owner->body].turn, work->normals + 3 * entry, it->own);
+    const double facing = mor_vector_dot(it->own, touch->normal);
+    for (int a = 0; a < 3; ++a) {
+        it->along[a] = touch->normal[a] - facing * it->own[a];
+    }
+    const double slope = mor_vector_length(it->along);
+    for (int a = 0; a < 3; ++a) {
+        it->along[a] = slope > 0.0 ? it->along[a] / slope : 0.0;
+    }
+    /* Curvature of the level set through the node. */
+    const double other = touch->other_curvature / fmax(0.5, 1.0 + touch->other_curvature * touch->gap);
+    const double area = group->node_area[touch->node];
+    it->other_curvature = other;
+    it->dip = (dip){.depth = -touch->gap,
+                    .tilt = slope,
+                    .curvature = fmax(other - facing * touch->curvature, 0.0),
+                    .length = group->dimension == 3 ? sqrt(area) : area,
+                    .dimension = group->dimension};
+    return -facing > FACING;
+}
+
+/* Finds the pressure around the node; false: there is none. */
+static bool find_pressure(const mor_contact *contact, follower *it)
+{
+    sum_dip(contact->work->window, &it->dip, it->means);
+    it->shift = it->means[0] > 0.0 && it->dip.tilt > 0.0 ? it->means[2] / it->means[0] : 0.0;
+    return it->means[0] > 0.0;
+}
+
+/* Looks at both surfaces at the center of the pressure and corrects the curvature by the depth found there: between
+ * nodes it is known to some 1e-4 spacings only, and a contact may be shallower. Returns whether the surfaces are where
+ * they are expected: an edge of either side may lie between the node and that place. */
+static bool correct_curvature(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
+                              follower *it)
 {
     const int owner = touch->side == 0 ? near->first : near->second;
     const int other = touch->side == 0 ? near->second : near->first;
-    const double sag = 0.5 * touch->curvature * shift * shift;
+    const mor_contact_work *work = contact->work;
+    const double level = work->levels[work->first_node[it->owner->group_index] + touch->node];
+    const double expected = depth_at(&it->dip, it->shift, 0.0);
     double point[3];
+    find_offset(it, touch, point);
     for (int a = 0; a < 3; ++a) {
-        point[a] = touch->place[a] - sag * own[a] + (slope > 0.0 ? shift * tilt[a] / slope : 0.0);
+        point[a] += touch->place[a];
     }
-    return -mor_contact_gap(contact, other, point) > TRUSTED * expected &&
-           mor_contact_gap(contact, owner, point) < FOLLOWED * contact->work->bodies[owner].group->spacing;
+    const double depth = -mor_contact_gap(contact, it->owner->group, other, point);
+    const double rise = mor_contact_gap(contact, it->owner->group, owner, point) - level;
+    const double lever = fmax(fabs(it->shift), LEVER * it->dip.length);
+    it->dip.curvature = fmax(it->dip.curvature - 2.0 * (depth - rise - expected) / (lever * lever), 0.0);
+    return depth > TRUSTED * expected && rise < FOLLOWED * it->owner->group->spacing;
 }
 
 void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch)
 {
-    const mor_contact_work *work = contact->work;
-    const mor_contact_body *owner = &work->bodies[touch->side == 0 ? near->first : near->second];
-    const mor_body_group *group = owner->group;
-    const int64_t entry = work->first_node[owner->group_index] + touch->node;
+    follower it;
     touch->depth = fmax(0.0, -touch->gap);
     touch->mean_depth = touch->depth;
     touch->mean_square = touch->depth * touch->depth;
-    if (!mor_contact_is_hertzian(contact, near->first, near->second) || !work->is_smooth[entry]) {
+    if (!open_follower(contact, near, touch, &it) || !find_pressure(contact, &it) ||
+        !correct_curvature(contact, near, touch, &it)) {
         return;
     }
-    double own[3], tilt[3];
-    mor_matrix_apply(group->bodies[owner->body].turn, work->normals + 3 * entry, own);
-    const double facing = mor_vector_dot(own, touch->normal);
-    if (!(-facing > FACING)) {
+    if (!find_pressure(contact, &it)) {
+        touch->depth = touch->mean_depth = touch->mean_square = 0.0;
         return;
     }
+    double offset[3];
+    find_offset(&it, touch, offset);
+    const double variance = fmax(0.0, it.means[3] / it.means[0] - it.shift * it.shift) / (it.dip.dimension - 1);
+    const double narrow = fmax(0.0, 1.0 - variance / (WIDE * it.dip.length * it.dip.length));
+    const double sum = mor_contact_overlap(contact, it.owner, touch->node, offset, variance);
+    const double share = 1.0 / (1.0 + narrow * (sum - 1.0));
+    touch->mean_depth = share * it.means[0];
+    touch->mean_square = share * it.means[1];
+    touch->depth = depth_at(&it.dip, it.shift, 0.0);
     for (int a = 0; a < 3; ++a) {
-        tilt[a] = touch->normal[a] - facing * own[a];
-    }
-    const double slope = mor_vector_length(tilt);
-    const double area = group->node_area[touch->node];
-    const double length = group->dimension == 3 ? sqrt(area) : area;
-    double means[3];
-    const double curvature = fmax(touch->other_curvature - facing * touch->curvature, 0.0);
-    sum_window(work->window, group->dimension, -touch->gap, slope, curvature, length, means);
-    if (!(means[0] > 0.0)) {
-        return;
-    }
-    const double shift = slope > 0.0 ? means[2] / means[0] : 0.0;
-    const double expected = -touch->gap - slope * shift - 0.5 * curvature * shift * shift;
-    if (!is_there(contact, near, touch, own, tilt, slope, shift, expected)) {
-        return;
-    }
-    touch->mean_depth = means[0];
-    touch->mean_square = means[1];
-    touch->depth = expected;
-    for (int a = 0; a < 3 && slope > 0.0; ++a) {
-        touch->place[a] += shift * tilt[a] / slope;
-        touch->normal[a] += touch->other_curvature * shift * tilt[a] / slope;
+        touch->place[a] += offset[a];
+        touch->normal[a] += it.other_curvature * offset[a];
     }
     const double size = mor_vector_length(touch->normal);
     for (int a = 0; a < 3; ++a) {

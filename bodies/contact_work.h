@@ -96,9 +96,12 @@ typedef struct mor_contact_work {
     int32_t *near_of;                        /* shape [n_pairs]; place in near plus one; 0: not near */
     double *curvatures;                      /* shape [n_nodes] as the history; zero for elastic bodies, 1/m */
     double *normals;                         /* shape [n_nodes, 3]; of rigid bodies, reference configuration, 1 */
-    unsigned char *is_smooth;                /* shape [n_nodes]; of rigid bodies: not on an edge or a corner */
-    double window[MOR_CONTACT_WINDOW];       /* weights of points around a node, 1 */
-    unsigned char *law_of;                   /* shape [n_pairs]; 0: default, else listed pair plus one */
+    double *levels;                    /* shape [n_nodes]; what the level set of a rigid body tells at its nodes, m */
+    unsigned char *is_smooth;          /* shape [n_nodes]; of rigid bodies: not on an edge or a corner */
+    int64_t *first_neighbor;           /* shape [n_nodes + 1]; of each smooth node in neighbors */
+    int32_t *neighbors;                /* nodes around smooth ones, in their group */
+    double window[MOR_CONTACT_WINDOW]; /* weights of points around a node, 1 */
+    unsigned char *law_of;             /* shape [n_pairs]; 0: default, else listed pair plus one */
     int64_t n_pairs;
     mor_contact_near *near; /* shape [near_capacity]; entries without pair are free */
     int n_near, near_capacity;
@@ -190,18 +193,32 @@ double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near 
 void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
                       double curvature);
 
+/** Distance of a point from the surface of a shape, that of the whole where parts meet; unit m, negative inside.
+ *  @param shape     [in]   one object
+ *  @param dimension [in]   2 or 3
+ *  @param place     [in]   shape [3]; in the frame of the shape, unit m
+ *  @param spacing   [in]   of the body that asks, unit m
+ *  @param normal    [out]  shape [3]; outward, unit 1; may be NULL */
+double mor_contact_shape_gap(const mor_shape *shape, int dimension, const double *place, double spacing,
+                             double *normal);
+
 /** Curvature of a surface at a point near it, mean of the two in space, unit 1/m; positive: convex.
  *  @param shape     [in]  one object
  *  @param dimension [in]  2 or 3
  *  @param place     [in]  shape [3]; in the frame of the shape, unit m
+ *  @param gap       [in]  of that point to the surface, unit m
+ *  @param normal    [in]  shape [3]; of the surface there, outward, unit 1
  *  @param spacing   [in]  of the body that asks: curvature is resolved to this length, unit m */
-double mor_contact_curvature(const mor_shape *shape, int dimension, const double *place, double spacing);
+double mor_contact_curvature(const mor_shape *shape, int dimension, const double *place, double gap,
+                             const double *normal, double spacing);
 
 /** Gap below which the surface around a node may touch though the node does not, unit m.
  *  @param contact [in]  one object
  *  @param near    [in]  one object
- *  @param touch   [in]  one object, whose side and node are known */
-double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch);
+ *  @param touch   [in]  one object, whose side and node are known
+ *  @param other_curvature [in]  of the other surface, unit 1/m */
+double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
+                         double other_curvature);
 
 /** A point of the reference configuration in the frame of the body's shape.
  *  @param body      [in]   one object
@@ -227,9 +244,10 @@ double mor_contact_response(const mor_contact *contact, const mor_contact_near *
 
 /** Gap of a point to a rigid body or a wall, unit m.
  *  @param contact [in]  one object
+ *  @param asking  [in]  group of the body that asks
  *  @param other   [in]  index of a rigid body, or n_bodies plus that of a wall
  *  @param point   [in]  shape [3], unit m */
-double mor_contact_gap(const mor_contact *contact, int other, const double *point);
+double mor_contact_gap(const mor_contact *contact, const mor_body_group *asking, int other, const double *point);
 
 /** Follows the surface around a node of a rigid body: fills in depth, mean_depth, mean_square, and moves place and
  *  normal to the center of the pressure. Elastic sides and edges: those of the node.
@@ -237,6 +255,27 @@ double mor_contact_gap(const mor_contact *contact, int other, const double *poin
  *  @param near    [in]      one object
  *  @param touch   [in,out]  one object, whose gap, normal and curvature are known */
 void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch);
+
+/** Standard deviation of the window around a node, over the square root of its area. The windows of a square lattice of
+ *  nodes add up to one within 4 % along one axis and 8 % along both. */
+#define MOR_CONTACT_DEVIATION 0.45
+
+/** Lists the nodes around each smooth node of the rigid bodies; their curvatures must be known.
+ *  @param context [in,out]  one object
+ *  @param contact [in,out]  one object
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_contact_list_neighbors(mor_context *context, mor_contact *contact);
+
+/** Sum of the windows of all nodes at a place beside a smooth node, each as wide as the place is uncertain: what a node
+ *  finds there is divided by it, so that a contact between nodes counts as much as one at a node.
+ *  @param contact  [in]  one object
+ *  @param owner    [in]  one object, the body of the node
+ *  @param node     [in]  index of the node in its group
+ *  @param offset   [in]  shape [3]; from the node, unit m
+ *  @param variance [in]  of what the node finds about that place, along one axis, unit m2
+ *  Returns: unit 1, near 1. */
+double mor_contact_overlap(const mor_contact *contact, const mor_contact_body *owner, int64_t node,
+                           const double *offset, double variance);
 
 /** Writes the weights of the points around a node.
  *  @param weights [out]  shape [MOR_CONTACT_WINDOW], unit 1; they add up to 1 */

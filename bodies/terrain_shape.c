@@ -64,8 +64,8 @@ static void ground_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &ground);
 }
 
-static const mor_shape_operations ground_operations = {"terrain", ground_distance, ground_bounds, ground_free, NULL,
-                                                       NULL};
+static const mor_shape_operations ground_operations = {
+    .kind = "terrain", .distance = ground_distance, .bounds = ground_bounds, .free = ground_free};
 
 mor_status mor_shape_new_terrain(mor_context *context, const mor_terrain *terrain, double thickness, double reach,
                                  mor_shape **shape)
@@ -149,8 +149,8 @@ static void release_free(mor_context *context, mor_shape *shape)
     MOR_FREE(context, &release);
 }
 
-static const mor_shape_operations release_operations = {"release", release_distance, release_bounds, release_free, NULL,
-                                                        NULL};
+static const mor_shape_operations release_operations = {
+    .kind = "release", .distance = release_distance, .bounds = release_bounds, .free = release_free};
 
 /* Heights below the polygon: those of the nodes of all squares it may touch. */
 static void find_limits(release_shape *release)

@@ -161,8 +161,12 @@ static bool level_set_moments(const mor_shape *shape, int dimension, mor_shape_m
     return set->knows_moments && dimension == set->grid.dimension;
 }
 
-static const mor_shape_operations level_set_operations = {"level set",    level_set_distance, level_set_bounds,
-                                                          level_set_free, level_set_moments,  level_set_exact_distance};
+static const mor_shape_operations level_set_operations = {.kind = "level set",
+                                                          .distance = level_set_distance,
+                                                          .bounds = level_set_bounds,
+                                                          .free = level_set_free,
+                                                          .moments = level_set_moments,
+                                                          .exact_distance = level_set_exact_distance};
 
 void mor_level_set_normal(const mor_shape *shape, const double *point, double *normal, double *curvature)
 {

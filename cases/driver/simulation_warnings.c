@@ -3,6 +3,7 @@
 #include "cases/driver/simulation_warnings.h"
 
 #include "cases/driver/simulation_resolution.h"
+#include "cases/driver/wall_seams.h"
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
 
@@ -71,10 +72,10 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
     }
 }
 
-/* A contact looks at the surface over a spacing: on a wall thinner than two it meets the other side. */
+/* What lies deeper than the middle of a wall is pushed out of its other side; a run allows half a spacing of depth. */
 static void warn_of_thin_walls(mor_context *context, const mor_case *c)
 {
-    const double advisable = 2.0;
+    const double advisable = 1.0;
     for (int w = 0; w < c->n_walls && c->n_bodies > 0; ++w) {
         mor_bounds bounds;
         double thickness = INFINITY;
@@ -84,9 +85,10 @@ static void warn_of_thin_walls(mor_context *context, const mor_case *c)
         }
         if (thickness < advisable * c->spacing) {
             mor_context_log(context, MOR_LOG_WARNING,
-                            "wall '%s' is %.3g m thick, %.2g spacings; below two, forces of bodies on it are up to a "
-                            "fifth too small: make it thicker, or use a spacing of %.2g m",
-                            c->walls[w].name, thickness, thickness / c->spacing, 0.99 * thickness / advisable);
+                            "%s:%d: wall '%s' is %.3g m thick, %.2g spacings; below one, a body that is pressed into "
+                            "it may come out on its other side: make it thicker, or use a spacing of %.2g m",
+                            c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, thickness,
+                            thickness / c->spacing, 0.99 * thickness / advisable);
         }
     }
 }
@@ -224,6 +226,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     warn_of_densities(context, c);
     warn_of_moduli(context, c);
     warn_of_thin_walls(context, c);
+    mor_wall_seams_warn(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
     warn_of_outputs(context, simulation);
     if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {

@@ -41,6 +41,20 @@ static inline double mor_vector_length(const double *a)
     return sqrt(mor_vector_dot(a, a));
 }
 
+/** Two unit vectors across a unit vector n and each other, in plane strain the first one in the plane; n, first and
+ *  second shape [3], not aliased, unit 1. */
+static inline void mor_vector_tangents(const double *n, double *first, double *second)
+{
+    const int axis = fabs(n[2]) <= fabs(n[0]) || fabs(n[2]) <= fabs(n[1]) ? 2 : (fabs(n[0]) <= fabs(n[1]) ? 0 : 1);
+    const double unit[3] = {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+    mor_vector_cross(unit, n, first);
+    const double length = mor_vector_length(first);
+    for (int a = 0; a < 3; ++a) {
+        first[a] /= length > 0.0 ? length : 1.0;
+    }
+    mor_vector_cross(n, first, second);
+}
+
 /** out = matrix * a; matrix shape [3,3], a and out shape [3], not aliased; unit of out: product of theirs. */
 static inline void mor_matrix_apply(const double *matrix, const double *a, double *out)
 {

@@ -171,14 +171,16 @@ static void half_space_bounds(const mor_shape *shape, mor_bounds *bounds)
     }
 }
 
-static const mor_shape_operations box_operations = {"box", box_distance, box_bounds, free_plain, NULL, NULL};
+static const mor_shape_operations box_operations = {
+    .kind = "box", .distance = box_distance, .bounds = box_bounds, .free = free_plain};
 static const mor_shape_operations cylinder_operations = {
-    "cylinder", cylinder_distance, cylinder_bounds, free_plain, NULL, NULL};
-static const mor_shape_operations cone_operations = {"cone", cone_distance, cone_bounds, free_plain, NULL, NULL};
-static const mor_shape_operations sphere_operations = {"sphere", sphere_distance, sphere_bounds, free_plain, NULL,
-                                                       NULL};
+    .kind = "cylinder", .distance = cylinder_distance, .bounds = cylinder_bounds, .free = free_plain};
+static const mor_shape_operations cone_operations = {
+    .kind = "cone", .distance = cone_distance, .bounds = cone_bounds, .free = free_plain};
+static const mor_shape_operations sphere_operations = {
+    .kind = "sphere", .distance = sphere_distance, .bounds = sphere_bounds, .free = free_plain};
 static const mor_shape_operations half_space_operations = {
-    "half_space", half_space_distance, half_space_bounds, free_plain, NULL, NULL};
+    .kind = "half_space", .distance = half_space_distance, .bounds = half_space_bounds, .free = free_plain};
 
 mor_status mor_shape_new_box(mor_context *context, const double *minimum, const double *maximum, mor_shape **shape)
 {
@@ -311,6 +313,11 @@ static void find_normal(const mor_shape *shape, mor_shape_measure measure, const
     for (int a = 0; a < 3 && length > 0.0; ++a) {
         normal[a] /= length;
     }
+}
+
+bool mor_shape_has_seams(const mor_shape *shape)
+{
+    return shape->operations->has_seams != NULL && shape->operations->has_seams(shape);
 }
 
 void mor_shape_normal(const mor_shape *shape, const double *point, double step, double *normal)

@@ -176,6 +176,12 @@ double mor_shape_distance(const mor_shape *shape, const double *point);
  *  Returns: unit m, negative inside. Cost: of a mesh, a search and some rays. Threads: safe to call concurrently. */
 double mor_shape_exact_distance(const mor_shape *shape, const double *point);
 
+/** Whether the distance of a point inside may be that to a face which parts of the shape share, as in a union, and not to
+ *  the surface of the whole. Outside distances never are.
+ *  @param shape [in]  one object
+ *  Threads: safe to call concurrently. */
+bool mor_shape_has_seams(const mor_shape *shape);
+
 /** How the distance of a point, shape [3], unit m, is asked for: mor_shape_distance or mor_shape_exact_distance.
  *  @param shape [in]  one object
  *  @param point [in]  shape [3]; unit m

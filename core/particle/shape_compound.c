@@ -207,16 +207,67 @@ MEASURE(placed)
 MEASURE(scaled)
 MEASURE(view)
 
-static const mor_shape_operations union_operations = {"union",    union_distance, union_bounds,
-                                                      union_free, NULL,           union_exact_distance};
-static const mor_shape_operations difference_operations = {
-    "difference", difference_distance, difference_bounds, difference_free, NULL, difference_exact_distance};
-static const mor_shape_operations placed_operations = {"placed", placed_distance,      placed_bounds, placed_free,
-                                                       NULL,     placed_exact_distance};
-static const mor_shape_operations scaled_operations = {"scaled",    scaled_distance, scaled_bounds,
-                                                       scaled_free, scaled_moments,  scaled_exact_distance};
-static const mor_shape_operations view_operations = {"view",    view_distance, view_bounds,
-                                                     view_free, view_moments,  view_exact_distance};
+static bool union_has_seams(const mor_shape *shape)
+{
+    const union_shape *whole = (const union_shape *)shape;
+    return whole->n_parts > 1 || mor_shape_has_seams(whole->parts[0]);
+}
+
+static bool difference_has_seams(const mor_shape *shape)
+{
+    return mor_shape_has_seams(((const difference_shape *)shape)->from);
+}
+
+static bool placed_has_seams(const mor_shape *shape)
+{
+    return mor_shape_has_seams(((const placed_shape *)shape)->child);
+}
+
+static bool scaled_has_seams(const mor_shape *shape)
+{
+    return mor_shape_has_seams(((const scaled_shape *)shape)->child);
+}
+
+static bool view_has_seams(const mor_shape *shape)
+{
+    return mor_shape_has_seams(((const view_shape *)shape)->other);
+}
+
+static const mor_shape_operations union_operations = {.kind = "union",
+                                                      .distance = union_distance,
+                                                      .bounds = union_bounds,
+                                                      .free = union_free,
+                                                      .moments = NULL,
+                                                      .exact_distance = union_exact_distance,
+                                                      .has_seams = union_has_seams};
+static const mor_shape_operations difference_operations = {.kind = "difference",
+                                                           .distance = difference_distance,
+                                                           .bounds = difference_bounds,
+                                                           .free = difference_free,
+                                                           .moments = NULL,
+                                                           .exact_distance = difference_exact_distance,
+                                                           .has_seams = difference_has_seams};
+static const mor_shape_operations placed_operations = {.kind = "placed",
+                                                       .distance = placed_distance,
+                                                       .bounds = placed_bounds,
+                                                       .free = placed_free,
+                                                       .moments = NULL,
+                                                       .exact_distance = placed_exact_distance,
+                                                       .has_seams = placed_has_seams};
+static const mor_shape_operations scaled_operations = {.kind = "scaled",
+                                                       .distance = scaled_distance,
+                                                       .bounds = scaled_bounds,
+                                                       .free = scaled_free,
+                                                       .moments = scaled_moments,
+                                                       .exact_distance = scaled_exact_distance,
+                                                       .has_seams = scaled_has_seams};
+static const mor_shape_operations view_operations = {.kind = "view",
+                                                     .distance = view_distance,
+                                                     .bounds = view_bounds,
+                                                     .free = view_free,
+                                                     .moments = view_moments,
+                                                     .exact_distance = view_exact_distance,
+                                                     .has_seams = view_has_seams};
 
 mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_parts, mor_shape **shape)
 {

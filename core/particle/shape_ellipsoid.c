@@ -120,8 +120,11 @@ static bool ellipsoid_moments(const mor_shape *shape, int dimension, mor_shape_m
     return true;
 }
 
-static const mor_shape_operations ellipsoid_operations = {"ellipsoid",    ellipsoid_distance, ellipsoid_bounds,
-                                                          free_ellipsoid, ellipsoid_moments,  NULL};
+static const mor_shape_operations ellipsoid_operations = {.kind = "ellipsoid",
+                                                          .distance = ellipsoid_distance,
+                                                          .bounds = ellipsoid_bounds,
+                                                          .free = free_ellipsoid,
+                                                          .moments = ellipsoid_moments};
 
 mor_status mor_shape_new_ellipsoid(mor_context *context, const double *center, const double *radii, mor_shape **shape)
 {

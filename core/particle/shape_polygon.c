@@ -69,8 +69,11 @@ static bool polygon_moments(const mor_shape *shape, int dimension, mor_shape_mom
     return true;
 }
 
-static const mor_shape_operations polygon_operations = {"polygon",    polygon_distance, polygon_bounds,
-                                                        polygon_free, polygon_moments,  NULL};
+static const mor_shape_operations polygon_operations = {.kind = "polygon",
+                                                        .distance = polygon_distance,
+                                                        .bounds = polygon_bounds,
+                                                        .free = polygon_free,
+                                                        .moments = polygon_moments};
 
 /* Sums over the triangles between an edge and the first corner (Green's theorem), then brought to the center. */
 void mor_shape_find_polygon_moments(const double *points, int n_points, mor_shape_moments *moments)

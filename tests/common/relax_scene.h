@@ -53,8 +53,8 @@ static inline void relax_rock_bounds(const mor_shape *shape, mor_bounds *bounds)
     }
 }
 
-static const mor_shape_operations relax_rock_operations = {"rock", relax_rock_distance, relax_rock_bounds, NULL, NULL,
-                                                           NULL};
+static const mor_shape_operations relax_rock_operations = {
+    .kind = "rock", .distance = relax_rock_distance, .bounds = relax_rock_bounds};
 
 /** Makes a shape of the list: ball, box, rock, cone, cylinder, angle (concave), plate, disc, polygon. Lengths in m. */
 static inline mor_shape *new_relax_shape(mor_context *context, const char *name, double unit)

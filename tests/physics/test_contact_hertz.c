@@ -122,6 +122,9 @@ static void slow_impacts_follow_hertz(void **state)
     (void)state;
     expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 2.0}, 0.05);
     expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 0.5}, 0.05);
+    /* 4e-4 spacings deep, a fifteenth of a spacing wide. */
+    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 0.01}, 0.05);
+    expect_hertz(&(impact){MOR_BODY_RIGID, false, RADIUS / 10, 50e9, 0.01}, 0.05);
 }
 
 static void two_elastic_balls_follow_hertz(void **state)

@@ -50,8 +50,13 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
 {
     static const char block[] = MOR_SOURCE_DIR "/cases/incline-block/case.cfg";
     static const char *const plates[] = {
-        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.15 m\"); max=(\"4 m\", \"0 m\");}",
-        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.3 m\"); max=(\"4 m\", \"0 m\");}"};
+        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.08 m\"); max=(\"4 m\", \"0 m\");}",
+        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.15 m\"); max=(\"4 m\", \"0 m\");}"};
+#define INCLINE "{name=\"incline\"; shape={type=\"box\"; min=(\"-1 m\", \"-1 m\"); max=(\"1 m\", \"0 m\");};}"
+    static const char *const flush[] = {
+        "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"0 m\");};})",
+        "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"1 m\");};})"};
+#undef INCLINE
     const struct {
         const char *path, *setting, *warning;
     } rows[] = {
@@ -64,8 +69,10 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         {block, "bodies[0].contact_modulus=50", "body 'block' has a contact_modulus of 50 Pa, softer than any rock"},
         {block, "walls[0].contact_modulus=30", "wall 'incline' has a contact_modulus of 30 Pa, softer than any"},
         {block, "walls[0].contact_modulus=30 MPa", NULL},
-        {block, plates[0], "wall 'incline' is 0.15 m thick, 1.5 spacings; below two, forces of bodies on it"},
+        {block, plates[0], "wall 'incline' is 0.08 m thick, 0.8 spacings; below one, a body that is pressed"},
         {block, plates[1], NULL},
+        {block, flush[0], "wall 'step' goes on in wall 'incline' at ("},
+        {block, flush[1], NULL},
     };
     run_folder *folder = *state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {

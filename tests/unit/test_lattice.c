@@ -32,8 +32,8 @@ static void counting_bounds(const mor_shape *shape, mor_bounds *bounds)
     mor_shape_bounds(((const counting_shape *)shape)->inner, bounds);
 }
 
-static const mor_shape_operations counting_operations = {"counting", counting_distance, counting_bounds, NULL, NULL,
-                                                         NULL};
+static const mor_shape_operations counting_operations = {
+    .kind = "counting", .distance = counting_distance, .bounds = counting_bounds};
 
 /* A shape of unit bounds that is deep everywhere, so that rows are counted at a glance. */
 static double abyss_distance(const mor_shape *shape, const double *point)
@@ -49,7 +49,8 @@ static void abyss_bounds(const mor_shape *shape, mor_bounds *bounds)
     *bounds = (mor_bounds){{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
 }
 
-static const mor_shape_operations abyss_operations = {"abyss", abyss_distance, abyss_bounds, NULL, NULL, NULL};
+static const mor_shape_operations abyss_operations = {
+    .kind = "abyss", .distance = abyss_distance, .bounds = abyss_bounds};
 
 static mor_shape *new_box(mor_context *context, double x0, double x1, double z0, double z1)
 {

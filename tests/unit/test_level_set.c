@@ -30,7 +30,8 @@ static void silent_bounds(const mor_shape *shape, mor_bounds *bounds)
     mor_shape_bounds(((const silent_shape *)shape)->inner, bounds);
 }
 
-static const mor_shape_operations silent_operations = {"silent", silent_distance, silent_bounds, NULL, NULL, NULL};
+static const mor_shape_operations silent_operations = {
+    .kind = "silent", .distance = silent_distance, .bounds = silent_bounds};
 
 static void draw_point(uint64_t id, double reach, double *point)
 {

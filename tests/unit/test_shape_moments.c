@@ -291,7 +291,8 @@ static void steep_bounds(const mor_shape *shape, mor_bounds *bounds)
 static void steep_distances_lose_no_cell(void **state)
 {
     (void)state;
-    static const mor_shape_operations operations = {"steep", steep_distance, steep_bounds, NULL, NULL, NULL};
+    static const mor_shape_operations operations = {
+        .kind = "steep", .distance = steep_distance, .bounds = steep_bounds};
     const double center[3] = {0.3, -0.2, 0.1};
     mor_context context;
     mor_context_init(&context);

@@ -1,0 +1,106 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/wall_seams.h"
+
+#include "core/base/math.h"
+#include "core/base/random.h"
+#include "core/particle/shape_analytic.h"
+
+#include <math.h>
+
+/* Lengths in spacings: how far over a face the other wall is looked for, within what distance it counts as flush, and
+ * the step of the differences that give a normal. */
+#define LIFT 0.3
+#define FLUSH 0.75
+#define STEP 0x1p-6
+
+/* Faces whose normals have at least this inner product go on in one another, 1. */
+#define ALONG 0.9
+
+enum { POINTS = 8192, PROJECTIONS = 3 };
+
+/* The boxes of both walls, a spacing larger, where they overlap within the domain; false: they do not. */
+static bool find_overlap(const mor_case *c, const mor_shape *a, const mor_shape *b, mor_bounds *box)
+{
+    mor_bounds first, second;
+    mor_shape_bounds(a, &first);
+    mor_shape_bounds(b, &second);
+    for (int k = 0; k < 3; ++k) {
+        box->minimum[k] = box->maximum[k] = 0.0;
+        if (k < c->dimension) {
+            box->minimum[k] =
+                fmax(fmax(first.minimum[k], second.minimum[k]) - c->spacing, c->domain_minimum[k] - c->spacing);
+            box->maximum[k] =
+                fmin(fmin(first.maximum[k], second.maximum[k]) + c->spacing, c->domain_maximum[k] + c->spacing);
+        }
+        if (box->minimum[k] > box->maximum[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Moves a point to a height over a surface; false where there is no normal or the surface is not reached. */
+static bool lift(const mor_shape *shape, double height, double spacing, double *point, double *normal)
+{
+    for (int k = 0; k < PROJECTIONS; ++k) {
+        const double rise = height - mor_shape_distance(shape, point);
+        mor_shape_normal(shape, point, STEP * spacing, normal);
+        for (int a = 0; a < 3; ++a) {
+            point[a] += rise * normal[a];
+        }
+    }
+    return mor_vector_length(normal) > 0.5 && fabs(mor_shape_distance(shape, point) - height) < STEP * spacing;
+}
+
+static bool is_in_domain(const mor_case *c, const double *point)
+{
+    bool is_inside = true;
+    for (int a = 0; a < c->dimension; ++a) {
+        is_inside = is_inside && point[a] > c->domain_minimum[a] && point[a] < c->domain_maximum[a];
+    }
+    return is_inside;
+}
+
+static bool find_seam(const mor_case *c, const mor_shape *a, const mor_shape *b, double *point)
+{
+    mor_bounds box;
+    if (!find_overlap(c, a, b, &box)) {
+        return false;
+    }
+    for (int n = 0; n < POINTS; ++n) {
+        double first[3], second[3];
+        for (int k = 0; k < 3; ++k) {
+            const double share = mor_random_uniform(0, (uint64_t)n, (uint64_t)k);
+            point[k] = box.minimum[k] + share * (box.maximum[k] - box.minimum[k]);
+        }
+        if (!lift(a, LIFT * c->spacing, c->spacing, point, first) || !is_in_domain(c, point)) {
+            continue;
+        }
+        const double over = mor_shape_distance(b, point);
+        mor_shape_normal(b, point, STEP * c->spacing, second);
+        if (over > 0.0 && over < FLUSH * c->spacing && mor_vector_dot(first, second) > ALONG) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void mor_wall_seams_warn(mor_context *context, const mor_case *the_case)
+{
+    const mor_case *c = the_case;
+    for (int w = 0; w < c->n_walls && c->n_bodies > 0; ++w) {
+        for (int v = 0; v < w; ++v) {
+            double at[3];
+            if (find_seam(c, c->walls[w].shape, c->walls[v].shape, at)) {
+                mor_context_log(context, MOR_LOG_WARNING,
+                                "%s:%d: wall '%s' goes on in wall '%s' at (%.4g, %.4g, %.4g) m; a rock within two "
+                                "spacings of such a seam feels each wall as if the other were not there, and its "
+                                "forces are up to a third off: make them one wall, shape = { type = \"union\"; "
+                                "parts = (...); }",
+                                c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->walls[v].name,
+                                at[0], at[1], at[2]);
+            }
+        }
+    }
+}
