@@ -69,7 +69,7 @@ void mor_contact_shape_place(const mor_body *body, const double *reference, doub
     mor_matrix_apply_transposed(body->shape_turn, offset, place);
 }
 
-/* Gap of a point of the reference configuration, and unless NULL, the normal in that configuration and the curvature. */
+/* Gap of a point of the reference configuration; unless NULL, the normal in that configuration and the curvature. */
 static double reference_gap(const mor_body_group *group, const mor_body *body, const double *reference, double *normal,
                             double *curvature)
 {

@@ -99,7 +99,7 @@ typedef struct mor_contact_work {
     double *levels;                    /* shape [n_nodes]; what the level set of a rigid body tells at its nodes, m */
     unsigned char *is_smooth;          /* shape [n_nodes]; of rigid bodies: not on an edge or a corner */
     int64_t *first_neighbor;           /* shape [n_nodes + 1]; of each smooth node in neighbors */
-    int32_t *neighbors;                /* nodes around smooth ones, in their group */
+    int32_t *neighbors;                /* shape [first_neighbor[n_nodes]]; nodes around smooth ones, in their group */
     double window[MOR_CONTACT_WINDOW]; /* weights of points around a node, 1 */
     unsigned char *law_of;             /* shape [n_pairs]; 0: default, else listed pair plus one */
     int64_t n_pairs;
@@ -244,7 +244,7 @@ double mor_contact_response(const mor_contact *contact, const mor_contact_near *
 
 /** Gap of a point to a rigid body or a wall, unit m.
  *  @param contact [in]  one object
- *  @param asking  [in]  group of the body that asks
+ *  @param asking  [in]  one object, the group of the body that asks
  *  @param other   [in]  index of a rigid body, or n_bodies plus that of a wall
  *  @param point   [in]  shape [3], unit m */
 double mor_contact_gap(const mor_contact *contact, const mor_body_group *asking, int other, const double *point);

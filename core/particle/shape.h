@@ -47,7 +47,7 @@ typedef struct mor_shape_operations {
     /** Signed distance [m] of a point, shape [3], unit m, as `distance`, but from the surface itself where that only
      *  approximates it; may be slow. NULL: `distance` is all there is. Safe to call concurrently. */
     double (*exact_distance)(const mor_shape *shape, const double *point);
-    /** Whether distances inside may be those to faces that parts share, not to the surface of the whole. NULL: never. */
+    /** Whether distances inside may be those to faces that parts share, not to the whole surface. NULL: never. */
     bool (*has_seams)(const mor_shape *shape);
 } mor_shape_operations;
 

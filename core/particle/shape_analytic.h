@@ -176,8 +176,8 @@ double mor_shape_distance(const mor_shape *shape, const double *point);
  *  Returns: unit m, negative inside. Cost: of a mesh, a search and some rays. Threads: safe to call concurrently. */
 double mor_shape_exact_distance(const mor_shape *shape, const double *point);
 
-/** Whether the distance of a point inside may be that to a face which parts of the shape share, as in a union, and not to
- *  the surface of the whole. Outside distances never are.
+/** Whether the distance of a point inside may be that to a face which parts of the shape share, as in a union, and not
+ *  to the surface of the whole. Outside distances never are.
  *  @param shape [in]  one object
  *  Threads: safe to call concurrently. */
 bool mor_shape_has_seams(const mor_shape *shape);
