@@ -356,7 +356,7 @@ static mor_status check_walls(mor_context *context, const mor_case *c, const mor
     for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
         const double depth = -mor_simulation_placed_distance(c->walls[w].shape, c->turn, c->move, point);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' overlapping wall '%s' by about %.2g m at (%g, %g, %g) m; allowed is less "
+                  "%s:%d: found body '%s' overlapping wall '%s' by at least %.2g m at (%g, %g, %g) m; allowed is less "
                   "than %g m; %s",
                   it->place.file, it->place.line, it->name, c->walls[w].name, depth, point[0], point[1], point[2],
                   TOUCHING * c->spacing, advise_place(it, "move the body or the wall"));
@@ -376,7 +376,7 @@ static mor_status check_others(mor_context *context, const mor_simulation_bodies
         const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
         const double depth = -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, point);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' overlapping body '%s' by about %.2g m at (%g, %g, %g) m; allowed is less "
+                  "%s:%d: found body '%s' overlapping body '%s' by at least %.2g m at (%g, %g, %g) m; allowed is less "
                   "than %g m; move one of them",
                   it->place.file, it->place.line, it->name, c->bodies[b].name, depth, point[0], point[1], point[2],
                   TOUCHING * c->spacing);

@@ -123,7 +123,8 @@ static mor_status copy_children(mor_context *context, const source *from, config
 static mor_status copy_value(mor_context *context, const source *from, config_setting_t *setting, mor_case_node *node)
 {
     node->origin = from->origin;
-    node->line = from->has_lines ? (int)config_setting_source_line(setting) : 0;
+    const int line = from->has_lines ? (int)config_setting_source_line(setting) : 0;
+    node->line = from->has_lines && line == 0 ? 1 : line; /* the root begins where the file does */
     switch (config_setting_type(setting)) {
     case CONFIG_TYPE_INT:
     case CONFIG_TYPE_INT64:

@@ -69,6 +69,7 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         {block, "bodies[0].contact_modulus=50", "body 'block' has a contact_modulus of 50 Pa, softer than any rock"},
         {block, "walls[0].contact_modulus=30", "wall 'incline' has a contact_modulus of 30 Pa, softer than any"},
         {block, "walls[0].contact_modulus=30 MPa", NULL},
+        {block, "gravity=(\"4.9 m/s2\", \"8.5 m/s2\", 0)", "gravity points up, along +y"},
         {block, plates[0], "wall 'incline' is 0.08 m thick, 0.8 spacings; below one, a body that is pressed"},
         {block, plates[1], NULL},
         {block, flush[0], "wall 'step' goes on in wall 'incline' at ("},
