@@ -30,6 +30,9 @@ typedef struct mor_contact_wall {
     double velocity[3];     /* frame of the run, m/s */
     double modulus;         /* Young's modulus of its surface; 0: it does not yield, Pa */
     double poisson;         /* Poisson's ratio of it, 0 <= nu < 0.5, 1 */
+    int joined_to;          /* index, plus one, of the wall before it with which it makes one face: bodies touch both as
+                             * that one; 0: none. Both move alike, yield alike and have the default law */
+    const mor_shape *whole; /* union of the shapes of a wall and those joined to it; borrowed; NULL: shape is all */
     double force[3];        /* [out] of the bodies on the wall in the last sub-step, N (N/m) */
 } mor_contact_wall;
 

@@ -3,6 +3,7 @@
 #include "bodies/contact_work.h"
 
 #include "core/base/math.h"
+#include "core/particle/shape_analytic.h"
 
 #include <string.h>
 
@@ -148,14 +149,36 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     }
 }
 
-static void push_wall(mor_contact *contact, const mor_contact_near *near, const double *force)
+/* Of a wall and those joined to it, the one whose surface is nearest to a place. */
+static int find_part(const mor_contact *contact, int leader, const double *place)
+{
+    int nearest = leader;
+    double least = INFINITY;
+    for (int w = leader; w < contact->n_walls && contact->walls[leader].whole != NULL; ++w) {
+        const mor_contact_wall *wall = &contact->walls[w];
+        double point[3];
+        if (w != leader && wall->joined_to != leader + 1) {
+            continue;
+        }
+        mor_contact_wall_place(contact, wall, place, point);
+        const double distance = mor_shape_distance(wall->shape, point);
+        if (distance < least) {
+            least = distance;
+            nearest = w;
+        }
+    }
+    return nearest;
+}
+
+static void push_wall(mor_contact *contact, const mor_contact_near *near, const double *place, const double *force)
 {
     const mor_contact_work *work = contact->work;
     if (near->second < work->n_bodies) {
         return;
     }
     const int group = work->bodies[near->first].group_index;
-    double *sum = work->wall_force + 3 * ((int64_t)group * contact->n_walls + near->second - work->n_bodies);
+    const int wall = find_part(contact, near->second - work->n_bodies, place);
+    double *sum = work->wall_force + 3 * ((int64_t)group * contact->n_walls + wall);
     for (int a = 0; a < 3; ++a) {
         sum[a] -= force[a];
     }
@@ -177,7 +200,7 @@ static void push_both(mor_contact *contact, const mor_contact_near *near, int64_
                                           work->support_weights + MOR_CONTACT_SUPPORT * index};
         mor_body_point_push(partner->group, partner->body, &support, touch->place, opposite);
     } else {
-        push_wall(contact, near, force);
+        push_wall(contact, near, touch->place, force);
     }
 }
 
@@ -293,7 +316,7 @@ static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, do
     const double opposite[3] = {-force[0], -force[1], -force[2]};
     push_whole(contact, sums->near->first, sums->center, force);
     push_whole(contact, sums->near->second, sums->center, opposite);
-    push_wall(contact, sums->near, force);
+    push_wall(contact, sums->near, sums->center, force);
     /* What the motion loses is force times the velocity in the middle of the kick; of that, the pair's own part, as
      * if nothing turned. */
     const double kick = (resultant + extra) * inverse * sums->length;

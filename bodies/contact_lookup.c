@@ -26,8 +26,7 @@ static void normalize(int dimension, double *vector)
     }
 }
 
-/* A point in the frame of a wall's shape. */
-static void find_wall_place(const mor_contact *contact, const mor_contact_wall *wall, const double *point,
+void mor_contact_wall_place(const mor_contact *contact, const mor_contact_wall *wall, const double *point,
                             double *place)
 {
     double offset[3];
@@ -43,14 +42,14 @@ static bool look_at_wall(const mor_contact *contact, const mor_contact_near *nea
 {
     const mor_body_group *group = contact->work->bodies[near->first].group;
     double place[3], normal[3];
-    find_wall_place(contact, wall, touch->place, place);
-    touch->gap = mor_contact_shape_gap(wall->shape, group->dimension, place, group->spacing, NULL);
+    mor_contact_wall_place(contact, wall, touch->place, place);
+    touch->gap = mor_contact_shape_gap(mor_contact_wall_shape(wall), group->dimension, place, group->spacing, NULL);
     if (!is_whole || !(touch->gap < mor_contact_reach(contact, near, touch, 1.0 / group->spacing))) {
         return false;
     }
-    mor_contact_shape_gap(wall->shape, group->dimension, place, group->spacing, normal);
-    const double curvature =
-        mor_contact_curvature(wall->shape, group->dimension, place, touch->gap, normal, group->spacing);
+    mor_contact_shape_gap(mor_contact_wall_shape(wall), group->dimension, place, group->spacing, normal);
+    const double curvature = mor_contact_curvature(mor_contact_wall_shape(wall), group->dimension, place, touch->gap,
+                                                   normal, group->spacing);
     if (!(touch->gap < mor_contact_reach(contact, near, touch, curvature))) {
         return false;
     }
@@ -109,8 +108,8 @@ double mor_contact_gap(const mor_contact *contact, const mor_body_group *asking,
         return reference_gap(partner->group, body, reference, NULL, NULL);
     }
     const mor_contact_wall *wall = &contact->walls[other - contact->work->n_bodies];
-    find_wall_place(contact, wall, point, reference);
-    return mor_contact_shape_gap(wall->shape, asking->dimension, reference, asking->spacing, NULL);
+    mor_contact_wall_place(contact, wall, point, reference);
+    return mor_contact_shape_gap(mor_contact_wall_shape(wall), asking->dimension, reference, asking->spacing, NULL);
 }
 
 static bool look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,

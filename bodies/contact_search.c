@@ -112,6 +112,9 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
     const double *p = boxes + 6 * (int64_t)first;
     if (second >= contact->work->n_bodies) {
         const mor_contact_wall *wall = &contact->walls[second - contact->work->n_bodies];
+        if (!mor_contact_is_side(contact, second)) {
+            return INFINITY;
+        }
         double offset[3], place[3], half[3];
         for (int a = 0; a < 3; ++a) {
             offset[a] = 0.5 * (p[a] + p[3 + a]) - wall->velocity[a] * contact->time - wall->move[a];
@@ -121,7 +124,7 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
         if (contact->groups[contact->work->bodies[first].group_index]->dimension == 2) {
             half[2] = 0.0;
         }
-        return mor_shape_distance(wall->shape, place) - mor_vector_length(half);
+        return mor_shape_distance(mor_contact_wall_shape(wall), place) - mor_vector_length(half);
     }
     const double *q = boxes + 6 * (int64_t)second;
     double d[3];

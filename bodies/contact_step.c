@@ -109,7 +109,7 @@ static double find_longest(const mor_contact *contact, const mor_body_group *gro
         }
         double rate2 = 0.0;
         for (int other = 0; other < work->n_bodies + contact->n_walls; ++other) {
-            if (other == own ||
+            if (other == own || !mor_contact_is_side(contact, other) ||
                 mor_contact_inverse_mass(contact, own) + mor_contact_inverse_mass(contact, other) == 0.0) {
                 continue;
             }

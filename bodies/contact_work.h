@@ -391,6 +391,29 @@ double mor_contact_depth_limit(const mor_contact *contact, int first, int second
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC, naming both sides, when surfaces lie too deep in one another. */
 mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact);
 
+/** Returns the shape that bodies touch of a wall that is joined to no other: with those that are joined to it.
+ *  @param wall [in]  one object */
+static inline const mor_shape *mor_contact_wall_shape(const mor_contact_wall *wall)
+{
+    return wall->whole != NULL ? wall->whole : wall->shape;
+}
+
+/** Whether two sides may touch: walls that are joined to another one are touched as that one.
+ *  @param contact [in]  one object
+ *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
+static inline bool mor_contact_is_side(const mor_contact *contact, int second)
+{
+    return second < contact->work->n_bodies || contact->walls[second - contact->work->n_bodies].joined_to == 0;
+}
+
+/** A point in the frame of a wall's shape.
+ *  @param contact [in]   one object
+ *  @param wall    [in]   one object
+ *  @param point   [in]   shape [3]; frame of the run, unit m
+ *  @param place   [out]  shape [3], unit m */
+void mor_contact_wall_place(const mor_contact *contact, const mor_contact_wall *wall, const double *point,
+                            double *place);
+
 /** Returns the group of a body or NULL for a wall.
  *  @param contact [in]  one object
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */

@@ -6,6 +6,7 @@
 #include "cases/driver/case_schema.h"
 #include "cases/driver/simulation.h"
 #include "cases/driver/simulation_fill.h"
+#include "cases/driver/wall_seams.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/shape_analytic.h"
@@ -456,6 +457,7 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
         walls[w].modulus = c->walls[w].contact_modulus;
         walls[w].poisson = c->walls[w].contact_poisson;
     }
+    MOR_TRY(context, mor_wall_seams_join(context, c, walls, bodies->wholes));
     for (int p = 0; p < c->contact.n_pairs; ++p) {
         const mor_case_contact_pair *it = &c->contact.pairs[p];
         snprintf(bodies->pairs[p].first, sizeof bodies->pairs[p].first, "%s", it->first);
@@ -527,6 +529,9 @@ void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bo
 {
     if (bodies->has_contact) {
         mor_contact_clear(context, &bodies->contact);
+    }
+    for (int w = 0; w < MOR_CASE_WALLS_MAX; ++w) {
+        mor_shape_free(context, &bodies->wholes[w]);
     }
     for (int k = 0; k < MOR_BODY_GROUPS_MAX; ++k) {
         mor_elastic_clear(context, &bodies->elastics[k]);

@@ -32,6 +32,7 @@ typedef struct mor_simulation_bodies {
     int n_groups;
     mor_simulation_body of[MOR_CASE_BODIES_MAX]; /* by number of the body in the case */
     mor_contact contact;
+    mor_shape *wholes[MOR_CASE_WALLS_MAX]; /* of walls that make one face with others; owned */
     bool has_contact;
     mor_contact_pair pairs[MOR_CASE_PAIRS_MAX];
     mor_exchange exchange;

@@ -7,6 +7,7 @@
 #include "core/particle/shape_analytic.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Lengths in spacings: how far over a face the other wall is looked for, within what distance it counts as flush, and
  * the step of the differences that give a normal. */
@@ -86,18 +87,88 @@ static bool find_seam(const mor_case *c, const mor_shape *a, const mor_shape *b,
     return false;
 }
 
+static bool has_own_law(const mor_case *c, const char *name)
+{
+    bool is_named = false;
+    for (int p = 0; p < c->contact.n_pairs; ++p) {
+        is_named =
+            is_named || strcmp(c->contact.pairs[p].first, name) == 0 || strcmp(c->contact.pairs[p].second, name) == 0;
+    }
+    return is_named;
+}
+
+/* Whether bodies cannot tell the surfaces of two walls from one another. */
+static bool are_alike(const mor_case *c, const mor_case_wall *a, const mor_case_wall *b)
+{
+    return memcmp(a->velocity, b->velocity, sizeof a->velocity) == 0 && a->contact_modulus == b->contact_modulus &&
+           a->contact_poisson == b->contact_poisson && !has_own_law(c, a->name) && !has_own_law(c, b->name);
+}
+
+/* The union of the shapes of a wall and all that are joined to it. */
+static mor_status unite(mor_context *context, const mor_case *c, const mor_contact_wall *walls, int leader,
+                        mor_shape **whole)
+{
+    mor_shape *parts[MOR_CASE_WALLS_MAX];
+    int n = 0;
+    mor_status status = MOR_OK;
+    for (int w = leader; w < c->n_walls && status == MOR_OK; ++w) {
+        if (w == leader || walls[w].joined_to == leader + 1) {
+            status = mor_shape_new_view(context, walls[w].shape, &parts[n]);
+            n += status == MOR_OK;
+        }
+    }
+    if (status == MOR_OK && n > 1) {
+        status = mor_shape_new_union(context, parts, n, whole);
+    }
+    for (int k = 0; k < n; ++k) { /* what the union did not take */
+        mor_shape_free(context, &parts[k]);
+    }
+    return status;
+}
+
+mor_status mor_wall_seams_join(mor_context *context, const mor_case *the_case, mor_contact_wall *walls,
+                               mor_shape **wholes)
+{
+    const mor_case *c = the_case;
+    int leaders[MOR_CASE_WALLS_MAX];
+    for (int w = 0; w < c->n_walls; ++w) {
+        leaders[w] = w;
+        for (int v = 0; v < w; ++v) {
+            double at[3];
+            if (leaders[v] == leaders[w] || !are_alike(c, &c->walls[w], &c->walls[v]) ||
+                !find_seam(c, c->walls[w].shape, c->walls[v].shape, at)) {
+                continue;
+            }
+            const int least = leaders[v] < leaders[w] ? leaders[v] : leaders[w];
+            const int other = leaders[v] < leaders[w] ? leaders[w] : leaders[v];
+            for (int u = 0; u <= w; ++u) {
+                leaders[u] = leaders[u] == other ? least : leaders[u];
+            }
+        }
+    }
+    for (int w = 0; w < c->n_walls; ++w) {
+        walls[w].joined_to = leaders[w] == w ? 0 : leaders[w] + 1;
+    }
+    for (int w = 0; w < c->n_walls; ++w) {
+        if (walls[w].joined_to == 0) {
+            MOR_TRY(context, unite(context, c, walls, w, &wholes[w]));
+            walls[w].whole = wholes[w];
+        }
+    }
+    return MOR_OK;
+}
+
 void mor_wall_seams_warn(mor_context *context, const mor_case *the_case)
 {
     const mor_case *c = the_case;
     for (int w = 0; w < c->n_walls && c->n_bodies > 0; ++w) {
         for (int v = 0; v < w; ++v) {
             double at[3];
-            if (find_seam(c, c->walls[w].shape, c->walls[v].shape, at)) {
+            if (!are_alike(c, &c->walls[w], &c->walls[v]) && find_seam(c, c->walls[w].shape, c->walls[v].shape, at)) {
                 mor_context_log(context, MOR_LOG_WARNING,
-                                "%s:%d: wall '%s' goes on in wall '%s' at (%.4g, %.4g, %.4g) m; a rock within two "
-                                "spacings of such a seam feels each wall as if the other were not there, and its "
-                                "forces are up to a third off: make them one wall, shape = { type = \"union\"; "
-                                "parts = (...); }",
+                                "%s:%d: wall '%s' goes on in wall '%s' at (%.4g, %.4g, %.4g) m, but moves, yields or "
+                                "rubs otherwise; a rock within two spacings of such a seam feels each wall as if the "
+                                "other were not there, and its forces are up to a third off",
                                 c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->walls[v].name,
                                 at[0], at[1], at[2]);
             }

@@ -304,19 +304,17 @@ static void a_flat_box_rebounds_as_it_is_told_to(void **state)
     }
 }
 
-/* A ball of eight spacings' radius, turned so that it lands between nodes; what follows the floor is left open. */
+#define PLANE "{ name = 'floor'; shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }; }"
+
+/* A ball of eight spacings' radius, turned so that it lands between nodes; the list of walls is left open. */
 #define BALL(gravity, place, velocity, friction, restitution, end, shape)                                              \
     "title = 'ball'; dimension = 3; spacing = 0.025; end = " end "; gravity = " gravity ";"                            \
     "domain = { min = (-1, -1, -1); max = (1, 1, 1); };"                                                               \
-    "walls = ( { name = 'floor'; shape = " shape "; } );"                                                              \
+    "walls = ( " shape " );"                                                                                           \
     "bodies = ( { name = 'ball'; position = " place "; velocity = " velocity "; contact_modulus = '50 GPa';"           \
     "    axis = (1, 0.3, 0.2); angle = '17 deg'; shape = { type = 'sphere'; center = (0, 0, 0); radius = 0.2; };"      \
     "    material = { model = 'rigid'; density = 2600; }; } );"                                                        \
     "contact = { restitution = " restitution "; friction_coefficient = " friction "; };"                               \
-    "probes = ( { name = 'push'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, 0, -1); },"              \
-    "  { name = 'up'; type = 'body_velocity'; body = 'ball'; direction = (0, 0, 1); },"                                \
-    "  { name = 'along'; type = 'body_velocity'; body = 'ball'; direction = (1, 0, 0); },"                             \
-    "  { name = 'spin'; type = 'body_angular_velocity'; body = 'ball'; direction = (0, 1, 0); } );"                    \
     "output = { snapshots = 1; pictures = false; };"
 
 /* Johnson (1985) section 11.4 for that ball at 1 m/s, whatever the surface is made of: one plane, parts of a union that
@@ -340,8 +338,9 @@ static void surfaces_of_any_form_give_the_force_of_hertz(void **state)
         {"walls[0].shape={ type = 'sphere'; center = (0, 0, -0.04); radius = 0.04; }", 0.04},
     };
 #undef BLOCK
-    static const char text[] = BALL("(0, 0, 0)", "(0, 0, 0.20001)", "(0, 0, -1)", "0.3", "1.0", "'1.6 ms'",
-                                    "{ type = 'sphere'; center = (0, 0, -1); radius = 1; }");
+    static const char text[] = BALL(
+        "(0, 0, 0)", "(0, 0, 0.20001)", "(0, 0, -1)", "0.3", "1.0", "'1.6 ms'",
+        PLANE) "probes = ( { name = 'push'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, 0, -1); } );";
     const double modulus = 50e9 / (1.0 - 0.25 * 0.25);
     const double mass = 2600.0 * 4.0 / 3.0 * MOR_PI * 0.008;
     run_folder *folder = *state;
@@ -366,22 +365,54 @@ static void surfaces_of_any_form_give_the_force_of_hertz(void **state)
     }
 }
 
+/* Two walls that make up one plane push a ball on their seam as that plane does, and share the force: that on each is
+ * what acts on its part. Equal to rounding: the same surface is looked up. */
+static void walls_that_meet_flush_act_as_one(void **state)
+{
+#define HALF(name, low, high)                                                                                          \
+    "{ name = '" name "'; shape = { type = 'box'; min = (" low ", -1, -1); max = (" high ", 1, 0); }; }"
+    static const char parted[] = BALL(
+        "(0, 0, 0)", "(0.0125, 0, 0.20001)", "(1, 0, -1)", "0.3", "0.8", "'1.6 ms'",
+        HALF("floor", "-1", "0") "," HALF(
+            "more", "0",
+            "1")) "probes = ( { name = 'push'; type = 'body_force_contact'; body = 'ball'; direction = (0, 0, 1); },"
+                  "  { name = 'floor'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, 0, -1); },"
+                  "  { name = 'more'; type = 'wall_contact_force'; wall = 'more'; direction = (0, 0, -1); },"
+                  "  { name = 'spin'; type = 'body_angular_velocity'; body = 'ball'; direction = (0, 1, 0); } );";
+    static const char whole[] =
+        BALL("(0, 0, 0)", "(0.0125, 0, 0.20001)", "(1, 0, -1)", "0.3", "0.8", "'1.6 ms'",
+             PLANE) "probes = ( { name = 'push'; type = 'body_force_contact'; body = 'ball'; direction = (0, 0, 1); },"
+                    "  { name = 'spin'; type = 'body_angular_velocity'; body = 'ball'; direction = (0, 1, 0); } );";
+#undef HALF
+    run_folder *folder = *state;
+    program_outcome outcome = run_text(folder, whole, "whole", as_it_is, 0);
+    program_clear(&outcome);
+    outcome = run_text(folder, parted, "parted", as_it_is, 0);
+    assert_null(strstr(outcome.errors, "goes on"));
+    program_clear(&outcome);
+    const double peak = read_maximum(folder, "whole", "push");
+    const double spin = read_maximum(folder, "whole", "spin");
+    assert_true(fabs(read_maximum(folder, "parted", "push") / peak - 1.0) < 1e-6);
+    assert_true(fabs(read_maximum(folder, "parted", "spin") / spin - 1.0) < 1e-4);
+    /* The contact lies half a spacing beyond the seam and is as wide as that: most of it, not all, on the far part. */
+    assert_true(read_maximum(folder, "parted", "more") > 0.5 * peak);
+    assert_true(read_maximum(folder, "parted", "floor") >= 0.0);
+}
+
 /* A ball that does not slip rolls down with 5/7 g sin(2 degrees), and one that rolls on a level keeps its speed. Within
  * 0.5 %: it settles on the contact as it begins (0.1 % measured). When the force acted beside the surface, by what that
  * curves between a node and the contact, a ball lost 3 to 8 % in a second and one of 0.05 m/s two fifths. */
 static void balls_roll_without_loss(void **state)
 {
     run_folder *folder = *state;
+#define ALONG(value)                                                                                                   \
+    "probes = ( { name = 'along'; type = 'body_velocity'; body = 'ball'; direction = (1, 0, 0); } );"                  \
+    "expect = ( { probe = 'along'; value = " value "; tolerance = 0.005; source = 'rolling'; } );"
     static const char down[] =
-        BALL("(0.342367, 0, -9.804024)", "(0, 0, 0.2)", "(0, 0, 0)", "0.8", "0.5", "0.5",
-             "{ type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }") "expect = ( { probe = 'along'; value = "
-                                                                                "0.122274; tolerance = 0.005; source = "
-                                                                                "'rolling'; } );";
+        BALL("(0.342367, 0, -9.804024)", "(0, 0, 0.2)", "(0, 0, 0)", "0.8", "0.5", "0.5", PLANE) ALONG("0.122274");
     static const char level[] =
-        BALL("(0, 0, -9.81)", "(0, 0, 0.2)", "(0.05, 0, 0)", "0.8", "0.5", "0.5",
-             "{ type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }") "expect = ( { probe = 'along'; value = "
-                                                                                "0.05; tolerance = 0.005; source = "
-                                                                                "'rolling'; } );";
+        BALL("(0, 0, -9.81)", "(0, 0, 0.2)", "(0.05, 0, 0)", "0.8", "0.5", "0.5", PLANE) ALONG("0.05");
+#undef ALONG
     program_outcome outcome = run_text(folder, down, "down", as_it_is, 0);
     program_clear(&outcome);
     outcome =
@@ -533,6 +564,7 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(surfaces_of_any_form_give_the_force_of_hertz, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(walls_that_meet_flush_act_as_one, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(balls_roll_without_loss, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_corner_rebounds_as_it_is_told_to, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_flat_box_rebounds_as_it_is_told_to, run_folder_setup, run_folder_teardown),

@@ -54,6 +54,8 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.15 m\"); max=(\"4 m\", \"0 m\");}"};
 #define INCLINE "{name=\"incline\"; shape={type=\"box\"; min=(\"-1 m\", \"-1 m\"); max=(\"1 m\", \"0 m\");};}"
     static const char *const flush[] = {
+        "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"0 m\");}; "
+        "contact_modulus=\"1 GPa\";})",
         "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"0 m\");};})",
         "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"1 m\");};})"};
 #undef INCLINE
@@ -74,6 +76,7 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         {block, plates[1], NULL},
         {block, flush[0], "wall 'step' goes on in wall 'incline' at ("},
         {block, flush[1], NULL},
+        {block, flush[2], NULL},
     };
     run_folder *folder = *state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
