@@ -3,6 +3,8 @@
 /* How deep surfaces may lie in one another: docs/theory/contact.md, "How deep". */
 #include "bodies/contact_work.h"
 
+#include "core/base/math.h"
+
 #include <math.h>
 
 /* Depth that stops a run: a share of the spacing, or of the thickness of the thinner body where that is more. */
@@ -11,6 +13,9 @@
 
 /* Share of that limit that is warned of: a tenth of a spacing. */
 #define WARNING_SHARE 0.2
+
+/* Curvature of a wall over a spacing from which on it is looked at as an edge, 1. */
+#define EDGE_BEND 0.05
 
 /* Least side of the box around a body, m. */
 static double thickness(const mor_contact_body *c)
@@ -29,6 +34,51 @@ double mor_contact_depth_limit(const mor_contact *contact, int first, int second
                             ? fmin(thickness(&work->bodies[first]), thickness(&work->bodies[second]))
                             : thickness(&work->bodies[first]);
     return fmax(LIMIT_SPACINGS * mor_contact_spacing(contact, first, second), LIMIT_THICKNESS * thin);
+}
+
+void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, double depth)
+{
+    mor_contact_work *work = contact->work;
+    const int group = work->bodies[near->first].group_index;
+    const double limit = mor_contact_depth_limit(contact, near->first, near->second);
+    mor_contact_depth *worst = &work->group_worst[group];
+    work->group_deepest[group] = fmax(work->group_deepest[group], depth);
+    if (depth * worst->limit > worst->depth * limit || worst->limit == 0.0) {
+        *worst = (mor_contact_depth){near->first, near->second, depth, limit};
+    }
+}
+
+void mor_contact_note_driven(mor_contact *contact, const mor_contact_near *near, int64_t begin, int64_t end)
+{
+    mor_contact_work *work = contact->work;
+    for (int64_t k = begin; k < end; ++k) {
+        const mor_contact_touch *touch = &work->touches[k];
+        const bool is_moving = touch->depth > 0.0 && mor_vector_dot(touch->slip, touch->slip) > 0.0;
+        if (is_moving && touch->depth > work->driven.depth) {
+            work->driven = (mor_contact_depth){near->first, near->second, touch->depth,
+                                               mor_contact_depth_limit(contact, near->first, near->second)};
+        }
+    }
+}
+
+void mor_contact_note_edge(mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch)
+{
+    mor_contact_work *work = contact->work;
+    const double spacing = mor_contact_spacing(contact, near->first, near->second);
+    if (near->second < work->n_bodies || work->edge.is_found || !(fabs(touch->other_curvature) * spacing > EDGE_BEND)) {
+        return;
+    }
+    const mor_contact_wall *wall = &contact->walls[near->second - work->n_bodies];
+    double place[3], normal[3];
+    mor_contact_wall_place(contact, wall, touch->place, place);
+    if (mor_contact_has_edge(mor_contact_wall_shape(wall), contact->groups[0]->dimension, place, spacing, normal)) {
+        work->edge = (mor_contact_edge){
+            .first = near->first,
+            .second = near->second,
+            .place = {touch->place[0], touch->place[1], touch->place[2]},
+            .is_found = true,
+        };
+    }
 }
 
 /* A side of a pair in words. */
@@ -59,10 +109,30 @@ static void warn_of_driven(mor_context *context, mor_contact *contact)
                     kind, name, it->depth, other_kind, other_name, contact->time);
 }
 
+/* Walls have no nodes: an edge of theirs that meets a body between its nodes is felt by these, along their faces. */
+static void warn_of_edge(mor_context *context, mor_contact *contact)
+{
+    mor_contact_edge *it = &contact->work->edge;
+    if (!it->is_found || it->is_told) {
+        return;
+    }
+    const char *kind, *name, *other_kind, *other_name;
+    name_side(contact, it->first, &kind, &name);
+    name_side(contact, it->second, &other_kind, &other_name);
+    it->is_told = true;
+    mor_context_log(context, MOR_LOG_WARNING,
+                    "%s '%s' touches %s '%s' at an edge, (%.4g, %.4g, %.4g) m, at t = %.6g s; walls are felt along "
+                    "their faces, so that it may rebound or turn wrongly there: make '%s' a body with motion = "
+                    "\"prescribed\", whose edges are felt as such, if this contact matters",
+                    kind, name, other_kind, other_name, it->place[0], it->place[1], it->place[2], contact->time,
+                    other_name);
+}
+
 mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact)
 {
     const mor_contact_depth *worst = &contact->work->group_worst[0];
     warn_of_driven(context, contact);
+    warn_of_edge(context, contact);
     for (int g = 1; g < contact->n_groups; ++g) {
         const mor_contact_depth *it = &contact->work->group_worst[g];
         if (it->limit > 0.0 && (worst->limit == 0.0 || it->depth * worst->limit > worst->depth * it->limit)) {

@@ -23,6 +23,7 @@ typedef struct pair_sums {
     double softening; /* factor on the nodes' normal forces, 1 */
     double factor;    /* damped over elastic normal force of the whole pair, 1 */
     double rate;      /* of damping, s/m */
+    double closing;   /* mean speed of closing of the followed nodes, weighted by their forces, m/s */
     bool is_hertzian; /* two rigid sides */
     double length;    /* of the sub-step, s */
     int64_t begin;    /* its touches */
@@ -210,19 +211,6 @@ static double normal_force(const pair_sums *sums, const mor_contact_touch *touch
     return sums->softening * touch->share * touch->stiffness * touch->mean_depth;
 }
 
-/* Keeps the depth that is nearest to its limit. */
-static void note_depth(mor_contact *contact, const mor_contact_near *near, double depth)
-{
-    mor_contact_work *work = contact->work;
-    const int group = work->bodies[near->first].group_index;
-    const double limit = mor_contact_depth_limit(contact, near->first, near->second);
-    mor_contact_depth *worst = &work->group_worst[group];
-    work->group_deepest[group] = fmax(work->group_deepest[group], depth);
-    if (depth * worst->limit > worst->depth * limit || worst->limit == 0.0) {
-        *worst = (mor_contact_depth){near->first, near->second, depth, limit};
-    }
-}
-
 /* The energy that the nodes store, and by it how stiff they are, docs/theory/contact.md (C3b). */
 static void soften_pair(mor_contact *contact, pair_sums *sums)
 {
@@ -240,21 +228,7 @@ static void soften_pair(mor_contact *contact, pair_sums *sums)
     sums->softening = mor_contact_soften(contact, sums->near, energy, &stored);
     if (deepest > 0.0) {
         work->group_spring[work->bodies[sums->near->first].group_index] += stored;
-        note_depth(contact, sums->near, deepest);
-    }
-}
-
-/* Two sides that no force moves: how deep one has been driven into the other. */
-static void note_driven(mor_contact *contact, const pair_sums *sums)
-{
-    mor_contact_work *work = contact->work;
-    for (int64_t k = sums->begin; k < sums->end; ++k) {
-        const mor_contact_touch *touch = &work->touches[k];
-        const bool is_moving = touch->depth > 0.0 && mor_vector_dot(touch->slip, touch->slip) > 0.0;
-        if (is_moving && touch->depth > work->driven.depth) {
-            work->driven = (mor_contact_depth){sums->near->first, sums->near->second, touch->depth,
-                                               mor_contact_depth_limit(contact, sums->near->first, sums->near->second)};
-        }
+        mor_contact_note_depth(contact, sums->near, deepest);
     }
 }
 
@@ -267,6 +241,7 @@ static bool sum_pair(mor_contact *contact, pair_sums *sums)
         if (!(touch->depth > 0.0)) {
             continue;
         }
+        mor_contact_note_edge(contact, sums->near, touch);
         const double force = normal_force(sums, touch);
         const double sign = touch->side == 0 ? 1.0 : -1.0;
         sums->force += force;
@@ -323,11 +298,28 @@ static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, do
     contact->damping_energy += extra * (closing - 0.5 * kick) * sums->length;
 }
 
-/* Damped over elastic normal force of one node, 1. Of rigid sides each node is damped by its own speed of closing, so
- * that rocking dies out as bouncing does. */
+/* Damped over elastic normal force of one node, 1. Of rigid sides each node on an edge is damped by its own speed of
+ * closing, so that rocking dies out as bouncing does; those on a smooth surface by the mean of theirs, or what rolls
+ * would be braked: it closes in front and opens behind. */
 static double node_factor(const pair_sums *sums, const mor_contact_touch *touch)
 {
-    return sums->is_hertzian ? fmax(0.0, 1.0 - sums->rate * mor_vector_dot(touch->slip, touch->normal)) : sums->factor;
+    const double closing = touch->is_followed ? sums->closing : -mor_vector_dot(touch->slip, touch->normal);
+    return sums->is_hertzian ? fmax(0.0, 1.0 + sums->rate * closing) : sums->factor;
+}
+
+static double find_mean_closing(const mor_contact *contact, const pair_sums *sums)
+{
+    double force = 0.0;
+    double sum = 0.0;
+    for (int64_t k = sums->begin; k < sums->end; ++k) {
+        const mor_contact_touch *touch = &contact->work->touches[k];
+        if (touch->depth > 0.0 && touch->is_followed) {
+            const double share = normal_force(sums, touch);
+            force += share;
+            sum -= share * mor_vector_dot(touch->slip, touch->normal);
+        }
+    }
+    return force > 0.0 ? sum / force : 0.0;
 }
 
 /* Books what damping of each node takes, with the speed in the middle of the kick as above. */
@@ -354,8 +346,10 @@ static void book_nodes(mor_contact *contact, const pair_sums *sums, double inver
  * on swinging after a hard landing is damped by its own speed. */
 static double keep_impact(const mor_contact *contact, const pair_sums *sums, double impact)
 {
-    return sums->is_hertzian ? impact * exp(-sums->length * mor_contact_frequency(contact, sums->near) / KEPT_RADIANS)
-                             : impact;
+    if (!sums->is_hertzian || !(impact > 0.0)) {
+        return impact;
+    }
+    return impact * exp(-sums->length * mor_contact_frequency(contact, sums->near, impact) / KEPT_RADIANS);
 }
 
 /* Slowest impact: no faster than what a weight at rest swings with on the contact, or that would hardly be damped. */
@@ -363,7 +357,7 @@ static double slowest_impact(const mor_contact *contact, const pair_sums *sums)
 {
     const double given = contact->settings.slowest_impact;
     const double gravity = mor_contact_gravity(&contact->work->bodies[sums->near->first]);
-    return sums->is_hertzian && gravity > 0.0 ? fmin(given, gravity / mor_contact_frequency(contact, sums->near))
+    return sums->is_hertzian && gravity > 0.0 ? fmin(given, gravity / mor_contact_frequency(contact, sums->near, 0.0))
                                               : given;
 }
 
@@ -405,6 +399,7 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
     }
     sums->rate = fmin(y / *impact, limit_damping(contact, sums, inverse));
     if (sums->is_hertzian) {
+        sums->closing = find_mean_closing(contact, sums);
         book_nodes(contact, sums, inverse);
     } else {
         damp_whole(contact, sums, closing, inverse);
@@ -505,7 +500,7 @@ static void act_on_pair(mor_contact *contact, int k, double length)
     sums.end = work->first_touch[k + 1];
     if (mor_contact_inverse_mass(contact, sums.near->first) + mor_contact_inverse_mass(contact, sums.near->second) ==
         0.0) {
-        note_driven(contact, &sums);
+        mor_contact_note_driven(contact, sums.near, sums.begin, sums.end);
         return;
     }
     soften_pair(contact, &sums);

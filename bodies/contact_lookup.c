@@ -197,6 +197,7 @@ void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *nea
     touch->support_count = 0;
     touch->share = 1.0;
     touch->depth = 0.0;
+    touch->is_followed = false;
     if (wall != NULL) {
         may_touch = look_at_wall(contact, near, wall, is_whole, touch);
     } else if (partner->group->kind == MOR_BODY_RIGID) {

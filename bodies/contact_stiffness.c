@@ -21,10 +21,8 @@
 #define ENERGY_SPACE 0.5132254840066531  /* 8/15 (3/pi)^(5/6) */
 #define ENERGY_PLANE 0.49209494645110324 /* pi/8 (15/(8 sqrt 2))^(4/5) */
 
-/* The surface around a node is followed only if no edge is within this reach, spacings: there the gradient of the level
- * set over the reach differs from the one on the spot by no more than this, 1. */
-#define EDGE_REACH 1.5
-#define EDGE_DIFFERENCE 0.05
+/* A surface of a smaller radius than the inverse of this, in spacings, counts as an edge. */
+#define SHARP 0.7
 
 /* How many times narrower than a node a contact may be. Around nodes of smooth surfaces, contact_window.c resolves any
  * width: what ends the rise of the stiffness there is the length of a step alone. Edges are points. */
@@ -265,34 +263,48 @@ double mor_contact_least_stiffness(const mor_contact *contact, int first, int se
            (contact->work->bodies[first].group->dimension == 3 ? fine * fine : fine);
 }
 
-double mor_contact_largest_stiffness(const mor_contact *contact, int first, int second, double energy)
+/* How a pair touches once it has stored an energy: its normal stiffness, N/m (N/m2), and half its width, m. */
+typedef struct touching {
+    double stiffness, reach;
+} touching;
+
+static touching touch_by_energy(const mor_contact *contact, int first, int second, double energy)
 {
-    const mor_contact_work *work = contact->work;
-    const mor_contact_body *c = &work->bodies[first];
-    const mor_contact_body *partner = second < work->n_bodies ? &work->bodies[second] : NULL;
-    const double spacing = mor_contact_spacing(contact, first, second);
+    const mor_contact_body *c = &contact->work->bodies[first];
+    const mor_contact_body *partner = second < contact->work->n_bodies ? &contact->work->bodies[second] : NULL;
     const double modulus = mor_contact_pair_modulus(contact, first, second);
     const double widest = largest_radius(contact, first, second);
     const double curvature = c->flattest + (partner != NULL ? partner->flattest : 0.0);
     const double radius = fmin(1.0 / fmax(curvature, 0.0), FLATTEST * widest);
-    const double least = mor_contact_least_stiffness(contact, first, second);
-    const double tangential = reference_softening(contact, first, second) * narrow_bedding(contact, first, second);
     if (c->group->dimension == 3) {
         const double depth = radius * pow(15.0 * energy / (8.0 * modulus * radius * radius * radius), 0.4);
         const double reach = fmin(widest, sqrt(radius * depth));
-        const double area = fmin(MOR_PI * widest * widest, 2.0 * MOR_PI * reach * reach) + 4.0 * spacing * spacing;
-        return fmax(2.0 * modulus * reach, fmax(least, tangential * area));
+        return (touching){2.0 * modulus * reach, reach};
     }
     const double depth = sqrt(8.0 * energy / (MOR_PI * modulus));
-    const double reach = fmin(widest, sqrt(2.0 * radius * depth));
-    return fmax(0.25 * MOR_PI * modulus, fmax(least, tangential * (2.0 * reach + 2.0 * spacing)));
+    return (touching){0.25 * MOR_PI * modulus, fmin(widest, sqrt(2.0 * radius * depth))};
 }
 
-double mor_contact_frequency(const mor_contact *contact, const mor_contact_near *near)
+double mor_contact_largest_stiffness(const mor_contact *contact, int first, int second, double energy)
 {
-    const double energy = reference_energy(contact, near->first, near->second);
-    return sqrt(mor_contact_largest_stiffness(contact, near->first, near->second, energy) *
-                pair_inverse(contact, near->first, near->second));
+    const mor_contact_body *c = &contact->work->bodies[first];
+    const double spacing = mor_contact_spacing(contact, first, second);
+    const double widest = largest_radius(contact, first, second);
+    const double least = mor_contact_least_stiffness(contact, first, second);
+    const double tangential = reference_softening(contact, first, second) * narrow_bedding(contact, first, second);
+    const touching it = touch_by_energy(contact, first, second, energy);
+    const double area = c->group->dimension == 3 ? fmin(MOR_PI * widest * widest, 2.0 * MOR_PI * it.reach * it.reach) +
+                                                       4.0 * spacing * spacing
+                                                 : 2.0 * it.reach + 2.0 * spacing;
+    return fmax(it.stiffness, fmax(least, tangential * area));
+}
+
+double mor_contact_frequency(const mor_contact *contact, const mor_contact_near *near, double speed)
+{
+    const double inverse = pair_inverse(contact, near->first, near->second);
+    const double energy =
+        speed > 0.0 ? 0.5 * speed * speed / inverse : reference_energy(contact, near->first, near->second);
+    return sqrt(touch_by_energy(contact, near->first, near->second, energy).stiffness * inverse);
 }
 
 static int compare_numbers(const void *a, const void *b)
@@ -300,38 +312,6 @@ static int compare_numbers(const void *a, const void *b)
     const double first = *(const double *)a;
     const double second = *(const double *)b;
     return (first > second) - (first < second);
-}
-
-/* Gradient of the level set by central differences, in the frame of the shape. */
-static void find_gradient(const mor_shape *shape, int dimension, const double *place, double step, double *gradient)
-{
-    gradient[2] = 0.0;
-    for (int a = 0; a < dimension; ++a) {
-        double before[3] = {place[0], place[1], place[2]};
-        double behind[3] = {place[0], place[1], place[2]};
-        before[a] -= step;
-        behind[a] += step;
-        gradient[a] = 0.5 * (mor_shape_distance(shape, behind) - mor_shape_distance(shape, before)) / step;
-    }
-}
-
-/* Normal of the surface at a node, in the reference configuration. Returns whether the surface goes on as it curves
- * there as far as a window reaches: the gradient over that reach is the one on the spot, unless an edge is near. */
-static bool look_at_surface(const mor_body *body, int dimension, const double *place, double spacing, double *normal)
-{
-    double near[3], far[3];
-    double difference2 = 0.0;
-    find_gradient(body->shape, dimension, place, 0.125 * spacing, near);
-    find_gradient(body->shape, dimension, place, EDGE_REACH * spacing, far);
-    for (int a = 0; a < dimension; ++a) {
-        difference2 += (far[a] - near[a]) * (far[a] - near[a]);
-    }
-    const double slope = mor_vector_length(near);
-    for (int a = 0; a < 3; ++a) {
-        near[a] /= slope > 0.0 ? slope : 1.0;
-    }
-    mor_matrix_apply(body->shape_turn, near, normal);
-    return slope > 1.0 - EDGE_DIFFERENCE && difference2 < EDGE_DIFFERENCE * EDGE_DIFFERENCE;
 }
 
 /* Curvatures of one rigid body: at each node, and what of them its pairs need. Scratch, shape [n_nodes]. */
@@ -354,13 +334,13 @@ static void measure_rigid(mor_contact *contact, mor_contact_body *c, double *scr
         const double *reference = group->node_reference + 3 * (body->first_node + k);
         double place[3];
         mor_contact_shape_place(body, reference, place);
-        const bool goes_on = look_at_surface(body, group->dimension, place, group->spacing, normals + 3 * k);
         double normal[3];
-        mor_matrix_apply_transposed(body->shape_turn, normals + 3 * k, normal);
+        const bool goes_on = !mor_contact_has_edge(body->shape, group->dimension, place, group->spacing, normal);
+        mor_matrix_apply(body->shape_turn, normal, normals + 3 * k);
         const double found = mor_contact_curvature(body->shape, group->dimension, place, 0.0, normal, group->spacing);
         curvatures[k] = fmin(fmax(found, 0.0), sharpest);
         contact->work->levels[entry + k] = mor_shape_distance(body->shape, place);
-        is_smooth[k] = goes_on && found < 0.5 * sharpest;
+        is_smooth[k] = goes_on && found < SHARP * sharpest;
         c->is_edged = c->is_edged || !is_smooth[k];
         scratch[k] = curvatures[k];
         c->sharpest = fmax(c->sharpest, curvatures[k]);

@@ -14,6 +14,12 @@
 #define EXIT_STEP 0.02      /* least step on the way out */
 #define DEEPEST 2.0         /* farther from the surface seams are left alone */
 
+/* The surface around a point goes on as it curves there if the gradient of the level set over this reach differs from
+ * the one on the spot by no more than this, 1: no edge is so near. */
+#define EDGE_REACH 1.5
+#define EDGE_NEAR 0.125
+#define EDGE_DIFFERENCE 0.05
+
 enum { EXIT_STEPS_MAX = 128, REFINEMENTS = 3 };
 
 static void go(const double *from, double way, const double *direction, double *to)
@@ -118,4 +124,33 @@ double mor_contact_curvature(const mor_shape *shape, int dimension, const double
     sum /= dimension - 1;
     /* Of the surface itself: out there circles are wider. */
     return sum / fmax(0.5, 1.0 - CURVATURE_LIFT * spacing * sum);
+}
+
+/* Gradient of the level set by central differences, in the frame of the shape. */
+static void find_gradient(const mor_shape *shape, int dimension, const double *place, double step, double *gradient)
+{
+    gradient[2] = 0.0;
+    for (int a = 0; a < dimension; ++a) {
+        double before[3] = {place[0], place[1], place[2]};
+        double behind[3] = {place[0], place[1], place[2]};
+        before[a] -= step;
+        behind[a] += step;
+        gradient[a] = 0.5 * (mor_shape_distance(shape, behind) - mor_shape_distance(shape, before)) / step;
+    }
+}
+
+bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *place, double spacing, double *normal)
+{
+    double far[3];
+    double difference2 = 0.0;
+    find_gradient(shape, dimension, place, EDGE_NEAR * spacing, normal);
+    find_gradient(shape, dimension, place, EDGE_REACH * spacing, far);
+    for (int a = 0; a < dimension; ++a) {
+        difference2 += (far[a] - normal[a]) * (far[a] - normal[a]);
+    }
+    const double slope = mor_vector_length(normal);
+    for (int a = 0; a < 3; ++a) {
+        normal[a] /= slope > 0.0 ? slope : 1.0;
+    }
+    return !(slope > 1.0 - EDGE_DIFFERENCE && difference2 < EDGE_DIFFERENCE * EDGE_DIFFERENCE);
 }

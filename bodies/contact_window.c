@@ -237,6 +237,7 @@ static bool correct_curvature(const mor_contact *contact, const mor_contact_near
 void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch)
 {
     follower it;
+    touch->is_followed = false;
     touch->depth = fmax(0.0, -touch->gap);
     touch->mean_depth = touch->depth;
     touch->mean_square = touch->depth * touch->depth;
@@ -254,6 +255,7 @@ void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near
     const double narrow = fmax(0.0, 1.0 - variance / (WIDE * it.dip.length * it.dip.length));
     const double sum = mor_contact_overlap(contact, it.owner, touch->node, offset, variance);
     const double share = 1.0 / (1.0 + narrow * (sum - 1.0));
+    touch->is_followed = true;
     touch->mean_depth = share * it.means[0];
     touch->mean_square = share * it.means[1];
     touch->depth = depth_at(&it.dip, it.shift, 0.0);

@@ -74,6 +74,7 @@ typedef struct mor_contact_touch {
     double stiffness;                  /* tangential, and normal before softening but for share, N/m (N/m2) */
     double share;                      /* normal stiffness before softening over the tangential one, 1 */
     int support_count;                 /* particles of an elastic partner */
+    bool is_followed;                  /* the surface around the node was, and place lies where it touches */
 } mor_contact_touch;
 
 /** How deep two surfaces lie in one another. */
@@ -82,6 +83,13 @@ typedef struct mor_contact_depth {
     double depth;      /* m */
     double limit;      /* deepest that is allowed, m */
 } mor_contact_depth;
+
+/** Where a body first touched a wall at its edge. */
+typedef struct mor_contact_edge {
+    int first, second; /* body, and n_bodies plus the wall */
+    double place[3];   /* m */
+    bool is_found, is_told;
+} mor_contact_edge;
 
 /** Lists and scratch. */
 typedef struct mor_contact_work {
@@ -123,9 +131,10 @@ typedef struct mor_contact_work {
     double *group_spring;     /* shape [MOR_BODY_GROUPS_MAX]; spring energy, of the contact's sums; J (J/m) */
     double *group_deepest;    /* shape [MOR_BODY_GROUPS_MAX]; likewise, m */
     mor_contact_depth group_worst[MOR_BODY_GROUPS_MAX]; /* the deepest for its limit */
-    mor_contact_depth driven;                           /* deepest so far of sides that no force moves */
-    double *wall_force;                                 /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3]; likewise, N (N/m) */
-    int field_partners, field_springs;                  /* of the history */
+    mor_contact_edge edge;
+    mor_contact_depth driven;          /* deepest so far of sides that no force moves */
+    double *wall_force;                /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3]; likewise, N (N/m) */
+    int field_partners, field_springs; /* of the history */
 } mor_contact_work;
 
 /** Index of a pair of bodies, first < second; or of a body and wall second - n_bodies.
@@ -201,6 +210,14 @@ void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, 
  *  @param normal    [out]  shape [3]; outward, unit 1; may be NULL */
 double mor_contact_shape_gap(const mor_shape *shape, int dimension, const double *place, double spacing,
                              double *normal);
+
+/** Whether a surface has an edge within a reach of windows around a point near it: there its gradient changes.
+ *  @param shape     [in]   one object
+ *  @param dimension [in]   2 or 3
+ *  @param place     [in]   shape [3]; in the frame of the shape, unit m
+ *  @param spacing   [in]   of the body that asks, unit m
+ *  @param normal    [out]  shape [3]; the gradient at the point brought to length 1, unit 1 */
+bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *place, double spacing, double *normal);
 
 /** Curvature of a surface at a point near it, mean of the two in space, unit 1/m; positive: convex.
  *  @param shape     [in]  one object
@@ -303,11 +320,11 @@ double mor_contact_least_stiffness(const mor_contact *contact, int first, int se
  *  @param energy  [in]  unit J (J/m) */
 double mor_contact_largest_stiffness(const mor_contact *contact, int first, int second, double energy);
 
-/** Frequency of a pair of rigid sides on their contact after a fall over the size of a body or at the reference speed,
- *  unit rad/s.
+/** Frequency of a pair of rigid sides on their normal contact in an impact, unit rad/s.
  *  @param contact [in]  one object
- *  @param near    [in]  one object */
-double mor_contact_frequency(const mor_contact *contact, const mor_contact_near *near);
+ *  @param near    [in]  one object
+ *  @param speed   [in]  of the impact, unit m/s; 0: after a fall over the size of a body or at the reference speed */
+double mor_contact_frequency(const mor_contact *contact, const mor_contact_near *near, double speed);
 
 /** Measures the curvature of all rigid bodies at their nodes; the history and the list of bodies must be there.
  *  @param context [in,out]  one object
@@ -384,6 +401,25 @@ void mor_contact_find_boxes(const mor_contact *contact, double *speeds);
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 double mor_contact_depth_limit(const mor_contact *contact, int first, int second);
+
+/** Keeps the depth that is nearest to its limit.
+ *  @param contact [in,out]  one object
+ *  @param near    [in]      one object
+ *  @param depth   [in]      deepest of the pair, unit m */
+void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, double depth);
+
+/** Keeps how deep one of two sides that no force moves has been driven into the other.
+ *  @param contact [in,out]  one object
+ *  @param near    [in]      one object
+ *  @param begin   [in]      first touch of the pair
+ *  @param end     [in]      the one behind its last */
+void mor_contact_note_driven(mor_contact *contact, const mor_contact_near *near, int64_t begin, int64_t end);
+
+/** Keeps the first touch of a wall where that is bent by an edge: walls have no nodes, so those of the body decide.
+ *  @param contact [in,out]  one object
+ *  @param near    [in]      one object
+ *  @param touch   [in]      one object */
+void mor_contact_note_edge(mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch);
 
 /** Looks at the deepest touch of the last evaluation: warns once, docs/theory/contact.md "How deep".
  *  @param context [in,out]  one object

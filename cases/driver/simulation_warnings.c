@@ -4,6 +4,7 @@
 
 #include "cases/driver/simulation_resolution.h"
 #include "cases/driver/wall_seams.h"
+#include "cases/driver/wall_thickness.h"
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
 
@@ -69,27 +70,6 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
                             "soil '%s' begins with a lateral stress of %.3g of the vertical one, but at its foot its "
                             "strength holds %.3g to %.3g: it yields at once, with a jerk; correct lateral_ratio",
                             it->name, ratio, fmax(least, 0.0), largest);
-        }
-    }
-}
-
-/* What lies deeper than the middle of a wall is pushed out of its other side; a run allows half a spacing of depth. */
-static void warn_of_thin_walls(mor_context *context, const mor_case *c)
-{
-    const double advisable = 1.0;
-    for (int w = 0; w < c->n_walls && c->n_bodies > 0; ++w) {
-        mor_bounds bounds;
-        double thickness = INFINITY;
-        mor_shape_bounds(c->walls[w].shape, &bounds);
-        for (int a = 0; a < c->dimension; ++a) {
-            thickness = fmin(thickness, bounds.maximum[a] - bounds.minimum[a]);
-        }
-        if (thickness < advisable * c->spacing) {
-            mor_context_log(context, MOR_LOG_WARNING,
-                            "%s:%d: wall '%s' is %.3g m thick, %.2g spacings; below one, a body that is pressed into "
-                            "it may come out on its other side: make it thicker, or use a spacing of %.2g m",
-                            c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, thickness,
-                            thickness / c->spacing, 0.99 * thickness / advisable);
         }
     }
 }
@@ -239,7 +219,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     }
     warn_of_densities(context, c);
     warn_of_moduli(context, c);
-    warn_of_thin_walls(context, c);
+    mor_wall_thickness_warn(context, c);
     mor_wall_seams_warn(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
     warn_of_outputs(context, simulation);

@@ -5,6 +5,7 @@
 #include "core/base/math.h"
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
+#include "tests/common/run_text.h"
 
 #include <math.h>
 
@@ -20,30 +21,10 @@
     "probes = ( { name = 'push'; type = 'wall_contact_force'; wall = 'post'; direction = (1, 0, 0); } );"              \
     "output = { snapshots = 1; series_interval = '1 us'; pictures = false; };"
 
-/* Runs a case, zero-terminated text, with settings up to a NULL; the exit code must be as expected: 3 where an
- * expectation of the case is missed. */
-static program_outcome run_text(run_folder *folder, const char *text, const char *name, const char *const *settings,
-                                int exit_code)
-{
-    char path[MOR_PATH_BYTES], results[MOR_PATH_BYTES];
-    const char *words[PROGRAM_ARGUMENTS_MAX] = {"run", path, "-o", results, "-t", "1"};
-    int n = 6;
-    finished_run_store_text(folder, text, path);
-    run_folder_file(folder, results, name);
-    for (int k = 0; settings[k] != NULL; ++k) {
-        words[n++] = "--set";
-        words[n++] = settings[k];
-    }
-    words[n] = NULL;
-    return program_run(folder, words, exit_code);
-}
-
 static program_outcome run_post(run_folder *folder, const char *name, const char *const *settings, int exit_code)
 {
     return run_text(folder, POST, name, settings, exit_code);
 }
-
-static const char *const as_it_is[] = {NULL};
 
 /* Largest value of the last column of the series of a run. */
 static double find_peak(run_folder *folder, const char *name)
@@ -61,16 +42,6 @@ static double find_peak(run_folder *folder, const char *name)
     }
     fclose(file);
     return peak;
-}
-
-/* Largest value that a probe of a run took, in every step. */
-static double read_maximum(run_folder *folder, const char *name, const char *probe)
-{
-    char path[MOR_PATH_BYTES], remark[256];
-    mor_summary_statistics it;
-    finished_run_file(folder, path, name, MOR_SUMMARY_FILE);
-    assert_int_equal(mor_summary_read_statistics(&folder->context, path, probe, &it, remark, sizeof remark), MOR_OK);
-    return it.maximum;
 }
 
 static void the_domain_does_not_change_the_force_of_an_impact(void **state)
@@ -304,122 +275,6 @@ static void a_flat_box_rebounds_as_it_is_told_to(void **state)
     }
 }
 
-#define PLANE "{ name = 'floor'; shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }; }"
-
-/* A ball of eight spacings' radius, turned so that it lands between nodes; the list of walls is left open. */
-#define BALL(gravity, place, velocity, friction, restitution, end, shape)                                              \
-    "title = 'ball'; dimension = 3; spacing = 0.025; end = " end "; gravity = " gravity ";"                            \
-    "domain = { min = (-1, -1, -1); max = (1, 1, 1); };"                                                               \
-    "walls = ( " shape " );"                                                                                           \
-    "bodies = ( { name = 'ball'; position = " place "; velocity = " velocity "; contact_modulus = '50 GPa';"           \
-    "    axis = (1, 0.3, 0.2); angle = '17 deg'; shape = { type = 'sphere'; center = (0, 0, 0); radius = 0.2; };"      \
-    "    material = { model = 'rigid'; density = 2600; }; } );"                                                        \
-    "contact = { restitution = " restitution "; friction_coefficient = " friction "; };"                               \
-    "output = { snapshots = 1; pictures = false; };"
-
-/* Johnson (1985) section 11.4 for that ball at 1 m/s, whatever the surface is made of: one plane, parts of a union that
- * meet under the ball or overlap, a plate of less than half a spacing, a ball of 1.6 spacings. Within 3 %: windows
- * around nodes (measured 2.0). Planes of all kinds agree to 0.1 %: rounding in the search for a way out. */
-static void surfaces_of_any_form_give_the_force_of_hertz(void **state)
-{
-#define BLOCK(low, high) "{ type = 'box'; min = " low "; max = " high "; }"
-    static const struct {
-        const char *shape;
-        double radius; /* of the wall, m */
-    } walls[] = {
-        {"walls[0].shape={ type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }", INFINITY},
-        {"walls[0].shape={ type = 'union'; parts = (" BLOCK("(-1, -1, -1)", "(0.001, 1, 0)") "," BLOCK(
-             "(0.001, -1, -1)", "(1, 1, 0)") "); }",
-         INFINITY},
-        {"walls[0].shape={ type = 'union'; parts = (" BLOCK("(-1, -1, -1)", "(0.015, 1, 0)") "," BLOCK(
-             "(-0.003, -1, -0.3)", "(1, 1, 0)") "); }",
-         INFINITY},
-        {"walls[0].shape=" BLOCK("(-1, -1, -0.01)", "(1, 1, 0)"), INFINITY},
-        {"walls[0].shape={ type = 'sphere'; center = (0, 0, -0.04); radius = 0.04; }", 0.04},
-    };
-#undef BLOCK
-    static const char text[] = BALL(
-        "(0, 0, 0)", "(0, 0, 0.20001)", "(0, 0, -1)", "0.3", "1.0", "'1.6 ms'",
-        PLANE) "probes = ( { name = 'push'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, 0, -1); } );";
-    const double modulus = 50e9 / (1.0 - 0.25 * 0.25);
-    const double mass = 2600.0 * 4.0 / 3.0 * MOR_PI * 0.008;
-    run_folder *folder = *state;
-    double first = 0.0;
-    for (size_t k = 0; k < sizeof walls / sizeof *walls; ++k) {
-        const double radius = 1.0 / (1.0 / 0.2 + 1.0 / walls[k].radius);
-        const double depth = pow(15.0 * mass / (16.0 * modulus * sqrt(radius)), 0.4);
-        const double force = 4.0 / 3.0 * modulus * sqrt(radius) * pow(depth, 1.5);
-        char name[16], wall[256];
-        snprintf(name, sizeof name, "form%zu", k);
-        snprintf(wall, sizeof wall, "%s", walls[k].shape);
-        for (char *c = wall; *c != '\0'; ++c) {
-            *c = *c == '\'' ? '"' : *c;
-        }
-        program_outcome outcome = run_text(folder, text, name, (const char *[]){wall, NULL}, 0);
-        const double found = read_maximum(folder, name, "push");
-        first = k == 0 ? found : first;
-        if (!(fabs(found / force - 1.0) < 0.03) || (isinf(walls[k].radius) && !(fabs(found / first - 1.0) < 0.001))) {
-            fail_msg("form %zu: %.6g N, Hertz %.6g N, a plane %.6g N", k, found, force, first);
-        }
-        program_clear(&outcome);
-    }
-}
-
-/* Two walls that make up one plane push a ball on their seam as that plane does, and share the force: that on each is
- * what acts on its part. Equal to rounding: the same surface is looked up. */
-static void walls_that_meet_flush_act_as_one(void **state)
-{
-#define HALF(name, low, high)                                                                                          \
-    "{ name = '" name "'; shape = { type = 'box'; min = (" low ", -1, -1); max = (" high ", 1, 0); }; }"
-    static const char parted[] = BALL(
-        "(0, 0, 0)", "(0.0125, 0, 0.20001)", "(1, 0, -1)", "0.3", "0.8", "'1.6 ms'",
-        HALF("floor", "-1", "0") "," HALF(
-            "more", "0",
-            "1")) "probes = ( { name = 'push'; type = 'body_force_contact'; body = 'ball'; direction = (0, 0, 1); },"
-                  "  { name = 'floor'; type = 'wall_contact_force'; wall = 'floor'; direction = (0, 0, -1); },"
-                  "  { name = 'more'; type = 'wall_contact_force'; wall = 'more'; direction = (0, 0, -1); },"
-                  "  { name = 'spin'; type = 'body_angular_velocity'; body = 'ball'; direction = (0, 1, 0); } );";
-    static const char whole[] =
-        BALL("(0, 0, 0)", "(0.0125, 0, 0.20001)", "(1, 0, -1)", "0.3", "0.8", "'1.6 ms'",
-             PLANE) "probes = ( { name = 'push'; type = 'body_force_contact'; body = 'ball'; direction = (0, 0, 1); },"
-                    "  { name = 'spin'; type = 'body_angular_velocity'; body = 'ball'; direction = (0, 1, 0); } );";
-#undef HALF
-    run_folder *folder = *state;
-    program_outcome outcome = run_text(folder, whole, "whole", as_it_is, 0);
-    program_clear(&outcome);
-    outcome = run_text(folder, parted, "parted", as_it_is, 0);
-    assert_null(strstr(outcome.errors, "goes on"));
-    program_clear(&outcome);
-    const double peak = read_maximum(folder, "whole", "push");
-    const double spin = read_maximum(folder, "whole", "spin");
-    assert_true(fabs(read_maximum(folder, "parted", "push") / peak - 1.0) < 1e-6);
-    assert_true(fabs(read_maximum(folder, "parted", "spin") / spin - 1.0) < 1e-4);
-    /* The contact lies half a spacing beyond the seam and is as wide as that: most of it, not all, on the far part. */
-    assert_true(read_maximum(folder, "parted", "more") > 0.5 * peak);
-    assert_true(read_maximum(folder, "parted", "floor") >= 0.0);
-}
-
-/* A ball that does not slip rolls down with 5/7 g sin(2 degrees), and one that rolls on a level keeps its speed. Within
- * 0.5 %: it settles on the contact as it begins (0.1 % measured). When the force acted beside the surface, by what that
- * curves between a node and the contact, a ball lost 3 to 8 % in a second and one of 0.05 m/s two fifths. */
-static void balls_roll_without_loss(void **state)
-{
-    run_folder *folder = *state;
-#define ALONG(value)                                                                                                   \
-    "probes = ( { name = 'along'; type = 'body_velocity'; body = 'ball'; direction = (1, 0, 0); } );"                  \
-    "expect = ( { probe = 'along'; value = " value "; tolerance = 0.005; source = 'rolling'; } );"
-    static const char down[] =
-        BALL("(0.342367, 0, -9.804024)", "(0, 0, 0.2)", "(0, 0, 0)", "0.8", "0.5", "0.5", PLANE) ALONG("0.122274");
-    static const char level[] =
-        BALL("(0, 0, -9.81)", "(0, 0, 0.2)", "(0.05, 0, 0)", "0.8", "0.5", "0.5", PLANE) ALONG("0.05");
-#undef ALONG
-    program_outcome outcome = run_text(folder, down, "down", as_it_is, 0);
-    program_clear(&outcome);
-    outcome =
-        run_text(folder, level, "level", (const char *[]){"bodies[0].angular_velocity=(0.0, 0.25, 0.0)", NULL}, 0);
-    program_clear(&outcome);
-}
-
 /* A smooth box that meets the floor with a corner leaves it, at the corner, with the restitution that was given: the
  * impulse (1 + e) m v / (1 + r^2 m / I) acts at the lever r of the corner. Within half a per cent of the impact's 2 m/s
  * and of its 9.6 rad/s: the box turns by 5 degrees on the way. */
@@ -562,10 +417,6 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_rock_stands_on_its_base_beside_a_shallow_edge, run_folder_setup,
                                         run_folder_teardown),
-        cmocka_unit_test_setup_teardown(surfaces_of_any_form_give_the_force_of_hertz, run_folder_setup,
-                                        run_folder_teardown),
-        cmocka_unit_test_setup_teardown(walls_that_meet_flush_act_as_one, run_folder_setup, run_folder_teardown),
-        cmocka_unit_test_setup_teardown(balls_roll_without_loss, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_corner_rebounds_as_it_is_told_to, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_flat_box_rebounds_as_it_is_told_to, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stiffness_that_was_chosen_is_told, run_folder_setup, run_folder_teardown),

@@ -51,7 +51,9 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
     static const char block[] = MOR_SOURCE_DIR "/cases/incline-block/case.cfg";
     static const char *const plates[] = {
         "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.08 m\"); max=(\"4 m\", \"0 m\");}",
-        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.15 m\"); max=(\"4 m\", \"0 m\");}"};
+        "walls[0].shape={type=\"box\"; min=(\"-1 m\", \"-0.15 m\"); max=(\"4 m\", \"0 m\");}",
+        "walls[0].shape={type=\"union\"; parts=({type=\"box\"; min=(\"-1 m\", \"-1 m\"); max=(\"1 m\", \"0 m\");},"
+        "{type=\"box\"; min=(\"2 m\", \"-1 m\"); max=(\"2.12 m\", \"0 m\");});}"};
 #define INCLINE "{name=\"incline\"; shape={type=\"box\"; min=(\"-1 m\", \"-1 m\"); max=(\"1 m\", \"0 m\");};}"
     static const char *const flush[] = {
         "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"0 m\");}; "
@@ -72,8 +74,9 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         {block, "walls[0].contact_modulus=30", "wall 'incline' has a contact_modulus of 30 Pa, softer than any"},
         {block, "walls[0].contact_modulus=30 MPa", NULL},
         {block, "gravity=(\"4.9 m/s2\", \"8.5 m/s2\", 0)", "gravity points up, along +y"},
-        {block, plates[0], "wall 'incline' is 0.08 m thick, 0.8 spacings; below one, a body that is pressed"},
+        {block, plates[0], "wall 'incline' is 0.08 m thick, 0.8 spacings, at ("},
         {block, plates[1], NULL},
+        {block, plates[2], "wall 'incline' is 0.12 m thick, 1.2 spacings, at ("},
         {block, flush[0], "wall 'step' goes on in wall 'incline' at ("},
         {block, flush[1], NULL},
         {block, flush[2], NULL},
