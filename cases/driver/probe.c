@@ -357,6 +357,23 @@ static mor_status density_drift(mor_context *context, const view *v, double *val
     return mor_measure_share(context, &v->points, fill_drifts, &job, v->probe->percentile, value);
 }
 
+mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *simulation, double percent,
+                                   double *value)
+{
+    const mor_soil *soil = &simulation->soil;
+    double *const *data = soil->set.data;
+    const mor_measure_points points = {.n_points = soil->set.n_particles,
+                                       .dimension = simulation->the_case->dimension,
+                                       .spacing = simulation->the_case->spacing,
+                                       .position = data[MOR_FIELD_POSITION],
+                                       .mass = data[MOR_FIELD_MASS],
+                                       .density = data[MOR_FIELD_DENSITY],
+                                       .n_threads = context->n_threads};
+    const drift_job job = {points.density, soil->settings.reference_density};
+    *value = 0.0;
+    return points.n_points == 0 ? MOR_OK : mor_measure_share(context, &points, fill_drifts, &job, percent, value);
+}
+
 static mor_status measure_column(mor_context *context, const view *v, mor_measure_stress *stress)
 {
     const mor_simulation *s = v->simulation;

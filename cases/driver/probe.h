@@ -72,6 +72,15 @@ const char *mor_probe_remark(const mor_simulation *simulation, int probe);
  *  Returns: unit J (J/m in plane strain). */
 double mor_probe_bodies_error(const mor_simulation *simulation, double *share);
 
+/** Measures how far densities of the soil are from the reference density, whether or not a probe does.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in]      one object
+ *  @param percent    [in]      percentile; unit 1; 0 to 100
+ *  @param value      [out]     one number, |density / reference - 1|; unit 1; 0 without soil
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *simulation, double percent,
+                                   double *value);
+
 /** Returns the SI unit of a probe of the case, a static string.
  *  @param the_case [in]  one object
  *  @param probe    [in]  index of the probe */

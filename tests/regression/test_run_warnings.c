@@ -63,6 +63,37 @@ static void warnings_stand_in_the_summary_also_after_a_resume(void **state)
     free(text);
 }
 
+/* A heap that collapses: with shifting its particles crowd, which a warning at the start foretells and one at the end
+ * measures, without a probe that asked; without shifting neither is there. */
+static void soil_that_crowds_is_warned_of_at_the_end(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    finished_run_store_case(folder, path);
+    for (int k = 0; k < 2; ++k) {
+        const char *const arguments[] = {"run", path,
+                                         "-t",  "1",
+                                         "-o",  k == 0 ? "shifted" : "plain",
+                                         "-s",  "end=0.4 s",
+                                         "-s",  "probes=({ type = \"height\"; })",
+                                         "-s",  k == 0 ? "numerics.shifting=true" : "numerics.shifting=false",
+                                         NULL};
+        program_outcome outcome = program_run(folder, arguments, 0);
+        char *text = load_summary(folder, k == 0 ? "shifted" : "plain");
+        if (k == 0) {
+            program_expect_text(outcome.errors, "numerics.shifting = true holds soil back that flows far");
+            program_expect_text(text,
+                                "at the end of the run the density of a hundredth of the soil is off its initial");
+            program_expect_text(text, "set numerics.shifting = false");
+        } else {
+            assert_null(strstr(outcome.errors, "warning"));
+            program_expect_text(text, "\"warnings\": []");
+        }
+        free(text);
+        program_clear(&outcome);
+    }
+}
+
 /* Rows closer together than steps: each step has one, and nothing is counted one by one up to 6e10. */
 static void series_finer_than_steps_has_a_row_for_each_step(void **state)
 {
@@ -116,6 +147,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(run_without_warnings_says_so, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(warnings_stand_in_the_summary_also_after_a_resume, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(soil_that_crowds_is_warned_of_at_the_end, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(series_finer_than_steps_has_a_row_for_each_step, run_folder_setup,
                                         run_folder_teardown),
