@@ -22,6 +22,7 @@ typedef struct mor_terrain {
     double offset[3]; /* what was subtracted from the raster's coordinates and heights, m */
     int added[2][2];  /* nodes along x and y that mor_terrain_extend put before the first and behind the last one */
     char datum[128];  /* horizontal and vertical reference system in words; empty: not given */
+    uint64_t hash;    /* of all files it was read from: mor_hash_file of a single one */
 } mor_terrain;
 
 /** How to read a raster. Made ready by mor_terrain_request_init. */
@@ -44,7 +45,8 @@ void mor_terrain_request_init(mor_terrain_request *request);
  *  @param request [in]      one object
  *  @param terrain [out]     one object; empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that is no raster; MOR_ERROR_ARGUMENT for a raster that is rotated, in
- *  degrees, has fewer than 2 x 2 nodes in the crop, or lacks data, with what to do; MOR_ERROR_MEMORY. */
+ *  degrees or feet, has fewer than 2 x 2 nodes in the crop, lacks data, or has a .prj beside it that cannot be
+ *  understood, with what to do; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain);
 
 /** Frees what the terrain owns; accepts a zeroed one.

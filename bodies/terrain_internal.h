@@ -97,6 +97,33 @@ typedef enum mor_terrain_format {
  *  Returns: MOR_OK; MOR_ERROR_IO with line and column. */
 mor_status mor_terrain_check_text(mor_context *context, const char *path, mor_terrain_format format, const int *n);
 
+/** What a file beside a raster states about its reference system (.prj). Zeroed: there is none. */
+typedef struct mor_terrain_prj {
+    char path[4096];  /* zero-terminated; empty: there is none */
+    char *memory;     /* owned; of both texts */
+    char *first;      /* zero-terminated; the first statement, as PROJCS[...], or all keywords; borrowed */
+    char *rest;       /* zero-terminated; what follows, as VERTCS[...]; borrowed */
+    bool is_keywords; /* the old form, lines of a keyword and a value */
+} mor_terrain_prj;
+
+/** Finds the .prj beside a raster and takes it apart; a mark of the byte order is skipped.
+ *  @param context [in,out]  one object
+ *  @param raster  [in]      zero-terminated; path
+ *  @param prj     [out]     one object; ended with mor_terrain_prj_clear, also after a failure
+ *  Returns: MOR_OK, also without one; MOR_ERROR_ARGUMENT for one that is too long, or whose Zunits are not meters;
+ *  MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_terrain_prj_load(mor_context *context, const char *raster, mor_terrain_prj *prj);
+
+/** Frees what was loaded.
+ *  @param context [in,out]  one object
+ *  @param prj     [in,out]  one object; becomes zeroed */
+void mor_terrain_prj_clear(mor_context *context, mor_terrain_prj *prj);
+
+/** Whether a file beside a raster may change what is read. Copies of lower resolution do not, nor does an .aux.xml of
+ *  statistics alone, which programs that show a raster leave behind.
+ *  @param path [in]  zero-terminated */
+bool mor_terrain_side_tells(const char *path);
+
 /** Nodes a terrain may have, so that it fits into memory beside the particles on it. */
 #define MOR_TERRAIN_NODES_MAX 67108864.0
 

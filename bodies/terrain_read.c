@@ -2,10 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "bodies/terrain_internal.h"
 
+#include "core/base/hash.h"
 #include "core/base/memory.h"
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_string.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
 #include <math.h>
@@ -25,7 +27,7 @@
 #define LIKELY_MARK 20.0
 #define SURELY_MARK 1e4
 
-/* Formats of one file each: its hash then stands for all that was read. */
+/* Formats whose files GDAL can list: their hash then stands for all that was read. */
 static const char *const drivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "GSAG", "GSBG", "GS7BG", NULL};
 
 /* An open raster and what its header says. */
@@ -38,6 +40,7 @@ typedef struct raster {
     int n[2];         /* nodes */
     int window[2][2]; /* first and last node kept, along x and upwards */
     mor_terrain_format format;
+    mor_terrain_prj prj;
     bool is_downward; /* row 0 of the file has the largest y */
 } raster;
 
@@ -150,32 +153,132 @@ static mor_status place_raster(mor_context *context, raster *it)
     return MOR_OK;
 }
 
+/* Meters are asked for, of coordinates and heights. place: of the file that states the system. */
+static mor_status judge_system(mor_context *context, const char *place, OGRSpatialReferenceH system)
+{
+    const char *name = OSRGetName(system);
+    name = name != NULL ? name : "unnamed";
+    MOR_CHECK(context, !OSRIsGeographic(system), MOR_ERROR_ARGUMENT,
+              "%s: its coordinates are degrees (%s); allowed are meters: project it with gdalwarp -t_srs EPSG:<code of "
+              "the local map grid>",
+              place, name);
+    const bool has_heights = OSRIsVertical(system);
+    const double meters = has_heights && !OSRIsCompound(system) ? 1.0 : OSRGetLinearUnits(system, NULL);
+    MOR_CHECK(context, meters == 1.0, MOR_ERROR_ARGUMENT,
+              "%s: its coordinates are in units of %g m (%s); allowed are meters: project it with gdalwarp -t_srs",
+              place, meters, name);
+    const double height = has_heights ? OSRGetTargetLinearUnits(system, "VERT_CS", NULL) : 1.0;
+    MOR_CHECK(context, height == 1.0, MOR_ERROR_ARGUMENT,
+              "%s: its heights are in units of %g m (%s); allowed are meters: convert them with gdal_calc.py, and "
+              "correct what names their unit",
+              place, height, name);
+    return MOR_OK;
+}
+
+static void describe_system(OGRSpatialReferenceH system, char *datum, size_t n_bytes)
+{
+    const char *name = OSRGetName(system);
+    const char *vertical = OSRGetAttrValue(system, "VERT_CS", 0);
+    snprintf(datum, n_bytes, "%s; heights: %s", name != NULL ? name : "unnamed",
+             vertical != NULL ? vertical : "datum not given");
+}
+
+/* Makes a system of a text. */
+static OGRErr parse_system(OGRSpatialReferenceH system, char *text, bool is_keywords)
+{
+    if (!is_keywords) {
+        return OSRImportFromWkt(system, &(char *){text});
+    }
+    char **lines = CSLTokenizeString2(text, "\r\n", 0);
+    const OGRErr error = OSRImportFromESRI(system, lines);
+    CSLDestroy(lines);
+    return error;
+}
+
+/* One statement of a .prj; the first one is told in words where the raster itself names no system. */
+static mor_status judge_text(mor_context *context, const mor_terrain_prj *prj, char *text, char *datum, size_t n_bytes)
+{
+    enum { SHOWN = 40 };
+    OGRSpatialReferenceH system = OSRNewSpatialReference(NULL);
+    const bool is_bad = system == NULL || parse_system(system, text, prj->is_keywords) != OGRERR_NONE;
+    mor_status status = MOR_OK;
+    if (!is_bad) {
+        status = judge_system(context, prj->path, system);
+        if (datum[0] == '\0') {
+            describe_system(system, datum, n_bytes);
+        }
+    }
+    OSRDestroySpatialReference(system);
+    const int n_shown = (int)strcspn(text, "\r\n");
+    MOR_CHECK(
+        context, !is_bad, MOR_ERROR_ARGUMENT,
+        "%s: found '%.*s%s', which is not understood as a reference system; allowed is one in full, as gdalsrsinfo "
+        "-o wkt1 EPSG:<code> prints it: replace the file, or remove it if the raster is in meters",
+        prj->path, n_shown < SHOWN ? n_shown : SHOWN, text, strlen(text) > SHOWN ? "..." : "");
+    return status;
+}
+
+static mor_status read_prj(mor_context *context, const mor_terrain_prj *prj, char *datum, size_t n_bytes)
+{
+    if (prj->path[0] == '\0') {
+        return MOR_OK;
+    }
+    MOR_TRY(context, judge_text(context, prj, prj->first, datum, n_bytes));
+    if (prj->rest[0] != '\0') {
+        MOR_TRY(context, judge_text(context, prj, prj->rest, datum, n_bytes));
+    }
+    return MOR_OK;
+}
+
 /* Words for the reference system; meters are asked for. */
 static mor_status read_datum(mor_context *context, const raster *it, char *datum, size_t n_bytes)
 {
     const char *unit = GDALGetRasterUnitType(it->band);
+    OGRSpatialReferenceH system = GDALGetSpatialRef(it->dataset);
     MOR_CHECK(context, unit == NULL || unit[0] == '\0' || strcmp(unit, "m") == 0 || EQUALN(unit, "met", 3),
               MOR_ERROR_ARGUMENT, "%s: heights are in '%s'; allowed are meters: convert them with gdal_calc.py",
               it->path, unit);
-    OGRSpatialReferenceH system = GDALGetSpatialRef(it->dataset);
-    if (system == NULL) {
-        datum[0] = '\0';
+    datum[0] = '\0';
+    if (system != NULL) {
+        MOR_TRY(context, judge_system(context, it->path, system));
+        describe_system(system, datum, n_bytes);
+    }
+    MOR_TRY(context, read_prj(context, &it->prj, datum, n_bytes));
+    if (datum[0] == '\0') {
         mor_context_log(context, MOR_LOG_INFO, "%s: names no reference system; coordinates and heights taken as meters",
                         it->path);
-        return MOR_OK;
     }
-    const char *name = OSRGetName(system);
-    MOR_CHECK(context, !OSRIsGeographic(system), MOR_ERROR_ARGUMENT,
-              "%s: its coordinates are degrees (%s); allowed are meters: project it with gdalwarp -t_srs EPSG:<code of "
-              "the local map grid>",
-              it->path, name != NULL ? name : "unnamed");
-    const double meters = OSRGetLinearUnits(system, NULL);
-    MOR_CHECK(context, meters == 1.0, MOR_ERROR_ARGUMENT,
-              "%s: its coordinates are in units of %g m (%s); allowed are meters: project it with gdalwarp -t_srs",
-              it->path, meters, name != NULL ? name : "unnamed");
-    const char *vertical = OSRGetAttrValue(system, "VERT_CS", 0);
-    snprintf(datum, n_bytes, "%s; heights: %s", name != NULL ? name : "unnamed",
-             vertical != NULL ? vertical : "datum not given");
+    return MOR_OK;
+}
+
+/* The hash of a single file; of several, of their hashes in order. */
+static mor_status hash_files(mor_context *context, const raster *it, uint64_t *value)
+{
+    mor_hash all;
+    uint64_t one = 0;
+    int n_files = 1;
+    mor_hash_init(&all);
+    MOR_TRY(context, mor_hash_file(context, it->path, value));
+    mor_hash_add(&all, value, sizeof *value);
+    char **files = GDALGetFileList(it->dataset);
+    mor_status status = MOR_OK;
+    for (int k = 0; files != NULL && files[k] != NULL && status == MOR_OK; ++k) {
+        if (strcmp(files[k], it->path) == 0 || strcmp(files[k], it->prj.path) == 0 ||
+            !mor_terrain_side_tells(files[k])) {
+            continue;
+        }
+        status = mor_hash_file(context, files[k], &one);
+        mor_hash_add(&all, &one, sizeof one);
+        n_files += 1;
+    }
+    CSLDestroy(files);
+    MOR_TRY(context, status);
+    if (it->prj.path[0] != '\0') {
+        MOR_TRY(context, mor_hash_file(context, it->prj.path, &one));
+        mor_hash_add(&all, &one, sizeof one);
+        n_files += 1;
+    }
+    *value = n_files > 1 ? mor_hash_value(&all) : *value;
     return MOR_OK;
 }
 
@@ -343,6 +446,8 @@ static mor_status read_terrain(mor_context *context, const mor_terrain_request *
                                mor_terrain *terrain)
 {
     MOR_TRY(context, open_raster(context, it));
+    MOR_TRY(context, mor_terrain_prj_load(context, it->path, &it->prj));
+    MOR_TRY(context, hash_files(context, it, &terrain->hash));
     if (it->format != MOR_TERRAIN_BINARY) {
         MOR_TRY(context, mor_terrain_check_text(context, it->path, it->format, it->n));
     }
@@ -371,9 +476,9 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
     MOR_TRY(context, check_request(context, request));
     MOR_TRY(context, check_file(context, request->path));
     raster it = {.path = request->path};
-    /* Nothing printed, no side files written, nothing fetched. */
+    /* Nothing printed, nothing fetched. A file that is open for reading alone, without statistics, gets no side files;
+     * those that lie there (.aux.xml) are read: they may name units, scales and missing data. */
     CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
     CPLSetThreadLocalConfigOption("AAIGRID_DATATYPE", "Float64");  /* else nan among whole numbers reads as zero */
     CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES"); /* else GeoTIFF hides the datum of heights */
     OSRSetPROJEnableNetwork(0);
@@ -382,6 +487,7 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
     if (it.dataset != NULL) {
         GDALClose(it.dataset);
     }
+    mor_terrain_prj_clear(context, &it.prj);
     CPLErrorReset();
     CPLPopErrorHandler();
     if (status != MOR_OK) {

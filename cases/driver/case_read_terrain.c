@@ -116,6 +116,7 @@ static mor_status build_terrain(const mor_case_reader *reader, const mor_case_no
         ground->thickness = GROUND_SPACINGS * reader->spacing;
     }
     MOR_TRY(reader->context, read_raster(reader, node, ground, &terrain));
+    outline->file_hash = terrain.hash; /* with the files beside it that say where and in what it lies */
     mor_status status = cover_domain(reader, node, ground, &terrain);
     if (status == MOR_OK) {
         status = mor_shape_new_terrain(reader->context, &terrain, ground->thickness, GROUND_SPACINGS * reader->spacing,

@@ -269,6 +269,36 @@ static void changed_buffer_of_a_mesh_is_another_case(void **state)
     RUN_QUIETLY(folder, "run", "--resume");
 }
 
+/* A file that says where the raster lies or in what belongs to it. */
+static void changed_file_beside_a_raster_is_another_case(void **state)
+{
+    static const char text[] =
+        "dimension = 3; spacing = 0.2; end = 0.02; gravity = (0, 0, -10);"
+        "domain = { min = (1, 1, -1); max = (4, 4, 3); };"
+        "walls = ( { name = 'ground'; shape = { type = 'terrain'; file = 'g.asc'; offset = (0, 0, 0); }; } );"
+        "bodies = ( { name = 'cube'; shape = { type = 'box'; min = (2, 2, 1); max = (3, 3, 2); };"
+        "  particles = 'lattice'; material = { model = 'rigid'; density = 2500; }; } );"
+        "output = { snapshots = 1; pictures = false; };";
+    static const char raster[] = "ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
+                                 "0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n";
+    static const char *const systems[] = {"LOCAL_CS[\"site\",UNIT[\"metre\",1]]",
+                                          "LOCAL_CS[\"other\",UNIT[\"metre\",1]]"};
+    run_folder *folder = *state;
+    char case_path[MOR_PATH_BYTES];
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, case_path);
+    run_folder_store(run_folder_file(folder, path, "g.asc"), raster, sizeof raster - 1);
+    run_folder_store(run_folder_file(folder, path, "g.prj"), systems[0], strlen(systems[0]));
+    RUN_QUIETLY(folder, "run", "--stop-at", "0.01");
+    run_folder_store(path, systems[1], strlen(systems[1]));
+    program_outcome outcome = RUN(folder, "run", 2, "--resume");
+    program_expect_text(outcome.errors, "walls[0].shape.content of its file");
+    program_expect_text(outcome.errors, "the file has changed since");
+    program_clear(&outcome);
+    run_folder_store(path, systems[0], strlen(systems[0]));
+    RUN_QUIETLY(folder, "run", "--resume");
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
@@ -283,6 +313,7 @@ int main(void)
         TEST(probe_may_be_added),
         TEST(energy_audit_cannot_begin_later),
         TEST(changed_buffer_of_a_mesh_is_another_case),
+        TEST(changed_file_beside_a_raster_is_another_case),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
