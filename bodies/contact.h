@@ -64,6 +64,7 @@ typedef struct mor_contact {
     double spring_energy;   /* stored in normal and tangential springs at the last sub-step, J (J/m) */
     double friction_energy; /* lost to sliding since the start, J (J/m) */
     double damping_energy;  /* lost to restitution since the start, J (J/m) */
+    double wall_energy;     /* that bodies gave to moving walls since the start, J (J/m) */
     double deepest;         /* deepest penetration at the last sub-step, m */
     double deepest_share;   /* largest so far of a penetration over what is allowed, saved with the run's values; 1 */
     double driven_share;    /* likewise, of sides that no force moves, when it was warned of, saved, too; 0: never */

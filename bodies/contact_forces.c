@@ -571,6 +571,16 @@ void mor_contact_add_sums(mor_contact *contact)
     }
 }
 
+/* What the members' bodies give to walls that move as prescribed. */
+static void add_wall_energy(mor_contact *contact, uint64_t members, double length)
+{
+    for (int w = 0; w < contact->n_walls; ++w) {
+        double force[3];
+        mor_contact_wall_force(contact, w, members, force);
+        contact->wall_energy += mor_vector_dot(force, contact->walls[w].velocity) * length;
+    }
+}
+
 void mor_contact_act(mor_contact *contact, uint64_t members, double length)
 {
     mor_contact_recall(contact);
@@ -580,5 +590,6 @@ void mor_contact_act(mor_contact *contact, uint64_t members, double length)
         act_on_pair(contact, k, length);
     }
     mor_contact_forget(contact, members);
+    add_wall_energy(contact, members, length);
     mor_contact_add_sums(contact);
 }

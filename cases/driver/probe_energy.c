@@ -72,12 +72,12 @@ static mor_status soil_work_on_bodies(mor_context *context, const view *v, doubl
     return MOR_OK;
 }
 
-/* What bodies that move as prescribed took out, beside what the soil gave them: contact with others, and height that
- * they gained or lost without anyone's energy. */
+/* What bodies and walls that move as prescribed took out, beside what the soil gave them: contact with others, and
+ * height that bodies gained or lost without anyone's energy. */
 static double find_driven_bodies(const mor_simulation *s)
 {
     const double time = mor_schedule_time(&s->schedule);
-    double sum = 0.0;
+    double sum = s->bodies.contact.wall_energy;
     for (int b = 0; b < s->the_case->n_bodies; ++b) {
         const mor_simulation_body *it = &s->bodies.of[b];
         if (s->the_case->bodies[b].is_prescribed && it->rigid != NULL) {
@@ -160,9 +160,6 @@ static mor_status energy_balance(mor_context *context, const view *v, double *va
 static bool is_closed(const mor_case *c)
 {
     bool is_closed = c->n_soils == 0 && !(c->numerics.gravity_ramp > 0.0) && !(c->numerics.damping > 0.0);
-    for (int w = 0; w < c->n_walls; ++w) {
-        is_closed = is_closed && mor_vector_length(c->walls[w].velocity) == 0.0;
-    }
     for (int b = 0; b < c->n_bodies; ++b) {
         is_closed = is_closed && !(c->bodies[b].spring_damping > 0.0);
     }

@@ -290,6 +290,7 @@ static void list_state(mor_simulation *s, saved_state *state)
         {"contact_spring_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.spring_energy},
         {"contact_friction_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.friction_energy},
         {"contact_damping_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.damping_energy},
+        {"contact_wall_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.wall_energy},
     };
     memset(state, 0, sizeof *state);
     memcpy(state->values, list, sizeof list);

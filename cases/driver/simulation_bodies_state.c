@@ -290,6 +290,7 @@ mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bod
     }
     bodies->contact.friction_energy = 0.0;
     bodies->contact.damping_energy = 0.0;
+    bodies->contact.wall_energy = 0.0;
     return MOR_OK;
 }
 

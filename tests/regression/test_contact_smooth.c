@@ -131,6 +131,23 @@ static void restitution_does_not_brake_what_rolls(void **state)
     assert_true(fabs(speeds[0] / speeds[1] - 1.0) < 0.01);
 }
 
+/* A wall that moves works on the ball by its force times its way: that of the momentum it gave, but for rounding. */
+static void a_moving_wall_works_on_bodies(void **state)
+{
+    static const char text[] = BALL("(0, 0, 0)", "(0, 0, 0.201)", "(0, 0, -2)", "0.0", "0.5", "'2 ms'",
+                                    PLANE) "probes = ( { name = 'work'; type = 'external_work'; },"
+                                           "  { name = 'momentum'; type = 'momentum'; direction = (0, 0, 1); } );";
+    run_folder *folder = *state;
+    program_outcome outcome =
+        run_text(folder, text, "moving", (const char *[]){"walls[0].velocity=(0.0, 0.0, 5.0)", NULL}, 0);
+    assert_null(strstr(outcome.errors, "energ"));
+    program_clear(&outcome);
+    const double mass = 2600.0 * 4.0 / 3.0 * MOR_PI * 0.008;
+    const double given = read_maximum(folder, "moving", "momentum") + 2.0 * mass;
+    assert_true(given > 9.0 * mass); /* it leaves with 5 + 0.5 * 7 m/s */
+    assert_true(fabs(read_maximum(folder, "moving", "work") / (5.0 * given) - 1.0) < 1e-6);
+}
+
 /* Two walls that make up one plane push a ball on their seam as that plane does, and share the force: that on each is
  * what acts on its part. Equal to rounding: the same surface is looked up. */
 static void walls_that_meet_flush_act_as_one(void **state)
@@ -194,6 +211,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(balls_rebound_as_told_at_any_speed, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_wall_that_is_touched_at_an_edge_is_warned_of, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_moving_wall_works_on_bodies, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(walls_that_meet_flush_act_as_one, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(restitution_does_not_brake_what_rolls, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(balls_roll_without_loss, run_folder_setup, run_folder_teardown),
