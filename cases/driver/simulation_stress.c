@@ -107,6 +107,57 @@ static mor_status check_level(mor_context *context, const mor_simulation *simula
     return MOR_OK;
 }
 
+/* Particles of other regions in the columns of this one that begin within a spacing above its level; covered: shape
+ * [columns]. Writes the highest center of such a column. */
+static int64_t find_cover(const mor_simulation *simulation, const surface *s, double level, int64_t first, int64_t n,
+                          const bool *covered, double *highest)
+{
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    int64_t n_cover = 0;
+    *highest = -INFINITY;
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        const int64_t column = column_of(s, position + 3 * i);
+        const double above = mor_vector_dot(position + 3 * i, simulation->up) - level;
+        if ((i < first || i >= first + n) && covered[column] && above > 0.0 && above <= s->spacing) {
+            n_cover += 1;
+            *highest = fmax(*highest, s->top[column]);
+        }
+    }
+    return n_cover;
+}
+
+/* Soil of another region that lies on the level is no part of the weight that the level stands for. */
+static mor_status warn_of_cover(mor_context *context, const mor_simulation *simulation, const surface *s,
+                                const mor_case_soil *it, int64_t first, int64_t n)
+{
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    double origin[3];
+    double highest = 0.0;
+    bool *covered = NULL;
+    if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(it->surface_level)) {
+        return MOR_OK;
+    }
+    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    const double level = it->surface_level + mor_vector_dot(origin, simulation->up);
+    MOR_TRY(context, MOR_NEW(context, &covered, s->n[0] * s->n[1], "columns of a region of soil"));
+    for (int64_t i = first; i < first + n; ++i) {
+        covered[column_of(s, position + 3 * i)] = true;
+    }
+    const int64_t n_cover = find_cover(simulation, s, level, first, n, covered, &highest);
+    MOR_FREE(context, &covered);
+    if (n_cover > 0) {
+        const double missing = highest + 0.5 * s->spacing - level;
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s:%d: surface_level = %g m of soil '%s' has other soil on it, up to %.4g m above: that weight, "
+            "up to %.3g Pa, is missing in its initial stress, and the soil below gives way as the run "
+            "begins; leave surface_level out for the weight of all soil straight above, or raise it",
+            it->place.file, it->place.line, it->surface_level, it->name, missing,
+            it->density * mor_vector_length(simulation->soil.settings.gravity) * missing);
+    }
+    return MOR_OK;
+}
+
 /* Geostatic stress of one region. */
 static void set_region(mor_simulation *simulation, const surface *s, const mor_case_soil *it, int64_t first, int64_t n)
 {
@@ -148,6 +199,9 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
     for (int k = 0; k < simulation->the_case->n_soils && status == MOR_OK; ++k) {
         const mor_case_soil *it = &simulation->the_case->soils[k];
         status = check_level(context, simulation, it, first, regions[k].n_points);
+        if (status == MOR_OK) {
+            status = warn_of_cover(context, simulation, &s, it, first, regions[k].n_points);
+        }
         set_region(simulation, &s, it, first, regions[k].n_points);
         first += regions[k].n_points;
     }
