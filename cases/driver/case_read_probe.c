@@ -97,6 +97,48 @@ static void normalize(double *direction)
     }
 }
 
+/* A share and a percentage are a factor of a hundred apart; a number with its unit is taken at its word. */
+static void warn_of_share(const mor_case_reader *reader, const mor_case_node *node, const char *words)
+{
+    mor_context_log(reader->context, MOR_LOG_WARNING, "%s:%d: found %s = %g, %s", node->origin, node->line, node->name,
+                    node->real, words);
+}
+
+static bool is_bare(const mor_case_node *node)
+{
+    return node != NULL && (node->kind == MOR_CASE_NODE_REAL || node->kind == MOR_CASE_NODE_INTEGER);
+}
+
+static void warn_of_percentile(const mor_case_reader *reader, const mor_case_node *node)
+{
+    const mor_case_node *given = mor_case_node_find(node, "percentile");
+    if (is_bare(given) && given->real > 0.0 && given->real <= 1.0) {
+        char words[160];
+        snprintf(words, sizeof words,
+                 "which is %g %%: percentiles are in percent; if %g %% is meant, write %g, else \"%g %%\"", given->real,
+                 100.0 * given->real, 100.0 * given->real, given->real);
+        warn_of_share(reader, given, words);
+    }
+}
+
+/* Relative tolerances only. */
+static void warn_of_tolerance(const mor_case_reader *reader, const mor_case_node *node)
+{
+    static const char *const keys[] = {"tolerance", "tolerance_low"};
+    for (int k = 0; k < 2; ++k) {
+        const mor_case_node *given = mor_case_node_find(node, keys[k]);
+        if (is_bare(given) && given->real >= 1.0) {
+            char words[192];
+            snprintf(
+                words, sizeof words,
+                "a share of the value, so that results off by %g %% pass: if %g %% is meant, write %g; a difference "
+                "in the unit of the probe needs absolute = true",
+                100.0 * given->real, given->real, 0.01 * given->real);
+            warn_of_share(reader, given, words);
+        }
+    }
+}
+
 static mor_status complete_probe(const mor_case_reader *reader, const mor_case_node *node, double spacing,
                                  const mor_case_probe_type *type, mor_case_probe *probe)
 {
@@ -108,6 +150,7 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
     if (!mor_case_reader_has(group, probe->written, "percentile")) {
         probe->percentile = type->percentile;
     }
+    warn_of_percentile(reader, node);
     if (!mor_case_reader_has(group, probe->written, "thickness")) {
         probe->thickness = 0.5 * spacing;
     }
@@ -337,6 +380,9 @@ static mor_status check_expectation(const mor_case_reader *reader, const mor_cas
             "found value = 0 with a tolerance "
             "that is a share of it; allowed: a tolerance in the unit of the probe; add absolute = "
             "true");
+    }
+    if (!expectation->is_absolute) {
+        warn_of_tolerance(reader, node);
     }
     for (const mor_case_expectation *other = the_case->expectations; other < expectation; ++other) {
         if (strcmp(other->probe, expectation->probe) == 0 && other->statistic == expectation->statistic &&

@@ -195,7 +195,8 @@ mor_status mor_command_run(mor_command *command, int *exit_code)
                                      .commit = MOR_COMMIT,
                                      .stop = command->stop,
                                      .output = command->output,
-                                     .progress = isatty(fileno(command->errors)) ? command->errors : NULL};
+                                     .progress = command->errors,
+                                     .is_terminal = isatty(fileno(command->errors)) != 0};
     mor_status status = make_registry(command->context, &registry);
     if (status == MOR_OK) {
         status = mor_run(command->context, &options, registry, &outcome);

@@ -63,6 +63,16 @@ void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_
  *  @param probe      [in]  index of the probe in the case */
 const char *mor_probe_remark(const mor_simulation *simulation, int probe);
 
+/** The most energy that has changed hands since the start, as a probe of type energy_balance followed it.
+ *  @param simulation [in]  one object
+ *  @param probe      [in]  index of such a probe in the case
+ *  Returns: unit J (J/m in plane strain). */
+double mor_probe_energy_moved(const mor_simulation *simulation, int probe);
+
+/** Work to lift all soil and bodies by a spacing, unit J (J/m in plane strain).
+ *  @param simulation [in]  one object */
+double mor_probe_lift_energy(const mor_simulation *simulation);
+
 /** Error of the energy of bodies without soil: what they have now, more than at the start less what contact and
  *  damping took and what drives them gave.
  *  @param simulation [in]   one object

@@ -156,6 +156,21 @@ static mor_status energy_balance(mor_context *context, const view *v, double *va
     return MOR_OK;
 }
 
+double mor_probe_energy_moved(const mor_simulation *s, int probe)
+{
+    return s->probes.past[probe][MOR_PROBE_RECORD_MAXIMUM];
+}
+
+double mor_probe_lift_energy(const mor_simulation *s)
+{
+    const double weight = mor_vector_length(s->the_case->gravity);
+    double mass = 0.0;
+    for (int64_t i = 0; s->has_soil && i < s->soil.set.n_particles; ++i) {
+        mass += s->soil.set.data[MOR_FIELD_MASS][i];
+    }
+    return mass * weight * s->the_case->spacing + mor_simulation_bodies_lift(&s->bodies);
+}
+
 /* Whether nothing but the bodies and what the audit knows of them gives or takes energy. */
 static bool is_closed(const mor_case *c)
 {

@@ -17,16 +17,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Seconds between two lines of progress. */
-#define PROGRESS_SECONDS 0.5
-
 /* The clockwork of a run beside the simulation itself. */
 typedef struct pace {
     double loop_seconds;   /* wall time spent in steps, s */
     uint64_t n_loop_steps; /* steps behind loop_seconds */
     uint64_t n_sub_steps;  /* of the bodies in these steps */
     double last_save;      /* wall time of the last checkpoint, s */
-    double last_progress;  /* wall time of the last line of progress, s */
     int64_t next_row;      /* number of the next row of the series */
     int64_t next_snapshot; /* number of the next snapshot */
     double fastest;        /* largest speed of the soil in these steps, m/s */
@@ -64,24 +60,23 @@ static void find_next_outputs(const mor_simulation *s, pace *p)
     }
 }
 
-static void show_progress(const mor_run_options *options, const mor_simulation *s, pace *p)
+static void show_progress(mor_run_progress *progress, const mor_simulation *s, const pace *p)
 {
-    const double now = mor_clock_now();
-    if (options->progress == NULL || now - p->last_progress < PROGRESS_SECONDS || p->n_loop_steps == 0) {
+    char line[MOR_RUN_PROGRESS_BYTES];
+    if (p->n_loop_steps == 0 || !mor_run_progress_is_due(progress, mor_clock_now())) {
         return;
     }
-    p->last_progress = now;
     const mor_schedule *schedule = &s->schedule;
     const double part = (double)schedule->now / (double)schedule->end;
     const double seconds_per_step = p->loop_seconds / (double)p->n_loop_steps;
     const double steps_left = (double)(schedule->end - schedule->now) * schedule->tick / schedule->step_length;
     const double left = steps_left * seconds_per_step;
-    fprintf(options->progress,
-            "\r%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  sub-steps %d  %.2f M %s/s  %d min %02d s left   ",
-            100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
-            mor_schedule_rate_ratio(schedule), 1e-6 * (double)mor_simulation_counted_particles(s) / seconds_per_step,
-            mor_simulation_counted_unit(s), (int)(left / 60.0), (int)fmod(left, 60.0));
-    fflush(options->progress);
+    snprintf(line, sizeof line,
+             "%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  sub-steps %d  %.2f M %s/s  %.0f min %02d s left",
+             100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
+             mor_schedule_rate_ratio(schedule), 1e-6 * (double)mor_simulation_counted_particles(s) / seconds_per_step,
+             mor_simulation_counted_unit(s), floor(left / 60.0), (int)fmod(left, 60.0));
+    mor_run_progress_show(progress, line);
 }
 
 /* Rows and snapshots that are due now. */
@@ -153,7 +148,7 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, mor_probe_follow(context, s));
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_WRITING);
         MOR_TRY(context, write_outputs(context, files, p));
-        show_progress(files->options, s, p);
+        show_progress(&files->progress, s, p);
     }
     return MOR_OK;
 }
@@ -257,6 +252,7 @@ static mor_status warn_of_density_drift(mor_context *context, const mor_simulati
 static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
 {
     const double advisable = 0.05;
+    const double still = 1.0e-4; /* of a spacing: where less energy moved than lifts all by it, nothing has happened */
     double share = 0.0;
     const double error = mor_probe_bodies_error(s, &share);
     if (!(fabs(share) <= advisable)) {
@@ -276,6 +272,9 @@ static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
             continue;
         }
         MOR_TRY(context, mor_probe_evaluate(context, s, k, &value));
+        if (mor_probe_energy_moved(s, k) < still * mor_probe_lift_energy(s)) {
+            continue;
+        }
         if (!(fabs(value - 1.0) <= advisable)) {
             mor_context_log(context, MOR_LOG_WARNING,
                             MOR_RUN_WARNING_AT_END
@@ -324,9 +323,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
                              ? (double)mor_simulation_counted_particles(s) * (double)p->n_loop_steps / p->loop_seconds
                              : NAN;
     outcome->is_finished = s->schedule.now >= s->schedule.end;
-    if (options->progress != NULL) {
-        fprintf(options->progress, "\r%*s\r", 126, "");
-    }
+    mor_run_progress_end(&files->progress);
     mor_stop_enter(options->stop, MOR_STOP_AFTER_WRITING);
     MOR_TRY(context, mor_run_files_save(context, files));
     mor_stop_enter(options->stop, MOR_STOP_AT_ONCE);
@@ -375,7 +372,9 @@ static void log_reason(const mor_context *context, FILE *log)
 static mor_status run_simulation(mor_context *context, mor_run_files *files, const mor_registry *registry,
                                  mor_run_outcome *outcome)
 {
-    pace p = {.last_progress = mor_clock_now(), .next_snapshot = 1};
+    pace p = {.next_snapshot = 1};
+    files->progress = (mor_run_progress){
+        .stream = files->options->progress, .is_terminal = files->options->is_terminal, .last = mor_clock_now()};
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
     mor_rocks_report_log(context, files->the_case);
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
@@ -397,9 +396,8 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     outcome->is_interrupted = mor_stop_is_requested(files->options->stop);
     if (status == MOR_OK && files->series.stream != NULL) {
         status = finish_run(context, files, &p, outcome);
-    } else if (files->options->progress != NULL) {
-        fprintf(files->options->progress, "\n");
     }
+    mor_run_progress_end(&files->progress);
     mor_stop_enter(files->options->stop, MOR_STOP_AT_ONCE);
     if (status != MOR_OK) {
         if (files->series.stream != NULL) { /* before that there is nothing to go on from */

@@ -25,7 +25,8 @@ typedef struct mor_run_options {
     const char *commit;  /* the program was built from */
     mor_stop *stop;      /* asked whether the user wants to stop, told what the run is at; NULL: never */
     FILE *output;        /* where the final table goes */
-    FILE *progress;      /* a terminal that shows progress; NULL: quiet */
+    FILE *progress;      /* where progress is shown; NULL: nowhere */
+    bool is_terminal;    /* it can write over the line before */
 } mor_run_options;
 
 /** How it went. */

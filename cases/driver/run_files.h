@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_RUN_FILES_H
 
 #include "cases/driver/run.h"
+#include "cases/driver/run_progress.h"
 #include "cases/driver/run_warnings.h"
 #include "core/io/checkpoint.h"
 #include "core/io/snapshot.h"
@@ -53,6 +54,7 @@ typedef struct mor_run_files {
     mor_table_column columns[MOR_RUN_COLUMNS_MAX]; /* shape [n_columns] */
     int n_columns;
     int first_probe; /* column of the first probe */
+    mor_run_progress progress;
 } mor_run_files;
 
 /** Begins to collect what is logged, for the log of a folder that is not there yet.

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/run_settle.h"
 
+#include "cases/driver/clock.h"
 #include "cases/driver/pictures.h"
 #include "core/io/durable_file.h"
 
@@ -51,10 +52,28 @@ static mor_status draw_state(mor_context *context, mor_run_files *files)
     return MOR_OK;
 }
 
+static void show_progress(void *user, const mor_settle_course *course)
+{
+    mor_run_files *files = user;
+    char line[MOR_RUN_PROGRESS_BYTES];
+    if (mor_run_progress_is_due(&files->progress, mor_clock_now())) {
+        snprintf(
+            line, sizeof line,
+            "settling  t = %.4g s of at most %.4g s  step %llu  99 %% of the soil slower than %.3g m/s, at rest below "
+            "%.3g m/s",
+            course->time, course->longest, (unsigned long long)course->n_steps, course->speed, course->limit);
+        mor_run_progress_show(&files->progress, line);
+    }
+}
+
 mor_status mor_run_settle(mor_context *context, mor_run_files *files)
 {
-    const mor_status status = mor_simulation_settle(
-        context, files->simulation, files->options->stop != NULL ? &files->options->stop->is_requested : NULL);
+    const mor_settle_observer observer = {.stop =
+                                              files->options->stop != NULL ? &files->options->stop->is_requested : NULL,
+                                          .report = show_progress,
+                                          .user = files};
+    const mor_status status = mor_simulation_settle(context, files->simulation, &observer);
+    mor_run_progress_end(&files->progress);
     if (status != MOR_NOT_CONVERGED) {
         return status;
     }

@@ -54,16 +54,33 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
  *  @param simulation [in,out]  one object */
 void mor_simulation_clear(mor_context *context, mor_simulation *simulation);
 
+/** How far settling is. */
+typedef struct mor_settle_course {
+    double time;      /* since settling began, s */
+    double longest;   /* after which it is given up, s */
+    uint64_t n_steps; /* so far */
+    double speed;     /* 99 % of the soil are slower, m/s */
+    double limit;     /* the soil is at rest below this speed, m/s */
+} mor_settle_course;
+
+/** Who looks on while soil settles. */
+typedef struct mor_settle_observer {
+    const volatile sig_atomic_t *stop; /* settling ends early when it becomes non-zero; NULL: never */
+    /** Called every some steps; NULL: not. */
+    void (*report)(void *user, const mor_settle_course *course);
+    void *user; /* handed to report */
+} mor_settle_observer;
+
 /** Lets the soil come to rest under damping when a region asks for a settled initial stress, then sets velocities, the
  *  clock and the material's state back, and records the initial energy. To be called once before the first step, also
  *  when nothing settles; not after a resume.
  *  @param context    [in,out]  one object; logs "converged" or "timed out" with the speed reached
  *  @param simulation [in,out]  one object
- *  @param stop       [in]      one flag; settling ends early when it becomes non-zero; NULL: never
+ *  @param observer   [in]      one object; NULL: none
  *  Returns: MOR_OK, also when stopped; MOR_NOT_CONVERGED when the soil does not come to rest in the time given,
  *  with the
  *  speed reached; what a step returns. */
-mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation, const volatile sig_atomic_t *stop);
+mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation, const mor_settle_observer *observer);
 
 /** Maps a point, or a direction, of the case into the placed frame.
  *  @param the_case [in]   one object

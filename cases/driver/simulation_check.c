@@ -6,6 +6,7 @@
 #include "core/particle/shape_analytic.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Steps that the integer line of time has room for: a step has at least 2^22 of some 2^52 ticks. */
 #define STEPS_MOST 1.073741824e9
@@ -14,6 +15,7 @@
 static const double usual_speed = 1.0e6;
 static const double step_overhead = 5.0e-5; /* of a step whatever the particles, s */
 static const double long_time = 2.0 * 86400.0;
+static const double many_steps = 2.0e7; /* told, too, however few the particles are */
 
 /* A particle that falls freely under damping is to come farther than this, in spacings. */
 static const double least_way = 1.0e-3;
@@ -53,11 +55,12 @@ static mor_status check_steps(mor_context *context, const mor_simulation *s, con
         "%s: found %s = %g s, which takes about %.3g steps of %.3g s, limited by %s: some %s of computing; allowed "
         "are %.3g steps; shorten %s, or change what limits the steps",
         place, what, time, n_steps, s->first_step, s->schedule.limit, duration, STEPS_MOST, what);
-    if (seconds > long_time) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "%s = %g s takes about %.3g steps of %.3g s, limited by %s: some %s of computing at a million "
-                        "particle-steps a second on each thread",
-                        what, time, n_steps, s->first_step, s->schedule.limit, duration);
+    if (seconds > long_time || n_steps > many_steps) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s = %g s takes %sabout %.3g steps of %.3g s, limited by %s: some %s of computing at a million "
+            "particle-steps a second on each thread",
+            what, time, strcmp(what, "end") == 0 ? "" : "up to ", n_steps, s->first_step, s->schedule.limit, duration);
     }
     return MOR_OK;
 }

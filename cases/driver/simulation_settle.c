@@ -174,15 +174,20 @@ static void report_rest(mor_context *context, const mor_simulation *simulation, 
     }
 }
 
+static bool is_stopping(const mor_settle_observer *observer)
+{
+    return observer != NULL && observer->stop != NULL && *observer->stop != 0;
+}
+
 static mor_status watch_settling(mor_context *context, mor_simulation *simulation, mor_settle_watch *watch,
-                                 double longest, double limit, const volatile sig_atomic_t *stop)
+                                 double longest, double limit, const mor_settle_observer *observer)
 {
     mor_schedule *schedule = &simulation->schedule;
     const mor_measure_points points = points_of(simulation);
     const int64_t until = find_until(schedule, longest);
     double speed = INFINITY;
     /* At least one check's worth of steps: at the start everything is at rest because nothing has moved yet. */
-    while (schedule->now < until && !(speed < limit) && (stop == NULL || *stop == 0)) {
+    while (schedule->now < until && !(speed < limit) && !is_stopping(observer)) {
         for (int k = 0; k < SETTLE_CHECK && schedule->now < until; ++k) {
             MOR_TRY(context, mor_schedule_step(context, schedule, until));
         }
@@ -190,8 +195,12 @@ static mor_status watch_settling(mor_context *context, mor_simulation *simulatio
                 mor_measure_speed(context, &points, simulation->soil.set.data[MOR_FIELD_VELOCITY], 99.0, &speed));
         MOR_TRY(context,
                 mor_settle_watch_add(context, watch, &simulation->soil.set, mor_schedule_time(schedule), speed));
+        if (observer != NULL && observer->report != NULL) {
+            observer->report(observer->user, &(mor_settle_course){mor_schedule_time(schedule), longest,
+                                                                  schedule->n_steps, speed, limit});
+        }
     }
-    const bool is_stopped = stop != NULL && *stop != 0;
+    const bool is_stopped = is_stopping(observer);
     if (!(speed < limit) && !is_stopped) {
         return report_unrest(context, simulation, watch, speed, limit);
     }
@@ -200,7 +209,7 @@ static mor_status watch_settling(mor_context *context, mor_simulation *simulatio
 }
 
 static mor_status run_settling(mor_context *context, mor_simulation *simulation, double longest, double ratio,
-                               const volatile sig_atomic_t *stop)
+                               const mor_settle_observer *observer)
 {
     mor_settle_watch watch;
     const double tick = simulation->schedule.tick;
@@ -208,14 +217,14 @@ static mor_status run_settling(mor_context *context, mor_simulation *simulation,
     MOR_TRY(context, find_limit(context, simulation, ratio, &limit));
     mor_status status = mor_settle_watch_init(context, &watch, &simulation->soil.set);
     if (status == MOR_OK) {
-        status = watch_settling(context, simulation, &watch, longest, limit, stop);
+        status = watch_settling(context, simulation, &watch, longest, limit, observer);
     }
     mor_settle_watch_clear(context, &watch);
     simulation->schedule.tick = tick;
     return status;
 }
 
-mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation, const volatile sig_atomic_t *stop)
+mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation, const mor_settle_observer *observer)
 {
     double longest = 0.0;
     double ratio = 0.0;
@@ -237,7 +246,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         }
         MOR_TRY(context, mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case,
                                                       soil->settings.damping));
-        MOR_TRY(context, run_settling(context, simulation, longest, ratio, stop));
+        MOR_TRY(context, run_settling(context, simulation, longest, ratio, observer));
         MOR_TRY(context, mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case, 0.0));
         for (int w = 0; w < soil->n_walls; ++w) {
             memcpy(soil->walls[w].velocity, velocities[w], sizeof velocities[w]);

@@ -164,7 +164,8 @@ static void warn_of_thinness(mor_context *context, const mor_simulation *s)
         high[k % 3] = fmax(high[k % 3], position[k]);
     }
     for (int a = 0; a < c->dimension && s->has_soil; ++a) {
-        const double n = (high[a] - low[a]) / c->spacing + 1.0;
+        const double slack = 0.01; /* for rounding of positions */
+        const double n = floor((high[a] - low[a]) / c->spacing + 1.0 + slack);
         if (n < THIN) {
             mor_context_log(context, MOR_LOG_WARNING,
                             "the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
@@ -220,6 +221,28 @@ static void warn_of_shifting(mor_context *context, const mor_case *c)
     }
 }
 
+/* Whether a body may be kept from falling: it moves as prescribed, or something outside holds it. */
+static bool is_carried(const mor_case_body *it)
+{
+    bool is_held = it->is_prescribed || it->has_spring || it->clamp != NULL;
+    for (int k = 0; k < 3; ++k) {
+        is_held = is_held || it->is_locked[k];
+    }
+    return is_held;
+}
+
+static void warn_of_free_fall(mor_context *context, const mor_case *c)
+{
+    bool is_held = c->n_walls > 0 || mor_vector_length(c->gravity) == 0.0;
+    for (int b = 0; b < c->n_bodies; ++b) {
+        is_held = is_held || is_carried(&c->bodies[b]);
+    }
+    if (!is_held) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "there is no wall, nor a body that is held or prescribed; everything falls freely");
+    }
+}
+
 mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
@@ -237,9 +260,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     mor_wall_seams_warn(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
     warn_of_outputs(context, simulation);
-    if (c->n_walls == 0 && mor_vector_length(c->gravity) > 0.0) {
-        mor_context_log(context, MOR_LOG_WARNING, "there is no wall; everything falls freely");
-    }
+    warn_of_free_fall(context, c);
     if (c->n_probes == 0) {
         mor_context_log(context, MOR_LOG_WARNING, "there is no probe; the run will report no result");
     }

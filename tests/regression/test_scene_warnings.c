@@ -1,0 +1,123 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Settings that were taken without a word although they mean something else than their author thinks, and warnings that
+ * were wrong. */
+#include "tests/common/finished_run.h"
+#include "tests/common/program.h"
+
+#define MATERIAL                                                                                                       \
+    "material = { model = 'drucker_prager'; density = 2000; youngs_modulus = 2e6; poissons_ratio = 0.3;"               \
+    " friction_angle = '30 deg'; };"
+#define WALL(name, point, normal)                                                                                      \
+    "{ name = '" name "'; friction = 'smooth'; shape = { type = 'half_space'; point = " point "; normal = " normal     \
+    "; }; }"
+
+/* A column of two regions of ten rows between smooth walls. */
+static const char column[] =
+    "dimension = 2; spacing = 0.02; end = 0.001; gravity = (0.0, -9.81);"
+    "domain = { min = (-0.5, -0.2); max = (1.5, 1.0); };"
+    "soil = ( { name = 's'; shape = { type = 'box'; min = (0, 0); max = (0.2, 0.2); }; " MATERIAL
+    "  initial_stress = { type = 'k0'; lateral_ratio = 0.6; }; },"
+    "  { name = 't'; shape = { type = 'box'; min = (0, 0.2); max = (0.2, 0.4); }; " MATERIAL
+    "  initial_stress = { type = 'k0'; lateral_ratio = 0.6; }; } );"
+    "walls = ( " WALL("floor", "(0, 0)", "(0, 1)") "," WALL("back", "(0, 0)", "(1, 0)") "," WALL(
+        "right", "(0.2, 0)", "(-1, 0)") " );"
+                                        "probes = ( { type = 'height'; }, { type = 'energy_balance'; } );"
+                                        "expect = ( { probe = 'height'; value = 0.4; tolerance = 0.05; } );"
+                                        "output = { snapshots = 1; pictures = false; };";
+
+/* A ball in the air. */
+static const char ball[] = "dimension = 2; spacing = 0.1; end = 0.01; gravity = (0.0, -9.81);"
+                           "domain = { min = (-3, -3); max = (3, 3); };"
+                           "bodies = ( { name = 'ball'; shape = { type = 'sphere'; center = (0, 0); radius = 0.5; };"
+                           "  material = { model = 'rigid'; density = 2400; }; } );"
+                           "probes = ( { type = 'body_position'; body = 'ball'; direction = (0, 1); } );"
+                           "output = { snapshots = 1; pictures = false; };";
+
+typedef struct scene {
+    const char *setting; /* NULL: none */
+    const char *warning; /* NULL: none at all */
+} scene;
+
+static const scene columns[] = {
+    {NULL, NULL},
+    /* The weight of the upper region is missing below: 0.2 m of 2000 kg/m3. */
+    {"soil[0].initial_stress={type=\"k0\"; surface_level=0.2;}",
+     "surface_level = 0.2 m of soil 's' has other soil on it, up to 0.2 m above: that weight, up to 3.92e+03 Pa, is"},
+    {"soil[0].initial_stress={type=\"k0\"; surface_level=0.3;}", "has other soil on it, up to 0.1 m above"},
+    {"soil[1].initial_stress={type=\"k0\"; surface_level=0.4;}", NULL},
+    {"soil[1].shape.max=(0.2, 0.36)", NULL}, /* eight rows */
+    {"soil[0].initial_stress={type=\"settled\"; settle_time=1e5;}", "settle_time = 100000 s takes up to about 2.7"},
+    {"numerics.courant=1e-8", "end = 0.001 s takes about 1.11e+08 steps"},
+    {"probes[0].percentile=0.995",
+     "found percentile = 0.995, which is 0.995 %: percentiles are in percent; if 99.5 % is"},
+    {"probes[0].percentile=1", "if 100 % is meant, write 100, else \"1 %\""},
+    {"probes[0].percentile=\"0.5 %\"", NULL},
+    {"probes[0].percentile=99.5", NULL},
+    {"expect[0].tolerance=5",
+     "found tolerance = 5, a share of the value, so that results off by 500 % pass: if 5 % is"},
+    {"expect[0].tolerance_low=1", "found tolerance_low = 1, a share of the value"},
+    {"expect[0].tolerance=\"150 %\"", NULL},
+    {"expect[0]={probe=\"height\"; value=\"40 cm\"; tolerance=\"2 m\"; absolute=true;}", NULL},
+};
+
+static const scene balls[] = {
+    {NULL, "there is no wall, nor a body that is held or prescribed; everything falls freely"},
+    {"gravity=(0.0, 0.0)", NULL},
+    {"bodies[0].motion=prescribed", NULL},
+    {"bodies[0].spring={point=(0.0, 0.5); anchor=(0.0, 1.5); stiffness=1e5;}", NULL},
+    {"bodies[0].locked=[\"y\"]", NULL},
+};
+
+static void check_scenes(run_folder *folder, const char *source, const scene *scenes, size_t n_scenes)
+{
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, source, path);
+    for (size_t k = 0; k < n_scenes; ++k) {
+        const char *arguments[] = {"check", "case.cfg", "-t", "1", "-s", scenes[k].setting, NULL};
+        arguments[4] = scenes[k].setting != NULL ? arguments[4] : NULL;
+        program_outcome outcome = program_run(folder, arguments, 0);
+        const char *found = strstr(outcome.errors, "warning");
+        found = found != NULL ? found : strstr(outcome.output, "warning");
+        if (scenes[k].warning == NULL && found != NULL) {
+            fail_msg("scene %d (%s) is good and was warned of: %s", (int)k, scenes[k].setting, found);
+        }
+        if (scenes[k].warning != NULL && (found == NULL || strstr(found, scenes[k].warning) == NULL)) {
+            fail_msg("scene %d (%s): not '%s' but '%s'", (int)k, scenes[k].setting, scenes[k].warning,
+                     found != NULL ? found : "nothing");
+        }
+        program_clear(&outcome);
+    }
+}
+
+static void settings_that_mean_something_else_are_warned_of(void **state)
+{
+    check_scenes(*state, column, columns, sizeof columns / sizeof *columns);
+}
+
+static void bodies_that_nothing_carries_are_warned_of(void **state)
+{
+    check_scenes(*state, ball, balls, sizeof balls / sizeof *balls);
+}
+
+/* A millisecond of a column in equilibrium moves next to no energy, and what moves is rounding of the start. */
+static void energies_that_did_not_move_need_not_add_up(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, column, path);
+    program_outcome outcome = program_run(folder, (const char *[]){"run", "case.cfg", "-t", "1", "-o", "run", NULL}, 0);
+    assert_null(strstr(outcome.errors, "do not add up"));
+    program_clear(&outcome);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
+    const struct CMUnitTest tests[] = {
+        TEST(settings_that_mean_something_else_are_warned_of),
+        TEST(bodies_that_nothing_carries_are_warned_of),
+        TEST(energies_that_did_not_move_need_not_add_up),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
