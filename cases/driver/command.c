@@ -237,8 +237,10 @@ int mor_command_main(int argc, char **argv, mor_stop *stop)
         exit_code = status == MOR_ERROR_CONFIG ? MOR_EXIT_BAD_INPUT : MOR_EXIT_FAILED;
     }
     free(command);
-    if ((fflush(stdout) != 0 || ferror(stdout)) && exit_code == MOR_EXIT_OK) {
-        exit_code = MOR_EXIT_FAILED;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "moraine: what was to be printed could not be written to standard output: the disk is full, or "
+                        "nobody reads any more; what belongs to a run lies in its folder\n");
+        exit_code = exit_code == MOR_EXIT_OK ? MOR_EXIT_FAILED : exit_code;
     }
     return exit_code;
 }

@@ -17,10 +17,11 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
                            "run: runs/NAME; preview: runs/NAME-preview; relax: runs/relax-NAME"},
     [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE, "threads; results do not depend on their number",
                             "as many as the machine has cores"},
-    [MOR_OPTION_SET] = {"set", 's', "KEY=VALUE", MOR_WORD_NONE,
-                        "overrides a key of the case; may be given many times, such as --set spacing='2 mm' or --set "
-                        "'soil[0].material.cohesion=1 kPa'",
-                        "what the case says"},
+    [MOR_OPTION_SET] =
+        {"set", 's', "KEY=VALUE", MOR_WORD_NONE,
+         "overrides a key of the case; may be given many times, such as --set spacing='2 mm' or --set "
+         "'soil[0].material.cohesion=1 kPa'; a group, as --set 'numerics={xsph=0.1;}', replaces all of it",
+         "what the case says"},
     [MOR_OPTION_RESUME] = {"resume", '\0', NULL, MOR_WORD_NONE, "go on from the last good checkpoint of the folder",
                            "a new run; a folder that holds one is refused"},
     [MOR_OPTION_STOP_AT] = {"stop-at", '\0', "T", MOR_WORD_NONE,

@@ -248,6 +248,24 @@ static mor_status warn_of_density_drift(mor_context *context, const mor_simulati
     return MOR_OK;
 }
 
+/* A window that lies between two measurements gives no largest, smallest or mean value. */
+static void warn_of_windows(mor_context *context, const mor_simulation *s)
+{
+    for (int k = 0; k < s->the_case->n_probes; ++k) {
+        const mor_case_probe *probe = &s->the_case->probes[k];
+        mor_probe_statistics statistics;
+        mor_probe_statistics_find(s, k, &statistics);
+        if (!isnan(probe->window[0]) && statistics.n_measured == 0.0) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            MOR_RUN_WARNING_AT_END
+                            "the window of probe '%s', %g s to %g s, held no measurement (%s:%d): it has no largest, "
+                            "smallest or mean value; make it longer than a time step, about %.3g s",
+                            probe->name, probe->window[0], probe->window[1], probe->place.file, probe->place.line,
+                            s->schedule.step_length);
+        }
+    }
+}
+
 /* Energies that do not add up say that forces were wrong, whatever else looks right. */
 static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
 {
@@ -338,6 +356,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const p
     print_end(files, p, speed);
     warn_of_outflow(context, s);
     MOR_TRY(context, warn_of_density_drift(context, s));
+    warn_of_windows(context, s);
     MOR_TRY(context, warn_of_energy(context, s));
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
     fflush(options->output); /* a signal may end the program while it draws */

@@ -110,11 +110,32 @@ static void run_stops_at_a_time_with_its_unit(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
 
+/* A device that takes nothing stands for a full disk. */
+static void output_that_cannot_be_written_is_told(void **state)
+{
+    run_folder *folder = *state;
+    char errors[MOR_PATH_BYTES];
+    char line[2 * MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    if (access("/dev/full", W_OK) != 0) {
+        skip();
+    }
+    run_folder_file(folder, errors, "errors.txt");
+    snprintf(line, sizeof line, "'%s' list probes > /dev/full 2> '%s'", PROGRAM_PATH, errors);
+    const int ending = system(line);
+    assert_true(WIFEXITED(ending) && WEXITSTATUS(ending) == 1);
+    char *text = (char *)run_folder_load(errors, &n_bytes);
+    assert_non_null(text);
+    program_expect_text(text, "could not be written to standard output");
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(complete_run_resumed_says_so_and_keeps_its_speed),
         TEST(full_disk_is_told_and_the_run_goes_on),
+        TEST(output_that_cannot_be_written_is_told),
         TEST(run_stops_at_a_time_with_its_unit),
         TEST(run_warns_of_speeds_near_that_of_sound),
     };

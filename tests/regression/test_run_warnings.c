@@ -94,6 +94,25 @@ static void soil_that_crowds_is_warned_of_at_the_end(void **state)
     }
 }
 
+/* Steps are some 0.1 ms long. */
+static void window_without_a_measurement_is_warned_of(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    finished_run_store_case(folder, path);
+    static const char *const windows[] = {"probes=({ type = \"height\"; window = (0.01, 0.0100000001); })",
+                                          "probes=({ type = \"height\"; window = (0.01, 0.03); })"};
+    for (int k = 0; k < 2; ++k) {
+        const char *const arguments[] = {"run", path,       "-t", "1", "-o", k == 0 ? "short" : "long",
+                                         "-s",  windows[k], NULL};
+        program_outcome outcome = program_run(folder, arguments, 0);
+        char *text = load_summary(folder, k == 0 ? "short" : "long");
+        assert_int_equal(count(text, "the window of probe 'height', 0.01 s to 0.01 s, held no measurement"), 1 - k);
+        free(text);
+        program_clear(&outcome);
+    }
+}
+
 /* Rows closer together than steps: each step has one, and nothing is counted one by one up to 6e10. */
 static void series_finer_than_steps_has_a_row_for_each_step(void **state)
 {
@@ -149,6 +168,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(warnings_stand_in_the_summary_also_after_a_resume, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_that_crowds_is_warned_of_at_the_end, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(window_without_a_measurement_is_warned_of, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(series_finer_than_steps_has_a_row_for_each_step, run_folder_setup,
                                         run_folder_teardown),
