@@ -16,6 +16,8 @@
 
 /* Curvature of a wall over a spacing from which on it is looked at as an edge, 1. */
 #define EDGE_BEND 0.05
+/* Sine of half the bend of an edge that is told of, 20 degrees; natural ground has many that bend less. */
+#define EDGE_SHARP 0.17
 
 /* Least side of the box around a body, m. */
 static double thickness(const mor_contact_body *c)
@@ -36,7 +38,15 @@ double mor_contact_depth_limit(const mor_contact *contact, int first, int second
     return fmax(LIMIT_SPACINGS * mor_contact_spacing(contact, first, second), LIMIT_THICKNESS * thin);
 }
 
-void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, double depth)
+/* Index of the second side, of walls that are touched as one the part at a place. */
+static int find_second(const mor_contact *contact, const mor_contact_near *near, const double *place)
+{
+    const int n_bodies = contact->work->n_bodies;
+    return near->second < n_bodies ? near->second
+                                   : n_bodies + mor_contact_find_part(contact, near->second - n_bodies, place);
+}
+
+void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, double depth, const double *place)
 {
     mor_contact_work *work = contact->work;
     const int group = work->bodies[near->first].group_index;
@@ -44,7 +54,7 @@ void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, 
     mor_contact_depth *worst = &work->group_worst[group];
     work->group_deepest[group] = fmax(work->group_deepest[group], depth);
     if (depth * worst->limit > worst->depth * limit || worst->limit == 0.0) {
-        *worst = (mor_contact_depth){near->first, near->second, depth, limit};
+        *worst = (mor_contact_depth){near->first, find_second(contact, near, place), depth, limit};
     }
 }
 
@@ -71,10 +81,11 @@ void mor_contact_note_edge(mor_contact *contact, const mor_contact_near *near, c
     const mor_contact_wall *wall = &contact->walls[near->second - work->n_bodies];
     double place[3], normal[3];
     mor_contact_wall_place(contact, wall, touch->place, place);
-    if (mor_contact_has_edge(mor_contact_wall_shape(wall), contact->groups[0]->dimension, place, spacing, normal)) {
+    if (mor_contact_has_edge(mor_contact_wall_shape(wall), contact->groups[0]->dimension, place, spacing, EDGE_SHARP,
+                             normal)) {
         work->edge = (mor_contact_edge){
             .first = near->first,
-            .second = near->second,
+            .second = find_second(contact, near, touch->place),
             .place = {touch->place[0], touch->place[1], touch->place[2]},
             .is_found = true,
         };
@@ -121,9 +132,9 @@ static void warn_of_edge(mor_context *context, mor_contact *contact)
     name_side(contact, it->second, &other_kind, &other_name);
     it->is_told = true;
     mor_context_log(context, MOR_LOG_WARNING,
-                    "%s '%s' touches %s '%s' at an edge, (%.4g, %.4g, %.4g) m, at t = %.6g s; walls are felt along "
-                    "their faces, so that it may rebound or turn wrongly there: make '%s' a body with motion = "
-                    "\"prescribed\", whose edges are felt as such, if this contact matters",
+                    "%s '%s' touches %s '%s' at an edge or a corner, (%.4g, %.4g, %.4g) m, at t = %.6g s; walls are "
+                    "felt along their faces, so that it may rebound or turn wrongly there: use a finer spacing, or, if "
+                    "'%s' lies within the domain, make it a body with motion = \"prescribed\"",
                     kind, name, other_kind, other_name, it->place[0], it->place[1], it->place[2], contact->time,
                     other_name);
 }

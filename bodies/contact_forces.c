@@ -150,8 +150,7 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     }
 }
 
-/* Of a wall and those joined to it, the one whose surface is nearest to a place. */
-static int find_part(const mor_contact *contact, int leader, const double *place)
+int mor_contact_find_part(const mor_contact *contact, int leader, const double *place)
 {
     int nearest = leader;
     double least = INFINITY;
@@ -178,7 +177,7 @@ static void push_wall(mor_contact *contact, const mor_contact_near *near, const 
         return;
     }
     const int group = work->bodies[near->first].group_index;
-    const int wall = find_part(contact, near->second - work->n_bodies, place);
+    const int wall = mor_contact_find_part(contact, near->second - work->n_bodies, place);
     double *sum = work->wall_force + 3 * ((int64_t)group * contact->n_walls + wall);
     for (int a = 0; a < 3; ++a) {
         sum[a] -= force[a];
@@ -217,18 +216,20 @@ static void soften_pair(mor_contact *contact, pair_sums *sums)
     mor_contact_work *work = contact->work;
     double energy = 0.0;
     double deepest = 0.0;
+    const double *place = NULL;
     double stored;
     for (int64_t k = sums->begin; k < sums->end; ++k) {
         const mor_contact_touch *touch = &work->touches[k];
         if (touch->depth > 0.0) {
             energy += 0.5 * touch->share * touch->stiffness * touch->mean_square;
+            place = touch->depth > deepest ? touch->place : place;
             deepest = fmax(deepest, touch->depth);
         }
     }
     sums->softening = mor_contact_soften(contact, sums->near, energy, &stored);
     if (deepest > 0.0) {
         work->group_spring[work->bodies[sums->near->first].group_index] += stored;
-        mor_contact_note_depth(contact, sums->near, deepest);
+        mor_contact_note_depth(contact, sums->near, deepest, place);
     }
 }
 

@@ -21,6 +21,9 @@
 #define ENERGY_SPACE 0.5132254840066531  /* 8/15 (3/pi)^(5/6) */
 #define ENERGY_PLANE 0.49209494645110324 /* pi/8 (15/(8 sqrt 2))^(4/5) */
 
+/* The surface around a node is followed only if no edge is near that bends by more than twice the arcsine of this. */
+#define EDGE_DIFFERENCE 0.05
+
 /* A surface of a smaller radius than the inverse of this, in spacings, counts as an edge. */
 #define SHARP 0.7
 
@@ -335,7 +338,8 @@ static void measure_rigid(mor_contact *contact, mor_contact_body *c, double *scr
         double place[3];
         mor_contact_shape_place(body, reference, place);
         double normal[3];
-        const bool goes_on = !mor_contact_has_edge(body->shape, group->dimension, place, group->spacing, normal);
+        const bool goes_on =
+            !mor_contact_has_edge(body->shape, group->dimension, place, group->spacing, EDGE_DIFFERENCE, normal);
         mor_matrix_apply(body->shape_turn, normal, normals + 3 * k);
         const double found = mor_contact_curvature(body->shape, group->dimension, place, 0.0, normal, group->spacing);
         curvatures[k] = fmin(fmax(found, 0.0), sharpest);

@@ -6,43 +6,53 @@
 #include "core/base/math.h"
 #include "core/particle/shape_analytic.h"
 
+#include <string.h>
+
 /* Lengths in spacings. */
 #define NORMAL_STEP 0x1p-10 /* of the differences that give a normal */
 #define CURVATURE_STEP 1.0  /* of those that give a curvature */
 #define CURVATURE_LIFT 0.05 /* how far out these are taken: inside, parts of a shape meet */
 #define PROBE 0.01          /* a face is one of the whole shape if so far out of it nothing is */
 #define EXIT_STEP 0.02      /* least step on the way out */
+#define CLEARANCE 0x1p-9    /* from there on outside, so that differences are taken there */
 #define DEEPEST 2.0         /* farther from the surface seams are left alone */
 
-/* The surface around a point goes on as it curves there if the gradient of the level set over this reach differs from
- * the one on the spot by no more than this, 1: no edge is so near. */
+/* An edge is looked for by comparing the gradient of the level set over this reach with the one on the spot. */
 #define EDGE_REACH 1.5
 #define EDGE_NEAR 0.125
-#define EDGE_DIFFERENCE 0.05
 
-enum { EXIT_STEPS_MAX = 128, REFINEMENTS = 3 };
+enum { EXIT_STEPS_MAX = 128, REFINEMENTS = 3, BISECTIONS = 16 };
 
-static void go(const double *from, double way, const double *direction, double *to)
+/* Place on the surface where a way along a unit vector leaves the shape, and the normal there; false: not within the
+ * depth that is looked at. Outside, distances are exact. */
+static bool find_exit(const mor_shape *shape, const double *place, const double *direction, double spacing,
+                      double *foot, double *normal)
 {
-    for (int a = 0; a < 3; ++a) {
-        to[a] = from[a] + way * direction[a];
-    }
-}
-
-/* Way along a unit vector until the point lies outside, m; INFINITY beyond the depth that is looked at. */
-static double find_exit(const mor_shape *shape, const double *place, const double *direction, double spacing,
-                        double *point)
-{
-    double way = 0.0;
-    for (int k = 0; k < EXIT_STEPS_MAX && way < DEEPEST * spacing; ++k) {
-        go(place, way, direction, point);
-        const double distance = mor_shape_distance(shape, point);
-        if (distance > 0.0) {
-            return way;
+    double inside = 0.0;
+    double outside = 0.0;
+    double distance = 0.0;
+    double point[3];
+    for (int k = 0; k < EXIT_STEPS_MAX && !(distance > 0.0); ++k) {
+        inside = outside;
+        outside += fmax(-distance, EXIT_STEP * spacing);
+        if (outside > DEEPEST * spacing) {
+            return false;
         }
-        way += fmax(-distance, EXIT_STEP * spacing);
+        mor_vector_advance(place, outside, direction, point);
+        distance = mor_shape_distance(shape, point);
     }
-    return INFINITY;
+    for (int k = 0; k < BISECTIONS && distance > 0.0; ++k) {
+        const double middle = 0.5 * (inside + outside);
+        mor_vector_advance(place, middle, direction, point);
+        const bool is_out = mor_shape_distance(shape, point) > 0.0;
+        outside = is_out ? middle : outside;
+        inside = is_out ? inside : middle;
+    }
+    mor_vector_advance(place, outside + CLEARANCE * spacing, direction, point);
+    distance = mor_shape_distance(shape, point);
+    mor_shape_normal(shape, point, NORMAL_STEP * spacing, normal);
+    mor_vector_advance(point, -distance, normal, foot);
+    return distance > 0.0 && mor_vector_length(normal) > 0.5;
 }
 
 /* Direction k of those to the faces, edges and corners of a cube; false: none. */
@@ -58,32 +68,51 @@ static bool find_direction(int k, int dimension, double *direction)
     return length > 0.0;
 }
 
-/* Distance of an inner point from the surface of the whole shape, by the shortest of many ways out, each of which is
- * turned to the normal where it ends: outside, distances are exact. Keeps the gap that is given if there is none. */
+/* The nearest place on the surface that was found so far. */
+typedef struct nearest {
+    double depth; /* m; INFINITY: none */
+    double foot[3], normal[3];
+} nearest;
+
+/* Looks along one way and keeps what is nearer than all before. Returns whether it was. */
+static bool look_along(const mor_shape *shape, const double *place, const double *direction, double spacing,
+                       nearest *best)
+{
+    nearest it;
+    if (!find_exit(shape, place, direction, spacing, it.foot, it.normal)) {
+        return false;
+    }
+    const double offset[3] = {it.foot[0] - place[0], it.foot[1] - place[1], it.foot[2] - place[2]};
+    it.depth = mor_vector_length(offset);
+    if (!(it.depth < best->depth)) {
+        return false;
+    }
+    *best = it;
+    return true;
+}
+
+/* Distance of an inner point from the surface of the whole shape: the nearest place on it that many ways out lead to,
+ * and those along the normals there. Keeps the gap that is given, and the normal, if there is no way. */
 static double search_gap(const mor_shape *shape, int dimension, const double *place, double spacing, double gap,
                          double *normal)
 {
-    double shortest = INFINITY;
-    double direction[3], point[3], best[3] = {0.0, 0.0, 0.0};
+    nearest best = {.depth = INFINITY};
+    double direction[3];
     for (int k = 0; k < (dimension == 3 ? 27 : 9); ++k) {
-        const double way =
-            find_direction(k, dimension, direction) ? find_exit(shape, place, direction, spacing, point) : INFINITY;
-        if (way < shortest) {
-            shortest = way;
-            go(direction, 0.0, direction, best);
+        if (find_direction(k, dimension, direction)) {
+            look_along(shape, place, direction, spacing, &best);
         }
     }
-    for (int k = 0; k < REFINEMENTS && shortest < INFINITY; ++k) {
-        double foot[3];
-        shortest = find_exit(shape, place, best, spacing, point);
-        go(point, EXIT_STEP * spacing, best, point);
-        mor_shape_normal(shape, point, NORMAL_STEP * spacing, best);
-        go(point, -mor_shape_distance(shape, point), best, foot);
-        const double offset[3] = {foot[0] - place[0], foot[1] - place[1], foot[2] - place[2]};
-        gap = shortest < INFINITY ? -mor_vector_length(offset) : gap;
-        go(best, 0.0, best, normal);
+    bool is_better = isfinite(best.depth);
+    for (int k = 0; k < REFINEMENTS && is_better; ++k) {
+        memcpy(direction, best.normal, sizeof direction);
+        is_better = look_along(shape, place, direction, spacing, &best);
     }
-    return gap;
+    if (!isfinite(best.depth)) {
+        return gap;
+    }
+    memcpy(normal, best.normal, sizeof best.normal);
+    return -best.depth;
 }
 
 double mor_contact_shape_gap(const mor_shape *shape, int dimension, const double *place, double spacing, double *normal)
@@ -98,10 +127,9 @@ double mor_contact_shape_gap(const mor_shape *shape, int dimension, const double
     if (!may_be_seam) {
         return gap;
     }
-    go(place, PROBE * spacing - gap, to, beyond);
-    return mor_shape_distance(shape, beyond) > 0.5 * PROBE * spacing
-               ? gap
-               : search_gap(shape, dimension, place, spacing, gap, to);
+    /* Beside an inner corner another part is near, but what lies just beyond the face is free. */
+    mor_vector_advance(place, PROBE * spacing - gap, to, beyond);
+    return mor_shape_distance(shape, beyond) > 0.0 ? gap : search_gap(shape, dimension, place, spacing, gap, to);
 }
 
 double mor_contact_curvature(const mor_shape *shape, int dimension, const double *place, double gap,
@@ -111,11 +139,11 @@ double mor_contact_curvature(const mor_shape *shape, int dimension, const double
     double tangents[2][3], center[3], beside[3];
     double sum = 0.0;
     mor_vector_tangents(normal, tangents[0], tangents[1]);
-    go(place, CURVATURE_LIFT * spacing - gap, normal, center);
+    mor_vector_advance(place, CURVATURE_LIFT * spacing - gap, normal, center);
     for (int k = 0; k < dimension - 1; ++k) {
         double rise = -mor_shape_distance(shape, center);
         for (int side = -1; side <= 1; side += 2) {
-            go(center, side * step, tangents[k], beside);
+            mor_vector_advance(center, side * step, tangents[k], beside);
             rise += 0.5 * mor_shape_distance(shape, beside);
         }
         /* Of a circle, sqrt(R^2 + step^2) - R. */
@@ -139,7 +167,8 @@ static void find_gradient(const mor_shape *shape, int dimension, const double *p
     }
 }
 
-bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *place, double spacing, double *normal)
+bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *place, double spacing, double limit,
+                          double *normal)
 {
     double far[3];
     double difference2 = 0.0;
@@ -152,5 +181,5 @@ bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *p
     for (int a = 0; a < 3; ++a) {
         normal[a] /= slope > 0.0 ? slope : 1.0;
     }
-    return !(slope > 1.0 - EDGE_DIFFERENCE && difference2 < EDGE_DIFFERENCE * EDGE_DIFFERENCE);
+    return !(slope > 1.0 - limit && difference2 < limit * limit);
 }

@@ -216,8 +216,10 @@ double mor_contact_shape_gap(const mor_shape *shape, int dimension, const double
  *  @param dimension [in]   2 or 3
  *  @param place     [in]   shape [3]; in the frame of the shape, unit m
  *  @param spacing   [in]   of the body that asks, unit m
+ *  @param limit     [in]   difference of the gradients from which on it is an edge: the sine of half its bend, unit 1
  *  @param normal    [out]  shape [3]; the gradient at the point brought to length 1, unit 1 */
-bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *place, double spacing, double *normal);
+bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *place, double spacing, double limit,
+                          double *normal);
 
 /** Curvature of a surface at a point near it, mean of the two in space, unit 1/m; positive: convex.
  *  @param shape     [in]  one object
@@ -405,8 +407,15 @@ double mor_contact_depth_limit(const mor_contact *contact, int first, int second
 /** Keeps the depth that is nearest to its limit.
  *  @param contact [in,out]  one object
  *  @param near    [in]      one object
- *  @param depth   [in]      deepest of the pair, unit m */
-void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, double depth);
+ *  @param depth   [in]      deepest of the pair, unit m
+ *  @param place   [in]      shape [3]; of that touch, unit m */
+void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, double depth, const double *place);
+
+/** Of a wall and those joined to it, the one whose surface is nearest to a place.
+ *  @param contact [in]  one object
+ *  @param leader  [in]  index of a wall that is joined to no other
+ *  @param place   [in]  shape [3]; frame of the run, unit m */
+int mor_contact_find_part(const mor_contact *contact, int leader, const double *place);
 
 /** Keeps how deep one of two sides that no force moves has been driven into the other.
  *  @param contact [in,out]  one object

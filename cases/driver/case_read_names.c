@@ -14,12 +14,12 @@ enum { NAMES_MAX = 96, LIST_BYTES = 1024 };
 /* Words with commas; of many, those that there is room for, and how many more there are. */
 static void join_words(const char *const *words, int n_words, char *text, size_t text_bytes)
 {
-    const size_t room = text_bytes - sizeof ", and 1000 more: moraine list";
+    const size_t room = text_bytes - sizeof ", and 1000 more";
     size_t used = 0;
     text[0] = '\0';
     for (int k = 0; k < n_words; ++k) {
         if (used + strlen(words[k]) + 2 > room) {
-            snprintf(text + used, text_bytes - used, ", and %d more: moraine list", n_words - k);
+            snprintf(text + used, text_bytes - used, ", and %d more", n_words - k);
             return;
         }
         used += (size_t)snprintf(text + used, text_bytes - used, "%s%s", k > 0 ? ", " : "", words[k]);

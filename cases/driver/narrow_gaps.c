@@ -117,13 +117,6 @@ static bool find_normal(const gap_scene *s, int only, const double *x, double *n
     return length > 0.5;
 }
 
-static void go(const double *from, double way, const double *direction, double *to)
-{
-    for (int a = 0; a < 3; ++a) {
-        to[a] = from[a] + way * direction[a];
-    }
-}
-
 /* ---- Rays -------------------------------------------------------------------------------------------------------- */
 
 /* A way from a face through free space (side 1) or through solids (side -1), and what it meets. */
@@ -138,7 +131,7 @@ static bool is_exposed(const gap_scene *s, double side, const ray *it)
 {
     double x[3];
     int nearest;
-    go(it->foot, START * s->spacing, it->normal, x);
+    mor_vector_advance(it->foot, START * s->spacing, it->normal, x);
     return side * find_distance(s, -1, x, &nearest) > 0.6 * START * s->spacing;
 }
 
@@ -147,13 +140,13 @@ static bool shoot(const gap_scene *s, double side, double width, ray *it)
 {
     double x[3];
     int nearest;
-    go(it->foot, 0.5 * width, it->normal, x);
+    mor_vector_advance(it->foot, 0.5 * width, it->normal, x);
     if (side * find_distance(s, -1, x, &nearest) >= 0.5 * width - SLACK * s->spacing || !is_exposed(s, side, it)) {
         return false;
     }
     double way = START * s->spacing;
     while (way < width) {
-        go(it->foot, way, it->normal, x);
+        mor_vector_advance(it->foot, way, it->normal, x);
         const double distance = side * find_distance(s, -1, x, &it->other);
         if (distance < TOUCH * s->spacing) {
             it->width = way + distance;
@@ -176,7 +169,7 @@ static bool aim(const gap_scene *s, const double *x, ray *it)
     if (distance < START * s->spacing || !find_normal(s, -1, x, it->normal)) {
         return false;
     }
-    go(x, -distance, it->normal, it->foot);
+    mor_vector_advance(x, -distance, it->normal, it->foot);
     return true;
 }
 
@@ -198,8 +191,9 @@ static bool narrow_down(const gap_scene *s, double width, ray *it)
         const double length = mor_vector_length(inward);
         share *= mor_vector_dot(inward, last) < 0.0 ? 0.5 : 1.0; /* beyond the narrowest place: go back, shorter */
         memcpy(last, inward, sizeof last);
-        go(it->foot, 0.3 * it->width, it->normal, x); /* in the middle both flanks are near, and there is no normal */
-        go(x, share * it->width / length, inward, x);
+        mor_vector_advance(it->foot, 0.3 * it->width, it->normal,
+                           x); /* in the middle both flanks are near, and there is no normal */
+        mor_vector_advance(x, share * it->width / length, inward, x);
         ray next = *it;
         if (!aim(s, x, &next)) {
             return false;
@@ -222,7 +216,7 @@ static void keep_sight(const ray *it, double width, sight *found)
         found->width = width;
         found->own = it->own;
         found->other = it->other;
-        go(it->foot, 0.5 * it->width, it->normal, found->place);
+        mor_vector_advance(it->foot, 0.5 * it->width, it->normal, found->place);
     }
 }
 
@@ -232,7 +226,7 @@ static double find_ball(const gap_scene *s, const ray *it)
     double radius = 0.0;
     for (int k = 1; k < BALLS; ++k) {
         double x[3];
-        go(it->foot, k * it->width / BALLS, it->normal, x);
+        mor_vector_advance(it->foot, k * it->width / BALLS, it->normal, x);
         radius = fmax(radius, fmin(solid_distance(&s->solids[it->own], x), solid_distance(&s->solids[it->other], x)));
     }
     return 2.0 * radius;
@@ -267,7 +261,7 @@ static bool aim_outward(const gap_scene *s, int own, const double *x, ray *it)
     if (!find_normal(s, own, x, it->normal)) {
         return false;
     }
-    go(x, -find_distance(s, own, x, &it->own), it->normal, it->foot);
+    mor_vector_advance(x, -find_distance(s, own, x, &it->own), it->normal, it->foot);
     return true;
 }
 

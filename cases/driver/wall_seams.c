@@ -17,6 +17,10 @@
 
 /* Faces whose normals have at least this inner product go on in one another, 1. */
 #define ALONG 0.9
+/* Faces of an inner corner have less than this, 1; over the edge of a flush face it is 0.4 and more. */
+#define INNER 0.2
+/* Nearer to the second wall, spacings, a place may lie beside the edge of the first. */
+#define BESIDE 0.25
 
 enum { POINTS = 8192, PROJECTIONS = 3 };
 
@@ -63,15 +67,24 @@ static bool is_in_domain(const mor_case *c, const double *point)
     return is_inside;
 }
 
-static bool find_seam(const mor_case *c, const mor_shape *a, const mor_shape *b, double *point)
+/* What two walls make together. */
+typedef struct seam {
+    bool is_flush;   /* a face of one goes on in the other */
+    bool is_inner;   /* they form an inner corner, too, where a rock is to feel both */
+    double place[3]; /* where they are flush, m */
+} seam;
+
+static seam find_seam(const mor_case *c, const mor_shape *a, const mor_shape *b)
 {
     mor_bounds box;
+    seam found = {false, false, {0.0}};
     if (!find_overlap(c, a, b, &box)) {
-        return false;
+        return found;
     }
     for (int n = 0; n < POINTS; ++n) {
+        double point[3] = {0.0, 0.0, 0.0};
         double first[3], second[3];
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < c->dimension; ++k) {
             const double share = mor_random_uniform(0, (uint64_t)n, (uint64_t)k);
             point[k] = box.minimum[k] + share * (box.maximum[k] - box.minimum[k]);
         }
@@ -79,12 +92,18 @@ static bool find_seam(const mor_case *c, const mor_shape *a, const mor_shape *b,
             continue;
         }
         const double over = mor_shape_distance(b, point);
+        if (!(over > 0.0 && over < FLUSH * c->spacing)) {
+            continue;
+        }
         mor_shape_normal(b, point, STEP * c->spacing, second);
-        if (over > 0.0 && over < FLUSH * c->spacing && mor_vector_dot(first, second) > ALONG) {
-            return true;
+        const double facing = mor_vector_dot(first, second);
+        found.is_inner = found.is_inner || (facing < INNER && facing > -ALONG && over > BESIDE * c->spacing);
+        if (facing > ALONG && !found.is_flush) {
+            found.is_flush = true;
+            memcpy(found.place, point, sizeof found.place);
         }
     }
-    return false;
+    return found;
 }
 
 static bool has_own_law(const mor_case *c, const char *name)
@@ -134,9 +153,11 @@ mor_status mor_wall_seams_join(mor_context *context, const mor_case *the_case, m
     for (int w = 0; w < c->n_walls; ++w) {
         leaders[w] = w;
         for (int v = 0; v < w; ++v) {
-            double at[3];
-            if (leaders[v] == leaders[w] || !are_alike(c, &c->walls[w], &c->walls[v]) ||
-                !find_seam(c, c->walls[w].shape, c->walls[v].shape, at)) {
+            if (leaders[v] == leaders[w] || !are_alike(c, &c->walls[w], &c->walls[v])) {
+                continue;
+            }
+            const seam it = find_seam(c, c->walls[w].shape, c->walls[v].shape);
+            if (!it.is_flush || it.is_inner) {
                 continue;
             }
             const int least = leaders[v] < leaders[w] ? leaders[v] : leaders[w];
@@ -163,14 +184,17 @@ void mor_wall_seams_warn(mor_context *context, const mor_case *the_case)
     const mor_case *c = the_case;
     for (int w = 0; w < c->n_walls && c->n_bodies > 0; ++w) {
         for (int v = 0; v < w; ++v) {
-            double at[3];
-            if (!are_alike(c, &c->walls[w], &c->walls[v]) && find_seam(c, c->walls[w].shape, c->walls[v].shape, at)) {
+            if (are_alike(c, &c->walls[w], &c->walls[v])) {
+                continue;
+            }
+            const seam it = find_seam(c, c->walls[w].shape, c->walls[v].shape);
+            if (it.is_flush) {
                 mor_context_log(context, MOR_LOG_WARNING,
                                 "%s:%d: wall '%s' goes on in wall '%s' at (%.4g, %.4g, %.4g) m, but moves, yields or "
                                 "rubs otherwise; a rock within two spacings of such a seam feels each wall as if the "
                                 "other were not there, and its forces are up to a third off",
                                 c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->walls[v].name,
-                                at[0], at[1], at[2]);
+                                it.place[0], it.place[1], it.place[2]);
             }
         }
     }

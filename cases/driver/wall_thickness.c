@@ -39,13 +39,6 @@ static double find_distance(const mor_case *c, const double *point)
     return least;
 }
 
-static void go(const double *from, double way, const double *direction, double *to)
-{
-    for (int a = 0; a < 3; ++a) {
-        to[a] = from[a] + way * direction[a];
-    }
-}
-
 /* A random point on the surface of a wall within the domain, and the normal there; false: none this time. */
 static bool draw_point(const mor_case *c, int wall, int number, double *point, double *normal)
 {
@@ -60,7 +53,7 @@ static bool draw_point(const mor_case *c, int wall, int number, double *point, d
     }
     for (int k = 0; k < PROJECTIONS; ++k) {
         mor_shape_normal(shape, point, STEP * c->spacing, normal);
-        go(point, -mor_shape_distance(shape, point), normal, point);
+        mor_vector_advance(point, -mor_shape_distance(shape, point), normal, point);
     }
     bool is_good = fabs(mor_shape_distance(shape, point)) < STEP * c->spacing && mor_vector_length(normal) > 0.5;
     for (int k = 0; k < c->dimension; ++k) {
@@ -73,13 +66,13 @@ static bool draw_point(const mor_case *c, int wall, int number, double *point, d
 static double look_through(const mor_case *c, const double *point, const double *normal)
 {
     double place[3], back[3];
-    go(point, FREE * c->spacing, normal, place);
+    mor_vector_advance(point, FREE * c->spacing, normal, place);
     if (find_distance(c, place) < 0.5 * FREE * c->spacing) {
         return INFINITY;
     }
     double way = LEAST_STEP * c->spacing;
     while (way < ADVISABLE * c->spacing) {
-        go(point, -way, normal, place);
+        mor_vector_advance(point, -way, normal, place);
         const double distance = find_distance(c, place);
         if (distance > 0.0) {
             double nearest = INFINITY;
@@ -111,9 +104,9 @@ void mor_wall_thickness_warn(mor_context *context, const mor_case *the_case)
         }
         char advice[ADVICE_BYTES];
         if (it.thickness < TIP * c->spacing) {
-            snprintf(advice, sizeof advice, "it tapers to an edge or a tip there");
+            snprintf(advice, sizeof advice, "it tapers to an edge there, so use a finer spacing");
         } else {
-            snprintf(advice, sizeof advice, "make it thicker, use a spacing of %.2g m", 0.66 * it.thickness);
+            snprintf(advice, sizeof advice, "make it thicker, use a spacing of %.2g m", 0.6 * it.thickness);
         }
         if (isfinite(it.thickness)) {
             mor_context_log(context, MOR_LOG_WARNING,

@@ -41,6 +41,14 @@ static inline double mor_vector_length(const double *a)
     return sqrt(mor_vector_dot(a, a));
 }
 
+/** to = from + way * direction; all shape [3], to may be from; unit of to and from: way times direction. */
+static inline void mor_vector_advance(const double *from, double way, const double *direction, double *to)
+{
+    for (int a = 0; a < 3; ++a) {
+        to[a] = from[a] + way * direction[a];
+    }
+}
+
 /** Two unit vectors across a unit vector n and each other, in plane strain the first one in the plane; n, first and
  *  second shape [3], not aliased, unit 1. */
 static inline void mor_vector_tangents(const double *n, double *first, double *second)

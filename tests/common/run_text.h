@@ -28,14 +28,26 @@ static inline program_outcome run_text(run_folder *folder, const char *text, con
     return program_run(folder, words, exit_code);
 }
 
-/* Largest value that a probe of a run took, in every step. */
-static inline double read_maximum(run_folder *folder, const char *name, const char *probe)
+/* What a probe of a run did in all steps. */
+static inline mor_summary_statistics read_statistics(run_folder *folder, const char *name, const char *probe)
 {
     char path[MOR_PATH_BYTES], remark[256];
     mor_summary_statistics it;
     finished_run_file(folder, path, name, MOR_SUMMARY_FILE);
     assert_int_equal(mor_summary_read_statistics(&folder->context, path, probe, &it, remark, sizeof remark), MOR_OK);
-    return it.maximum;
+    return it;
+}
+
+/* Largest value that a probe of a run took, in every step. */
+static inline double read_maximum(run_folder *folder, const char *name, const char *probe)
+{
+    return read_statistics(folder, name, probe).maximum;
+}
+
+/* Integral of a force over time, N s. */
+static inline double read_impulse(run_folder *folder, const char *name, const char *probe)
+{
+    return read_statistics(folder, name, probe).impulse;
 }
 
 /* No settings. */
