@@ -11,8 +11,8 @@
  *  diagonal between nodes may lie between them and are not felt at all. */
 
 /** Warns of each wall that is found thinner than one and a half spacings in the domain, where there are bodies to
- *  touch it. Looks through the wall at random places of its faces, parts and cuts included; walls behind it count. A part that
- *  is small beside the whole wall may be missed.
+ *  touch it. Looks through the wall at random places of its faces, parts and cuts included; walls behind it count. A
+ *  part that is small beside the whole wall may be missed.
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object
  *  Cost: some hundred thousand distances per wall. */
