@@ -185,8 +185,8 @@ static void walls_that_meet_flush_act_as_one(void **state)
 }
 
 /* A box that hits floor and back wall of a corner at once leaves both with the speed it had across each, whether they
- * are two walls, flush at their ends or not, or one of two parts. Within 2 and 3 %: the steps of an impact (2.5 % of the
- * energy measured with one wall, whose nodes on the box's edge have one normal only). */
+ * are two walls, flush at their ends or not, or one of two parts. Within 2 and 3 %: the steps of an impact (2.5 % of
+ * the energy measured with one wall, where nodes on the box's edge have one normal only). */
 static void inner_corners_rebound_along_both_faces(void **state)
 {
 #define FLOOR "{ type = 'box'; min = (-0.1, -0.6, -0.5); max = (2, 0.6, 0); }"
