@@ -298,7 +298,7 @@ static void clear_work(mor_context *context, mor_contact_work *work)
     MOR_FREE(context, &work->support_weights);
     MOR_FREE(context, &work->curvatures);
     MOR_FREE(context, &work->normals);
-    MOR_FREE(context, &work->levels);
+    MOR_FREE(context, &work->node_distances);
     MOR_FREE(context, &work->is_smooth);
     MOR_FREE(context, &work->first_neighbor);
     MOR_FREE(context, &work->neighbors);

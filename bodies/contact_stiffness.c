@@ -343,7 +343,7 @@ static void measure_rigid(mor_contact *contact, mor_contact_body *c, double *scr
         mor_matrix_apply(body->shape_turn, normal, normals + 3 * k);
         const double found = mor_contact_curvature(body->shape, group->dimension, place, 0.0, normal, group->spacing);
         curvatures[k] = fmin(fmax(found, 0.0), sharpest);
-        contact->work->levels[entry + k] = mor_shape_distance(body->shape, place);
+        contact->work->node_distances[entry + k] = mor_shape_distance(body->shape, place);
         is_smooth[k] = goes_on && found < SHARP * sharpest;
         c->is_edged = c->is_edged || !is_smooth[k];
         scratch[k] = curvatures[k];
@@ -368,7 +368,7 @@ mor_status mor_contact_measure_curvatures(mor_context *context, mor_contact *con
     mor_contact_window_weights(work->window);
     MOR_TRY(context, MOR_NEW(context, &work->curvatures, n, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->normals, 3 * n, "contact"));
-    MOR_TRY(context, MOR_NEW(context, &work->levels, n, "contact"));
+    MOR_TRY(context, MOR_NEW(context, &work->node_distances, n, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->is_smooth, n, "contact"));
     MOR_TRY(context, MOR_NEW(context, &scratch, n, "contact"));
     for (int b = 0; b < work->n_bodies; ++b) {

@@ -45,21 +45,21 @@ void mor_contact_window_weights(double *weights)
     }
 }
 
-/* The depth g - tilt x - C (x^2 + y^2) / 2 around a node, lengths in m. */
-typedef struct dip {
+/* The depth profile g - tilt x - C (x^2 + y^2) / 2 around a node, lengths in m. */
+typedef struct profile {
     double depth, tilt, curvature;
     double length; /* of the node */
     int dimension;
-} dip;
+} profile;
 
-static double depth_at(const dip *it, double x, double y)
+static double depth_at(const profile *it, double x, double y)
 {
     return it->depth - it->tilt * x - 0.5 * it->curvature * (x * x + y * y);
 }
 
 /* Means over the window of the depth where it is positive, of its square, and of x and of the squared distance from the
  * node times the depth. */
-static void sum_window(const double *weights, const dip *it, double *means)
+static void sum_window(const double *weights, const profile *it, double *means)
 {
     const double step = POINT_STEP * it->length;
     const int across = it->dimension == 3 ? HALF_POINTS : 0;
@@ -81,7 +81,7 @@ static void sum_window(const double *weights, const dip *it, double *means)
 
 /* The same where all of the contact lies between a few points: points in the contact itself, and the integrals of a
  * paraboloid. `lowest` is where it is deepest, `radius` how far it reaches from there. */
-static void sum_narrow(const dip *it, double lowest, double radius, double *means)
+static void sum_narrow(const profile *it, double lowest, double radius, double *means)
 {
     const double scale = 1.0 / (MOR_CONTACT_DEVIATION * it->length);
     const double bottom = depth_at(it, lowest, 0.0);
@@ -116,7 +116,7 @@ static void sum_narrow(const dip *it, double lowest, double radius, double *mean
     means[3] = share * mean * bottom * sums[3] / plain[0];
 }
 
-static void sum_dip(const double *weights, const dip *it, double *means)
+static void sum_profile(const double *weights, const profile *it, double *means)
 {
     const double reach = POINT_STEP * HALF_POINTS * it->length;
     const double lowest = it->curvature > 0.0 ? -it->tilt / it->curvature : 2.0 * reach;
@@ -152,18 +152,18 @@ double mor_contact_reach(const mor_contact *contact, const mor_contact_near *nea
 }
 
 /* Around one node: its frame and what is expected of the surfaces there. */
-typedef struct follower {
+typedef struct surface_frame {
     const mor_contact_body *owner;
     double own[3];          /* normal of the own surface, 1 */
     double along[3];        /* in the tangent plane, where the surfaces part fastest, 1 */
     double other_curvature; /* of the other side at the node, 1/m */
-    dip dip;
+    profile profile;
     double shift;    /* of the center of the pressure from the node, along that, m */
     double means[4]; /* as sum_window gives them */
-} follower;
+} surface_frame;
 
 /* Place on the own surface, from the node. */
-static void find_offset(const follower *it, const mor_contact_touch *touch, double *offset)
+static void find_offset(const surface_frame *it, const mor_contact_touch *touch, double *offset)
 {
     const double sag = 0.5 * touch->curvature * it->shift * it->shift;
     for (int a = 0; a < 3; ++a) {
@@ -172,8 +172,8 @@ static void find_offset(const follower *it, const mor_contact_touch *touch, doub
 }
 
 /* Whether the surface around a node can be followed: the frame there. */
-static bool open_follower(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
-                          follower *it)
+static bool find_frame(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
+                       surface_frame *it)
 {
     const mor_contact_work *work = contact->work;
     it->owner = &work->bodies[touch->side == 0 ? near->first : near->second];
@@ -195,19 +195,19 @@ static bool open_follower(const mor_contact *contact, const mor_contact_near *ne
     const double other = touch->other_curvature / fmax(0.5, 1.0 + touch->other_curvature * touch->gap);
     const double area = group->node_area[touch->node];
     it->other_curvature = other;
-    it->dip = (dip){.depth = -touch->gap,
-                    .tilt = slope,
-                    .curvature = fmax(other - facing * touch->curvature, 0.0),
-                    .length = group->dimension == 3 ? sqrt(area) : area,
-                    .dimension = group->dimension};
+    it->profile = (profile){.depth = -touch->gap,
+                            .tilt = slope,
+                            .curvature = fmax(other - facing * touch->curvature, 0.0),
+                            .length = group->dimension == 3 ? sqrt(area) : area,
+                            .dimension = group->dimension};
     return -facing > FACING;
 }
 
 /* Finds the pressure around the node; false: there is none. */
-static bool find_pressure(const mor_contact *contact, follower *it)
+static bool find_pressure(const mor_contact *contact, surface_frame *it)
 {
-    sum_dip(contact->work->window, &it->dip, it->means);
-    it->shift = it->means[0] > 0.0 && it->dip.tilt > 0.0 ? it->means[2] / it->means[0] : 0.0;
+    sum_profile(contact->work->window, &it->profile, it->means);
+    it->shift = it->means[0] > 0.0 && it->profile.tilt > 0.0 ? it->means[2] / it->means[0] : 0.0;
     return it->means[0] > 0.0;
 }
 
@@ -215,33 +215,33 @@ static bool find_pressure(const mor_contact *contact, follower *it)
  * nodes it is known to some 1e-4 spacings only, and a contact may be shallower. Returns whether the surfaces are where
  * they are expected: an edge of either side may lie between the node and that place. */
 static bool correct_curvature(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
-                              follower *it)
+                              surface_frame *it)
 {
     const int owner = touch->side == 0 ? near->first : near->second;
     const int other = touch->side == 0 ? near->second : near->first;
     const mor_contact_work *work = contact->work;
-    const double level = work->levels[work->first_node[it->owner->group_index] + touch->node];
-    const double expected = depth_at(&it->dip, it->shift, 0.0);
+    const double own_distance = work->node_distances[work->first_node[it->owner->group_index] + touch->node];
+    const double expected = depth_at(&it->profile, it->shift, 0.0);
     double point[3];
     find_offset(it, touch, point);
     for (int a = 0; a < 3; ++a) {
         point[a] += touch->place[a];
     }
     const double depth = -mor_contact_gap(contact, it->owner->group, other, point);
-    const double rise = mor_contact_gap(contact, it->owner->group, owner, point) - level;
-    const double lever = fmax(fabs(it->shift), LEVER * it->dip.length);
-    it->dip.curvature = fmax(it->dip.curvature - 2.0 * (depth - rise - expected) / (lever * lever), 0.0);
+    const double rise = mor_contact_gap(contact, it->owner->group, owner, point) - own_distance;
+    const double lever = fmax(fabs(it->shift), LEVER * it->profile.length);
+    it->profile.curvature = fmax(it->profile.curvature - 2.0 * (depth - rise - expected) / (lever * lever), 0.0);
     return depth > TRUSTED * expected && rise < FOLLOWED * it->owner->group->spacing;
 }
 
 void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch)
 {
-    follower it;
+    surface_frame it;
     touch->is_followed = false;
     touch->depth = fmax(0.0, -touch->gap);
     touch->mean_depth = touch->depth;
     touch->mean_square = touch->depth * touch->depth;
-    if (!open_follower(contact, near, touch, &it) || !find_pressure(contact, &it) ||
+    if (!find_frame(contact, near, touch, &it) || !find_pressure(contact, &it) ||
         !correct_curvature(contact, near, touch, &it)) {
         return;
     }
@@ -251,14 +251,14 @@ void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near
     }
     double offset[3];
     find_offset(&it, touch, offset);
-    const double variance = fmax(0.0, it.means[3] / it.means[0] - it.shift * it.shift) / (it.dip.dimension - 1);
-    const double narrow = fmax(0.0, 1.0 - variance / (WIDE * it.dip.length * it.dip.length));
+    const double variance = fmax(0.0, it.means[3] / it.means[0] - it.shift * it.shift) / (it.profile.dimension - 1);
+    const double narrow = fmax(0.0, 1.0 - variance / (WIDE * it.profile.length * it.profile.length));
     const double sum = mor_contact_overlap(contact, it.owner, touch->node, offset, variance);
     const double share = 1.0 / (1.0 + narrow * (sum - 1.0));
     touch->is_followed = true;
     touch->mean_depth = share * it.means[0];
     touch->mean_square = share * it.means[1];
-    touch->depth = depth_at(&it.dip, it.shift, 0.0);
+    touch->depth = depth_at(&it.profile, it.shift, 0.0);
     for (int a = 0; a < 3; ++a) {
         touch->place[a] += offset[a];
         touch->normal[a] += it.other_curvature * offset[a];

@@ -104,7 +104,7 @@ typedef struct mor_contact_work {
     int32_t *near_of;                        /* shape [n_pairs]; place in near plus one; 0: not near */
     double *curvatures;                      /* shape [n_nodes] as the history; zero for elastic bodies, 1/m */
     double *normals;                         /* shape [n_nodes, 3]; of rigid bodies, reference configuration, 1 */
-    double *levels;                    /* shape [n_nodes]; what the level set of a rigid body tells at its nodes, m */
+    double *node_distances;            /* shape [n_nodes]; what the level set of a rigid body tells at its nodes, m */
     unsigned char *is_smooth;          /* shape [n_nodes]; of rigid bodies: not on an edge or a corner */
     int64_t *first_neighbor;           /* shape [n_nodes + 1]; of each smooth node in neighbors */
     int32_t *neighbors;                /* shape [first_neighbor[n_nodes]]; nodes around smooth ones, in their group */
