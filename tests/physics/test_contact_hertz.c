@@ -81,7 +81,8 @@ static found collide(const impact *it)
     return f;
 }
 
-static void expect_hertz(const impact *it, double tolerance)
+/* Tolerances of the largest force and of the time in contact, 1. */
+static void expect_hertz(const impact *it, double of_force, double of_time)
 {
     const double mass = DENSITY * 4.0 / 3.0 * MOR_PI * pow(RADIUS, 3.0) * (it->is_wall ? 1.0 : 0.5);
     const double radius = it->is_wall ? RADIUS : 0.5 * RADIUS;
@@ -96,16 +97,17 @@ static void expect_hertz(const impact *it, double tolerance)
                 depth / RADIUS, sqrt(radius * depth) / it->spacing, 100.0 * (f.force / force - 1.0),
                 100.0 * (f.time / time - 1.0), 100.0 * (f.depth / depth - 1.0));
     }
-    contact_scene_expect("largest force over Hertz's", f.force / force, 1.0, tolerance);
-    contact_scene_expect("time in contact over Hertz's", f.time / time, 1.0, tolerance);
+    contact_scene_expect("largest force over Hertz's", f.force / force, 1.0, of_force);
+    contact_scene_expect("time in contact over Hertz's", f.time / time, 1.0, of_time);
 }
 
-/* The tolerance is that of sums over some ten nodes in the contact. */
+/* Forces to 1.5 %: windows around nodes (0.9 measured). Times to 4 %: they end with the last step in which a force
+ * acts, one of thirty (2.8 measured). */
 static void rigid_ball_on_a_wall_follows_hertz(void **state)
 {
     (void)state;
     for (int n = 8; n <= 16; n += 4) {
-        expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / n, 50e9, 10.0}, 0.05);
+        expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / n, 50e9, 10.0}, 0.015, 0.04);
     }
 }
 
@@ -113,28 +115,28 @@ static void two_rigid_balls_follow_hertz(void **state)
 {
     (void)state;
     for (int n = 8; n <= 16; n += 4) {
-        expect_hertz(&(impact){MOR_BODY_RIGID, false, RADIUS / n, 50e9, 10.0}, 0.05);
+        expect_hertz(&(impact){MOR_BODY_RIGID, false, RADIUS / n, 50e9, 10.0}, 0.015, 0.04);
     }
 }
 
 static void slow_impacts_follow_hertz(void **state)
 {
     (void)state;
-    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 2.0}, 0.05);
-    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 0.5}, 0.05);
+    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 2.0}, 0.015, 0.04);
+    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 0.5}, 0.015, 0.04);
     /* Two spacings a radius, the coarsest that is allowed, where a node sees a radian of the ball: +4.5, +8.9 %. Taken
      * for all edge such a ball was pushed 4.8 times too hard. */
-    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 2, 50e9, 1.0}, 0.11);
+    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 2, 50e9, 1.0}, 0.06, 0.11);
     /* 4e-4 spacings deep, a fifteenth of a spacing wide. */
-    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 0.01}, 0.05);
-    expect_hertz(&(impact){MOR_BODY_RIGID, false, RADIUS / 10, 50e9, 0.01}, 0.05);
+    expect_hertz(&(impact){MOR_BODY_RIGID, true, RADIUS / 10, 50e9, 0.01}, 0.015, 0.04);
+    expect_hertz(&(impact){MOR_BODY_RIGID, false, RADIUS / 10, 50e9, 0.01}, 0.015, 0.04);
 }
 
 static void two_elastic_balls_follow_hertz(void **state)
 {
     (void)state;
     /* 12 spacings a radius: +8.3, -9.5 %; the contact is then 2.3 spacings wide, with 24 it is 4.5. */
-    expect_hertz(&(impact){MOR_BODY_ELASTIC, false, RADIUS / 24, 1e9, 10.0}, 0.05);
+    expect_hertz(&(impact){MOR_BODY_ELASTIC, false, RADIUS / 24, 1e9, 10.0}, 0.05, 0.05);
 }
 
 int main(void)
