@@ -22,7 +22,8 @@
 /* Nearer to the second wall, spacings, a place may lie beside the edge of the first. */
 #define BESIDE 0.25
 
-enum { POINTS = 8192, PROJECTIONS = 3 };
+enum { POINTS = 8192 };
+enum { SIDE = 3 }; /* purposes of random numbers from there on; before, coordinates */
 
 /* The boxes of both walls, a spacing larger, where they overlap within the domain; false: they do not. */
 static bool find_overlap(const mor_case *c, const mor_shape *a, const mor_shape *b, mor_bounds *box)
@@ -45,17 +46,22 @@ static bool find_overlap(const mor_case *c, const mor_shape *a, const mor_shape 
     return true;
 }
 
-/* Moves a point to a height over a surface; false where there is no normal or the surface is not reached. */
-static bool lift(const mor_shape *shape, double height, double spacing, double *point, double *normal)
+/* A point to look from. Three of four lie within a spacing of a face or an edge of the box, where walls that are much
+ * larger than a spacing meet. */
+static void draw_point(const mor_case *c, const mor_bounds *box, int number, double *point)
 {
-    for (int k = 0; k < PROJECTIONS; ++k) {
-        const double rise = height - mor_shape_distance(shape, point);
-        mor_shape_normal(shape, point, STEP * spacing, normal);
-        for (int a = 0; a < 3; ++a) {
-            point[a] += rise * normal[a];
+    const int held = number % 4; /* coordinates that stay at a side of the box: 0, 1, and twice 2 */
+    const int n_held = held < 3 ? held : 2;
+    const int first = (int)(c->dimension * mor_random_uniform(0, (uint64_t)number, SIDE));
+    for (int k = 0; k < c->dimension; ++k) {
+        const double share = mor_random_uniform(0, (uint64_t)number, (uint64_t)k);
+        const double side = mor_random_uniform(0, (uint64_t)number, (uint64_t)(SIDE + 1 + k));
+        point[k] = box->minimum[k] + share * (box->maximum[k] - box->minimum[k]);
+        if ((k - first + c->dimension) % c->dimension < n_held) {
+            point[k] =
+                side < 0.5 ? box->minimum[k] + 2.0 * share * c->spacing : box->maximum[k] - 2.0 * share * c->spacing;
         }
     }
-    return mor_vector_length(normal) > 0.5 && fabs(mor_shape_distance(shape, point) - height) < STEP * spacing;
 }
 
 static bool is_in_domain(const mor_case *c, const double *point)
@@ -84,11 +90,8 @@ static seam find_seam(const mor_case *c, const mor_shape *a, const mor_shape *b)
     for (int n = 0; n < POINTS; ++n) {
         double point[3] = {0.0, 0.0, 0.0};
         double first[3], second[3];
-        for (int k = 0; k < c->dimension; ++k) {
-            const double share = mor_random_uniform(0, (uint64_t)n, (uint64_t)k);
-            point[k] = box.minimum[k] + share * (box.maximum[k] - box.minimum[k]);
-        }
-        if (!lift(a, LIFT * c->spacing, c->spacing, point, first) || !is_in_domain(c, point)) {
+        draw_point(c, &box, n, point);
+        if (!mor_shape_project(a, LIFT * c->spacing, STEP * c->spacing, point, first) || !is_in_domain(c, point)) {
             continue;
         }
         const double over = mor_shape_distance(b, point);
@@ -184,17 +187,20 @@ void mor_wall_seams_warn(mor_context *context, const mor_case *the_case)
     const mor_case *c = the_case;
     for (int w = 0; w < c->n_walls && c->n_bodies > 0; ++w) {
         for (int v = 0; v < w; ++v) {
-            if (are_alike(c, &c->walls[w], &c->walls[v])) {
-                continue;
-            }
+            const bool is_alike = are_alike(c, &c->walls[w], &c->walls[v]);
             const seam it = find_seam(c, c->walls[w].shape, c->walls[v].shape);
-            if (it.is_flush) {
-                mor_context_log(context, MOR_LOG_WARNING,
-                                "%s:%d: wall '%s' goes on in wall '%s' at (%.4g, %.4g, %.4g) m, but moves, yields or "
-                                "rubs otherwise; a rock within two spacings of such a seam feels each wall as if the "
-                                "other were not there, and its forces are up to a third off",
-                                c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->walls[v].name,
-                                it.place[0], it.place[1], it.place[2]);
+            if (it.is_flush && (!is_alike || it.is_inner)) {
+                mor_context_log(
+                    context, MOR_LOG_WARNING,
+                    "%s:%d: wall '%s' goes on in wall '%s' at (%.4g, %.4g, %.4g) m, but %s, so that they "
+                    "are not touched as one; a rock within two spacings of that seam feels each wall as if "
+                    "the other were not there, and its forces are up to a third off: %s",
+                    c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->walls[v].name, it.place[0],
+                    it.place[1], it.place[2],
+                    is_alike ? "forms an inner corner with it elsewhere" : "moves, yields or rubs otherwise",
+                    is_alike ? "let one end a spacing before the other"
+                             : "give both the same velocity, contact_modulus and contact law, or keep rocks "
+                               "away from it");
             }
         }
     }

@@ -21,7 +21,7 @@
 mor_status mor_wall_seams_join(mor_context *context, const mor_case *the_case, mor_contact_wall *walls,
                                mor_shape **wholes);
 
-/** Warns of each pair of walls that make up one face together but are not alike, where there are bodies to touch it.
+/** Warns of each pair of walls that make up one face together but are not joined, where there are bodies to touch it.
  *  @param context  [in,out]  one object
  *  @param the_case [in]      one object
  *  Cost: some hundred thousand distances per pair of walls that come near. */

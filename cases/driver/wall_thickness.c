@@ -21,7 +21,7 @@
 /* Faces are those of one plate if the inner product of their normals is below this, 1. */
 #define OPPOSITE (-0.5)
 
-enum { POINTS = 4096, PROJECTIONS = 3, ADVICE_BYTES = 96 };
+enum { POINTS = 4096, ADVICE_BYTES = 96 };
 
 /* A place where a wall is thin. */
 typedef struct thinness {
@@ -51,11 +51,7 @@ static bool draw_point(const mor_case *c, int wall, int number, double *point, d
         const double high = fmin(box.maximum[k], c->domain_maximum[k]) + c->spacing;
         point[k] = low + (high - low) * mor_random_uniform((uint64_t)wall, (uint64_t)number, (uint64_t)k);
     }
-    for (int k = 0; k < PROJECTIONS; ++k) {
-        mor_shape_normal(shape, point, STEP * c->spacing, normal);
-        mor_vector_advance(point, -mor_shape_distance(shape, point), normal, point);
-    }
-    bool is_good = fabs(mor_shape_distance(shape, point)) < STEP * c->spacing && mor_vector_length(normal) > 0.5;
+    bool is_good = mor_shape_project(shape, 0.0, STEP * c->spacing, point, normal);
     for (int k = 0; k < c->dimension; ++k) {
         is_good = is_good && point[k] >= c->domain_minimum[k] && point[k] <= c->domain_maximum[k];
     }

@@ -325,6 +325,16 @@ void mor_shape_normal(const mor_shape *shape, const double *point, double step, 
     find_normal(shape, mor_shape_distance, point, step, normal);
 }
 
+bool mor_shape_project(const mor_shape *shape, double height, double step, double *point, double *normal)
+{
+    enum { NEWTON_STEPS = 3 };
+    for (int k = 0; k < NEWTON_STEPS; ++k) {
+        mor_shape_normal(shape, point, step, normal);
+        mor_vector_advance(point, height - mor_shape_distance(shape, point), normal, point);
+    }
+    return mor_vector_length(normal) > 0.5 && fabs(mor_shape_distance(shape, point) - height) < step;
+}
+
 void mor_shape_exact_normal(const mor_shape *shape, const double *point, double step, double *normal)
 {
     find_normal(shape, mor_shape_exact_distance, point, step, normal);

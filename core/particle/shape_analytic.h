@@ -202,6 +202,15 @@ void mor_shape_bounds(const mor_shape *shape, mor_bounds *bounds);
  *  Cost: six distances. Threads: safe to call concurrently. */
 void mor_shape_normal(const mor_shape *shape, const double *point, double step, double *normal);
 
+/** Moves a point along the normals until it lies at a height over the surface, by a few steps of Newton's method.
+ *  @param shape  [in]      one object
+ *  @param height [in]      unit m; 0: onto the surface
+ *  @param step   [in]      unit m; half the width of the differences that give normals, and how far off it may end; > 0
+ *  @param point  [in,out]  shape [3]; unit m
+ *  @param normal [out]     shape [3]; where it ends, unit 1
+ *  Returns: whether it got there. Threads: safe to call concurrently. */
+bool mor_shape_project(const mor_shape *shape, double height, double step, double *point, double *normal);
+
 /** Writes the normal as mor_shape_normal, from exact distances.
  *  @param shape  [in]   one object
  *  @param point  [in]   shape [3]; unit m

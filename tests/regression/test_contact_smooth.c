@@ -173,7 +173,17 @@ static void walls_that_meet_flush_act_as_one(void **state)
     outcome = run_text(folder, parted, "parted", as_it_is, 0);
     assert_null(strstr(outcome.errors, "goes on"));
     program_clear(&outcome);
+    /* However large the walls are beside the spacing, what meets flush is found. */
+#define LARGE(name, low, high)                                                                                         \
+    "{name=\"" name "\"; shape={type=\"box\"; min=(" low ", -200, -100); max=(" high ", 200, 0);};}"
+    outcome = run_text(folder, parted, "large",
+                       (const char *[]){"walls=(" LARGE("floor", "-200", "0") "," LARGE("more", "0", "200") ")",
+                                        "domain={min=(-150, -150, -150); max=(150, 150, 150);}", NULL},
+                       0);
+#undef LARGE
+    program_clear(&outcome);
     const double peak = read_maximum(folder, "whole", "push");
+    assert_true(fabs(read_maximum(folder, "large", "push") / peak - 1.0) < 1e-6);
     const double spin = read_maximum(folder, "whole", "spin");
     assert_true(fabs(read_maximum(folder, "parted", "push") / peak - 1.0) < 1e-6);
     assert_true(fabs(read_maximum(folder, "parted", "spin") / spin - 1.0) < 1e-4);

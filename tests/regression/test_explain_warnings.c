@@ -59,7 +59,10 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"0 m\");}; "
         "contact_modulus=\"1 GPa\";})",
         "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"0 m\");};})",
-        "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"1 m\");};})"};
+        "walls=(" INCLINE ",{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-1 m\"); max=(\"4 m\", \"1 m\");};})",
+        /* Their bottoms, which make one face, lie in the domain. */
+        "walls=({name=\"incline\"; shape={type=\"box\"; min=(\"-1 m\", \"-0.5 m\"); max=(\"1 m\", \"0 m\");};},"
+        "{name=\"step\"; shape={type=\"box\"; min=(\"1 m\", \"-0.5 m\"); max=(\"4 m\", \"1 m\");};})"};
 #undef INCLINE
     const struct {
         const char *path, *setting, *warning;
@@ -80,6 +83,7 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         {block, flush[0], "wall 'step' goes on in wall 'incline' at ("},
         {block, flush[1], NULL},
         {block, flush[2], NULL},
+        {block, flush[3], "but forms an inner corner with it elsewhere"},
     };
     run_folder *folder = *state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
