@@ -3,15 +3,15 @@
 #ifndef MOR_BODIES_BODY_H
 #define MOR_BODIES_BODY_H
 
-#include "core/base/domain.h"
+#include "core/geometry/domain.h"
+#include "core/geometry/shape.h"
 #include "core/particle/set.h"
-#include "core/particle/shape.h"
-#include "core/sph/boundary.h"
+#include "core/particle/boundary.h"
 
 /** @file
  *  Rocks. A group holds all bodies of one material in one particle set, each body one range of it. The group is plain
  *  data that everyone around it shares: the solver that moves it (elastic.h, rigid.h), contact among bodies
- *  (contact.h), and the soil, which sees the group as a moving boundary (core/sph/boundary.h).
+ *  (contact.h), and the soil, which sees the group as a moving boundary (core/particle/boundary.h).
  *
  *  Reference configuration: the placed positions at time zero. A body's level set is known there; the shape itself is
  *  described in a frame of its own: X = shape_turn * x + shape_move. */
@@ -164,7 +164,7 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
  *  which slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
  *  largest. Of an elastic body also the square of half the soil's impedance over its own. A body with a ratio above 1
  *  is light: the soil sees its velocity at the end of a step in place of the mean over the step, and takes steps
- *  shorter by the root of the ratio (core/sph/boundary.h). To be called before the first step.
+ *  shorter by the root of the ratio (core/particle/boundary.h). To be called before the first step.
  *  @param group           [in,out]  one object; made by mor_body_group_init
  *  @param body            [in]      index of the body
  *  @param density         [in]      of the soil, unit kg/m3

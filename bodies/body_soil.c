@@ -3,7 +3,7 @@
 /* How much soil a body drags along. docs/theory/coupling.md, "Bodies lighter than the soil around them". */
 #include "bodies/body_internal.h"
 
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
 
 #include <string.h>
 

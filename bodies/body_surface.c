@@ -4,7 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
 
 #include <string.h>
 

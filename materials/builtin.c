@@ -15,10 +15,5 @@ static const mor_material *const BUILTIN[] = {
     &mor_hypoelastic,
 };
 
-mor_status mor_materials_register_builtin(mor_context *context, mor_registry *registry)
-{
-    for (size_t k = 0; k < sizeof BUILTIN / sizeof BUILTIN[0]; ++k) {
-        MOR_TRY(context, mor_registry_add(context, registry, BUILTIN[k]));
-    }
-    return MOR_OK;
-}
+const mor_plugin_list mor_materials_builtin = {
+    .abi = MOR_MATERIAL_ABI, .n_materials = sizeof BUILTIN / sizeof BUILTIN[0], .materials = BUILTIN};

@@ -3,15 +3,12 @@
 #ifndef MOR_MATERIALS_BUILTIN_H
 #define MOR_MATERIALS_BUILTIN_H
 
-#include "core/material/registry.h"
+#include "core/material/kit/plugin.h"
 
 /** @file
  *  The models that come with Moraine. */
 
-/** Adds every built-in model to a registry.
- *  @param context  [in,out]  one object
- *  @param registry [in,out]  one object
- *  Returns: MOR_OK; MOR_ERROR_PLUGIN when a name is taken; MOR_ERROR_MEMORY. */
-mor_status mor_materials_register_builtin(mor_context *context, mor_registry *registry);
+/** All of them, for mor_registry_add_list. */
+extern const mor_plugin_list mor_materials_builtin;
 
 #endif

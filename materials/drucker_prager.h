@@ -3,7 +3,7 @@
 #ifndef MOR_MATERIALS_DRUCKER_PRAGER_H
 #define MOR_MATERIALS_DRUCKER_PRAGER_H
 
-#include "core/material/material.h"
+#include "core/material/kit/material.h"
 
 /** @file
  *  Elastic, perfectly plastic Drucker-Prager soil with non-associated flow: Zhang et al. (2024), eqs. 4 to 12. */

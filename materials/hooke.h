@@ -3,7 +3,7 @@
 #ifndef MOR_MATERIALS_HOOKE_H
 #define MOR_MATERIALS_HOOKE_H
 
-#include "core/material/material.h"
+#include "core/material/kit/material.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #ifndef MOR_MATERIALS_HYPOELASTIC_H
 #define MOR_MATERIALS_HYPOELASTIC_H
 
-#include "core/material/material.h"
+#include "core/material/kit/material.h"
 
 /** @file
  *  Hooke's law between the Jaumann rate of the Cauchy stress and the strain rate: the elastic solid of

@@ -3,7 +3,7 @@
 #ifndef MOR_MATERIALS_NEO_HOOKEAN_H
 #define MOR_MATERIALS_NEO_HOOKEAN_H
 
-#include "core/material/material.h"
+#include "core/material/kit/material.h"
 
 /** @file
  *  Compressible Neo-Hookean solid, Zhang et al. (2024) eqs. 39 to 41:

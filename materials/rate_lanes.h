@@ -3,7 +3,7 @@
 #ifndef MOR_MATERIALS_RATE_LANES_H
 #define MOR_MATERIALS_RATE_LANES_H
 
-#include "core/material/lanes.h"
+#include "core/material/kit/lanes.h"
 #include "materials/invariants.h"
 
 #include <math.h>

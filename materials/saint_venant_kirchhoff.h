@@ -3,7 +3,7 @@
 #ifndef MOR_MATERIALS_SAINT_VENANT_KIRCHHOFF_H
 #define MOR_MATERIALS_SAINT_VENANT_KIRCHHOFF_H
 
-#include "core/material/material.h"
+#include "core/material/kit/material.h"
 
 /** @file
  *  Hooke's law between Green-Lagrange strain E and second Piola-Kirchhoff stress: S = lambda tr(E) I + 2 mu E, P = F S.

@@ -3,7 +3,7 @@
 #ifndef MOR_MATERIALS_TOTAL_LANES_H
 #define MOR_MATERIALS_TOTAL_LANES_H
 
-#include "core/material/lanes.h"
+#include "core/material/kit/lanes.h"
 #include "materials/hooke.h"
 #include "materials/invariants.h"
 

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/command.h"
+#include "cases/driver/command/command.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -64,7 +64,7 @@ static const char *const ARRAY_NAMES[] = {"density",
                                           "a state_in",
                                           "a state_out"};
 
-/* Reads and writes of each operation, as core/material/material.h states them. */
+/* Reads and writes of each operation, as core/material/kit/material.h states them. */
 enum {
     USES_DENSITY = 1,
     USES_STRESS = 2,

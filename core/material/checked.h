@@ -3,10 +3,11 @@
 #ifndef MOR_CORE_MATERIAL_CHECKED_H
 #define MOR_CORE_MATERIAL_CHECKED_H
 
-#include "core/material/material.h"
+#include "core/material/kit/material.h"
 
 /** @file
- *  A decorator around any material instance that proves the contract of core/material/material.h while a run goes on.
+ *  A decorator around any material instance that proves the contract of core/material/kit/material.h while a run goes
+ *  on.
  *  Each batch is worked on in guarded copies: arrays that the operation has no business with are NULL, outputs are
  *  filled with NaN first and must all be finite afterwards, inputs must be unchanged, and marks around every array must
  *  stand. It is slower and otherwise invisible: the numbers are those of the inner material. */

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/material/material.h"
+#include "core/material/kit/material.h"
 
 #include "core/base/memory.h"
 #include "core/material/params.h"

@@ -3,30 +3,13 @@
 #ifndef MOR_CORE_MATERIAL_PLUGIN_H
 #define MOR_CORE_MATERIAL_PLUGIN_H
 
+#include "core/material/kit/plugin.h"
 #include "core/material/registry.h"
 
 /** @file
- *  Materials from a shared object. The object exports one function, mor_plugin_materials; nothing registers itself and
- *  no folder is searched. Its code must stay loaded while anything made from it lives: destroy the instances and free
- *  the registry first, unload last. */
-
-/** What the exported function returns. Constant and static in the plug-in. */
-typedef struct mor_plugin_list {
-    uint32_t abi;                         /* MOR_MATERIAL_ABI the plug-in was built for */
-    int32_t n_materials;                  /* number of models, >= 1 */
-    const mor_material *const *materials; /* shape [n_materials] of pointers to descriptors */
-} mor_plugin_list;
-
-/** Type of the exported function.
- *  @param host_abi [in]  MOR_MATERIAL_ABI of the program that loads the plug-in
- *  Returns: the list; NULL when the plug-in cannot serve this program. */
-typedef const mor_plugin_list *(*mor_plugin_entry)(uint32_t host_abi);
-
-/** Name of the exported function. */
-#define MOR_PLUGIN_SYMBOL "mor_plugin_materials"
-
-/** Put before the exported function when the rest of the object is compiled with hidden symbols. */
-#define MOR_PLUGIN_EXPORT __attribute__((visibility("default")))
+ *  Materials from a shared object, which exports the function of core/material/kit/plugin.h; nothing registers itself
+ *  and no folder is searched. Its code must stay loaded while anything made from it lives: destroy the instances and
+ *  free the registry first, unload last. */
 
 /** Largest number of models in one shared object. */
 enum { MOR_PLUGIN_MATERIALS_MAX = 256 };

@@ -64,6 +64,14 @@ mor_status mor_registry_add(mor_context *context, mor_registry *registry, const 
     return MOR_OK;
 }
 
+mor_status mor_registry_add_list(mor_context *context, mor_registry *registry, const mor_plugin_list *list)
+{
+    for (int k = 0; k < list->n_materials; ++k) {
+        MOR_TRY(context, mor_registry_add(context, registry, list->materials[k]));
+    }
+    return MOR_OK;
+}
+
 const mor_material *mor_registry_find(const mor_registry *registry, const char *name)
 {
     for (int k = 0; k < registry->n; ++k) {

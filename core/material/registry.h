@@ -3,10 +3,10 @@
 #ifndef MOR_CORE_MATERIAL_REGISTRY_H
 #define MOR_CORE_MATERIAL_REGISTRY_H
 
-#include "core/material/material.h"
+#include "core/material/kit/plugin.h"
 
 /** @file
- *  Name -> material descriptor. Registration is explicit: materials/builtin.h adds the built-in models,
+ *  Name -> material descriptor. Registration is explicit: materials/builtin.h lists the built-in models,
  *  core/material/plugin.h those of a shared object. Nothing registers itself. */
 
 typedef struct mor_registry mor_registry;
@@ -29,6 +29,13 @@ void mor_registry_free(mor_context *context, mor_registry **registry);
  *  @param material [in]      one object; borrowed, must outlive the registry
  *  Returns: MOR_OK; MOR_ERROR_PLUGIN when the descriptor is wrong or another model has the name; MOR_ERROR_MEMORY. */
 mor_status mor_registry_add(mor_context *context, mor_registry *registry, const mor_material *material);
+
+/** Adds all models of a list, in its order.
+ *  @param context  [in,out]  one object
+ *  @param registry [in,out]  one object
+ *  @param list     [in]      one object; borrowed, outlives the registry
+ *  Returns: as mor_registry_add; models before the one refused stay. */
+mor_status mor_registry_add_list(mor_context *context, mor_registry *registry, const mor_plugin_list *list);
 
 /** Returns the model of that name, or NULL.
  *  @param registry [in]  one object

@@ -5,7 +5,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "core/sph/kernel.h"
+#include "core/particle/kernel.h"
 
 #include <string.h>
 
@@ -60,8 +60,7 @@ static const mor_stage soil_stages[] = {
     {"energy of stress", mor_soil_audit_stress,
      RECORDS | BIT(VELOCITY) | BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS), 0, 0,
      "what the stress update takes, likewise"},
-    {"outflow", mor_soil_remove_outflow,
-     BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS), 0, 0,
+    {"outflow", mor_soil_remove_outflow, BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS), 0, 0,
      "takes out what has left the domain, when that does not stop the run"},
 };
 

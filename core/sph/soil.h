@@ -3,8 +3,8 @@
 #ifndef MOR_CORE_SPH_SOIL_H
 #define MOR_CORE_SPH_SOIL_H
 
-#include "core/base/domain.h"
-#include "core/material/material.h"
+#include "core/geometry/domain.h"
+#include "core/material/kit/material.h"
 #include "core/particle/set.h"
 #include "core/sph/soil_contact.h"
 #include "core/sph/soil_energy.h"
@@ -122,7 +122,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
 
-/** Lets the soil see a boundary that someone else moves, see core/sph/boundary.h for what is read and written when.
+/** Lets the soil see a boundary that someone else moves; core/particle/boundary.h says what is read and written when.
  *  @param context  [in,out]  one object
  *  @param soil     [in,out]  one object
  *  @param boundary [in,out]  one object; borrowed, outlives the soil's steps; its points are in place

@@ -3,8 +3,8 @@
 #ifndef MOR_CORE_SPH_SOIL_CONTACT_H
 #define MOR_CORE_SPH_SOIL_CONTACT_H
 
-#include "core/sph/boundary.h"
-#include "core/sph/pair.h"
+#include "core/particle/boundary.h"
+#include "core/sph/pair/pair.h"
 
 /** @file
  *  Soil against walls and rocks: points with volume, in patches that move. A soil particle sees each patch with

@@ -5,7 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/sph/kernel.h"
+#include "core/particle/kernel.h"
 
 #include <string.h>
 

@@ -5,8 +5,8 @@
  * sqrt(J2) reaches the undrained strength, then flows at constant volume (von Mises). Everything it needs comes from
  * the headers of core/base and core/material; it links with nothing but libm. */
 #include "core/base/math.h"
-#include "core/material/material.h"
-#include "core/material/plugin.h"
+#include "core/material/kit/material.h"
+#include "core/material/kit/plugin.h"
 
 /* Step 1: the parameters, in the order in which create finds them. Moraine reads them from the case file, converts the
  * units, checks the ranges and prints them into every output. */
@@ -116,7 +116,7 @@ static double correct(double shear, double strength, double *stress)
     return (root - strength) / (shear * sqrt(3.0));
 }
 
-/* Step 4: the operations. Only these are required; core/material/material.h lists the others and their defaults. */
+/* Step 4: the operations. Only these are required; core/material/kit/material.h lists the others and their defaults. */
 
 static mor_status clay_create(const mor_services *services, mor_material_instance *instance)
 {

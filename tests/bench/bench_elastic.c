@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/clock.h"
+#include "cases/driver/run/clock.h"
 #include "tests/bench/bench.h"
 #include "tests/common/elastic_bodies.h"
 

@@ -3,7 +3,7 @@
 #ifndef MOR_TESTS_BENCH_METER_H
 #define MOR_TESTS_BENCH_METER_H
 
-#include "cases/driver/clock.h"
+#include "cases/driver/run/clock.h"
 #include "core/time/schedule.h"
 
 #include <stdlib.h>

@@ -4,8 +4,8 @@
 #define MOR_TESTS_COMMON_ASSEMBLY_H
 
 #include "core/base/math.h"
-#include "core/sph/kernel.h"
-#include "core/sph/pair.h"
+#include "core/particle/kernel.h"
+#include "core/sph/pair/pair.h"
 #include "tests/common/cloud.h"
 
 #include <math.h>

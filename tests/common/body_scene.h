@@ -3,10 +3,10 @@
 #ifndef MOR_TESTS_COMMON_BODY_SCENE_H
 #define MOR_TESTS_COMMON_BODY_SCENE_H
 
-#include "bodies/elastic.h"
+#include "bodies/elastic/elastic.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
-#include "core/particle/shape_moments.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
 #include "materials/neo_hookean.h"

@@ -3,8 +3,9 @@
 #ifndef MOR_TESTS_COMMON_CASE_READING_H
 #define MOR_TESTS_COMMON_CASE_READING_H
 
-#include "cases/driver/case_read.h"
-#include "cases/driver/case_schema.h"
+#include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/case/write/case_write.h"
 #include "core/material/params.h"
 #include "materials/builtin.h"
 
@@ -39,7 +40,7 @@ static inline int case_reading_set_up(void **state)
     mor_context_init(&f->units_context);
     return mor_units_new(&f->units_context, &f->units) != MOR_OK ||
            mor_registry_new(&f->context, &f->registry) != MOR_OK ||
-           mor_materials_register_builtin(&f->context, f->registry) != MOR_OK;
+           mor_registry_add_list(&f->context, f->registry, &mor_materials_builtin) != MOR_OK;
 }
 
 static inline int case_reading_tear_down(void **state)
@@ -206,9 +207,9 @@ static inline void case_reading_outlines(const mor_case_shape *a, const mor_case
     assert_memory_equal(a->first, b->first, sizeof a->first);
     assert_memory_equal(a->second, b->second, sizeof a->second);
     assert_true(a->radius == b->radius && a->height == b->height && a->angle == b->angle); /* exact: the same bits */
-    assert_memory_equal(&a->form, &b->form, sizeof a->form); /* exact: the same bits, NaN included */
+    assert_memory_equal(&a->form, &b->form, sizeof a->form);       /* exact: the same bits, NaN included */
     assert_memory_equal(&a->ground, &b->ground, sizeof a->ground); /* exact: likewise */
-    assert_true(a->file_hash == b->file_hash);               /* exact: of the same file */
+    assert_true(a->file_hash == b->file_hash);                     /* exact: of the same file */
     assert_int_equal(a->n_points, b->n_points);
     for (int k = 0; k < 2 * a->n_points; ++k) {
         assert_true(a->points[k] == b->points[k]); /* exact: the same bits */

@@ -3,13 +3,13 @@
 #ifndef MOR_TESTS_COMMON_CONTACT_SCENE_H
 #define MOR_TESTS_COMMON_CONTACT_SCENE_H
 
-#include "bodies/contact.h"
-#include "bodies/elastic.h"
-#include "bodies/rigid.h"
+#include "bodies/contact/contact.h"
+#include "bodies/elastic/elastic.h"
+#include "bodies/rigid/rigid.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
-#include "core/particle/shape_moments.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
 #include "materials/neo_hookean.h"

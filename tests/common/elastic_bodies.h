@@ -3,11 +3,11 @@
 #ifndef MOR_TESTS_COMMON_ELASTIC_BODIES_H
 #define MOR_TESTS_COMMON_ELASTIC_BODIES_H
 
-#include "bodies/elastic.h"
+#include "bodies/elastic/elastic.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
 #include "core/time/schedule.h"
 #include "materials/neo_hookean.h"
 

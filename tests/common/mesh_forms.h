@@ -4,7 +4,7 @@
 #define MOR_TESTS_COMMON_MESH_FORMS_H
 
 #include "core/base/memory.h"
-#include "relaxation/mesh.h"
+#include "relaxation/mesh/mesh.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -3,7 +3,7 @@
 #ifndef MOR_TESTS_COMMON_PILE_H
 #define MOR_TESTS_COMMON_PILE_H
 
-#include "cases/driver/render/picture.h"
+#include "cases/driver/picture/view/picture.h"
 
 /** @file
  *  A small block of particles and a picture of it, for tests of drawing only. */

@@ -4,8 +4,8 @@
 #define MOR_TESTS_COMMON_RELAX_SCENE_H
 
 #include "core/base/math.h"
-#include "core/particle/shape_analytic.h"
-#include "relaxation/relax.h"
+#include "core/geometry/shape_analytic.h"
+#include "relaxation/relax/relax.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,11 +3,11 @@
 #ifndef MOR_TESTS_COMMON_RIGID_BODIES_H
 #define MOR_TESTS_COMMON_RIGID_BODIES_H
 
-#include "bodies/rigid.h"
+#include "bodies/rigid/rigid.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
-#include "core/particle/shape_moments.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
 #include "core/time/schedule.h"
 #include "tests/common/cloud.h"
 

@@ -6,7 +6,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/particle/tree.h"
-#include "core/sph/boundary.h"
+#include "core/particle/boundary.h"
 #include "core/time/stepper.h"
 
 #include <setjmp.h>

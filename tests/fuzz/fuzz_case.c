@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/case_read.h"
+#include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/case/write/case_write.h"
 #include "materials/builtin.h"
 
 #include <stdint.h>
@@ -85,7 +86,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes)
     mor_registry *registry = NULL;
     mor_context_init(&context);
     require(mor_registry_new(&context, &registry) == MOR_OK, "registry", context.message);
-    require(mor_materials_register_builtin(&context, registry) == MOR_OK, "registry", context.message);
+    require(mor_registry_add_list(&context, registry, &mor_materials_builtin) == MOR_OK, "registry", context.message);
     const mor_case_text text = {.name = "fuzz.cfg",
                                 .text = (const char *)data,
                                 .n_bytes = (int64_t)n_bytes,

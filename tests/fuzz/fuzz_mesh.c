@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
-#include "relaxation/mesh.h"
+#include "relaxation/mesh/mesh.h"
 
 #include <stdio.h>
 #include <stdlib.h>

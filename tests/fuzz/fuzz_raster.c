@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "bodies/terrain.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
+#include "relaxation/terrain/terrain.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/rock_list.h"
+#include "cases/driver/case/rock_list.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
-#include "core/particle/shape_analytic.h"
-#include "relaxation/level_set.h"
-#include "relaxation/mesh_distance.h"
+#include "core/geometry/shape_analytic.h"
+#include "relaxation/level_set/level_set.h"
+#include "relaxation/mesh/mesh_distance.h"
 #include "tests/common/cloud.h"
 #include "tests/common/mesh_forms.h"
 

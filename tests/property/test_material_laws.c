@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/memory.h"
-#include "core/material/conformance.h"
+#include "core/material/conformance/conformance.h"
 #include "core/material/plugin.h"
 #include "materials/builtin.h"
 #include "materials/drucker_prager.h"
@@ -73,7 +73,7 @@ static void every_registered_material_obeys_all_laws(void **state)
     mor_context_init(&context);
     mor_registry *registry = NULL;
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
-    assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
     assert_true(mor_registry_count(registry) >= 4);
     for (int k = 0; k < mor_registry_count(registry); ++k) {
         check_all(mor_registry_get(registry, k), "");

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "relaxation/mesh.h"
+#include "relaxation/mesh/mesh.h"
 #include "tests/common/mesh_forms.h"
 #include "tests/common/near.h"
 #include "tests/common/run_folder.h"

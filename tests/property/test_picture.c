@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/render/camera.h"
-#include "cases/driver/render/colormap.h"
-#include "cases/driver/render/picture.h"
+#include "cases/driver/picture/draw/colormap.h"
+#include "cases/driver/picture/view/camera.h"
+#include "cases/driver/picture/view/picture.h"
 #include "tests/common/pile.h"
 #include "tests/common/run_folder.h"
 

@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/memory.h"
-#include "relaxation/level_set.h"
-#include "relaxation/rock_form.h"
+#include "relaxation/level_set/level_set.h"
+#include "relaxation/pack/rock_form.h"
 #include "tests/common/relax_scene.h"
 
 #include <time.h>

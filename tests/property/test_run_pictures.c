@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/pictures.h"
+#include "cases/driver/picture/pictures.h"
+#include "core/geometry/shape_analytic.h"
 #include "core/io/snapshot.h"
-#include "core/particle/shape_analytic.h"
 #include "tests/common/run_folder.h"
 
 #include <math.h>

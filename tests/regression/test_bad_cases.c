@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/case_read.h"
+#include "cases/driver/case/sections/case_read.h"
 #include "materials/builtin.h"
 
 #include <dirent.h>
@@ -204,7 +204,7 @@ static int set_up(void **state)
     *state = f;
     mor_context_init(&f->context);
     return mor_registry_new(&f->context, &f->registry) != MOR_OK ||
-           mor_materials_register_builtin(&f->context, f->registry) != MOR_OK;
+           mor_registry_add_list(&f->context, f->registry, &mor_materials_builtin) != MOR_OK;
 }
 
 static int tear_down(void **state)

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/command_table.h"
+#include "cases/driver/command/command_table.h"
 #include "tests/common/program.h"
 
 /* Help of each command once was that of all; manual page and completion say what the tables say. */

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "bodies/terrain.h"
 #include "core/base/math.h"
+#include "relaxation/terrain/terrain.h"
 #include "tests/common/scene.h"
 
 #include <stdio.h>

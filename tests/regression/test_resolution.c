@@ -1,8 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* The mass of particles against that of their shape, and the particles across a body that meets soil. */
-#include "cases/driver/case_read.h"
-#include "cases/driver/simulation_resolution.h"
+#include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/scene/build/simulation_build.h"
+#include "cases/driver/scene/check/simulation_resolution.h"
 #include "core/base/math.h"
 #include "materials/builtin.h"
 #include "tests/common/finished_run.h"
@@ -37,7 +38,7 @@ static double find_volume(run_folder *folder, const char *source, const char *se
     const char *settings[] = {setting};
     finished_run_store_text(folder, source, path);
     assert_int_equal(mor_registry_new(context, &registry), MOR_OK);
-    assert_int_equal(mor_materials_register_builtin(context, registry), MOR_OK);
+    assert_int_equal(mor_registry_add_list(context, registry, &mor_materials_builtin), MOR_OK);
     assert_int_equal(mor_case_read(context, path, settings, setting != NULL, registry, &the_case), MOR_OK);
     assert_int_equal(mor_simulation_init(context, &simulation, &the_case, registry), MOR_OK);
     assert_int_equal(mor_simulation_find_volume(context, &simulation, 0, &volume), MOR_OK);

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Whatever a run warns of stands beside its results. */
-#include "cases/driver/run_warnings.h"
+#include "cases/driver/run/run_warnings.h"
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
 

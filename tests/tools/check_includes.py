@@ -1,7 +1,7 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
 """Refuses an include that the folder may not have, an include cycle, an outside library away from its door, and OpenMP
-away from core/base/parallel.h. The table below is the one place that states who may include whom."""
+away from core/base/parallel.h. Who may include whom stands in CMakeLists.txt, in the calls of mor_add_room."""
 
 import posixpath
 import re
@@ -9,42 +9,40 @@ import sys
 
 import source
 
-CORE = ("core/base", "core/particle", "core/material", "core/time", "core/sph", "core/io")
-EVERYTHING = CORE + ("core", "materials", "bodies", "relaxation", "cases/driver", "cases/driver/render")
+ROOM = re.compile(r"^mor_add_room\(([^)]*)\)", re.MULTILINE)
+SECTIONS = ("DEPENDS", "DOORS", "EXCLUDE", "FUSED")
 
-# Folder (with what lies below it, unless listed itself) -> folders or single headers it may include, besides its own.
-ALLOWED = {
-    "core": CORE,
-    "core/base": (),
-    "core/particle": ("core/base",),
-    "core/material": ("core/base",),
-    "core/time": ("core/base", "core/particle"),
-    "core/sph": ("core/base", "core/particle", "core/material", "core/time"),
-    "core/io": ("core/base", "core/particle", "core/material/params.h"),
-    "materials": ("core/base", "core/material"),
-    "bodies": CORE,
-    "relaxation": ("core/base", "core/particle", "core/sph/kernel.h"),
-    "cases/driver/render": ("core/base", "core/io/durable_file.h", "core/particle/shape.h"),
-    "cases/driver": EVERYTHING,
-    "tests": EVERYTHING,
-}
+
+def read_rooms(root):
+    """Folder -> folders whose headers it may include, from the calls of mor_add_room in CMakeLists.txt."""
+    rooms = {}
+    for match in ROOM.finditer(source.read_text(root, "CMakeLists.txt")):
+        words = match.group(1).split()
+        rooms[words[0]] = []
+        section = None
+        for word in words[1:]:
+            section = word if word in SECTIONS else section
+            if section == "DEPENDS" and word != section:
+                rooms[words[0]].append(word)
+    return rooms
+
 
 # Outside header (pattern) -> the files that may include it.
 DOORS = {
     r"hdf5\.h|H5\w+\.h": ("core/io/hdf5_file.c",),
-    r"libconfig\.h": ("core/io/case_file.c",),
+    r"libconfig\.h": ("core/io/case_file/case_file.c",),
     r"(udunits2/)?udunits2?\.h": ("core/base/units.c",),
     r"(sundials|arkode|cvode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*": ("core/time/ode.c",),
-    r"embree3/.*": ("cases/driver/render/scene.c", "relaxation/mesh_distance.c"),
-    r"(libpng\d*/)?png\.h": ("cases/driver/render/png_file.c",),
-    r"cairo(/cairo)?(-\w+)?\.h": ("cases/driver/render/canvas.c",),
+    r"embree3/.*": ("cases/driver/picture/view/scene.c", "relaxation/mesh/mesh_distance.c"),
+    r"(libpng\d*/)?png\.h": ("cases/driver/picture/draw/png_file.c",),
+    r"cairo(/cairo)?(-\w+)?\.h": ("cases/driver/picture/draw/canvas.c",),
     r"jansson\.h": ("core/io/summary.c",),
-    r"(gdal/)?(gdal|cpl_|ogr).*\.h": ("bodies/terrain_read.c",),
-    r"assimp/.*": ("relaxation/mesh_read.c",),
+    r"(gdal/)?(gdal|cpl_|ogr).*\.h": ("relaxation/terrain/terrain_read.c",),
+    r"assimp/.*": ("relaxation/mesh/mesh_read.c",),
     r"dlfcn\.h": ("core/material/plugin.c",),
     r"omp\.h": ("core/base/parallel.h",),
     r"cmocka\.h": ("tests/",),
-    r"setjmp\.h": ("tests/", "cases/driver/render/png_file.c"),
+    r"setjmp\.h": ("tests/", "cases/driver/picture/draw/png_file.c"),
     r"(x86|imm)intrin\.h|arm_neon\.h": ("core/base/", "core/sph/", "core/material/", "materials/"),
 }
 
@@ -55,35 +53,31 @@ LIBC = re.compile(
     r"|sys/(ioctl|mman|random|resource|stat|time|times|types|uio|utsname|wait))\.h")
 
 GENERATED = {"moraine_build.h": "cases/driver"}
+# A user's project in the tree: it may include what that room may.
+KITS = {"materials/template": "materials"}
+MAINS = ("cases/driver/main.c",)
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 OPENMP = re.compile(r'#[ \t]*pragma[ \t]+omp\b|_Pragma[ \t]*\([ \t]*"[ \t]*omp\b|MOR_PRAGMA_\([ \t]*omp\b')
 
 
-def folder_rule(path):
-    """The folder of the table that a path falls under: the longest that fits."""
-    folder = posixpath.dirname(path)
-    while folder and folder not in ALLOWED:
-        folder = posixpath.dirname(folder)
-    return folder
+def may_include(path, header, rooms):
+    """Tests and main.c see everything; a room sees itself and what it depends on; nobody else sees anything."""
+    room, other = posixpath.dirname(path), posixpath.dirname(header)
+    if path.startswith("tests/") or path in MAINS:
+        return other in rooms or path.startswith("tests/") and header.startswith("tests/")
+    return room == other or other in rooms.get(KITS.get(room, room), ())
 
 
-def may_include(path, header):
-    folder = folder_rule(path)
-    if folder == folder_rule(header):
-        return True
-    return header in ALLOWED.get(folder, ()) or folder_rule(header) in ALLOWED.get(folder, ())
-
-
-def check_project_header(path, header, known):
+def check_project_header(path, header, known, rooms):
     if header in GENERATED:
-        if folder_rule(path) != GENERATED[header]:
+        if not path.startswith(GENERATED[header] + "/"):
             return f'"{header}" is for {GENERATED[header]} only'
         return None
     if header not in known:
         return f'"{header}" is no file of the project; write the path from the top folder, as "core/base/context.h"'
-    if not may_include(path, header):
-        allowed = ", ".join(ALLOWED.get(folder_rule(path), ())) or "nothing else"
-        return f'"{header}": {folder_rule(path) or "this folder"} may include its own headers and {allowed}'
+    if not may_include(path, header, rooms):
+        allowed = ", ".join(rooms.get(KITS.get(posixpath.dirname(path), posixpath.dirname(path)), ())) or "nothing else"
+        return f'"{header}": {posixpath.dirname(path) or "this folder"} may include its own headers and {allowed}'
     return None
 
 
@@ -126,6 +120,7 @@ def find_cycle(graph):
 def check(root):
     files = source.list_files(root, (".c", ".h", ".def"))
     known = set(files)
+    rooms = read_rooms(root)
     problems = []
     graph = {}
     for path in files:
@@ -133,7 +128,7 @@ def check(root):
         graph[path] = []
         for match in INCLUDE.finditer(text):
             ours, outside = match.groups()
-            problem = check_project_header(path, ours, known) if ours else check_outside_header(path, outside)
+            problem = check_project_header(path, ours, known, rooms) if ours else check_outside_header(path, outside)
             if problem:
                 problems.append(f"{path}:{source.line_of(text, match.start(ours and 1 or 2))}: {problem}")
             elif ours in known:

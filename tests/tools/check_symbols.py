@@ -21,7 +21,7 @@ ALLOWED_VARIABLES = {}
 # What the library must not call -> (why, patterns of library:object where it may).
 FORBIDDEN_CALLS = {
     r"exit|quick_exit|abort": ("ends the process; return a mor_status", ()),
-    r"_exit": ("ends the process; return a mor_status", ("libmor_relaxation.a:isolate.*",)),  # ends a child
+    r"_exit": ("ends the process; return a mor_status", ("libmor_relaxation_mesh.a:isolate.*",)),  # ends a child
     r"(__)?(printf|vprintf)(_chk)?|puts|putchar|stdout|perror": (
         "prints; report through mor_context_log or a FILE * given by the caller", ()),
     r"stderr": ("prints; report through mor_context_log", ()),
@@ -29,11 +29,11 @@ FORBIDDEN_CALLS = {
     r"rand|srand|random|srandom|drand48|rand_r": ("is not reproducible; use core/base/random.h", ()),
     r"setlocale": ("changes the whole process; use uselocale or read numbers without a locale", ()),
     r"malloc|calloc|realloc|reallocarray|aligned_alloc|posix_memalign|strn?dup|v?asprintf|__v?asprintf_chk": (
-        "takes memory that the context does not count; use core/base/memory.h", ("libmor_base.a:memory.*",)),
+        "takes memory that the context does not count; use core/base/memory.h", ("libmor_core_base.a:memory.*",)),
 }
 
-# The driver is the program: it may print, and it alone maps a status to an exit code.
-PROGRAM_LIBRARIES = ("libmor_driver.a",)
+# The program: it may print, read the environment, and map a status to an exit code.
+PROGRAM_LIBRARIES = ("libmor_cases_driver_command.a", "libmor_cases_driver_run.a", "libmor_cases_driver_scene_build.a")
 
 
 def matches(place, patterns):

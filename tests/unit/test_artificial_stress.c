@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/random.h"
-#include "core/sph/kernel.h"
+#include "core/particle/kernel.h"
 #include "tests/common/scene.h"
 
 /* Artificial stress in the first step of a soil at rest, against its closed form, and the acceleration it adds against

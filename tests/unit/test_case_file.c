@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/io/case_file.h"
-#include "core/io/case_scan.h"
+#include "core/io/case_file/case_file.h"
+#include "core/io/case_file/case_scan.h"
 
 #include <locale.h>
 #include <setjmp.h>

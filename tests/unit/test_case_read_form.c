@@ -1,7 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case/reader/case_inputs.h"
 #include "core/base/math.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
 #include "tests/common/case_reading.h"
 #include "tests/common/near.h"
 

@@ -1,9 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/rocks_report.h"
+#include "cases/driver/case/reader/case_inputs.h"
+#include "cases/driver/picture/rocks_report.h"
 #include "core/base/math.h"
-#include "core/particle/shape_analytic.h"
-#include "core/particle/shape_moments.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
 #include "tests/common/case_reading.h"
 #include "tests/common/near.h"
 

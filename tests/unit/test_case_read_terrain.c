@@ -1,10 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "bodies/terrain.h"
-#include "cases/driver/simulation.h"
+#include "cases/driver/scene/build/simulation_build.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
+#include "relaxation/terrain/terrain.h"
 #include "tests/common/case_reading.h"
 
 #include <unistd.h>
@@ -114,8 +114,8 @@ static void check_particles(case_reading *f)
     for (int w = 0; w < 3; ++w) {
         mor_lattice_points points = {NULL, 0};
         double *shares = NULL;
-        assert_int_equal(
-            mor_simulation_fill_wall(&f->context, &f->first, w, MOR_SIMULATION_WALL_LAYERS, &points, &shares), MOR_OK);
+        assert_int_equal(mor_simulation_fill_wall(&f->context, &f->first, w, MOR_CASE_WALL_LAYERS, &points, &shares),
+                         MOR_OK);
         assert_true(points.n_points > 0);
         for (int64_t i = 0; i < points.n_points; ++i) {
             double x[3];

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/case_schema.h"
+#include "cases/driver/case/schema/case_schema.h"
 #include "core/base/units.h"
 #include "core/material/params.h"
 #include "materials/builtin.h"
@@ -31,7 +31,7 @@ static int set_up(void **state)
     *state = f;
     mor_context_init(&f->context);
     return mor_units_new(&f->context, &f->units) != MOR_OK || mor_registry_new(&f->context, &f->registry) != MOR_OK ||
-           mor_materials_register_builtin(&f->context, f->registry) != MOR_OK;
+           mor_registry_add_list(&f->context, f->registry, &mor_materials_builtin) != MOR_OK;
 }
 
 static int tear_down(void **state)

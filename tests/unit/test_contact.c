@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "bodies/contact_work.h"
+#include "bodies/contact/contact_work.h"
 #include "tests/common/contact_scene.h"
 
 static const double SIDE = 0.1;

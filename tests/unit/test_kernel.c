@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/sph/kernel.h"
+#include "core/particle/kernel.h"
 
 #include <float.h>
 #include <math.h>

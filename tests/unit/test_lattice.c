@@ -3,8 +3,8 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
-#include "core/particle/shape_analytic.h"
-#include "relaxation/lattice.h"
+#include "core/geometry/shape_analytic.h"
+#include "relaxation/relax/lattice.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

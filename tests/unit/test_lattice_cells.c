@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
-#include "core/sph/kernel.h"
-#include "relaxation/lattice.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/particle/kernel.h"
+#include "relaxation/relax/lattice.h"
 
 #include <math.h>
 #include <setjmp.h>

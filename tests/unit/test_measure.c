@@ -3,7 +3,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
-#include "core/sph/measure.h"
+#include "core/sph/measure/measure.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

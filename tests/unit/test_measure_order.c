@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "core/sph/measure.h"
-#include "core/sph/measure_sum.h"
+#include "core/sph/measure/measure.h"
+#include "core/sph/measure/measure_sum.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
-#include "core/sph/measure.h"
+#include "core/sph/measure/measure.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -81,7 +81,7 @@ static void column_at_rest_is_compared_with_the_weight_above(void **state)
     assert_int_equal(result.n_used, 1000);
     column = build_column(1.0, 50.0);
     assert_int_equal(mor_measure_column_stress(&context, &ground.points, ground.stress, &column, &result), MOR_OK);
-    assert_true(fabs(result.noise - 50.0) < 1e-8);              /* the alternation has no slope in a row: rounding */
+    assert_true(fabs(result.noise - 50.0) < 1e-8); /* the alternation has no slope in a row: rounding */
     assert_true(fabs(result.error_l2 - 50.0 / (2e4 / sqrt(3.0))) < 1e-6); /* midpoint rule: 1e-5 of it */
     column.lowest = 0.2;
     column.highest = 0.4;

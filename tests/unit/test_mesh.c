@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "relaxation/mesh_internal.h"
+#include "relaxation/mesh/mesh_internal.h"
 #include "tests/common/mesh_forms.h"
 #include "tests/common/near.h"
 

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/hash.h"
-#include "relaxation/mesh.h"
+#include "relaxation/mesh/mesh.h"
 #include "tests/common/run_folder.h"
 
 /* The hash of a mesh covers every file that its corners come from. */

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "relaxation/mesh.h"
+#include "relaxation/mesh/mesh.h"
 #include "tests/common/mesh_forms.h"
 #include "tests/common/near.h"
 #include "tests/common/run_folder.h"

@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
-#include "core/particle/shape_analytic.h"
-#include "core/particle/shape_moments.h"
-#include "relaxation/outline.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
+#include "relaxation/mesh/outline.h"
 #include "tests/common/cloud.h"
 #include "tests/common/near.h"
 

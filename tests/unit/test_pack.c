@@ -2,11 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/shape_analytic.h"
-#include "relaxation/level_set.h"
-#include "relaxation/mesh_distance.h"
-#include "relaxation/pack.h"
-#include "relaxation/rock_form.h"
+#include "core/geometry/shape_analytic.h"
+#include "relaxation/level_set/level_set.h"
+#include "relaxation/mesh/mesh_distance.h"
+#include "relaxation/pack/pack.h"
+#include "relaxation/pack/rock_form.h"
 #include "tests/common/near.h"
 
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
-#include "relaxation/pack_internal.h"
+#include "relaxation/pack/pack_internal.h"
 #include "tests/common/near.h"
 
 #include <setjmp.h>

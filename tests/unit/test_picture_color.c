@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/picture_color.h"
-#include "cases/driver/pictures.h"
+#include "cases/driver/picture/picture_color.h"
+#include "cases/driver/picture/pictures.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/picture_wall.h"
+#include "cases/driver/picture/picture_wall.h"
 #include "core/base/math.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/point_cache.h"
+#include "cases/driver/scene/build/point_cache.h"
 #include "core/base/hash.h"
 #include "tests/common/relax_scene.h"
 #include "tests/common/run_folder.h"

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
-#include "core/sph/boundary.h"
+#include "core/particle/boundary.h"
 #include "tests/common/scene.h"
 
 /* Probes of bodies against what mechanics says of a box that flies, slides, lies still, and of one pushed into soil. */

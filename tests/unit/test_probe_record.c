@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/probe_record.h"
+#include "cases/driver/probe/probe_record.h"
 
 #include <math.h>
 #include <setjmp.h>

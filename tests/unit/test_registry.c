@@ -70,14 +70,15 @@ static void builtin_models_are_found_by_name(void **state)
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
     assert_int_equal(mor_registry_count(registry), 0);
     assert_null(mor_registry_get(registry, 0));
-    assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
     const int n = mor_registry_count(registry);
     assert_true(n >= 1);
     assert_ptr_equal(mor_registry_find(registry, "drucker_prager"), &mor_drucker_prager);
     assert_null(mor_registry_find(registry, "Drucker_Prager"));
     assert_null(mor_registry_get(registry, -1));
     assert_null(mor_registry_get(registry, n));
-    assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK); /* again: nothing changes */
+    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin),
+                     MOR_OK); /* again: nothing changes */
     assert_int_equal(mor_registry_count(registry), n);
     mor_registry_free(&context, &registry);
     assert_null(registry);
@@ -96,7 +97,7 @@ static void a_miss_names_the_nearest_and_lists_all(void **state)
     assert_int_equal(mor_registry_require(&context, registry, "sand", &material), MOR_ERROR_CONFIG);
     assert_non_null(strstr(context.message, "no model is registered"));
     assert_null(material);
-    assert_int_equal(mor_materials_register_builtin(&context, registry), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
     assert_int_equal(mor_registry_require(&context, registry, "druker_prager", &material), MOR_ERROR_CONFIG);
     assert_null(material);
     assert_non_null(strstr(context.message, "did you mean 'drucker_prager'?"));

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/memory.h"
-#include "relaxation/relax_internal.h"
+#include "relaxation/relax/relax_internal.h"
 #include "tests/common/relax_scene.h"
 
 static void number_of_particles_is_the_volume_and_their_volumes_add_up(void **state)

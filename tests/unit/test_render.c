@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/render/model.h"
-#include "cases/driver/render/ticks.h"
+#include "cases/driver/picture/draw/ticks.h"
+#include "cases/driver/picture/view/model.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* What a picture costs, counted in rays, because times depend on the machine. The linker puts the functions of this
  * file in front of those of the scene (--wrap). */
-#include "cases/driver/render/picture.h"
-#include "cases/driver/render/scene.h"
+#include "cases/driver/picture/view/picture.h"
+#include "cases/driver/picture/view/scene.h"
 #include "tests/common/run_folder.h"
 
 static long long n_first;

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "bodies/rigid_internal.h"
+#include "bodies/rigid/rigid_internal.h"
 #include "tests/common/rigid_bodies.h"
 
 #include <float.h>

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/eigen.h"
 #include "core/base/math.h"
-#include "core/particle/shape_moments.h"
-#include "relaxation/rock_form.h"
+#include "core/geometry/shape_moments.h"
+#include "relaxation/pack/rock_form.h"
 #include "tests/common/near.h"
 
 #include <setjmp.h>

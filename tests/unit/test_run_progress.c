@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Lines of progress: twice a second over one another on a terminal, every half a minute in a file. */
-#include "cases/driver/run_progress.h"
+#include "cases/driver/run/run_progress.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/settle_watch.h"
+#include "cases/driver/scene/build/settle_watch.h"
 
 #include <math.h>
 #include <setjmp.h>

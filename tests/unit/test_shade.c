@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/render/shade.h"
+#include "cases/driver/picture/view/shade.h"
 
 #include "tests/common/run_folder.h"
 

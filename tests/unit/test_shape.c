@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "core/particle/shape_analytic.h"
-#include "core/particle/shape_moments.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
 #include "tests/common/near.h"
 
 #include <string.h>

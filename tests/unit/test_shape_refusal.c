@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
-#include "core/particle/shape_analytic.h"
+#include "core/geometry/shape_analytic.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/simulation_fill.h"
+#include "cases/driver/scene/build/simulation_fill.h"
 #include "core/base/math.h"
 #include "tests/common/relax_scene.h"
 

@@ -1,11 +1,11 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "bodies/terrain.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
-#include "core/particle/shape_analytic.h"
-#include "core/sph/kernel.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/particle/kernel.h"
+#include "relaxation/terrain/terrain.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

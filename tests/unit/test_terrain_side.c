@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* What lies beside a raster and states its reference system, its units or its place. */
-#include "bodies/terrain.h"
 #include "core/base/hash.h"
+#include "relaxation/terrain/terrain.h"
 #include "tests/common/run_folder.h"
 
 static const char plane[] = "ncols 4\nnrows 3\nxllcorner 100\nyllcorner 200\ncellsize 10\nNODATA_value -9999\n"

@@ -1,0 +1,85 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_BODIES_ELASTIC_ELASTIC_H
+#define MOR_BODIES_ELASTIC_ELASTIC_H
+
+#include "bodies/body.h"
+#include "core/material/kit/material.h"
+#include "core/time/stepper.h"
+
+/** @file
+ *  Elastic bodies as total-Lagrangian SPH: neighbors, kernel gradients and correction matrices belong to the reference
+ *  configuration and are found once. The deformation gradient follows the velocities, so that it stays the exact
+ *  discrete gradient of the positions, and the forces are its conjugate: linear and angular momentum are kept to
+ *  rounding. Theory: Zhang et al. (2024) eqs. 36-47, 52, 57-59; docs/theory/bodies.md. */
+
+/** What the user may choose. Plain data. */
+typedef struct mor_elastic_settings {
+    double smoothing_ratio; /* h / spacing, > 0.5, 1; 1.15 in the source */
+    double courant;         /* CFL number, 1; 0.4 in the source */
+    double damping_factor;  /* Kelvin-Voigt damping over that of the source, Pi = factor * density * c0 * h / 2; 1 */
+    double hourglass;       /* strength of the hourglass control, 1; 0: off. Pairs pull with
+                             * hourglass rho0 c0^2 V_i V_j |W'| / r0 times what the mean linear map misses of r_ij,
+                             * after Silling (2017) */
+} mor_elastic_settings;
+
+/** A group of elastic bodies. Owner: the run. */
+typedef struct mor_elastic {
+    mor_body_group group;
+    mor_elastic_settings settings;
+    const mor_material_instance *material; /* total form; borrowed */
+    unsigned char *held;                   /* shape [n_particles]; 1: clamped, does not move */
+    double smoothing_length;               /* h, m */
+    double sound_speed;                    /* c0 of the unstressed material, m/s */
+    double largest_speed;                  /* m/s */
+    double largest_acceleration;           /* m/s2 */
+    double damped_energy;                  /* lost to Kelvin-Voigt damping since the start, J (J/m) */
+    int field_gradient;                    /* index of the field deformation_gradient [9] in the set */
+    int field_rate;                        /* index of the field deformation_rate [9], 1/s */
+    struct mor_elastic_work *work;         /* neighbors, kernel gradients, corrections, packed records; owned */
+} mor_elastic;
+
+/** Makes a group of elastic bodies: neighbors within each body only, correction matrices, deformation gradient I.
+ *  @param context  [in,out]  one object
+ *  @param elastic  [out]     one object; cleared after a failure
+ *  @param name     [in]      zero-terminated
+ *  @param settings [in]      one object; copied
+ *  @param material [in]      one object; total form; borrowed
+ *  @param dimension [in]     2 or 3
+ *  @param spacing  [in]      unit m
+ *  @param requests [in]      shape [n_bodies]
+ *  @param n_bodies [in]      number of bodies
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body so thin that a correction matrix does not exist, naming body and
+ *  place, for settings out of range and for a material of the rate form; MOR_ERROR_MEMORY.
+ *  Gives: fields deformation_gradient and deformation_rate in the set; the driver of a resumed run also restores
+ *  largest_acceleration, damped_energy and, of each body, rotation_angle and the impulses. */
+mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const char *name,
+                            const mor_elastic_settings *settings, const mor_material_instance *material, int dimension,
+                            double spacing, const mor_body_request *requests, int n_bodies);
+
+/** Frees what the group owns; accepts a zeroed one.
+ *  @param context [in,out]  one object
+ *  @param elastic [in,out]  one object */
+void mor_elastic_clear(mor_context *context, mor_elastic *elastic);
+
+/** To be called when velocities, held particles or the whole state were set from outside (initial motion, resume):
+ *  finds the rate of the deformation gradient from the velocities, largest speed, and the motion of each body. Held
+ *  particles stop.
+ *  @param context [in,out]  one object
+ *  @param elastic [in,out]  one object
+ *  Returns: MOR_OK; what the material returns. */
+mor_status mor_elastic_prepare(mor_context *context, mor_elastic *elastic);
+
+/** Returns the group as a stepper (a follower).
+ *  @param elastic  [in]   one object; becomes the owner
+ *  @param stepper  [out]  one object
+ *  @param evolving [out]  one number; bits valid at the start of a step */
+void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *evolving);
+
+/** Returns the strain energy of one body, that held by hourglass control included, unit J (J/m); NaN when the material
+ *  cannot tell.
+ *  @param elastic [in]  one object
+ *  @param body    [in]  index of the body, or -1 for all; their sum is kept until a sub-step or mor_elastic_prepare */
+double mor_elastic_energy(const mor_elastic *elastic, int body);
+
+#endif

@@ -1,0 +1,246 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/rigid/rigid.h"
+
+#include "bodies/body_internal.h"
+#include "bodies/rigid/rigid_internal.h"
+#include "core/base/memory.h"
+
+#include <string.h>
+
+#define BIT(name) MOR_BIT(MOR_FIELD_##name)
+
+/* Share of a spring's period that a step takes unless the case says otherwise, and how far a point of a body may move
+ * in a step, in spacings. */
+#define COURANT 0.1
+#define LONGEST_WAY 0.2
+
+enum { ALL_LOCKED = 0x3f };
+
+static const mor_stage rigid_stages[] = {
+    {"first drift", mor_rigid_drift_first, 0, 0, 0, "bodies to the middle of the step"},
+    {"kick", mor_rigid_kick, 0, 0, 0, "momentum and angular momentum to the end of the step"},
+    {"second drift", mor_rigid_drift_second, 0, BIT(POSITION) | BIT(VELOCITY), 0,
+     "bodies to the end of the step; their particles at the end of a common one"},
+};
+
+/* Motion at the start. Angular momenta about locked axes mean nothing and are zero. */
+static void start_body(mor_rigid *rigid, int b)
+{
+    const mor_rigid_motion *motion = &rigid->motions[b];
+    const mor_rigid_constants *constants = &rigid->work->constants[b];
+    mor_body *body = &rigid->group.bodies[b];
+    mor_rigid_state *state = &rigid->states[b];
+    double spin[3];
+    body->is_held = motion->is_prescribed || constants->locked == ALL_LOCKED;
+    state->quaternion[0] = 1.0;
+    for (int a = 0; a < 3; ++a) {
+        const bool is_free = motion->is_prescribed || (constants->locked >> a & 1u) == 0;
+        const bool is_turning = motion->is_prescribed || (constants->locked >> (3 + a) & 1u) == 0;
+        const double *velocity = motion->is_prescribed ? motion->velocity : body->velocity;
+        const double *angular_velocity = motion->is_prescribed ? motion->angular_velocity : body->angular_velocity;
+        state->center[a] = body->geometry.center[a];
+        state->velocity[a] = is_free ? velocity[a] : 0.0;
+        spin[a] = is_turning ? angular_velocity[a] : 0.0;
+    }
+    mor_rigid_angular_momentum(constants, state->quaternion, spin, state->angular_momentum);
+    for (int a = 0; a < 3; ++a) {
+        const bool is_turning = motion->is_prescribed || (constants->locked >> (3 + a) & 1u) == 0;
+        state->angular_momentum[a] = is_turning ? state->angular_momentum[a] : 0.0;
+    }
+}
+
+static mor_status check_motion(mor_context *context, const mor_rigid *rigid, int b)
+{
+    const mor_rigid_motion *motion = &rigid->motions[b];
+    const mor_body *body = &rigid->group.bodies[b];
+    MOR_CHECK(context, motion->locked < 1u << 6, MOR_ERROR_ARGUMENT,
+              "rigid body '%s' locks axes 0x%x; only the six lowest bits mean something", body->name, motion->locked);
+    MOR_CHECK(context,
+              !motion->has_spring ||
+                  (motion->spring_stiffness >= 0.0 && motion->spring_damping >= 0.0 && motion->spring_length >= 0.0),
+              MOR_ERROR_ARGUMENT,
+              "the spring of rigid body '%s' has stiffness %g N/m, damping %g N s/m and length %g m; none may be "
+              "negative",
+              body->name, motion->spring_stiffness, motion->spring_damping, motion->spring_length);
+    MOR_CHECK(
+        context,
+        rigid->group.dimension == 3 || !motion->is_prescribed ||
+            (motion->velocity[2] == 0.0 && motion->angular_velocity[0] == 0.0 && motion->angular_velocity[1] == 0.0),
+        MOR_ERROR_ARGUMENT,
+        "rigid body '%s' is to leave the plane: velocity along z %g m/s, angular velocity about x %g and about y "
+        "%g rad/s; in plane strain all three must be zero",
+        body->name, motion->velocity[2], motion->angular_velocity[0], motion->angular_velocity[1]);
+    return MOR_OK;
+}
+
+static mor_status start_group(mor_context *context, mor_rigid *rigid, const mor_rigid_motion *motions)
+{
+    const int n = rigid->group.n_bodies;
+    MOR_TRY(context, MOR_NEW(context, &rigid->motions, n, "motions of rigid bodies"));
+    MOR_TRY(context, MOR_NEW(context, &rigid->states, n, "states of rigid bodies"));
+    MOR_TRY(context, MOR_NEW(context, &rigid->work, 1, "constants of rigid bodies"));
+    MOR_TRY(context, MOR_NEW(context, &rigid->work->constants, n, "constants of rigid bodies"));
+    memcpy(rigid->motions, motions, (size_t)n * sizeof *motions);
+    for (int b = 0; b < n; ++b) {
+        MOR_TRY(context, check_motion(context, rigid, b));
+        MOR_TRY(context, mor_rigid_find_constants(context, rigid, b, &rigid->work->constants[b]));
+        start_body(rigid, b);
+    }
+    mor_rigid_prepare(context, rigid);
+    return MOR_OK;
+}
+
+mor_status mor_rigid_init(mor_context *context, mor_rigid *rigid, const char *name, int dimension, double spacing,
+                          const mor_body_request *requests, const mor_rigid_motion *motions, int n_bodies)
+{
+    memset(rigid, 0, sizeof *rigid);
+    rigid->courant = COURANT;
+    mor_status status =
+        mor_body_group_init(context, &rigid->group, name, MOR_BODY_RIGID, dimension, spacing, requests, n_bodies, 0);
+    if (status == MOR_OK) {
+        status = start_group(context, rigid, motions);
+    }
+    if (status != MOR_OK) {
+        mor_rigid_clear(context, rigid);
+        return mor_context_pass(context, status, MOR_HERE);
+    }
+    return MOR_OK;
+}
+
+void mor_rigid_clear(mor_context *context, mor_rigid *rigid)
+{
+    if (rigid->work != NULL) {
+        MOR_FREE(context, &rigid->work->constants);
+    }
+    MOR_FREE(context, &rigid->work);
+    MOR_FREE(context, &rigid->motions);
+    MOR_FREE(context, &rigid->states);
+    mor_body_group_clear(context, &rigid->group);
+}
+
+/* Bound of the speed of any point. */
+static double find_speed(const mor_rigid *rigid, int b)
+{
+    const mor_body *body = &rigid->group.bodies[b];
+    return mor_vector_length(body->velocity) +
+           mor_vector_length(body->angular_velocity) * rigid->work->constants[b].outermost;
+}
+
+void mor_rigid_prepare(mor_context *context, mor_rigid *rigid)
+{
+    mor_body_group *group = &rigid->group;
+    mor_boundary *boundary = &group->boundary;
+    mor_rigid_place(context, rigid);
+    boundary->largest_speed = 0.0;
+    for (int b = 0; b < group->n_bodies; ++b) {
+        boundary->largest_speed = fmax(boundary->largest_speed, find_speed(rigid, b));
+    }
+    for (int64_t i = 0; i < group->set.n_particles; ++i) {
+        double *record = boundary->records + i * MOR_BOUNDARY_RECORD;
+        memcpy(record + MOR_BOUNDARY_POSITION, group->set.data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof *record);
+        memcpy(record + MOR_BOUNDARY_VELOCITY, group->set.data[MOR_FIELD_VELOCITY] + 3 * i, 3 * sizeof *record);
+    }
+}
+
+/* What is known of the acceleration of a body's points before the step: gravity and the spring. */
+static double find_acceleration(const mor_rigid *rigid, int b, double *spring_rate)
+{
+    const mor_rigid_motion *motion = &rigid->motions[b];
+    const mor_rigid_constants *constants = &rigid->work->constants[b];
+    double acceleration = mor_vector_length(rigid->group.gravity);
+    *spring_rate = 0.0;
+    if (motion->has_spring) {
+        double arm[3];
+        double direction[3];
+        double spin[3];
+        double moment[3] = {0.0};
+        double flexion = 0.0;
+        const double force = motion->spring_stiffness * fabs(mor_rigid_spring(rigid, b, arm, direction, &flexion));
+        mor_vector_cross_add(force, arm, direction, moment);
+        mor_rigid_angular_velocity(constants, rigid->states[b].quaternion, moment, spin);
+        acceleration += force / rigid->group.bodies[b].mass + mor_vector_length(spin) * constants->outermost;
+        *spring_rate = sqrt(motion->spring_stiffness * flexion);
+    }
+    return acceleration;
+}
+
+static mor_status propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
+{
+    const mor_rigid *rigid = owner;
+    const mor_body_group *group = &rigid->group;
+    const double way = LONGEST_WAY * group->spacing;
+    (void)context;
+    *step_length = INFINITY;
+    *limit = "nothing";
+    for (int b = 0; b < group->n_bodies; ++b) {
+        const bool is_held = group->bodies[b].is_held;
+        double spring_rate = 0.0;
+        const double acceleration = is_held ? 0.0 : find_acceleration(rigid, b, &spring_rate);
+        const double speed = find_speed(rigid, b);
+        /* speed t + acceleration t2 / 2 = way */
+        const double by_way = 2.0 * way / (speed + sqrt(speed * speed + 2.0 * acceleration * way));
+        const double by_spring = rigid->courant * 2.0 * MOR_PI / spring_rate;
+        if (by_way < *step_length) {
+            *step_length = by_way;
+            *limit = "the way of a rigid body";
+        }
+        if (by_spring < *step_length) {
+            *step_length = by_spring;
+            *limit = "the spring of a rigid body";
+        }
+    }
+    if (group->longest_contact_step != NULL) {
+        const double by_contact = group->longest_contact_step(group->contact, group);
+        /* Written so that a length that is not a number is taken, and reported by the schedule. */
+        if (!(by_contact >= *step_length)) {
+            *step_length = by_contact;
+            *limit = "the contact of a rigid body";
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status begin_step(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_body_group_begin(context, &((mor_rigid *)owner)->group, step->length);
+    return MOR_OK;
+}
+
+static mor_status finish_step(mor_context *context, void *owner, const mor_step *step)
+{
+    mor_body_group_finish(context, &((mor_rigid *)owner)->group, step->length);
+    return MOR_OK;
+}
+
+void mor_rigid_stepper(mor_rigid *rigid, mor_stepper *stepper, uint64_t *evolving)
+{
+    static const mor_stepper_operations operations = {"rigid bodies", propose_step, begin_step, finish_step};
+    *stepper = (mor_stepper){.name = rigid->group.set.name,
+                             .operations = &operations,
+                             .owner = rigid,
+                             .stages = rigid_stages,
+                             .n_stages = sizeof rigid_stages / sizeof *rigid_stages,
+                             .n_before = 1,
+                             .n_particles = rigid->group.set.n_particles,
+                             .is_leader = false};
+    *evolving = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY);
+}
+
+double mor_rigid_energy(const mor_rigid *rigid, int body, double *momentum, double *angular_momentum)
+{
+    const mor_rigid_state *state = &rigid->states[body];
+    const mor_body *b = &rigid->group.bodies[body];
+    const mor_rigid_constants *constants = &rigid->work->constants[body];
+    if (constants->n_turns == 3) {
+        memcpy(angular_momentum, state->angular_momentum, 3 * sizeof *angular_momentum);
+    } else {
+        mor_rigid_angular_momentum(constants, state->quaternion, b->angular_velocity, angular_momentum);
+    }
+    const double turning = 0.5 * mor_vector_dot(b->angular_velocity, angular_momentum);
+    for (int a = 0; a < 3; ++a) {
+        momentum[a] = b->mass * state->velocity[a];
+    }
+    mor_vector_cross_add(1.0, state->center, momentum, angular_momentum);
+    return 0.5 * mor_vector_dot(momentum, state->velocity) + turning;
+}

@@ -1,0 +1,389 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_CASE_H
+#define MOR_CASES_DRIVER_CASE_CASE_H
+
+#include "core/geometry/shape.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** @file
+ *  A case file after reading: every value in SI, every default filled in, everything multiplied by the case's scale.
+ *  Made by case_read.c, written back by case_write.c, consumed by simulation.c. Which key goes where: case_schema.c.
+ *
+ *  Members named `written` have bit k set when the file gave key k of the group's table in case_schema.c; the other
+ *  values are defaults. */
+
+enum {
+    MOR_CASE_WALL_LAYERS = 4, /* layers of wall particles; they fill the kernel's support */
+    MOR_CASE_POLYGON_POINTS_MAX = 4096,
+    MOR_CASE_SHAPE_PARTS_MAX = 256,
+    MOR_CASE_NAME_BYTES = 64,
+    MOR_CASE_TEXT_BYTES = 256,
+    MOR_CASE_PARAMETERS_MAX = 32,
+    MOR_CASE_SOILS_MAX = 8,
+    MOR_CASE_WALLS_MAX = 64,
+    MOR_CASE_BODIES_MAX = 4096,
+    MOR_CASE_ROCKS_MAX = 8,
+    MOR_CASE_ROCK_FORMS_MAX = 16,
+    MOR_CASE_ROCK_SHAPES_MAX = 256,
+    MOR_CASE_ROCK_SIZES_MAX = 32,
+    MOR_CASE_PAIRS_MAX = 64,
+    MOR_CASE_PROBES_MAX = 64,
+    MOR_CASE_EXPECTATIONS_MAX = 32
+};
+
+/** Where in the file something was written, for messages of later checks. */
+typedef struct mor_case_place {
+    char file[MOR_CASE_TEXT_BYTES]; /* path as the user gave it */
+    int line;                       /* 1-based line */
+} mor_case_place;
+
+/** Kinds of shapes, in the order of mor_case_shape_groups. */
+typedef enum mor_case_shape_kind {
+    MOR_CASE_SHAPE_BOX,
+    MOR_CASE_SHAPE_CYLINDER,
+    MOR_CASE_SHAPE_CONE,
+    MOR_CASE_SHAPE_SPHERE,
+    MOR_CASE_SHAPE_ELLIPSOID,
+    MOR_CASE_SHAPE_HALF_SPACE,
+    MOR_CASE_SHAPE_POLYGON,
+    MOR_CASE_SHAPE_UNION,
+    MOR_CASE_SHAPE_DIFFERENCE,
+    MOR_CASE_SHAPE_TRANSLATE,
+    MOR_CASE_SHAPE_ROTATE,
+    MOR_CASE_SHAPE_TERRAIN,
+    MOR_CASE_SHAPE_RELEASE,
+    MOR_CASE_SHAPE_POSTS,
+    MOR_CASE_SHAPE_MESH,
+    MOR_CASE_SHAPE_OUTLINE,
+    MOR_CASE_SHAPE_ROCK,
+    MOR_CASE_SHAPE_COUNT
+} mor_case_shape_kind;
+
+/** Ground from an elevation raster, and what lies or stands on it. Lengths of the raster are those of its file, which
+ *  the scale of the case does not touch. */
+typedef struct mor_case_ground {
+    char file[MOR_CASE_TEXT_BYTES]; /* path; as given, or absolute where it exists */
+    char wall[MOR_CASE_NAME_BYTES]; /* of a release and of posts: the wall that is their ground */
+    double crop_minimum[2];         /* m, in the raster's coordinates; -INFINITY: all */
+    double crop_maximum[2];         /* likewise; INFINITY: all */
+    double cell;                    /* m; NaN: as in the raster */
+    double offset[3];               /* subtracted from the raster's coordinates and heights, m; NaN: chosen */
+    bool fills_no_data;
+    bool extends_edge; /* the ground goes on level beyond the raster, as far as the domain reaches */
+    double thickness;  /* of the ground below its lowest point, or of a release, m */
+    double rim;        /* of a release, m */
+    double size[2];    /* of a post along x and y, m */
+    double height;     /* of posts above the ground at their middle, m; NaN: top is given */
+    double top;        /* height of the tops of all posts, m; NaN: height is given */
+} mor_case_ground;
+
+/** A rock from a file, or drawn at random. At most one of the sizes is given; the others are NaN. */
+typedef struct mor_case_form {
+    char file[MOR_CASE_TEXT_BYTES]; /* path; as given, or absolute where it exists */
+    double scale;                   /* of the lengths of the file, 1 */
+    double length;                  /* longest side of the box around it, m */
+    double volume;                  /* m3 */
+    double diameter;                /* of the ball (disc) of the same volume (area), m */
+    double elongation, flatness;    /* of a rock drawn at random, 1 */
+    double angularity, roughness;   /* likewise, 1 */
+    uint64_t seed;
+} mor_case_form;
+
+/** A shape as the case describes it, kept so that the case can be written back; mor_shape is what it builds. */
+typedef struct mor_case_shape {
+    mor_case_shape_kind kind;
+    bool is_flat;                    /* a box of two components: without end in z */
+    double first[3];                 /* lowest corner, base, center, point or move, m */
+    double second[3];                /* highest corner [m], axis [1], normal [1] or radii [m] */
+    double radius;                   /* m */
+    double height;                   /* m */
+    double angle;                    /* rad */
+    double *points;                  /* shape [n_points,2], m; owned; corners of a polygon, places of posts */
+    int n_points;                    /* number of corners */
+    mor_case_ground ground;          /* of terrain, release and posts */
+    mor_case_form form;              /* of mesh, outline and rock */
+    uint64_t file_hash;              /* of the content of its file; 0: it has none */
+    struct mor_case_shape *children; /* shape [n_children]; owned; of a difference: from, then what is taken away */
+    int n_children;                  /* number of children */
+    uint64_t written;                /* see above */
+} mor_case_shape;
+
+typedef enum mor_case_stress { MOR_CASE_STRESS_NONE, MOR_CASE_STRESS_K0, MOR_CASE_STRESS_SETTLED } mor_case_stress;
+
+/** One soil region. */
+typedef struct mor_case_soil {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    mor_shape *shape;       /* owned by the case; in the scene frame (before the case's placement) */
+    mor_case_shape outline; /* what shape was built from; owned by the case */
+    char model[MOR_CASE_NAME_BYTES];
+    double density;                             /* initial density, kg/m3 */
+    double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
+    double velocity[3];                         /* initial velocity, m/s */
+    mor_case_stress initial_stress;
+    double lateral_ratio;      /* K0 of the initial stress; < 0: 1 - sin(friction angle) */
+    double surface_level;      /* height against gravity of the free surface, m; NaN: top of the region's particles */
+    double settle_time;        /* longest settling, s */
+    double settle_speed_ratio; /* settled when the 99th-percentile speed is under this times sqrt(|g| * height) */
+    uint64_t written, written_stress, written_material, written_parameters;
+} mor_case_soil;
+
+typedef enum mor_case_friction {
+    MOR_CASE_FRICTION_ROUGH,
+    MOR_CASE_FRICTION_SMOOTH,
+    MOR_CASE_FRICTION_COULOMB
+} mor_case_friction;
+
+/** One wall. */
+typedef struct mor_case_wall {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    mor_shape *shape;       /* the solid; owned by the case */
+    mor_case_shape outline; /* what shape was built from; owned by the case */
+    mor_case_friction friction;
+    double friction_coefficient; /* Coulomb only, 1 */
+    double velocity[3];          /* prescribed velocity, m/s */
+    double contact_modulus;      /* Young's modulus of its surface for bodies that touch it; 0: it does not yield, Pa */
+    double contact_poisson;      /* Poisson's ratio of it, 1 */
+    uint64_t written;
+} mor_case_wall;
+
+/** Velocity of a body at the start, beside velocity and angular velocity. */
+typedef enum mor_case_motion {
+    MOR_CASE_MOTION_UNIFORM,    /* velocity + angular_velocity x arm, nothing more */
+    MOR_CASE_MOTION_CANTILEVER, /* first bending mode of a cantilever */
+    MOR_CASE_MOTION_TWIST       /* turn about an axis that grows along it, sin(pi x / (2 length)) */
+} mor_case_motion;
+
+/** How a body is filled with particles. */
+typedef enum mor_case_particles {
+    MOR_CASE_PARTICLES_BY_SHAPE, /* relaxed for a mesh, an outline or a procedural rock, a lattice for others */
+    MOR_CASE_PARTICLES_LATTICE,
+    MOR_CASE_PARTICLES_RELAXED
+} mor_case_particles;
+
+/** One rock. */
+typedef struct mor_case_body {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    mor_shape *shape;           /* in the body's own frame; owned by the case */
+    mor_case_shape outline;     /* what shape was built from; owned by the case */
+    double position[3];         /* of the origin of the body's frame, m */
+    double height_over_ground;  /* least distance from walls and soil, found by moving it along gravity, m; NaN: where
+                                * position says */
+    double axis[3];             /* of the turn of the body's frame, any length but zero, 1 */
+    double angle;               /* of that turn, rad */
+    double velocity[3];         /* of the center of mass, m/s */
+    double angular_velocity[3]; /* about the center of mass, rad/s */
+    char model[MOR_CASE_NAME_BYTES];            /* "rigid", or a model in total form */
+    double density;                             /* kg/m3 */
+    double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI; not of "rigid" */
+    double contact_modulus;                     /* Pa; NaN (rigid bodies only): what mor_case_contact_modulus chooses */
+    double contact_poisson;                     /* Poisson's ratio of a rigid body's surface in contact, 1 */
+    mor_case_friction soil_friction;
+    double soil_friction_coefficient; /* Coulomb only, 1 */
+    bool is_prescribed;               /* rigid: moves with its velocities whatever pushes it */
+    mor_case_particles particles;
+    bool is_locked[6];            /* rigid: no motion along x, y, z; no turn about x, y, z */
+    bool has_spring;              /* rigid: spring and damper to a fixed point */
+    double spring_point[3];       /* of the body's own frame, m */
+    double spring_anchor[3];      /* fixed, frame of the case, m */
+    double spring_length;         /* at rest, m; NaN: the distance at the start */
+    double spring_stiffness;      /* N/m (N/m2) */
+    double spring_damping;        /* N s/m (N s/m2) */
+    mor_shape *clamp;             /* elastic: particles inside do not move; frame of the case; NULL: none; owned */
+    mor_case_shape clamp_outline; /* what clamp was built from; owned by the case */
+    mor_case_motion motion;
+    double motion_axis[3];      /* along the bar, 1 */
+    double motion_direction[3]; /* of bending, 1 */
+    double motion_origin[3];    /* clamped end, frame of the case, m */
+    double motion_length;       /* of the bar, m */
+    double motion_speed;        /* cantilever: of the free end, m/s; twist: rate of turn of the free end, rad/s */
+    double packed_diameter;     /* of a packed rock: of the ball (disc) of the same volume (area), m */
+    uint64_t written, written_material, written_parameters, written_spring, written_motion;
+} mor_case_body;
+
+/** A point of a curve of sizes. */
+typedef struct mor_case_size {
+    double diameter; /* of the ball (disc) of the same volume (area), m */
+    double passing;  /* share of the rocks' volume of rocks up to this diameter, 1 */
+    uint64_t written;
+} mor_case_size;
+
+/** Rocks packed into a region. Each becomes a body of its own, named name_1, name_2, ... */
+typedef struct mor_case_rocks {
+    mor_case_body body;                              /* what they have in common; has no shape */
+    mor_shape *region;                               /* owned by the case */
+    mor_case_shape region_outline;                   /* what region was built from; owned by the case */
+    mor_case_shape forms[MOR_CASE_ROCK_FORMS_MAX];   /* as written; owned by the case; of diameter 1 m */
+    int n_forms;                                     /* number of forms */
+    mor_shape *shapes[MOR_CASE_ROCK_SHAPES_MAX];     /* of diameter 1 m whatever the scale; owned; bodies view them */
+    int form_of[MOR_CASE_ROCK_SHAPES_MAX];           /* shape [n_shapes]; form that a shape was made from */
+    int n_shapes;                                    /* number of shapes */
+    mor_case_size sizes[MOR_CASE_ROCK_SIZES_MAX];    /* rising */
+    int n_sizes;                                     /* number of sizes */
+    double content;                                  /* rocks' volume over the region's, 1; NaN: count is given */
+    int count;                                       /* of rocks; 0: content or list is given */
+    char list[MOR_CASE_TEXT_BYTES];                  /* path of a table of rocks; "": content or count is given */
+    uint64_t list_hash;                              /* of the content of that table; 0: there is none */
+    double gap;                                      /* least distance between two, m; default the spacing */
+    double margin;                                   /* least depth under the region's surface, m; likewise */
+    int n_variants;                                  /* rocks drawn of each form of type rock */
+    uint64_t seed;                                   /* of places and turns */
+    int n_rocks;                                     /* placed */
+    int n_given_up;                                  /* found no place */
+    double content_reached;                          /* 1 */
+    double smallest_gap;                             /* between two of them, m; INFINITY for one */
+    double passing_reached[MOR_CASE_ROCK_SIZES_MAX]; /* 1 */
+    uint64_t written;
+} mor_case_rocks;
+
+/** Contact of two bodies, or of a body and a wall, by name. */
+typedef struct mor_case_contact_pair {
+    char first[MOR_CASE_NAME_BYTES], second[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    double friction_coefficient; /* 1 */
+    double restitution;          /* 1 */
+    uint64_t written;
+} mor_case_contact_pair;
+
+/** Contact among bodies and walls. */
+typedef struct mor_case_contact {
+    double friction_coefficient; /* of pairs not listed, 1 */
+    double restitution;          /* likewise, 1 */
+    mor_case_contact_pair pairs[MOR_CASE_PAIRS_MAX];
+    int n_pairs;
+    uint64_t written;
+} mor_case_contact;
+
+/** Settings of the method, design.md "Fine grains". */
+typedef struct mor_case_numerics {
+    double smoothing_ratio;            /* h / spacing, 1.3 */
+    bool lattice_normalization;        /* kernel gradient exact for linear fields on the initial lattice */
+    double courant;                    /* CFL number, 0.4 */
+    int dissipation;                   /* 0 separation, 1 approach, 2 both */
+    int wall_dissipation;              /* likewise for walls */
+    int wall_stress;                   /* 0 uniform, 1 along, 2 linear */
+    double dissipation_factor;         /* eta; default 20 * dimension */
+    bool density_pressure_term;        /* pressure part of U* in the density rate */
+    int reconstruction;                /* of velocities at the middle of a pair: 0 none, 1 linear */
+    double stress_diffusion;           /* zeta; 0: off */
+    int stress_diffusion_limiter;      /* 0 none, 1 motion */
+    int narrow_gaps;                   /* gaps of walls below two spacings: 0 refuse, 1 allow */
+    bool artificial_stress;            /* Z(27)-Z(31) */
+    double artificial_stress_exponent; /* n */
+    double artificial_stress_factor;   /* epsilon */
+    bool gradient_correction;          /* kernel-gradient correction of the velocity gradient and density rate */
+    double xsph;                       /* xi of H(13); 0: off */
+    bool shifting;                     /* penetration-based shifting H(16) */
+    int density_reinitialization;      /* steps between re-initializations; 0: off */
+    double skin_ratio;                 /* neighbor-list skin / spacing */
+    int sort_interval;                 /* steps between sorts */
+    double damping;                    /* velocity damping rate, 1/s; 0: off */
+    double gravity_ramp;               /* time over which gravity grows linearly from 0, s */
+    bool single_rate;                  /* soil and bodies at one common step instead of sub-steps */
+    double body_smoothing_ratio;       /* h / spacing of elastic bodies, 1.15 */
+    double body_courant;               /* CFL number of elastic bodies, 0.4 */
+    double body_damping;               /* Kelvin-Voigt damping of elastic bodies over that of the source, 1 */
+    double hourglass;                  /* strength of the hourglass control, 1; 0: off */
+    int body_stress;                   /* stress soil sees in bodies, as wall_stress */
+    bool angular_momentum;             /* soil forces that keep angular momentum to rounding */
+    double barrier_stiffness;          /* of the barrier between soil and bodies, N/m (N/m2); 0: off */
+    double barrier_radius;             /* reach of the barrier, m; default the spacing */
+} mor_case_numerics;
+
+/** One probe: a named result. */
+typedef struct mor_case_probe {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    char type[MOR_CASE_NAME_BYTES];    /* "run_out", "height", "repose_angle", "kinetic_energy", ... */
+    char measure[MOR_CASE_NAME_BYTES]; /* of a run-out: "mass_percentile" or "thickness" */
+    char wall[MOR_CASE_NAME_BYTES];    /* of a wall force */
+    char body[MOR_CASE_NAME_BYTES];    /* of a probe of one body */
+    bool is_radial;                    /* run-out measured as a radius about origin, else along direction */
+    double origin[3];                  /* m */
+    double direction[3];               /* unit vector; run-out and force component */
+    double percentile;                 /* percent of the mass (or of the particles sorted by the value), 0 to 100 */
+    double thickness;                  /* threshold, m; default half the spacing */
+    double window[2];                  /* times between which statistics are taken, s; NaN: the whole run */
+    uint64_t written;
+} mor_case_probe;
+
+/** What of a probe is compared with a reference. */
+typedef enum mor_case_statistic {
+    MOR_CASE_STATISTIC_VALUE, /* the last value */
+    MOR_CASE_STATISTIC_MAXIMUM,
+    MOR_CASE_STATISTIC_MINIMUM,
+    MOR_CASE_STATISTIC_MEAN,
+    MOR_CASE_STATISTIC_IMPULSE /* of a force */
+} mor_case_statistic;
+
+/** One expectation. */
+typedef struct mor_case_expectation {
+    char probe[MOR_CASE_NAME_BYTES]; /* name of a probe */
+    mor_case_place place;
+    mor_case_statistic statistic;
+    double value;         /* reference in the SI unit of the statistic */
+    double tolerance;     /* relative to value, 1; or absolute when is_absolute */
+    double tolerance_low; /* allowed shortfall, same kind as tolerance; default: as tolerance */
+    bool is_absolute;
+    char source[MOR_CASE_TEXT_BYTES];
+    uint64_t written;
+} mor_case_expectation;
+
+/** What to write. */
+typedef struct mor_case_output {
+    int n_snapshots;           /* snapshots after the initial one, evenly spaced */
+    double series_interval;    /* s between rows of series.csv */
+    double checkpoint_seconds; /* wall seconds between checkpoints */
+    bool has_pictures;
+    char color_field[MOR_CASE_NAME_BYTES]; /* "speed", "plastic_strain", "pressure", ... */
+    double view[3];                        /* direction from the scene towards the camera; zero: chosen */
+    bool has_cut;                          /* leave out the quadrant / half nearest to the camera */
+} mor_case_output;
+
+/** A whole case. */
+typedef struct mor_case {
+    char path[MOR_CASE_TEXT_BYTES];
+    char title[MOR_CASE_TEXT_BYTES];
+    int dimension;            /* 2 (plane strain in x, y) or 3 */
+    double spacing;           /* m */
+    double lattice_origin[3]; /* a lattice node, m */
+    double gravity[3];        /* m/s2 */
+    double end;               /* simulated time, s */
+    double domain_minimum[3]; /* m */
+    double domain_maximum[3]; /* m */
+    int outflow;              /* of soil from the domain: 0 stops the run, 1 is removed */
+    uint64_t seed;
+    double jitter_ratio; /* random displacement of the lattice / spacing */
+    /* Placement of the whole scene (geometry, lattice, gravity): x -> turn * x + move. */
+    double turn[9];           /* shape [3,3], rotation matrix, 1; made from the two that follow */
+    double placement_axis[3]; /* axis of the turn, any length but zero, 1 */
+    double placement_angle;   /* rad */
+    double move[3];           /* m */
+    /* Powers of two multiplying lengths, times and masses, for the unit-change check. */
+    double scale_length, scale_time, scale_mass; /* 1 */
+    uint64_t written, written_domain, written_lattice, written_placement, written_scale, written_numerics;
+    uint64_t written_output;
+    mor_case_soil soils[MOR_CASE_SOILS_MAX];
+    int n_soils;
+    mor_case_wall walls[MOR_CASE_WALLS_MAX];
+    int n_walls;
+    mor_case_body *bodies; /* shape [n_bodies]; owned; those of the list bodies, then packed rocks */
+    int n_bodies;
+    int n_listed_bodies; /* those of the list bodies */
+    mor_case_rocks rocks[MOR_CASE_ROCKS_MAX];
+    int n_rocks;
+    mor_case_contact contact;
+    mor_case_numerics numerics;
+    mor_case_probe probes[MOR_CASE_PROBES_MAX];
+    int n_probes;
+    mor_case_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];
+    int n_expectations;
+    mor_case_output output;
+} mor_case;
+
+#endif

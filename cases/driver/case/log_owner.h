@@ -1,0 +1,32 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_LOG_OWNER_H
+#define MOR_CASES_DRIVER_CASE_LOG_OWNER_H
+
+#include "core/base/context.h"
+
+/** @file
+ *  Log lines of the parts that know nothing of a case, with the item of the case in front that they are about. */
+
+enum { MOR_LOG_OWNER_BYTES = 512 };
+
+/** What stands in front of each line. It must outlive the time between begin and end. */
+typedef struct mor_log_owner {
+    char text[MOR_LOG_OWNER_BYTES]; /* zero-terminated */
+    mor_log_sink sink;              /* of the context before; NULL: none */
+    void *user;                     /* its argument */
+} mor_log_owner;
+
+/** Puts a text in front of all log lines until mor_log_owner_end.
+ *  @param owner   [out]     one object
+ *  @param context [in,out]  one object
+ *  @param format  [in]      printf format, then its arguments; zero-terminated */
+void mor_log_owner_begin(mor_log_owner *owner, mor_context *context, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/** Gives the context its sink back.
+ *  @param owner   [in]      one object, begun
+ *  @param context [in,out]  one object */
+void mor_log_owner_end(const mor_log_owner *owner, mor_context *context);
+
+#endif

@@ -1,0 +1,173 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case/reader/case_reader.h"
+
+#include "core/base/nearest.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Names and structure: which members a group has, lists of groups, words out of a list. */
+
+enum { NAMES_MAX = 96, LIST_BYTES = 1024 };
+
+/* Words with commas; of many, those that there is room for, and how many more there are. */
+static void join_words(const char *const *words, int n_words, char *text, size_t text_bytes)
+{
+    const size_t room = text_bytes - sizeof ", and 1000 more";
+    size_t used = 0;
+    text[0] = '\0';
+    for (int k = 0; k < n_words; ++k) {
+        if (used + strlen(words[k]) + 2 > room) {
+            snprintf(text + used, text_bytes - used, ", and %d more", n_words - k);
+            return;
+        }
+        used += (size_t)snprintf(text + used, text_bytes - used, "%s%s", k > 0 ? ", " : "", words[k]);
+    }
+}
+
+static void advise_word(const char *word, const char *const *words, int n_words, char *text, size_t text_bytes)
+{
+    const int nearest = mor_nearest_find(word, words, n_words);
+    if (nearest >= 0) {
+        snprintf(text, text_bytes, "did you mean '%s'?", words[nearest]);
+    } else {
+        snprintf(text, text_bytes, "use one of these");
+    }
+}
+
+static int add_name(const char **names, int n, const char *name)
+{
+    if (n < NAMES_MAX) {
+        names[n++] = name;
+    }
+    return n;
+}
+
+static int collect_names(const mor_case_group *group, const char *extra, const mor_schema *more, const char **names)
+{
+    int n = extra == NULL ? 0 : add_name(names, 0, extra);
+    for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
+        n = add_name(names, n, key->schema.key);
+    }
+    for (const mor_case_part *part = group->parts; part != NULL && part->name != NULL; ++part) {
+        n = add_name(names, n, part->name);
+    }
+    for (const mor_schema *entry = more; entry != NULL && entry->key != NULL; ++entry) {
+        n = add_name(names, n, entry->key);
+    }
+    return n;
+}
+
+static bool is_among(const char *word, const char *const *words, int n_words)
+{
+    for (int k = 0; k < n_words; ++k) {
+        if (strcmp(words[k], word) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
+                                 const char *extra, const mor_schema *more)
+{
+    const char *names[NAMES_MAX];
+    const int n_names = collect_names(group, extra, more, names);
+    for (const mor_case_node *child = node == NULL ? NULL : node->first_child; child != NULL; child = child->next) {
+        if (is_among(child->name, names, n_names)) {
+            continue;
+        }
+        char path[MOR_CASE_NODE_TEXT_BYTES];
+        char allowed[LIST_BYTES];
+        char advice[MOR_CASE_NODE_TEXT_BYTES];
+        mor_case_node_path(node, path, sizeof path);
+        join_words(names, n_names, allowed, sizeof allowed);
+        advise_word(child->name, names, n_names, advice, sizeof advice);
+        return MOR_CASE_NODE_FAIL(reader->context, child, "found the unknown name '%.80s' in %s; allowed: %s; %s",
+                                  child->name, path, allowed, advice);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_node *node, const char *what,
+                                  const char *const *words, int n_words)
+{
+    char path[MOR_CASE_NODE_TEXT_BYTES];
+    char found[MOR_CASE_NODE_TEXT_BYTES];
+    char allowed[LIST_BYTES];
+    char advice[MOR_CASE_NODE_TEXT_BYTES];
+    mor_case_node_path(node, path, sizeof path);
+    mor_case_node_print(node, found, sizeof found);
+    join_words(words, n_words, allowed, sizeof allowed);
+    advise_word(node->kind == MOR_CASE_NODE_TEXT ? node->text : "", words, n_words, advice, sizeof advice);
+    return MOR_CASE_NODE_FAIL(reader->context, node, "found %s = %s; allowed: %s (%s); %s", path, found,
+                              n_words > 0 ? allowed : "none, there are none yet", what, advice);
+}
+
+static const char *name_kind(mor_case_node_kind kind)
+{
+    switch (kind) {
+    case MOR_CASE_NODE_GROUP:
+        return "a group { name = value; ... }";
+    case MOR_CASE_NODE_LIST:
+        return "a list ( ..., ... )";
+    case MOR_CASE_NODE_TEXT:
+        return "a text in quotes";
+    case MOR_CASE_NODE_INTEGER:
+    case MOR_CASE_NODE_REAL:
+        return "a number";
+    case MOR_CASE_NODE_BOOLEAN:
+        return "true or false";
+    }
+    return "a value";
+}
+
+static mor_status check_kind(const mor_case_reader *reader, const mor_case_node *node, mor_case_node_kind kind)
+{
+    if (node->kind == kind) {
+        return MOR_OK;
+    }
+    char path[MOR_CASE_NODE_TEXT_BYTES];
+    char found[MOR_CASE_NODE_TEXT_BYTES];
+    mor_case_node_path(node, path, sizeof path);
+    mor_case_node_print(node, found, sizeof found);
+    return MOR_CASE_NODE_FAIL(reader->context, node, "found %s = %s; allowed: %s; write it in that form", path, found,
+                              name_kind(kind));
+}
+
+mor_status mor_case_reader_member(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                  mor_case_node_kind kind, const mor_case_node **child)
+{
+    *child = mor_case_node_find(group, name);
+    if (*child == NULL) {
+        char path[MOR_CASE_NODE_TEXT_BYTES];
+        mor_case_node_path(group, path, sizeof path);
+        return MOR_CASE_NODE_FAIL(reader->context, group, "found no '%s' in %s; allowed: %s; add it", name, path,
+                                  name_kind(kind));
+    }
+    return check_kind(reader, *child, kind);
+}
+
+mor_status mor_case_reader_list(const mor_case_reader *reader, const mor_case_node *root, const char *name, int n_max,
+                                const mor_case_node **list)
+{
+    *list = mor_case_node_find(root, name);
+    if (*list == NULL) {
+        return MOR_OK;
+    }
+    char found[MOR_CASE_NODE_TEXT_BYTES];
+    mor_case_node_print(*list, found, sizeof found);
+    if ((*list)->kind != MOR_CASE_NODE_LIST || (*list)->n_children < 1 || (*list)->n_children > n_max) {
+        return MOR_CASE_NODE_FAIL(reader->context, *list,
+                                  "found %s = %s; allowed: a list of 1 to %d groups; write %s = "
+                                  "( { ... }, { ... } )%s",
+                                  name, found, n_max, name,
+                                  (*list)->kind == MOR_CASE_NODE_LIST && (*list)->n_children == 0 ? " or leave it out"
+                                                                                                  : "");
+    }
+    for (const mor_case_node *child = (*list)->first_child; child != NULL; child = child->next) {
+        MOR_TRY(reader->context, check_kind(reader, child, MOR_CASE_NODE_GROUP));
+    }
+    return MOR_OK;
+}

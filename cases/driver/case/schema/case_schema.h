@@ -1,0 +1,234 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_SCHEMA_CASE_SCHEMA_H
+#define MOR_CASES_DRIVER_CASE_SCHEMA_CASE_SCHEMA_H
+
+#include "cases/driver/case/case.h"
+#include "core/base/schema.h"
+#include "core/material/registry.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+/** @file
+ *  The language of case files as tables: every key with its type, unit, default, bounds, text, and the member of
+ *  struct mor_case it fills. Reading, writing and the printed reference all walk these tables. */
+
+/** How a value is stored. */
+typedef enum mor_case_storage {
+    MOR_CASE_STORE_REALS, /* double [n_components] */
+    MOR_CASE_STORE_INT,   /* int */
+    MOR_CASE_STORE_SEED,  /* uint64_t */
+    MOR_CASE_STORE_BOOL,  /* bool */
+    MOR_CASE_STORE_TEXT,  /* char [size], any text */
+    MOR_CASE_STORE_NAME,  /* char [size]; letters, digits, '_' and '-' */
+    MOR_CASE_STORE_WORD,  /* char [size]; the word of a choice */
+    MOR_CASE_STORE_CHOICE /* int or enum; the index of the word */
+} mor_case_storage;
+
+/** One key. A table ends with schema.key NULL. */
+typedef struct mor_case_key {
+    mor_schema schema; /* of a choice, default_value is the index of the word */
+    mor_case_storage storage;
+    size_t offset;          /* of the member in the record, bytes */
+    size_t size;            /* of the member, bytes */
+    const char *computed;   /* words for a default that depends on other values; NULL: default_value */
+    bool is_direction;      /* a vector whose length means nothing, and which may not be zero */
+    bool keeps_scale;       /* not simulated time, so that the scale of the case does not touch it */
+    bool shares_member;     /* another key fills the same member: left alone when this one is not written */
+    const char *unit_plane; /* in plane strain, per meter of thickness; NULL: the same as in space */
+} mor_case_key;
+
+/** A key that holds a group or a list of its own. A table ends with name NULL. */
+typedef struct mor_case_part {
+    const char *name; /* as written in the case file */
+    bool is_required;
+    const char *form; /* what the value looks like */
+    const char *text; /* one line for people */
+} mor_case_part;
+
+/** One group of keys. */
+typedef struct mor_case_group {
+    const char *name; /* as written in the case file; of a shape, its type */
+    const char *text; /* one line for people */
+    const mor_case_key *keys;
+    const mor_case_part *parts; /* NULL: none */
+    size_t written_offset;      /* of the member `written` in the record, bytes */
+} mor_case_group;
+
+/** The group of the top level; its record is mor_case. */
+extern const mor_case_group mor_case_root_group;
+
+/** Groups directly below the top whose record is mor_case; ends with name NULL. */
+extern const mor_case_group mor_case_settings_groups[];
+
+/** Members of the list bodies, and the groups of a body; record mor_case_body. */
+extern const mor_case_group mor_case_body_group, mor_case_body_material_group, mor_case_spring_group,
+    mor_case_start_group;
+
+/** The group contact and the members of its list pairs; records mor_case_contact and mor_case_contact_pair. */
+extern const mor_case_group mor_case_contact_group, mor_case_pair_group;
+
+enum { MOR_CASE_LOCKS = 6 };
+
+/** Words of the member locked of a body, in the order of mor_case_body.is_locked. */
+extern const char *const mor_case_lock_words[MOR_CASE_LOCKS];
+
+/** Name of the model of bodies that do not deform. */
+extern const char mor_case_rigid_word[];
+
+/** Members of the lists soil, walls, probes and expect, and the groups of a soil; records mor_case_soil, mor_case_wall,
+ *  mor_case_probe, mor_case_expectation. */
+extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
+    mor_case_probe_group, mor_case_expectation_group;
+
+/** One group per kind of shape, in the order of mor_case_shape_kind; record mor_case_shape. */
+extern const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT];
+
+/** Keys and parts of the shapes of the ground, which mor_case_shape_groups lists; record mor_case_shape. */
+extern const mor_case_key mor_case_terrain_keys[], mor_case_release_keys[], mor_case_posts_keys[];
+extern const mor_case_part mor_case_release_parts[], mor_case_posts_parts[];
+
+/** Keys of the shapes of rocks, likewise. */
+extern const mor_case_key mor_case_mesh_keys[], mor_case_outline_keys[], mor_case_rock_keys[];
+
+/** Members of the list rocks, and of its list sizes; records mor_case_rocks and mor_case_size. */
+extern const mor_case_group mor_case_rocks_group, mor_case_size_group;
+
+enum { MOR_CASE_ROCK_FORM_COUNT = 5 };
+
+/** Members of the list forms of rocks, one group per type, and the kinds of shape they make; record mor_case_shape. */
+extern const mor_case_group mor_case_rock_form_groups[MOR_CASE_ROCK_FORM_COUNT];
+extern const mor_case_shape_kind mor_case_rock_form_kinds[MOR_CASE_ROCK_FORM_COUNT];
+
+/** Returns the group of the form that makes a kind of shape.
+ *  @param kind [in]  one of mor_case_rock_form_kinds */
+const mor_case_group *mor_case_rock_form_group(mor_case_shape_kind kind);
+
+/** Keys of a probe that only some types take. */
+enum {
+    MOR_CASE_PROBE_WALL = 1,
+    MOR_CASE_PROBE_MEASURE = 2,
+    MOR_CASE_PROBE_PERCENTILE = 4,
+    MOR_CASE_PROBE_THICKNESS = 8,
+    MOR_CASE_PROBE_ORIGIN = 16,
+    MOR_CASE_PROBE_DIRECTION = 32,
+    MOR_CASE_PROBE_RADIAL = 64,
+    MOR_CASE_PROBE_BODY = 128
+};
+
+/** What sets a type of probe apart, beside its keys. */
+enum {
+    MOR_CASE_PROBE_OF_SOIL = 1,    /* makes sense in a case with soil only */
+    MOR_CASE_PROBE_OF_BODIES = 2,  /* makes sense in a case with bodies only */
+    MOR_CASE_PROBE_OF_TURN = 4,    /* direction is an axis, in plane strain always z */
+    MOR_CASE_PROBE_OF_AUDIT = 8,   /* needs the audit of the soil's energy */
+    MOR_CASE_PROBE_OF_STEP = 16,   /* holds over a step, as a force; others have a value at each instant */
+    MOR_CASE_PROBE_OF_FORCE = 32,  /* a force, which has an impulse */
+    MOR_CASE_PROBE_OF_CONTACT = 64 /* changes with each sub-step of the bodies */
+};
+
+/** What a type of probe measures. */
+typedef struct mor_case_probe_type {
+    const char *name;
+    const char *unit;       /* SI unit of the value in three dimensions */
+    const char *unit_plane; /* in plane strain, where extensive values are per meter of thickness */
+    unsigned allowed;       /* MOR_CASE_PROBE_ bits of the keys it takes */
+    unsigned required;      /* and of those it cannot do without; see mor_case_probe_required */
+    unsigned traits;        /* MOR_CASE_PROBE_OF_ bits */
+    double percentile;      /* default of that key, percent */
+    const char *text;       /* one line for people */
+} mor_case_probe_type;
+
+/** The types of probes; ends with name NULL. */
+extern const mor_case_probe_type mor_case_probe_types[];
+
+/** A column that a series of results has beside its probes. A table ends with name NULL. */
+typedef struct mor_case_own_column {
+    const char *name, *unit;
+} mor_case_own_column;
+extern const mor_case_own_column mor_case_own_columns[];
+
+/** Names of the keys that MOR_CASE_PROBE_ bits stand for, in the order of the bits; ends with NULL. */
+extern const char *const mor_case_probe_key_names[];
+
+/** Returns a type of probe, or NULL.
+ *  @param name [in]  zero-terminated */
+const mor_case_probe_type *mor_case_probe_type_find(const char *name);
+
+/** Returns the MOR_CASE_PROBE_ bits of the keys a type cannot do without: in plane strain the axis of a turn is known.
+ *  @param type      [in]  one object
+ *  @param dimension [in]  2 or 3 */
+unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension);
+
+/** Returns the SI unit of a probe's value.
+ *  @param type      [in]  one object
+ *  @param dimension [in]  2 or 3 */
+const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension);
+
+/** Returns the SI unit of the impulse of a probe, or NULL when it is no force.
+ *  @param type      [in]  one object
+ *  @param dimension [in]  2 or 3 */
+const char *mor_case_probe_impulse_unit(const mor_case_probe_type *type, int dimension);
+
+/** Words for mor_case_statistic, in its order, as a list of choices. */
+extern const char mor_case_statistic_words[];
+
+/** Returns the SI unit of a statistic of a probe; NULL for the impulse of what is no force.
+ *  @param type      [in]  one object
+ *  @param statistic [in]  which
+ *  @param dimension [in]  2 or 3 */
+const char *mor_case_statistic_unit(const mor_case_probe_type *type, mor_case_statistic statistic, int dimension);
+
+/** Whether a body is rigid.
+ *  @param body [in]  one object */
+bool mor_case_body_is_rigid(const mor_case_body *body);
+
+/** Tells what a key or a group of a body needs to have an effect.
+ *  @param body [in]  one object; model and motion are known
+ *  @param name [in]  zero-terminated; of a key or a part of mor_case_body_group
+ *  Returns: NULL when it has an effect on this body, else words that say with what it would. */
+const char *mor_case_body_condition(const mor_case_body *body, const char *name);
+
+/** Tells what a key of the start of a body needs to have an effect.
+ *  @param motion [in]  kind of start
+ *  @param name   [in]  zero-terminated; a key of mor_case_start_group
+ *  Returns: NULL when it has an effect, else words that say with what it would. */
+const char *mor_case_start_condition(mor_case_motion motion, const char *name);
+
+/** Largest of the speeds at the start of bodies, walls and soil and of a fall through the domain; where there is none,
+ *  what crosses the domain before the end.
+ *  @param the_case [in]  one object, whole
+ *  Returns: unit m/s; > 0. */
+double mor_case_largest_speed(const mor_case *the_case);
+
+/** Largest of the speeds at the start of bodies and walls.
+ *  @param the_case [in]  one object, whole
+ *  Returns: unit m/s. */
+double mor_case_start_speed(const mor_case *the_case);
+
+/** Young's modulus of a body's surface in contact: the one given, else that of a rigid body in which sound travels at
+ *  1000 m/s. It depends on the body alone.
+ *  @param the_case [in]  one object; its units
+ *  @param body     [in]  one object; of the case
+ *  Returns: unit Pa; > 0. */
+double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body);
+
+/** Schema of a key with the unit it has in this dimension.
+ *  @param key       [in]  one object
+ *  @param dimension [in]  2 or 3 */
+mor_schema mor_case_key_schema(const mor_case_key *key, int dimension);
+
+/** Returns the place of a key in a table, or -1.
+ *  @param keys [in]  table ended by schema.key NULL
+ *  @param name [in]  zero-terminated */
+int mor_case_key_find(const mor_case_key *keys, const char *name);
+
+/** Prints the reference of case files in Markdown: every key of every group and every model.
+ *  @param context  [in,out]  one object
+ *  @param registry [in]      one object; the models to list
+ *  @param stream   [in,out]  one open stream
+ *  Returns: MOR_OK; MOR_ERROR_IO when the stream refuses. */
+mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, FILE *stream);
+
+#endif

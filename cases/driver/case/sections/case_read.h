@@ -1,0 +1,53 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_SECTIONS_CASE_READ_H
+#define MOR_CASES_DRIVER_CASE_SECTIONS_CASE_READ_H
+
+#include "cases/driver/case/case.h"
+#include "core/base/units.h"
+#include "core/material/registry.h"
+
+#include <stdio.h>
+
+/** @file
+ *  From a case file to struct mor_case. What a case file may say stands in case_schema.c; whether the
+ *  particles it asks for fit into memory is for the builder to find out. */
+
+/** The text of a case that is in no file. */
+typedef struct mor_case_text {
+    const char *name;             /* zero-terminated; stands for the file in messages */
+    const char *text;             /* shape [n_bytes]; need not be zero-terminated */
+    int64_t n_bytes;              /* length of text */
+    const char *const *settings;  /* shape [n_settings] of zero-terminated "key=value"; NULL when there are none */
+    int n_settings;               /* number of settings */
+    const mor_registry *registry; /* the material models */
+    const mor_units *units;       /* NULL: loaded for this call */
+} mor_case_text;
+
+/** Reads a case file, applies settings of the command line over it, checks everything that one case alone can tell,
+ *  fills in the defaults, applies the scale, and builds the shapes.
+ *  @param context    [in,out]  one object
+ *  @param path       [in]      zero-terminated
+ *  @param settings   [in]      shape [n_settings] of zero-terminated "key=value"; NULL when there are none
+ *  @param n_settings [in]      number of settings, >= 0
+ *  @param registry   [in]      one object; the material models
+ *  @param out_case   [out]     one object; clear it with mor_case_clear; cleared after a failure
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with a message "file:line: found ...; allowed ...; do ..."; MOR_ERROR_IO when the
+ *  unit tables are missing; MOR_ERROR_MEMORY.
+ *  Cost: some milliseconds; allocates. Threads: neither. */
+mor_status mor_case_read(mor_context *context, const char *path, const char *const *settings, int n_settings,
+                         const mor_registry *registry, mor_case *out_case);
+
+/** As mor_case_read, from memory.
+ *  @param context  [in,out]  one object
+ *  @param text     [in]      one object
+ *  @param out_case [out]     one object; clear it with mor_case_clear; cleared after a failure
+ *  Returns: as mor_case_read. */
+mor_status mor_case_read_text(mor_context *context, const mor_case_text *text, mor_case *out_case);
+
+/** Frees what a case owns and zeroes it.
+ *  @param context  [in,out]  one object
+ *  @param the_case [in,out]  one object, read or zeroed */
+void mor_case_clear(mor_context *context, mor_case *the_case);
+
+#endif

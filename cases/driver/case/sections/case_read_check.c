@@ -1,0 +1,238 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Settings that make one another void: refused where nothing sensible is left, warned of where one has no effect. */
+#include "cases/driver/case/reader/case_reader.h"
+
+#include "core/base/math.h"
+#include "core/particle/kernel.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { VALUES_MAX = 9 };
+
+/* ---- Settings that have no effect -------------------------------------------------------------------------------- */
+
+/* What a setting may need to have an effect, and how that is said. */
+enum {
+    SOIL = 1,
+    BODIES = 2,
+    ELASTIC = 4,
+    WALLS = 8,
+    GRAVITY = 16,
+    ARTIFICIAL = 32,
+    DIFFUSION = 64,
+    DISSIPATION = 128,
+    BARRIER = 256,
+    TURN = 512,
+    BODY_TURN = 1024,
+    STIFF_SPRING = 2048,
+    YIELDING = 4096
+};
+
+static const struct {
+    unsigned need;
+    const char *words;
+} needs[] = {{SOIL, "in a case with soil"},
+             {BODIES, "in a case with bodies"},
+             {ELASTIC, "with elastic bodies"},
+             {WALLS, "in a case with walls"},
+             {GRAVITY, "with gravity"},
+             {ARTIFICIAL, "with artificial_stress = true"},
+             {DIFFUSION, "with stress_diffusion above 0"},
+             {DISSIPATION, "with dissipation_factor above 0"},
+             {BARRIER, "with barrier_stiffness above 0"},
+             {TURN, "with an angle other than 0"},
+             {BODY_TURN, "with an angle other than 0"},
+             {STIFF_SPRING, "with a stiffness above 0"},
+             {YIELDING, "with contact_modulus"}};
+
+/* Settings that are idle alone or in some company. Keys that only one kind of record takes are refused where that kind
+ * is read: mor_case_body_condition, mor_case_start_condition and their like. */
+static const struct {
+    const char *group;
+    const char *key;
+    unsigned needs;
+} uses[] = {{"lattice", "origin", SOIL},
+            {"lattice", "jitter", SOIL},
+            {"placement", "axis", TURN},
+            {"numerics", "smoothing_ratio", SOIL},
+            {"numerics", "courant", SOIL},
+            {"numerics", "lattice_normalization", SOIL},
+            {"numerics", "dissipation", SOIL | DISSIPATION},
+            {"numerics", "wall_dissipation", SOIL | WALLS | DISSIPATION},
+            {"numerics", "wall_stress", SOIL | WALLS},
+            {"numerics", "dissipation_factor", SOIL},
+            {"numerics", "reconstruction", SOIL | DISSIPATION},
+            {"numerics", "density_pressure_term", SOIL},
+            {"numerics", "stress_diffusion", SOIL},
+            {"numerics", "stress_diffusion_limiter", SOIL | DIFFUSION},
+            {"numerics", "artificial_stress", SOIL},
+            {"numerics", "artificial_stress_exponent", SOIL | ARTIFICIAL},
+            {"numerics", "artificial_stress_factor", SOIL | ARTIFICIAL},
+            {"numerics", "gradient_correction", SOIL},
+            {"numerics", "xsph", SOIL},
+            {"numerics", "shifting", SOIL},
+            {"numerics", "density_reinitialization", SOIL},
+            {"numerics", "narrow_gaps", SOIL},
+            {"numerics", "skin_ratio", SOIL},
+            {"numerics", "sort_interval", SOIL},
+            {"numerics", "gravity_ramp", GRAVITY},
+            {"numerics", "single_rate", SOIL | BODIES},
+            {"numerics", "body_smoothing_ratio", ELASTIC},
+            {"numerics", "body_courant", ELASTIC},
+            {"numerics", "body_damping", ELASTIC},
+            {"numerics", "hourglass", ELASTIC},
+            {"numerics", "body_stress", SOIL | BODIES},
+            {"numerics", "angular_momentum", SOIL},
+            {"numerics", "barrier_stiffness", SOIL | BODIES},
+            {"numerics", "barrier_radius", SOIL | BODIES | BARRIER},
+            {"walls", "friction", SOIL},
+            {"walls", "friction_coefficient", SOIL},
+            {"bodies", "friction", SOIL},
+            {"bodies", "friction_coefficient", SOIL},
+            {"bodies", "axis", BODY_TURN},
+            {"walls", "contact_poissons_ratio", BODIES | YIELDING},
+            {"spring", "length", STIFF_SPRING}};
+
+static unsigned find_given(const mor_case *c)
+{
+    const mor_case_numerics *n = &c->numerics;
+    unsigned given = (c->n_soils > 0 ? SOIL : 0U) | (c->n_bodies > 0 ? BODIES : 0U) | (c->n_walls > 0 ? WALLS : 0U);
+    for (int k = 0; k < c->n_bodies; ++k) {
+        given |= mor_case_body_is_rigid(&c->bodies[k]) ? 0U : ELASTIC;
+    }
+    given |= mor_vector_length(c->gravity) > 0.0 ? GRAVITY : 0U;
+    given |= n->artificial_stress ? ARTIFICIAL : 0U;
+    given |= n->stress_diffusion > 0.0 ? DIFFUSION : 0U;
+    given |= n->dissipation_factor > 0.0 ? DISSIPATION : 0U;
+    given |= n->barrier_stiffness > 0.0 ? BARRIER : 0U;
+    return given | (c->placement_angle != 0.0 ? TURN : 0U);
+}
+
+/* Whether a key has the value it has when it is not written; case.resolved.cfg writes them all. */
+static bool is_default(const mor_case_reader *reader, const mor_case *c, const mor_case_key *key, const void *record)
+{
+    const char *member = (const char *)record + key->offset;
+    int whole = 0;
+    double values[VALUES_MAX];
+    if (key->storage == MOR_CASE_STORE_BOOL) {
+        return *(const bool *)member == (key->schema.default_value == 1.0);
+    }
+    if (key->storage != MOR_CASE_STORE_REALS) {
+        memcpy(&whole, member, sizeof whole);
+        return whole == (int)key->schema.default_value;
+    }
+    for (int k = 0; k < key->schema.n_components; ++k) {
+        values[k] = key->schema.default_value;
+    }
+    if (key->is_direction) { /* an axis: (0, 0, 1) */
+        memcpy(values, (double[]){0.0, 0.0, 1.0}, 3 * sizeof *values);
+    } else if (strcmp(key->schema.key, "barrier_radius") == 0) {
+        values[0] = c->spacing;
+    } else if (strcmp(key->schema.key, "dissipation_factor") == 0) {
+        values[0] = 20.0 * c->dimension;
+    } else {
+        const mor_schema schema = mor_case_key_schema(key, reader->dimension);
+        if (mor_case_reader_scale(reader, schema.unit, values, schema.n_components, 1) != MOR_OK) {
+            return true;
+        }
+    }
+    return memcmp(values, member, (size_t)key->schema.n_components * sizeof *values) == 0;
+}
+
+/* Warns of the keys of one group of the file that have no effect in this company. */
+static void warn_of_group(const mor_case_reader *reader, const mor_case_node *node, const mor_case *c,
+                          const mor_case_group *group, const void *record, unsigned given)
+{
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; ++k) {
+        const unsigned missing = uses[k].needs & ~given;
+        const mor_case_node *child = node == NULL ? NULL : mor_case_node_find(node, uses[k].key);
+        if (missing == 0U || child == NULL || strcmp(uses[k].group, group->name) != 0 ||
+            is_default(reader, c, &group->keys[mor_case_key_find(group->keys, uses[k].key)], record)) {
+            continue;
+        }
+        size_t first = 0;
+        while ((needs[first].need & missing) == 0U) {
+            ++first;
+        }
+        char path[MOR_CASE_NODE_TEXT_BYTES];
+        mor_case_node_path(child, path, sizeof path);
+        mor_context_log(reader->context, MOR_LOG_WARNING, "%s:%d: '%s' has no effect here; it has one %s",
+                        child->origin, child->line, path, needs[first].words);
+    }
+}
+
+static void warn_of_idle_settings(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    const unsigned given = find_given(c);
+    for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
+        warn_of_group(reader, mor_case_node_find(root, group->name), c, group, c, given);
+    }
+    const mor_case_node *walls = mor_case_node_find(root, "walls");
+    const mor_case_wall *wall = c->walls;
+    for (const mor_case_node *it = walls == NULL ? NULL : walls->first_child; it != NULL; it = it->next) {
+        const unsigned own = given | (wall->contact_modulus > 0.0 ? YIELDING : 0U);
+        warn_of_group(reader, it, c, &mor_case_wall_group, wall++, own);
+    }
+    const mor_case_node *bodies = mor_case_node_find(root, "bodies");
+    const mor_case_body *body = c->bodies;
+    for (const mor_case_node *it = bodies == NULL ? NULL : bodies->first_child; it != NULL; it = it->next) {
+        const unsigned own =
+            given | (body->angle != 0.0 ? BODY_TURN : 0U) | (body->spring_stiffness > 0.0 ? STIFF_SPRING : 0U);
+        warn_of_group(reader, it, c, &mor_case_body_group, body, own);
+        warn_of_group(reader, mor_case_node_find(it, "spring"), c, &mor_case_spring_group, body, own);
+        ++body;
+    }
+}
+
+/* ---- Settings that contradict one another ------------------------------------------------------------------------ */
+
+static mor_status check_ramp(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    if (!(c->numerics.gravity_ramp > c->end)) {
+        return MOR_OK;
+    }
+    const mor_case_node *node = mor_case_node_find(mor_case_node_find(root, "numerics"), "gravity_ramp");
+    return MOR_CASE_NODE_FAIL(
+        reader->context, node,
+        "found numerics.gravity_ramp = %g s in a run of %g s, so that gravity reaches %.3g of its "
+        "value only; allowed: up to end; shorten the ramp or lengthen end",
+        c->numerics.gravity_ramp, c->end, c->end / c->numerics.gravity_ramp);
+}
+
+static mor_status check_series(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    if (!(c->output.series_interval > c->end)) {
+        return MOR_OK;
+    }
+    const mor_case_node *node = mor_case_node_find(mor_case_node_find(root, "output"), "series_interval");
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found output.series_interval = %g s in a run of %g s, so that series.csv has no row "
+                              "between the first and the last; allowed: up to end; shorten it or lengthen end",
+                              c->output.series_interval, c->end);
+}
+
+/* Soil looks for rocks within the support of its kernel. */
+static mor_status check_barrier(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    const double support = MOR_KERNEL_SUPPORT * c->numerics.smoothing_ratio * c->spacing;
+    if (!(c->numerics.barrier_stiffness > 0.0) || c->numerics.barrier_radius <= support) {
+        return MOR_OK;
+    }
+    const mor_case_node *node = mor_case_node_find(mor_case_node_find(root, "numerics"), "barrier_radius");
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found numerics.barrier_radius = %g m; allowed: up to the support of the kernel, %g m; "
+                              "the spacing, which is the default, is a good value",
+                              c->numerics.barrier_radius, support);
+}
+
+mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)
+{
+    MOR_TRY(reader->context, check_ramp(reader, root, the_case));
+    MOR_TRY(reader->context, check_series(reader, root, the_case));
+    MOR_TRY(reader->context, check_barrier(reader, root, the_case));
+    warn_of_idle_settings(reader, root, the_case);
+    return MOR_OK;
+}

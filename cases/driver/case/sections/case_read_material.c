@@ -1,0 +1,162 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case/reader/case_reader.h"
+
+#include "core/material/params.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What soil, walls and bodies have in common: a material, friction, a name of its own, a plane. */
+
+/* ---- Material ---------------------------------------------------------------------------------------------------- */
+
+/* Model: NULL for the word that stands for no model. */
+static mor_status read_model(const mor_case_reader *reader, const mor_case_node *node,
+                             const mor_case_material_slot *slot, const mor_material **model)
+{
+    const char *words[MOR_CASE_PARAMETERS_MAX];
+    int n_words = 0;
+    const mor_case_node *name = NULL;
+    *model = NULL;
+    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "model", MOR_CASE_NODE_TEXT, &name));
+    if (slot->bare_word != NULL) {
+        if (strcmp(slot->bare_word, name->text) == 0) {
+            return MOR_OK;
+        }
+        words[n_words++] = slot->bare_word;
+    }
+    for (int k = 0; k < mor_registry_count(reader->registry); ++k) {
+        const mor_material *listed = mor_registry_get(reader->registry, k);
+        if (listed->form == slot->form && n_words < MOR_CASE_PARAMETERS_MAX) {
+            words[n_words++] = listed->name;
+        }
+    }
+    *model = mor_registry_find(reader->registry, name->text);
+    if (*model == NULL || (*model)->form != slot->form) {
+        return mor_case_reader_refuse(reader, name, slot->what, words, n_words);
+    }
+    MOR_CHECK(reader->context, mor_params_count((*model)->parameters) <= MOR_CASE_PARAMETERS_MAX, MOR_ERROR_PLUGIN,
+              "the model '%s' has %d parameters; at most %d are allowed", name->text,
+              mor_params_count((*model)->parameters), MOR_CASE_PARAMETERS_MAX);
+    return MOR_OK;
+}
+
+static mor_status default_parameter(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema,
+                                    double *values)
+{
+    if (schema->is_required) {
+        char path[MOR_CASE_NODE_TEXT_BYTES];
+        char allowed[MOR_CASE_NODE_TEXT_BYTES];
+        mor_case_node_path(node, path, sizeof path);
+        mor_params_range(schema, allowed, sizeof allowed);
+        return MOR_CASE_NODE_FAIL(reader->context, node, "found no '%s' in %s; allowed: %s (%s); add it", schema->key,
+                                  path, allowed, schema->text);
+    }
+    for (int a = 0; a < schema->n_components; ++a) {
+        values[a] = schema->kind == MOR_SCHEMA_CHOICE ? 0.0 : schema->default_value;
+    }
+    return mor_case_reader_scale(reader, schema->unit, values, schema->n_components, 1);
+}
+
+/* Relations between parameters are for the model to judge: it is asked to make an instance. */
+static mor_status try_material(const mor_case_reader *reader, const mor_case_node *node, const mor_material *model,
+                               const mor_case_material_slot *slot)
+{
+    mor_material_instance *instance = NULL;
+    const mor_status status = mor_material_create(reader->context, model, *slot->density, slot->parameters, &instance);
+    mor_material_destroy(reader->context, &instance);
+    if (status != MOR_ERROR_ARGUMENT) {
+        return status;
+    }
+    char why[MOR_CONTEXT_MESSAGE_BYTES];
+    snprintf(why, sizeof why, "%.1500s", reader->context->message);
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found parameters that '%s' refuses: %s; allowed: what its reference "
+                              "says; correct them",
+                              model->name, why);
+}
+
+mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
+                                    const mor_case_material_slot *slot)
+{
+    const mor_case_node *node = NULL;
+    const mor_material *model = NULL;
+    MOR_TRY(reader->context, mor_case_reader_member(reader, owner, "material", MOR_CASE_NODE_GROUP, &node));
+    MOR_TRY(reader->context, read_model(reader, node, slot, &model));
+    const mor_schema *schemas = model == NULL ? NULL : model->parameters;
+    MOR_TRY(reader->context, mor_case_reader_names(reader, node, slot->group, NULL, schemas));
+    MOR_TRY(reader->context, mor_case_reader_group(reader, node, slot->group, slot->record));
+    if (model == NULL) {
+        return MOR_OK;
+    }
+    double *values = slot->parameters;
+    for (int k = 0; schemas[k].key != NULL; ++k) {
+        const mor_case_node *child = mor_case_node_find(node, schemas[k].key);
+        if (child == NULL) {
+            MOR_TRY(reader->context, default_parameter(reader, node, &schemas[k], values));
+        } else {
+            MOR_TRY(reader->context, mor_case_reader_numbers(reader, child, &schemas[k], false, values));
+            *slot->written |= (uint64_t)1 << k;
+        }
+        values += schemas[k].n_components;
+    }
+    return try_material(reader, node, model, slot);
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+mor_status mor_case_reader_in_plane(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                    const double *vector)
+{
+    const mor_case_node *node = mor_case_node_find(group, name);
+    if (reader->dimension == 3 || node == NULL || vector[2] == 0.0) {
+        return MOR_OK;
+    }
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found %s with a component along z in plane strain; allowed: x and y; "
+                              "set it to zero",
+                              name);
+}
+
+mor_status mor_case_reader_out_of_plane(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                        const double *vector)
+{
+    const mor_case_node *node = mor_case_node_find(group, name);
+    if (reader->dimension == 3 || node == NULL || (vector[0] == 0.0 && vector[1] == 0.0)) {
+        return MOR_OK;
+    }
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found %s with a component in the plane, which turns out of it; allowed in plane strain: "
+                              "(0, 0, z); set x and y to zero",
+                              name);
+}
+
+mor_status mor_case_reader_twin(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                const mor_case_place *first)
+{
+    const mor_case_node *node = mor_case_node_find(group, "name");
+    return MOR_CASE_NODE_FAIL(reader->context, node == NULL ? group : node,
+                              "found the name '%s' again; allowed: each name "
+                              "once (it is taken by line %d); choose another",
+                              name, first->line);
+}
+
+mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_case_node *node,
+                                    mor_case_friction friction)
+{
+    const mor_case_node *coefficient = mor_case_node_find(node, "friction_coefficient");
+    const bool is_coulomb = friction == MOR_CASE_FRICTION_COULOMB;
+    if (is_coulomb && coefficient == NULL) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found no 'friction_coefficient' for friction = \"coulomb\"; "
+                                  "allowed: >= 0; add it");
+    }
+    if (!is_coulomb && coefficient != NULL) {
+        return MOR_CASE_NODE_FAIL(
+            reader->context, coefficient,
+            "found 'friction_coefficient', which has no effect with "
+            "this friction; allowed: with friction = \"coulomb\"; remove it or change the friction");
+    }
+    return MOR_OK;
+}

@@ -1,0 +1,172 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case/reader/case_reader.h"
+
+#include "core/base/math.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Soil regions and walls. */
+
+/* ---- Soil -------------------------------------------------------------------------------------------------------- */
+
+static mor_status read_material(const mor_case_reader *reader, const mor_case_node *node, mor_case_soil *soil)
+{
+    const mor_case_material_slot slot = {.group = &mor_case_material_group,
+                                         .record = soil,
+                                         .form = MOR_MATERIAL_RATE,
+                                         .density = &soil->density,
+                                         .parameters = soil->parameters,
+                                         .written = &soil->written_parameters,
+                                         .what = "material model of a soil"};
+    return mor_case_reader_material(reader, node, &slot);
+}
+
+/* What a kind of initial stress does not use is refused, so that nobody believes it had an effect. */
+static mor_status check_stress_keys(const mor_case_reader *reader, const mor_case_node *node, mor_case_stress type)
+{
+    static const struct {
+        const char *key;
+        bool is_used[3]; /* by none, k0, settled */
+    } uses[] = {{"lateral_ratio", {false, true, true}},
+                {"surface_level", {false, true, true}},
+                {"settle_time", {false, false, true}},
+                {"settle_speed_ratio", {false, false, true}}};
+    for (size_t k = 0; k < sizeof uses / sizeof uses[0]; ++k) {
+        const mor_case_node *child = mor_case_node_find(node, uses[k].key);
+        if (child != NULL && !uses[k].is_used[type]) {
+            return MOR_CASE_NODE_FAIL(reader->context, child,
+                                      "found '%s', which has no effect with this type of initial "
+                                      "stress; allowed: with type = %s; remove it or change the type",
+                                      uses[k].key,
+                                      uses[k].is_used[MOR_CASE_STRESS_K0] ? "\"k0\" or \"settled\"" : "\"settled\"");
+        }
+    }
+    return MOR_OK;
+}
+
+/* Without weight there is no stress of rest, and nothing to settle under. */
+static mor_status check_stress_weight(const mor_case_reader *reader, const mor_case_node *node,
+                                      const mor_case *the_case, const mor_case_soil *soil)
+{
+    if (soil->initial_stress == MOR_CASE_STRESS_NONE || mor_vector_length(the_case->gravity) > 0.0) {
+        return MOR_OK;
+    }
+    const mor_case_node *type = mor_case_node_find(node, "type");
+    return MOR_CASE_NODE_FAIL(reader->context, type,
+                              "found an initial stress of type \"%s\" in a case without gravity, where it would be "
+                              "zero; allowed: with gravity, or \"none\"; correct 'gravity' or the type",
+                              type->text);
+}
+
+static mor_status read_stress(const mor_case_reader *reader, const mor_case_node *soil_node, const mor_case *the_case,
+                              mor_case_soil *soil)
+{
+    const mor_case_node *node = mor_case_node_find(soil_node, "initial_stress");
+    if (node != NULL) {
+        MOR_TRY(reader->context,
+                mor_case_reader_member(reader, soil_node, "initial_stress", MOR_CASE_NODE_GROUP, &node));
+        MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_stress_group, NULL, NULL));
+    }
+    MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_stress_group, soil));
+    if (!mor_case_reader_has(&mor_case_stress_group, soil->written_stress, "settle_time")) {
+        soil->settle_time = the_case->end;
+    }
+    MOR_TRY(reader->context, check_stress_keys(reader, node, soil->initial_stress));
+    return check_stress_weight(reader, node, the_case, soil);
+}
+
+static mor_status read_soil(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case,
+                            mor_case_soil *soil)
+{
+    const mor_case_node *shape = NULL;
+    mor_case_reader_place(node, &soil->place);
+    MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_soil_group, NULL, NULL));
+    MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_soil_group, soil));
+    MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", soil->velocity));
+    MOR_TRY(reader->context, read_material(reader, node, soil));
+    MOR_TRY(reader->context, read_stress(reader, node, the_case, soil));
+    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
+    MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &soil->outline, &soil->shape));
+    for (const mor_case_soil *other = the_case->soils; other < soil; ++other) {
+        if (strcmp(other->name, soil->name) == 0) {
+            return mor_case_reader_twin(reader, node, soil->name, &other->place);
+        }
+    }
+    return MOR_OK;
+}
+
+/* ---- Walls ------------------------------------------------------------------------------------------------------- */
+
+static bool has_terrain(const mor_case_shape *outline)
+{
+    bool has = outline->kind == MOR_CASE_SHAPE_TERRAIN;
+    for (int k = 0; k < outline->n_children && !has; ++k) {
+        has = has_terrain(&outline->children[k]);
+    }
+    return has;
+}
+
+/* Only the ground itself is followed by its particles and lies where the domain was compared with it. */
+static mor_status check_ground(const mor_case_reader *reader, const mor_case_node *node, const mor_case_wall *wall)
+{
+    const bool is_ground = wall->outline.kind == MOR_CASE_SHAPE_TERRAIN;
+    if (!is_ground && has_terrain(&wall->outline)) {
+        return MOR_CASE_NODE_FAIL(
+            reader->context, node,
+            "found a wall with a terrain inside a shape of type '%s'; allowed is a terrain alone; "
+            "move it with 'offset', turn the scene with 'placement', and list what stands in it "
+            "as walls of their own",
+            mor_case_shape_groups[wall->outline.kind].name);
+    }
+    if (is_ground && mor_vector_length(wall->velocity) > 0.0) {
+        return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(node, "velocity"),
+                                  "found a terrain that moves; allowed is ground at rest, whose edge stays outside the "
+                                  "domain; remove 'velocity', or give the soil the opposite one");
+    }
+    return MOR_OK;
+}
+
+static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case,
+                            mor_case_wall *wall)
+{
+    const mor_case_node *shape = NULL;
+    mor_case_reader_place(node, &wall->place);
+    MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_wall_group, NULL, NULL));
+    MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_wall_group, wall));
+    MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", wall->velocity));
+    MOR_TRY(reader->context, mor_case_reader_friction(reader, node, wall->friction));
+    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
+    MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &wall->outline, &wall->shape));
+    MOR_TRY(reader->context, check_ground(reader, node, wall));
+    for (const mor_case_wall *other = the_case->walls; other < wall; ++other) {
+        if (strcmp(other->name, wall->name) == 0) {
+            return mor_case_reader_twin(reader, node, wall->name, &other->place);
+        }
+    }
+    return MOR_OK;
+}
+
+mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)
+{
+    const mor_case_node *list = NULL;
+    if (mor_case_node_find(root, "soil") == NULL && mor_case_node_find(root, "bodies") == NULL &&
+        mor_case_node_find(root, "rocks") == NULL) {
+        return MOR_CASE_NODE_FAIL(reader->context, root,
+                                  "found neither 'soil' nor 'bodies' in the file; allowed: at least one soil region or "
+                                  "one body; add soil = ( { ... } ) or bodies = ( { ... } )");
+    }
+    MOR_TRY(reader->context, mor_case_reader_list(reader, root, "soil", MOR_CASE_SOILS_MAX, &list));
+    for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
+        /* Counted before it is read, so that a half-read one is freed, too. */
+        mor_case_soil *soil = &the_case->soils[the_case->n_soils++];
+        MOR_TRY(reader->context, read_soil(reader, node, the_case, soil));
+    }
+    MOR_TRY(reader->context, mor_case_reader_list(reader, root, "walls", MOR_CASE_WALLS_MAX, &list));
+    for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
+        mor_case_wall *wall = &the_case->walls[the_case->n_walls++];
+        MOR_TRY(reader->context, read_wall(reader, node, the_case, wall));
+    }
+    return mor_case_reader_bodies(reader, root, the_case);
+}

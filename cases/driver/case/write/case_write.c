@@ -1,0 +1,527 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/case/write/case_writer.h"
+
+#include "cases/driver/case/write/case_write.h"
+#include "core/base/hash.h"
+#include "core/io/durable_file.h"
+#include "core/material/params.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The case as it was used: the tables of case_schema.c walked the other way. */
+
+/* ---- Shapes ------------------------------------------------------------------------------------------------------ */
+
+static mor_status write_shape(mor_case_writer *w, const char *name, const mor_case_shape *outline, const char *end);
+
+static mor_status write_shape_list(mor_case_writer *w, const char *name, const mor_case_shape *shapes, int n_shapes)
+{
+    mor_case_writer_open(w, name, "(");
+    for (int k = 0; k < n_shapes; ++k) {
+        MOR_TRY(w->reader.context, write_shape(w, "", &shapes[k], k + 1 < n_shapes ? "}," : "}"));
+    }
+    mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
+static mor_status write_points(mor_case_writer *w, const char *name, const mor_case_shape *outline)
+{
+    static const mor_schema corner = {.kind = MOR_SCHEMA_VECTOR, .unit = "m"};
+    mor_case_writer_open(w, name, "(");
+    for (int k = 0; k < outline->n_points; ++k) {
+        char value[MOR_CASE_VALUE_BYTES];
+        MOR_TRY(w->reader.context,
+                mor_case_writer_numbers(w, &corner, false, &outline->points[2 * k], 2, value, sizeof value));
+        fprintf(w->stream, "%*s%s%s\n", w->depth * MOR_CASE_INDENT, "", value, k + 1 < outline->n_points ? "," : "");
+    }
+    mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
+static mor_status write_flat_box(const mor_case_writer *w, const mor_case_shape *outline)
+{
+    static const mor_schema corner = {.kind = MOR_SCHEMA_VECTOR, .unit = "m"};
+    char value[MOR_CASE_VALUE_BYTES];
+    MOR_TRY(w->reader.context, mor_case_writer_numbers(w, &corner, false, outline->first, 2, value, sizeof value));
+    mor_case_writer_line(w, "min", value, false);
+    MOR_TRY(w->reader.context, mor_case_writer_numbers(w, &corner, false, outline->second, 2, value, sizeof value));
+    mor_case_writer_line(w, "max", value, false);
+    return MOR_OK;
+}
+
+static mor_status write_parts(mor_case_writer *w, const mor_case_shape *outline)
+{
+    switch (outline->kind) {
+    case MOR_CASE_SHAPE_POLYGON:
+    case MOR_CASE_SHAPE_RELEASE:
+        return write_points(w, "points", outline);
+    case MOR_CASE_SHAPE_POSTS:
+        return write_points(w, "at", outline);
+    case MOR_CASE_SHAPE_UNION:
+        return write_shape_list(w, "parts", outline->children, outline->n_children);
+    case MOR_CASE_SHAPE_DIFFERENCE:
+        MOR_TRY(w->reader.context, write_shape(w, "from", &outline->children[0], "};"));
+        return write_shape_list(w, "minus", outline->children + 1, outline->n_children - 1);
+    case MOR_CASE_SHAPE_TRANSLATE:
+    case MOR_CASE_SHAPE_ROTATE:
+        return write_shape(w, "shape", &outline->children[0], "};");
+    case MOR_CASE_SHAPE_BOX:
+    case MOR_CASE_SHAPE_CYLINDER:
+    case MOR_CASE_SHAPE_CONE:
+    case MOR_CASE_SHAPE_SPHERE:
+    case MOR_CASE_SHAPE_ELLIPSOID:
+    case MOR_CASE_SHAPE_HALF_SPACE:
+    case MOR_CASE_SHAPE_TERRAIN:
+    case MOR_CASE_SHAPE_MESH:
+    case MOR_CASE_SHAPE_OUTLINE:
+    case MOR_CASE_SHAPE_ROCK:
+    case MOR_CASE_SHAPE_COUNT:
+        break;
+    }
+    return MOR_OK;
+}
+
+/* Numbers that are none were not given, and stand for a choice. */
+static mor_case_presence judge_shape(const mor_case_key *key, const void *record)
+{
+    double first = 0.0;
+    if (key->storage == MOR_CASE_STORE_REALS) {
+        memcpy(&first, (const char *)record + key->offset, sizeof first);
+    }
+    return isfinite(first) ? MOR_CASE_WRITE : key->computed != NULL ? MOR_CASE_MENTION : MOR_CASE_OMIT;
+}
+
+/* A run that is resumed with another content of the file is told by this line. */
+static void write_hash(const mor_case_writer *w, uint64_t file_hash)
+{
+    if (file_hash != 0) {
+        char hash[MOR_HASH_TEXT_BYTES];
+        mor_hash_print(file_hash, hash);
+        fprintf(w->stream, "%*s# content of the file: xxh64 %s\n", w->depth * MOR_CASE_INDENT, "", hash);
+    }
+}
+
+static mor_status write_shape(mor_case_writer *w, const char *name, const mor_case_shape *outline, const char *end)
+{
+    const mor_case_group *group = &mor_case_shape_groups[outline->kind];
+    char type[MOR_CASE_NAME_BYTES];
+    mor_case_writer_text(group->name, type, sizeof type);
+    mor_case_writer_open(w, name, "{");
+    mor_case_writer_line(w, "type", type, false);
+    if (outline->is_flat) {
+        MOR_TRY(w->reader.context, write_flat_box(w, outline));
+    } else {
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, outline, judge_shape));
+    }
+    write_hash(w, outline->file_hash);
+    MOR_TRY(w->reader.context, write_parts(w, outline));
+    mor_case_writer_close(w, end);
+    return MOR_OK;
+}
+
+/* ---- Soil and walls ---------------------------------------------------------------------------------------------- */
+
+static mor_case_presence judge_stress(const mor_case_key *key, const void *record)
+{
+    const mor_case_soil *soil = record;
+    const char *name = key->schema.key;
+    if (strcmp(name, "type") == 0) {
+        return MOR_CASE_WRITE;
+    }
+    const bool is_settling = strncmp(name, "settle", strlen("settle")) == 0;
+    if (soil->initial_stress == MOR_CASE_STRESS_NONE || (is_settling && soil->initial_stress == MOR_CASE_STRESS_K0)) {
+        return MOR_CASE_OMIT;
+    }
+    const bool is_left_open = (strcmp(name, "lateral_ratio") == 0 && soil->lateral_ratio < 0.0) ||
+                              (strcmp(name, "surface_level") == 0 && isnan(soil->surface_level));
+    return is_left_open ? MOR_CASE_MENTION : MOR_CASE_WRITE;
+}
+
+static mor_status write_parameters(const mor_case_writer *w, const mor_material *model, const double *values,
+                                   uint64_t written)
+{
+    for (int k = 0; model->parameters[k].key != NULL; ++k) {
+        const mor_schema *schema = &model->parameters[k];
+        char word[MOR_CASE_NAME_BYTES];
+        char value[MOR_CASE_VALUE_BYTES];
+        if (schema->kind == MOR_SCHEMA_CHOICE) {
+            mor_params_word(schema->choices, (int)values[0], word, sizeof word);
+            mor_case_writer_text(word, value, sizeof value);
+        } else if (schema->kind == MOR_SCHEMA_BOOLEAN) {
+            snprintf(value, sizeof value, "%s", values[0] == 1.0 ? "true" : "false");
+        } else if (schema->kind == MOR_SCHEMA_INTEGER) {
+            mor_case_writer_whole((int64_t)values[0], value, sizeof value);
+        } else {
+            MOR_TRY(w->reader.context,
+                    mor_case_writer_numbers(w, schema, false, values, schema->n_components, value, sizeof value));
+        }
+        mor_case_writer_line(w, schema->key, value, (written >> k & 1) == 0);
+        values += schema->n_components;
+    }
+    return MOR_OK;
+}
+
+static mor_status find_model(const mor_case_writer *w, const char *name, const mor_material **model)
+{
+    *model = mor_registry_find(w->reader.registry, name);
+    MOR_CHECK(w->reader.context, *model != NULL, MOR_ERROR_ARGUMENT,
+              "the case uses the model '%s', which this registry does not have; give the one it was read with", name);
+    return MOR_OK;
+}
+
+static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
+{
+    const mor_material *model = NULL;
+    MOR_TRY(w->reader.context, find_model(w, soil->model, &model));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, mor_case_judge_always));
+    MOR_TRY(w->reader.context, write_shape(w, "shape", &soil->outline, "};"));
+    mor_case_writer_open(w, "material", "{");
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_material_group, soil, mor_case_judge_always));
+    MOR_TRY(w->reader.context, write_parameters(w, model, soil->parameters, soil->written_parameters));
+    mor_case_writer_close(w, "};");
+    mor_case_writer_open(w, "initial_stress", "{");
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_stress_group, soil, judge_stress));
+    mor_case_writer_close(w, "};");
+    return MOR_OK;
+}
+
+static mor_case_presence judge_wall(const mor_case_key *key, const void *record)
+{
+    const mor_case_wall *wall = record;
+    const bool is_idle =
+        strcmp(key->schema.key, "friction_coefficient") == 0 && wall->friction != MOR_CASE_FRICTION_COULOMB;
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+static mor_status write_wall(mor_case_writer *w, const mor_case_wall *wall)
+{
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_wall_group, wall, judge_wall));
+    return write_shape(w, "shape", &wall->outline, "};");
+}
+
+/* ---- Bodies and contact ------------------------------------------------------------------------------------------ */
+
+static mor_case_presence judge_body(const mor_case_key *key, const void *record)
+{
+    const mor_case_body *body = record;
+    const char *name = key->schema.key;
+    const bool is_open = (strcmp(name, "contact_modulus") == 0 && isnan(body->contact_modulus)) ||
+                         (strcmp(name, "height_over_ground") == 0 && isnan(body->height_over_ground));
+    if (is_open) {
+        return MOR_CASE_MENTION;
+    }
+    const bool is_idle =
+        mor_case_body_condition(body, name) != NULL ||
+        (strcmp(name, "friction_coefficient") == 0 && body->soil_friction != MOR_CASE_FRICTION_COULOMB);
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+static mor_case_presence judge_spring(const mor_case_key *key, const void *record)
+{
+    const mor_case_body *body = record;
+    return strcmp(key->schema.key, "length") == 0 && isnan(body->spring_length) ? MOR_CASE_MENTION : MOR_CASE_WRITE;
+}
+
+static mor_case_presence judge_start(const mor_case_key *key, const void *record)
+{
+    const mor_case_body *body = record;
+    return mor_case_start_condition(body->motion, key->schema.key) == NULL ? MOR_CASE_WRITE : MOR_CASE_OMIT;
+}
+
+static mor_status write_body_material(mor_case_writer *w, const mor_case_body *body)
+{
+    mor_case_writer_open(w, "material", "{");
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_material_group, body, mor_case_judge_always));
+    if (!mor_case_body_is_rigid(body)) {
+        const mor_material *model = NULL;
+        MOR_TRY(w->reader.context, find_model(w, body->model, &model));
+        MOR_TRY(w->reader.context, write_parameters(w, model, body->parameters, body->written_parameters));
+    }
+    mor_case_writer_close(w, "};");
+    return MOR_OK;
+}
+
+static void write_locks(const mor_case_writer *w, const mor_case_body *body)
+{
+    char value[MOR_CASE_VALUE_BYTES] = "(";
+    size_t used = 1;
+    for (int k = 0; k < MOR_CASE_LOCKS; ++k) {
+        if (body->is_locked[k]) {
+            used += (size_t)snprintf(value + used, sizeof value - used, "%s\"%s\"", used > 1 ? ", " : "",
+                                     mor_case_lock_words[k]);
+        }
+    }
+    if (used > 1) {
+        snprintf(value + used, sizeof value - used, ")");
+        mor_case_writer_line(w, "locked", value, false);
+    }
+}
+
+/* The stiffness that was chosen where none is given: forces of contacts depend on it. */
+static mor_status mention_modulus(const mor_case_writer *w, const mor_case *the_case, const mor_case_body *body)
+{
+    if (!isnan(body->contact_modulus)) {
+        return MOR_OK;
+    }
+    const int at = mor_case_key_find(mor_case_body_group.keys, "contact_modulus");
+    const double modulus = mor_case_contact_modulus(the_case, body);
+    char value[MOR_CASE_VALUE_BYTES];
+    MOR_TRY(w->reader.context,
+            mor_case_writer_numbers(w, &mor_case_body_group.keys[at].schema, false, &modulus, 1, value, sizeof value));
+    fprintf(w->stream, "%*s# contact_modulus used: %s\n", w->depth * MOR_CASE_INDENT, "", value);
+    return MOR_OK;
+}
+
+static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const mor_case_body *body)
+{
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_group, body, judge_body));
+    MOR_TRY(w->reader.context, mention_modulus(w, the_case, body));
+    MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
+    MOR_TRY(w->reader.context, write_body_material(w, body));
+    write_locks(w, body);
+    if (body->has_spring) {
+        mor_case_writer_open(w, "spring", "{");
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_spring_group, body, judge_spring));
+        mor_case_writer_close(w, "};");
+    }
+    if (body->clamp != NULL) {
+        MOR_TRY(w->reader.context, write_shape(w, "clamp", &body->clamp_outline, "};"));
+    }
+    if (mor_case_body_condition(body, "start") == NULL) {
+        mor_case_writer_open(w, "start", "{");
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_start_group, body, judge_start));
+        mor_case_writer_close(w, "};");
+    }
+    return MOR_OK;
+}
+
+/* ---- Packed rocks ------------------------------------------------------------------------------------------------ */
+
+static mor_case_presence judge_rocks(const mor_case_key *key, const void *record)
+{
+    const mor_case_rocks *rocks = record;
+    const mor_case_body *body = &rocks->body;
+    const bool is_packed = rocks->list[0] == '\0';
+    const struct {
+        const char *key;
+        bool is_written;
+    } rules[] = {{"content", is_packed && rocks->count == 0},
+                 {"count", rocks->count > 0},
+                 {"list", !is_packed},
+                 {"gap", is_packed},
+                 {"margin", is_packed},
+                 {"seed", is_packed}};
+    for (size_t k = 0; k < sizeof rules / sizeof *rules; ++k) {
+        if (strcmp(key->schema.key, rules[k].key) == 0) {
+            return rules[k].is_written ? MOR_CASE_WRITE : MOR_CASE_OMIT;
+        }
+    }
+    return strncmp(key->schema.key, "contact_", 8) == 0 || strcmp(key->schema.key, "friction_coefficient") == 0
+               ? judge_body(key, body)
+               : MOR_CASE_WRITE;
+}
+
+static mor_status write_form(mor_case_writer *w, const mor_case_shape *form)
+{
+    const mor_case_group *group = mor_case_rock_form_group(form->kind);
+    char type[MOR_CASE_NAME_BYTES];
+    mor_case_writer_text(group->name, type, sizeof type);
+    mor_case_writer_line(w, "type", type, false);
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, form, judge_shape));
+    write_hash(w, form->file_hash);
+    return MOR_OK;
+}
+
+static mor_status write_packing(mor_case_writer *w, const mor_case_rocks *rocks)
+{
+    MOR_TRY(w->reader.context, write_shape(w, "region", &rocks->region_outline, "};"));
+    mor_case_writer_open(w, "sizes", "(");
+    for (int k = 0; k < rocks->n_sizes; ++k) {
+        mor_case_writer_open(w, "", "{");
+        MOR_TRY(w->reader.context,
+                mor_case_writer_keys(w, &mor_case_size_group, &rocks->sizes[k], mor_case_judge_always));
+        mor_case_writer_close(w, k + 1 < rocks->n_sizes ? "}," : "}");
+    }
+    mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
+static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
+{
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_rocks_group, rocks, judge_rocks));
+    write_hash(w, rocks->list_hash);
+    if (rocks->list[0] == '\0') {
+        MOR_TRY(w->reader.context, write_packing(w, rocks));
+    }
+    mor_case_writer_open(w, "forms", "(");
+    for (int k = 0; k < rocks->n_forms; ++k) {
+        mor_case_writer_open(w, "", "{");
+        MOR_TRY(w->reader.context, write_form(w, &rocks->forms[k]));
+        mor_case_writer_close(w, k + 1 < rocks->n_forms ? "}," : "}");
+    }
+    mor_case_writer_close(w, ");");
+    return write_body_material(w, &rocks->body);
+}
+
+/* ---- Probes and expectations ------------------------------------------------------------------------------------- */
+
+static mor_case_presence judge_probe(const mor_case_key *key, const void *record)
+{
+    const mor_case_probe *probe = record;
+    const mor_case_probe_type *type = mor_case_probe_type_find(probe->type);
+    const char *name = key->schema.key;
+    for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
+        if (strcmp(mor_case_probe_key_names[k], name) == 0 && (type->allowed >> k & 1U) == 0) {
+            return MOR_CASE_OMIT;
+        }
+    }
+    const bool has_measure = (type->allowed & MOR_CASE_PROBE_MEASURE) != 0;
+    const bool is_by_thickness = strcmp(probe->measure, "thickness") == 0;
+    const bool is_idle = (strcmp(name, "window") == 0 && isnan(probe->window[0])) ||
+                         (strcmp(name, "direction") == 0 && probe->is_radial) ||
+                         (strcmp(name, "percentile") == 0 && has_measure && is_by_thickness) ||
+                         (strcmp(name, "thickness") == 0 && has_measure && !is_by_thickness);
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+static const char *find_unit(const mor_case *the_case, const char *probe, mor_case_statistic statistic)
+{
+    for (int k = 0; k < the_case->n_probes; ++k) {
+        if (strcmp(the_case->probes[k].name, probe) == 0) {
+            return mor_case_statistic_unit(mor_case_probe_type_find(the_case->probes[k].type), statistic,
+                                           the_case->dimension);
+        }
+    }
+    return "1";
+}
+
+static mor_status write_expectation(const mor_case_writer *w, const mor_case *the_case,
+                                    const mor_case_expectation *expectation)
+{
+    const mor_case_group *group = &mor_case_expectation_group;
+    const char *unit = find_unit(the_case, expectation->probe, expectation->statistic);
+    for (int k = 0; group->keys[k].schema.key != NULL; ++k) {
+        mor_case_key key = group->keys[k];
+        const bool is_tolerance = strncmp(key.schema.key, "tolerance", strlen("tolerance")) == 0;
+        if (strcmp(key.schema.key, "value") == 0 || (is_tolerance && expectation->is_absolute)) {
+            key.schema.unit = unit;
+        }
+        char value[MOR_CASE_VALUE_BYTES];
+        MOR_TRY(w->reader.context,
+                mor_case_writer_member(w, &key, (const char *)expectation + key.offset, value, sizeof value));
+        mor_case_writer_line(w, key.schema.key, value, (expectation->written >> k & 1) == 0);
+    }
+    return MOR_OK;
+}
+
+/* ---- The whole --------------------------------------------------------------------------------------------------- */
+
+/* The lists, so that one function writes all of them. */
+typedef enum list_kind { SOIL, WALLS, BODIES, ROCKS, PAIRS, PROBES, EXPECT, LIST_COUNT } list_kind;
+
+static mor_status write_entry(mor_case_writer *w, const mor_case *the_case, list_kind kind, int k)
+{
+    switch (kind) {
+    case SOIL:
+        return write_soil(w, &the_case->soils[k]);
+    case WALLS:
+        return write_wall(w, &the_case->walls[k]);
+    case BODIES:
+        return write_body(w, the_case, &the_case->bodies[k]);
+    case ROCKS:
+        return write_rocks(w, &the_case->rocks[k]);
+    case PAIRS:
+        return mor_case_writer_keys(w, &mor_case_pair_group, &the_case->contact.pairs[k], mor_case_judge_always);
+    case PROBES:
+        return mor_case_writer_keys(w, &mor_case_probe_group, &the_case->probes[k], judge_probe);
+    case EXPECT:
+        return write_expectation(w, the_case, &the_case->expectations[k]);
+    case LIST_COUNT:
+        break;
+    }
+    return MOR_OK;
+}
+
+static mor_status write_list(mor_case_writer *w, const mor_case *the_case, list_kind kind)
+{
+    static const char *const names[LIST_COUNT] = {"soil", "walls", "bodies", "rocks", "pairs", "probes", "expect"};
+    const int counts[LIST_COUNT] = {the_case->n_soils,       the_case->n_walls,         the_case->n_listed_bodies,
+                                    the_case->n_rocks,       the_case->contact.n_pairs, the_case->n_probes,
+                                    the_case->n_expectations};
+    if (counts[kind] == 0) {
+        return MOR_OK;
+    }
+    mor_case_writer_open(w, names[kind], "(");
+    for (int k = 0; k < counts[kind]; ++k) {
+        mor_case_writer_open(w, "", "{");
+        MOR_TRY(w->reader.context, write_entry(w, the_case, kind, k));
+        mor_case_writer_close(w, k + 1 < counts[kind] ? "}," : "}");
+    }
+    mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
+/* Without bodies a contact would be refused when read again. */
+static mor_status write_contact(mor_case_writer *w, const mor_case *the_case)
+{
+    if (the_case->n_bodies == 0) {
+        return MOR_OK;
+    }
+    mor_case_writer_open(w, mor_case_contact_group.name, "{");
+    MOR_TRY(w->reader.context,
+            mor_case_writer_keys(w, &mor_case_contact_group, &the_case->contact, mor_case_judge_always));
+    MOR_TRY(w->reader.context, write_list(w, the_case, PAIRS));
+    mor_case_writer_close(w, "};");
+    return MOR_OK;
+}
+
+static mor_status write_case(mor_case_writer *w, const mor_case *the_case)
+{
+    fprintf(w->stream, "# The case as it was used: every value, in SI, before the scale. \"# default\" marks what the "
+                       "case file\n# did not give.\n");
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, mor_case_judge_always));
+    for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
+        mor_case_writer_open(w, group->name, "{");
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, the_case, mor_case_judge_always));
+        mor_case_writer_close(w, "};");
+    }
+    for (list_kind kind = SOIL; kind < LIST_COUNT; ++kind) {
+        MOR_TRY(w->reader.context, kind == PAIRS ? write_contact(w, the_case) : write_list(w, the_case, kind));
+    }
+    return MOR_OK;
+}
+
+mor_status mor_case_write_stream(mor_context *context, const mor_case *the_case, const mor_registry *registry,
+                                 FILE *stream)
+{
+    mor_units *units = NULL;
+    MOR_TRY(context, mor_units_new(context, &units));
+    mor_case_writer w = {.reader = {.context = context,
+                                    .units = units,
+                                    .registry = registry,
+                                    .dimension = the_case->dimension,
+                                    .length_power = ilogb(the_case->scale_length),
+                                    .time_power = ilogb(the_case->scale_time),
+                                    .mass_power = ilogb(the_case->scale_mass)},
+                         .stream = stream};
+    const mor_status status = write_case(&w, the_case);
+    mor_units_free(context, &units);
+    return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
+}
+
+mor_status mor_case_write(mor_context *context, const mor_case *the_case, const mor_registry *registry,
+                          const char *path)
+{
+    mor_durable_file file;
+    MOR_TRY(context, mor_durable_file_open(context, &file, path));
+    const mor_status status = mor_case_write_stream(context, the_case, registry, file.stream);
+    if (status != MOR_OK) {
+        mor_durable_file_discard(&file);
+        return mor_context_pass(context, status, MOR_HERE);
+    }
+    MOR_TRY(context, mor_durable_file_commit(context, &file));
+    return MOR_OK;
+}

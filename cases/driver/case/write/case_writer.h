@@ -1,0 +1,92 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_CASE_WRITE_CASE_WRITER_H
+#define MOR_CASES_DRIVER_CASE_WRITE_CASE_WRITER_H
+
+#include "cases/driver/case/reader/case_reader.h"
+
+#include <stdio.h>
+
+/** @file
+ *  The parts that writing a case is made of; used by case_write*.c only. */
+
+enum { MOR_CASE_VALUE_BYTES = 640, MOR_CASE_INDENT = 4 };
+
+/** Where a case is written to. */
+typedef struct mor_case_writer {
+    mor_case_reader reader; /* knows units, dimension and scale */
+    FILE *stream;           /* borrowed */
+    int depth;              /* of groups that are open */
+} mor_case_writer;
+
+/** Whether a key that the record holds is written: a key without effect would be refused when read again. */
+typedef enum mor_case_presence { MOR_CASE_WRITE, MOR_CASE_OMIT, MOR_CASE_MENTION } mor_case_presence;
+typedef mor_case_presence (*mor_case_judge)(const mor_case_key *key, const void *record);
+
+/** Judges that a key is written.
+ *  @param key    [in]  one object
+ *  @param record [in]  one object */
+mor_case_presence mor_case_judge_always(const mor_case_key *key, const void *record);
+
+/** Prints a text in quotes.
+ *  @param text      [in]   zero-terminated
+ *  @param out       [out]  shape [out_bytes]; zero-terminated
+ *  @param out_bytes [in]   room in out in bytes */
+void mor_case_writer_text(const char *text, char *out, size_t out_bytes);
+
+/** Prints a whole number.
+ *  @param value     [in]   any
+ *  @param out       [out]  shape [out_bytes]; zero-terminated
+ *  @param out_bytes [in]   room in out in bytes */
+void mor_case_writer_whole(int64_t value, char *out, size_t out_bytes);
+
+/** Prints numbers of any kind, with their unit and before the scale.
+ *  @param w           [in]   one object
+ *  @param schema      [in]   one object
+ *  @param keeps_scale [in]   whether the scale of the case leaves them alone
+ *  @param given       [in]   shape [n]; unit: of the schema
+ *  @param n           [in]   number of numbers
+ *  @param out         [out]  shape [out_bytes]; zero-terminated
+ *  @param out_bytes   [in]   room in out in bytes
+ *  Returns: MOR_OK; MOR_ERROR_INTERNAL when the unit is none. */
+mor_status mor_case_writer_numbers(const mor_case_writer *w, const mor_schema *schema, bool keeps_scale,
+                                   const double *given, int n, char *out, size_t out_bytes);
+
+/** Prints the value of a key.
+ *  @param w         [in]   one object
+ *  @param key       [in]   one object
+ *  @param member    [in]   one object; the member of the record that the key fills
+ *  @param out       [out]  shape [out_bytes]; zero-terminated
+ *  @param out_bytes [in]   room in out in bytes
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_member(const mor_case_writer *w, const mor_case_key *key, const void *member, char *out,
+                                  size_t out_bytes);
+
+/** Writes a line "key = value;".
+ *  @param w          [in]  one object
+ *  @param key        [in]  zero-terminated
+ *  @param value      [in]  zero-terminated
+ *  @param is_default [in]  whether the case file did not give it */
+void mor_case_writer_line(const mor_case_writer *w, const char *key, const char *value, bool is_default);
+
+/** Opens a group or a list.
+ *  @param w       [in,out]  one object
+ *  @param name    [in]      zero-terminated; "": an entry of a list
+ *  @param bracket [in]      zero-terminated */
+void mor_case_writer_open(mor_case_writer *w, const char *name, const char *bracket);
+
+/** Closes a group or a list.
+ *  @param w       [in,out]  one object
+ *  @param bracket [in]      zero-terminated */
+void mor_case_writer_close(mor_case_writer *w, const char *bracket);
+
+/** Writes the keys of a group.
+ *  @param w      [in]  one object
+ *  @param group  [in]  one object
+ *  @param record [in]  one object of the struct that the group's offsets refer to
+ *  @param judge  [in]  tells which keys are written
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_keys(const mor_case_writer *w, const mor_case_group *group, const void *record,
+                                mor_case_judge judge);
+
+#endif

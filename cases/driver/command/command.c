@@ -1,0 +1,246 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/command/command_table.h"
+
+#include "core/base/nearest.h"
+#include "core/base/parallel.h"
+#include "core/base/units.h"
+#include "moraine_build.h"
+#include "relaxation/mesh/mesh.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Options without a letter, by their place in the table. */
+enum { OPTION_FIRST = 256, LETTERS_BYTES = 3 * MOR_OPTION_COUNT + 1 };
+
+/* Warnings and errors of the library, for the terminal. */
+static void show_log(void *user, mor_log_level level, const char *text)
+{
+    if (level >= MOR_LOG_WARNING) {
+        fflush(stdout); /* what was said before comes first, also where both go into one file */
+        fprintf((FILE *)user, "moraine: %s: %s\n", level == MOR_LOG_WARNING ? "warning" : "error", text);
+    }
+}
+
+static mor_status set_threads(mor_command *command, const char *text)
+{
+    char *end = NULL;
+    const long n = strtol(text, &end, 10);
+    MOR_CHECK(command->context, *text != '\0' && *end == '\0' && n >= 1 && n <= 1024, MOR_ERROR_CONFIG,
+              "found --threads '%s'; allowed are whole numbers from 1 to 1024", text);
+    command->context->n_threads = (int)n;
+    return MOR_OK;
+}
+
+static mor_status set_stop(mor_command *command, const char *text)
+{
+    mor_context *context = command->context;
+    mor_units *units = NULL;
+    MOR_TRY(context, mor_units_new(context, &units));
+    const mor_status status = mor_units_convert(context, units, text, "s", &command->stop_at);
+    mor_units_free(context, &units);
+    MOR_CHECK(context, status == MOR_OK, MOR_ERROR_CONFIG,
+              "found --stop-at '%s': %s; allowed is a time, such as 0.5 or '20 ms'", text, context->message);
+    MOR_CHECK(context, isfinite(command->stop_at) && command->stop_at >= 0.0, MOR_ERROR_CONFIG,
+              "found --stop-at '%s'; allowed is a time that is not negative, such as 0.5 or '20 ms'", text);
+    return MOR_OK;
+}
+
+static mor_status take_option(mor_command *command, mor_command_option_kind kind, const char *value)
+{
+    mor_context *context = command->context;
+    command->given |= 1u << kind;
+    switch (kind) {
+    case MOR_OPTION_OUTPUT:
+        command->folder = value;
+        return MOR_OK;
+    case MOR_OPTION_THREADS:
+        return set_threads(command, value);
+    case MOR_OPTION_SET:
+        MOR_CHECK(context, command->n_settings < MOR_COMMAND_SETTINGS_MAX, MOR_ERROR_CONFIG,
+                  "found more than %d --set options; put some of them into the case file", MOR_COMMAND_SETTINGS_MAX);
+        command->settings[command->n_settings++] = value;
+        return MOR_OK;
+    case MOR_OPTION_RESUME:
+        command->is_resume = true;
+        return MOR_OK;
+    case MOR_OPTION_SPACING:
+        command->spacing = value;
+        return MOR_OK;
+    case MOR_OPTION_LENGTH:
+        command->sizes[MOR_MESH_LENGTH] = value;
+        return MOR_OK;
+    case MOR_OPTION_VOLUME:
+        command->sizes[MOR_MESH_VOLUME] = value;
+        return MOR_OK;
+    case MOR_OPTION_DIAMETER:
+        command->sizes[MOR_MESH_DIAMETER] = value;
+        return MOR_OK;
+    case MOR_OPTION_STOP_AT:
+        return set_stop(command, value);
+    case MOR_OPTION_HELP:
+    case MOR_OPTION_VERSION: /* answered once the whole line is read */
+    case MOR_OPTION_COUNT:
+        break;
+    }
+    return MOR_OK;
+}
+
+/* The table of options in the form that getopt wants. */
+static void list_options(struct option *options, char *letters)
+{
+    int n = 0;
+    for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
+        const mor_command_option *option = &mor_command_options[k];
+        options[k] = (struct option){option->name, option->value != NULL ? required_argument : no_argument, NULL,
+                                     OPTION_FIRST + k};
+        if (option->letter != '\0') {
+            letters[n++] = option->letter;
+            letters[n] = ':';
+            n += option->value != NULL;
+        }
+    }
+    letters[n] = '\0';
+    options[MOR_OPTION_COUNT] = (struct option){NULL, 0, NULL, 0};
+}
+
+static mor_status read_options(mor_command *command, int argc, char **argv)
+{
+    struct option options[MOR_OPTION_COUNT + 1];
+    char letters[LETTERS_BYTES];
+    int found = 0;
+    list_options(options, letters);
+    while ((found = getopt_long(argc, argv, letters, options, NULL)) != -1) {
+        int kind = found - OPTION_FIRST;
+        for (int k = 0; k < MOR_OPTION_COUNT && found < OPTION_FIRST; ++k) {
+            kind = mor_command_options[k].letter == found ? k : kind;
+        }
+        MOR_CHECK(command->context, kind >= 0, MOR_ERROR_CONFIG,
+                  "found an option that is not known or lacks its value; see moraine --help");
+        MOR_TRY(command->context, take_option(command, (mor_command_option_kind)kind, optarg));
+    }
+    return MOR_OK;
+}
+
+static mor_status find_command(mor_context *context, const char *name, const mor_command_info **found)
+{
+    enum { NAMES_MAX = 32 };
+    const char *names[NAMES_MAX];
+    int n = 0;
+    for (const mor_command_info *info = mor_commands; info->name != NULL && n < NAMES_MAX; ++info) {
+        names[n++] = info->name;
+        if (strcmp(name, info->name) == 0) {
+            *found = info;
+            return MOR_OK;
+        }
+    }
+    const int near = mor_nearest_find(name, names, n);
+    return MOR_FAIL(context, MOR_ERROR_CONFIG, "found command '%s', which is not known%s%s; see moraine --help", name,
+                    near >= 0 ? "; did you mean " : "", near >= 0 ? names[near] : "");
+}
+
+/* The command line as one could type it again: words with blanks or quotes get quotes. */
+static void join_words(mor_command *command, int argc, char **argv)
+{
+    size_t used = 0;
+    for (int k = 0; k < argc && used < sizeof command->line; ++k) {
+        const char *quote = argv[k][strcspn(argv[k], " \t()[]*?$;&|<>\"\\")] == '\0' ? ""
+                            : strchr(argv[k], '\'') == NULL                          ? "'"
+                                                                                     : "\"";
+        const int n = snprintf(command->line + used, sizeof command->line - used, "%s%s%s%s", k > 0 ? " " : "", quote,
+                               argv[k], quote);
+        used += n > 0 ? (size_t)n : 0;
+    }
+}
+
+/* Refuses options that a command would not look at. */
+static mor_status check_options(const mor_command *command, const mor_command_info *info)
+{
+    for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
+        if ((command->given >> k & 1u) == 0 || mor_command_takes(info, (mor_command_option_kind)k)) {
+            continue;
+        }
+        char owners[256] = "";
+        for (const mor_command_info *other = mor_commands; other->name != NULL; ++other) {
+            if (mor_command_takes(other, (mor_command_option_kind)k)) {
+                const size_t n = strlen(owners);
+                snprintf(owners + n, sizeof owners - n, "%s%s", n > 0 ? ", " : "", other->name);
+            }
+        }
+        return MOR_FAIL(command->context, MOR_ERROR_CONFIG,
+                        "found --%s, which moraine %s does not take; it belongs to moraine %s; remove it, see moraine "
+                        "%s --help",
+                        mor_command_options[k].name, info->name, owners, info->name);
+    }
+    return MOR_OK;
+}
+
+/* Help and version are all that is done when they are asked for. */
+static mor_status answer_question(mor_command *command, const char *name)
+{
+    const mor_command_info *info = NULL;
+    if ((command->given >> MOR_OPTION_VERSION & 1u) != 0) {
+        fprintf(command->output, "moraine %s (commit %s)\n", MOR_VERSION, MOR_COMMIT);
+    } else if (name == NULL) {
+        mor_command_print_usage(command->output);
+    } else {
+        MOR_TRY(command->context, find_command(command->context, name, &info));
+        mor_command_print_help(command->output, info);
+    }
+    return MOR_OK;
+}
+
+static mor_status run_command(mor_command *command, int argc, char **argv, int *exit_code)
+{
+    const mor_command_info *info = NULL;
+    MOR_TRY(command->context, read_options(command, argc, argv));
+    if ((command->given & (1u << MOR_OPTION_HELP | 1u << MOR_OPTION_VERSION)) != 0) {
+        return answer_question(command, optind < argc ? argv[optind] : NULL);
+    }
+    if (optind >= argc) {
+        mor_command_print_usage(command->errors);
+        *exit_code = MOR_EXIT_BAD_INPUT;
+        return MOR_OK;
+    }
+    MOR_TRY(command->context, find_command(command->context, argv[optind], &info));
+    command->subject = optind + 1 < argc ? argv[optind + 1] : NULL;
+    MOR_CHECK(command->context, optind + 2 >= argc, MOR_ERROR_CONFIG,
+              "found '%s' behind '%s'; allowed is one %s; see moraine %s --help", argv[optind + 2], command->subject,
+              info->subject, info->name);
+    MOR_CHECK(command->context, command->subject != NULL, MOR_ERROR_CONFIG,
+              "moraine %s needs a %s; see moraine %s --help", info->name, info->subject, info->name);
+    MOR_TRY(command->context, check_options(command, info));
+    return info->run(command, exit_code);
+}
+
+int mor_command_main(int argc, char **argv, mor_stop *stop)
+{
+    mor_context context;
+    mor_context_init(&context);
+    context.n_threads = mor_parallel_cores();
+    context.log_sink = show_log;
+    context.log_user = stderr;
+    mor_command *command = calloc(1, sizeof *command);
+    if (command == NULL) {
+        return MOR_EXIT_FAILED;
+    }
+    *command = (mor_command){.context = &context, .stop_at = NAN, .stop = stop, .output = stdout, .errors = stderr};
+    join_words(command, argc, argv);
+    int exit_code = MOR_EXIT_OK;
+    const mor_status status = run_command(command, argc, argv, &exit_code);
+    if (status != MOR_OK) {
+        fflush(stdout); /* as for the log */
+        fprintf(stderr, "moraine: %s\n", context.message);
+        exit_code = status == MOR_ERROR_CONFIG ? MOR_EXIT_BAD_INPUT : MOR_EXIT_FAILED;
+    }
+    free(command);
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "moraine: what was to be printed could not be written to standard output: the disk is full, or "
+                        "nobody reads any more; what belongs to a run lies in its folder\n");
+        exit_code = exit_code == MOR_EXIT_OK ? MOR_EXIT_FAILED : exit_code;
+    }
+    return exit_code;
+}

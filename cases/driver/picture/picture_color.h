@@ -1,0 +1,45 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_PICTURE_PICTURE_COLOR_H
+#define MOR_CASES_DRIVER_PICTURE_PICTURE_COLOR_H
+
+#include <stdbool.h>
+
+/** @file
+ *  What the colors of pictures can show: fields of the snapshots, and numbers made from them such as the speed. It
+ *  neither reads snapshots nor draws. */
+
+/** How a color comes from a field. */
+typedef struct mor_picture_color {
+    const char *name;  /* of the color, zero-terminated */
+    const char *field; /* it is made from, zero-terminated */
+    const char *unit;  /* of the color; NULL: that of the field */
+    /** Value of one particle, in the unit of the color, from its components of the field, shape [n_components], in
+     *  the unit of the field, and the direction against gravity, shape [3], 1. */
+    double (*value)(const double *field, const double *up);
+} mor_picture_color;
+
+enum { MOR_PICTURE_COLOR_NAMES_BYTES = 128 };
+
+/** Finds how a color is made: as a derived one, or else from the field of the same name.
+ *  @param name [in]  zero-terminated; borrowed by the result
+ *  Returns: the color; value is NULL for a field as it is. */
+mor_picture_color mor_picture_color_find(const char *name);
+
+/** Value of a particle, in the unit of the color.
+ *  @param color        [in]  one object
+ *  @param field        [in]  shape [n_components]; in the unit of the field
+ *  @param n_components [in]  1, or 3 for the length of a vector; what the field has, for a derived color
+ *  @param up           [in]  shape [3], 1, unit vector against gravity */
+double mor_picture_color_value(const mor_picture_color *color, const double *field, int n_components, const double *up);
+
+/** Tells whether a field of so many components can be shown by this color.
+ *  @param color        [in]  one object
+ *  @param n_components [in]  of the field */
+bool mor_picture_color_fits(const mor_picture_color *color, int n_components);
+
+/** Writes the names of the derived colors, with commas.
+ *  @param text [out]  shape [MOR_PICTURE_COLOR_NAMES_BYTES]; zero-terminated */
+void mor_picture_color_names(char *text);
+
+#endif

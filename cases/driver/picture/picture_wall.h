@@ -1,0 +1,38 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_PICTURE_PICTURE_WALL_H
+#define MOR_CASES_DRIVER_PICTURE_PICTURE_WALL_H
+
+#include "cases/driver/case/case.h"
+#include "relaxation/relax/lattice.h"
+
+/** @file
+ *  What a wall is to a picture: a structure, such as a house, a dam or a row of posts, which is shown whole, or ground
+ *  and containers, of which only what lies around the particles is of interest. It does not draw. */
+
+/** Widens a box until it holds particles.
+ *  @param bounds   [in,out]  one object, m
+ *  @param position [in]      shape [n,3], m
+ *  @param n        [in]      number of particles, >= 0
+ *  @param half     [in]      half the particle spacing, m */
+void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t n, double half);
+
+/** Tells whether a wall is a structure: it stands still, has an end in all directions, does not reach beyond what moves
+ *  on all sides as seen from above, and leaves what moves at least a quarter of the picture.
+ *  @param the_case [in]  one object
+ *  @param wall     [in]  index of the wall
+ *  @param points   [in]  one object; the wall's particles, in the placed frame
+ *  @param moving   [in]  one object, m; box around all that moves, in the placed frame
+ *  @param up       [in]  shape [3], 1, unit vector against gravity */
+bool mor_picture_wall_is_structure(const mor_case *the_case, int wall, const mor_lattice_points *points,
+                                   const mor_bounds *moving, const double *up);
+
+/** Tells whether a wall hides more than a quarter of the places in a box from a viewer far away.
+ *  @param the_case [in]  one object
+ *  @param wall     [in]  index of a wall with an end in all directions
+ *  @param moving   [in]  one object, m; the box, in the placed frame
+ *  @param toward   [in]  shape [3], 1, unit vector from the scene to the viewer
+ *  Cost: some thousand distances from the shape. */
+bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds *moving, const double *toward);
+
+#endif

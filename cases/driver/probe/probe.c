@@ -1,0 +1,514 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/probe/probe_measure.h"
+
+#include "cases/driver/case/schema/case_schema.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+
+#include <string.h>
+
+typedef mor_probe_view view;
+
+static const double *field(const view *v, mor_field_id id)
+{
+    return v->simulation->soil.set.data[id];
+}
+
+static bool is_same_frame(const mor_measure_frame *a, const mor_measure_frame *b)
+{
+    return a->is_radial == b->is_radial && memcmp(a->origin, b->origin, sizeof a->origin) == 0 &&
+           memcmp(a->up, b->up, sizeof a->up) == 0 && memcmp(a->direction, b->direction, sizeof a->direction) == 0;
+}
+
+/* The profile in the frame of a probe; probes of one frame share it. */
+static mor_status find_profile(mor_context *context, const view *v)
+{
+    mor_probe_scan *scan = v->scan;
+    if (!scan->has_profile || !is_same_frame(&scan->profile_frame, &v->frame)) {
+        scan->has_profile = false;
+        MOR_TRY(context,
+                mor_measure_profile_fill(context, &v->points, &v->frame, v->points.spacing, 0.0, &scan->profile));
+        scan->profile_frame = v->frame;
+        scan->has_profile = true;
+    }
+    return MOR_OK;
+}
+
+/* Front by thickness. */
+static mor_status find_front(mor_context *context, const view *v, mor_measure_front *front)
+{
+    MOR_TRY(context, find_profile(context, v));
+    return mor_measure_find_front(context, &v->points, &v->frame, &v->scan->profile, v->probe->thickness, front);
+}
+
+static mor_status run_out(mor_context *context, const view *v, double *value)
+{
+    if (strcmp(v->probe->measure, "thickness") != 0) {
+        return mor_measure_run_out(context, &v->points, &v->frame, v->probe->percentile, value);
+    }
+    mor_measure_front front;
+    MOR_TRY(context, find_front(context, v, &front));
+    *value = front.outermost_thick;
+    return MOR_OK;
+}
+
+static mor_status stray_share(mor_context *context, const view *v, double *value)
+{
+    mor_measure_front front;
+    MOR_TRY(context, find_front(context, v, &front));
+    *value = front.stray_share;
+    return MOR_OK;
+}
+
+/* Outward unit direction and distance of a point; the direction is zero on the axis. */
+static double find_outward(const view *v, const double *position, double *outward)
+{
+    double offset[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = position[a] - v->frame.origin[a];
+        outward[a] = v->frame.direction[a];
+    }
+    if (!v->frame.is_radial) {
+        return mor_vector_dot(offset, outward);
+    }
+    const double height = mor_vector_dot(offset, v->frame.up);
+    for (int a = 0; a < 3; ++a) {
+        outward[a] = offset[a] - height * v->frame.up[a];
+    }
+    const double radius = mor_vector_length(outward);
+    for (int a = 0; a < 3; ++a) {
+        outward[a] = radius > 0.0 ? outward[a] / radius : 0.0;
+    }
+    return radius;
+}
+
+/* Outermost particle of a set that lies above the origin of the probe, or what was found before. */
+static double find_toe(const view *v, const mor_set *set, double outermost)
+{
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double *position = set->data[MOR_FIELD_POSITION] + 3 * i;
+        double outward[3];
+        double height = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            height += (position[a] - v->frame.origin[a]) * v->frame.up[a];
+        }
+        if (height > 0.0) {
+            outermost = fmax(outermost, find_outward(v, position, outward));
+        }
+    }
+    return outermost;
+}
+
+static mor_status toe(mor_context *context, const view *v, double *value)
+{
+    const mor_simulation *simulation = v->simulation;
+    double outermost = -INFINITY;
+    (void)context;
+    if (simulation->has_soil) {
+        outermost = find_toe(v, &simulation->soil.set, outermost);
+    }
+    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
+        outermost = find_toe(v, &simulation->bodies.groups[g]->set, outermost);
+    }
+    *value = isfinite(outermost) ? outermost : 0.0;
+    return MOR_OK;
+}
+
+/* Mean outward velocity of the particles within a spacing of the front. */
+static mor_status front_speed(mor_context *context, const view *v, double *value)
+{
+    double reach = 0.0;
+    MOR_TRY(context, run_out(context, v, &reach));
+    double momentum = 0.0;
+    double mass = 0.0;
+    for (int64_t i = 0; i < v->points.n_points; ++i) {
+        double outward[3];
+        const double distance = find_outward(v, v->points.position + 3 * i, outward);
+        if (fabs(distance - reach) <= v->points.spacing) {
+            momentum += v->points.mass[i] * mor_vector_dot(field(v, MOR_FIELD_VELOCITY) + 3 * i, outward);
+            mass += v->points.mass[i];
+        }
+    }
+    *value = mass > 0.0 ? momentum / mass : NAN;
+    return MOR_OK;
+}
+
+static mor_status height(mor_context *context, const view *v, double *value)
+{
+    return mor_measure_height(context, &v->points, v->frame.origin, v->frame.up, v->probe->percentile, value);
+}
+
+static mor_status repose_angle(mor_context *context, const view *v, double *value)
+{
+    mor_measure_repose repose;
+    MOR_TRY(context, find_profile(context, v));
+    MOR_TRY(context, mor_measure_find_repose(context, &v->scan->profile, 0.2, 0.8, &repose));
+    *value = repose.angle;
+    return MOR_OK;
+}
+
+static mor_status soil_kinetic_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    if (!v->scan->has_soil_kinetic) {
+        v->scan->soil_kinetic = mor_measure_kinetic_energy(&v->points, field(v, MOR_FIELD_VELOCITY));
+        v->scan->has_soil_kinetic = true;
+    }
+    *value = v->scan->soil_kinetic;
+    return MOR_OK;
+}
+
+static mor_status kinetic_energy(mor_context *context, const view *v, double *value)
+{
+    *value = mor_probe_energies(context, v)[0];
+    return MOR_OK;
+}
+
+static mor_status elastic_energy(mor_context *context, const view *v, double *value)
+{
+    *value = mor_probe_energies(context, v)[2];
+    return MOR_OK;
+}
+
+/* The potential of the placed origin, by which a probe's own datum differs from the simulation's. */
+static double find_offset(const view *v)
+{
+    double origin[3];
+    double offset[3];
+    mor_simulation_place_point(v->simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = v->frame.origin[a] - origin[a];
+    }
+    const double height = mor_vector_dot(v->simulation->frame.gravity, offset);
+    if (height == 0.0) {
+        return 0.0;
+    }
+    double mass = mor_measure_mass(&v->points);
+    for (int g = 0; g < v->simulation->bodies.n_groups; ++g) {
+        const mor_body_group *group = v->simulation->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            mass += group->bodies[b].mass;
+        }
+    }
+    return mass * height;
+}
+
+static mor_status potential_energy(mor_context *context, const view *v, double *value)
+{
+    *value = mor_probe_energies(context, v)[1] + find_offset(v);
+    return MOR_OK;
+}
+
+static mor_status total_energy(mor_context *context, const view *v, double *value)
+{
+    *value = mor_probe_total_energy(context, v) + find_offset(v);
+    return MOR_OK;
+}
+
+static mor_status energy_left(mor_context *context, const view *v, double *value)
+{
+    MOR_TRY(context, total_energy(context, v, value));
+    const double initial = mor_simulation_initial_energy(v->simulation) + find_offset(v);
+    *value = initial != 0.0 ? *value / initial : NAN; /* nothing to measure by */
+    return MOR_OK;
+}
+
+/* Energy of the soil that has left the domain, J; its potential counts from a datum. */
+static double sum_outflow(const view *v, const double *datum)
+{
+    double energies[3];
+    mor_soil_outflow_energies(&v->simulation->soil, datum, energies);
+    return energies[0] + energies[1] + energies[2];
+}
+
+static mor_status dissipated_energy(mor_context *context, const view *v, double *value)
+{
+    *value = mor_simulation_initial_energy(v->simulation) - mor_probe_total_energy(context, v);
+    if (v->simulation->has_soil) {
+        double origin[3];
+        mor_simulation_place_point(v->simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+        *value -= sum_outflow(v, origin);
+    }
+    return MOR_OK;
+}
+
+static mor_status outflow_mass(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = v->simulation->soil.outflow[MOR_SOIL_OUTFLOW_MASS];
+    return MOR_OK;
+}
+
+static mor_status outflow_momentum(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = mor_vector_dot(v->simulation->soil.outflow + MOR_SOIL_OUTFLOW_MOMENTUM, v->frame.direction);
+    return MOR_OK;
+}
+
+static mor_status outflow_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = sum_outflow(v, v->frame.origin);
+    return MOR_OK;
+}
+
+static mor_status mass(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = mor_measure_mass(&v->points);
+    return MOR_OK;
+}
+
+static mor_status momentum(mor_context *context, const view *v, double *value)
+{
+    double vector[3];
+    double of_bodies[3];
+    double angular[3];
+    (void)context;
+    mor_measure_momentum(&v->points, field(v, MOR_FIELD_VELOCITY), vector);
+    mor_simulation_bodies_momentum(&v->simulation->bodies, v->frame.origin, of_bodies, angular);
+    *value = mor_vector_dot(vector, v->frame.direction) + mor_vector_dot(of_bodies, v->frame.direction);
+    return MOR_OK;
+}
+
+static mor_status center_of_mass(mor_context *context, const view *v, double *value)
+{
+    double center[3];
+    (void)context;
+    mor_measure_center_of_mass(&v->points, center);
+    for (int a = 0; a < 3; ++a) {
+        center[a] -= v->frame.origin[a];
+    }
+    *value = mor_vector_dot(center, v->frame.direction);
+    return MOR_OK;
+}
+
+/* Component of a vector that the soil keeps for each wall. */
+static mor_status of_wall(mor_context *context, const view *v, const double vectors[][3], double *value)
+{
+    if (v->wall < 0) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                        "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+    }
+    *value = mor_vector_dot(vectors[v->wall], v->frame.direction);
+    return MOR_OK;
+}
+
+static mor_status wall_force(mor_context *context, const view *v, double *value)
+{
+    return of_wall(context, v, v->simulation->soil.wall_force, value);
+}
+
+static mor_status wall_impulse(mor_context *context, const view *v, double *value)
+{
+    return of_wall(context, v, v->simulation->soil.wall_impulse, value);
+}
+
+/* Least distance of a soil particle from the shape of a wall, which moves with its velocity. */
+static mor_status wall_gap(mor_context *context, const view *v, double *value)
+{
+    const mor_case *c = v->simulation->the_case;
+    const double *position = field(v, MOR_FIELD_POSITION);
+    const double time = mor_schedule_time(&v->simulation->schedule);
+    for (int w = 0; w < c->n_walls; ++w) {
+        if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
+            double velocity[3];
+            double move[3];
+            mor_matrix_apply(c->turn, c->walls[w].velocity, velocity);
+            for (int a = 0; a < 3; ++a) {
+                move[a] = c->move[a] + time * velocity[a];
+            }
+            *value = INFINITY;
+            for (int64_t i = 0; i < v->points.n_points; ++i) {
+                *value =
+                    fmin(*value, mor_simulation_placed_distance(c->walls[w].shape, c->turn, move, position + 3 * i));
+            }
+            return MOR_OK;
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+}
+
+static mor_status largest_speed(mor_context *context, const view *v, double *value)
+{
+    return mor_measure_speed(context, &v->points, field(v, MOR_FIELD_VELOCITY), v->probe->percentile, value);
+}
+
+/* Densities and the one they should be, kg/m3. */
+typedef struct drift_job {
+    const double *density;
+    double reference;
+} drift_job;
+
+static void fill_drifts(const void *argument, int64_t first, int64_t n, double *values)
+{
+    const drift_job job = *(const drift_job *)argument;
+    for (int64_t i = 0; i < n; ++i) {
+        values[i] = fabs(job.density[first + i] / job.reference - 1.0);
+    }
+}
+
+static mor_status density_drift(mor_context *context, const view *v, double *value)
+{
+    const drift_job job = {v->points.density, v->simulation->soil.settings.reference_density};
+    return mor_measure_share(context, &v->points, fill_drifts, &job, v->probe->percentile, value);
+}
+
+mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *simulation, double percent,
+                                   double *value)
+{
+    const mor_soil *soil = &simulation->soil;
+    double *const *data = soil->set.data;
+    const mor_measure_points points = {.n_points = soil->set.n_particles,
+                                       .dimension = simulation->the_case->dimension,
+                                       .spacing = simulation->the_case->spacing,
+                                       .position = data[MOR_FIELD_POSITION],
+                                       .mass = data[MOR_FIELD_MASS],
+                                       .density = data[MOR_FIELD_DENSITY],
+                                       .n_threads = context->n_threads};
+    const drift_job job = {points.density, soil->settings.reference_density};
+    *value = 0.0;
+    return points.n_points == 0 ? MOR_OK : mor_measure_share(context, &points, fill_drifts, &job, percent, value);
+}
+
+static mor_status measure_column(mor_context *context, const view *v, mor_measure_stress *stress)
+{
+    const mor_simulation *s = v->simulation;
+    const mor_measure_column column = {.up = {s->up[0], s->up[1], s->up[2]},
+                                       .surface_height = s->surface_height,
+                                       .density = s->soil.settings.reference_density,
+                                       .gravity = mor_vector_length(s->soil.settings.gravity),
+                                       .lowest = -INFINITY,
+                                       .highest = INFINITY};
+    return mor_measure_column_stress(context, &v->points, field(v, MOR_FIELD_STRESS), &column, stress);
+}
+
+static mor_status stress_error(mor_context *context, const view *v, double *value)
+{
+    mor_measure_stress stress;
+    MOR_TRY(context, measure_column(context, v, &stress));
+    *value = stress.error_l2;
+    return MOR_OK;
+}
+
+static mor_status stress_ratio(mor_context *context, const view *v, double *value)
+{
+    mor_measure_stress stress;
+    MOR_TRY(context, measure_column(context, v, &stress));
+    *value = stress.lateral_ratio;
+    return MOR_OK;
+}
+
+static mor_status stress_noise(mor_context *context, const view *v, double *value)
+{
+    mor_measure_stress stress;
+    MOR_TRY(context, measure_column(context, v, &stress));
+    *value = stress.noise;
+    return MOR_OK;
+}
+
+static const mor_probe_measure measures[] = {
+    {.type = "run_out", .run = run_out, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "toe", .run = toe, .cost = MOR_PROBE_COST_SUM},
+    {.type = "front_speed", .run = front_speed, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "height", .run = height, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "repose_angle", .run = repose_angle, .cost = MOR_PROBE_COST_PROFILE},
+    {.type = "stray_share", .run = stray_share, .cost = MOR_PROBE_COST_PROFILE},
+    {.type = "kinetic_energy", .run = kinetic_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "potential_energy", .run = potential_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "elastic_energy", .run = elastic_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "total_energy", .run = total_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "energy_left", .run = energy_left, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "dissipated_energy", .run = dissipated_energy, .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = "mass", .run = mass, .cost = MOR_PROBE_COST_SUM},
+    {.type = "outflow_mass", .run = outflow_mass},
+    {.type = "outflow_momentum", .run = outflow_momentum},
+    {.type = "outflow_energy", .run = outflow_energy},
+    {.type = "momentum", .run = momentum, .cost = MOR_PROBE_COST_SUM},
+    {.type = "center_of_mass", .run = center_of_mass, .cost = MOR_PROBE_COST_SUM},
+    {.type = "wall_force", .run = wall_force},
+    {.type = "wall_impulse", .run = wall_impulse},
+    {.type = "wall_gap", .run = wall_gap, .cost = MOR_PROBE_COST_DISTANCE},
+    {.type = "largest_speed", .run = largest_speed, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "density_drift", .run = density_drift, .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = "stress_error", .run = stress_error, .cost = MOR_PROBE_COST_STRESS},
+    {.type = "stress_ratio", .run = stress_ratio, .cost = MOR_PROBE_COST_STRESS},
+    {.type = "stress_noise", .run = stress_noise, .cost = MOR_PROBE_COST_STRESS},
+    {.type = "soil_kinetic_energy", .run = soil_kinetic_energy, .cost = MOR_PROBE_COST_KINETIC},
+    {.type = NULL}};
+
+static const mor_probe_measure *find_measure(const char *type)
+{
+    static const mor_probe_measure *const tables[] = {measures, mor_probe_body_measures, mor_probe_energy_measures};
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
+        for (const mor_probe_measure *it = tables[t]; it->type != NULL; ++it) {
+            if (strcmp(it->type, type) == 0) {
+                return it;
+            }
+        }
+    }
+    return NULL;
+}
+
+void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_probe_track *track = simulation->probes;
+    const mor_case_probe *it = &c->probes[probe];
+    double *const *data = simulation->soil.set.data;
+    *v = (view){.simulation = simulation,
+                .probe = it,
+                .measure = find_measure(it->type),
+                .scan = track->scan,
+                .past = track->past[probe],
+                .body = track->bodies[probe] < 0 ? NULL : &simulation->bodies.of[track->bodies[probe]],
+                .wall = track->walls[probe],
+                .number = probe,
+                .points = {simulation->soil.set.n_particles, c->dimension, c->spacing, data[MOR_FIELD_POSITION],
+                           data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY], 0, &track->scan->orders[probe]},
+                .frame = {.is_radial = it->is_radial}};
+    mor_simulation_place_point(c, it->origin, v->frame.origin);
+    mor_matrix_apply(c->turn, it->direction, v->frame.direction);
+    memcpy(v->frame.up, simulation->up, sizeof v->frame.up);
+}
+
+mor_status mor_probe_view_measure(mor_context *context, const view *v, double *value)
+{
+    view shared = *v;
+    *value = NAN;
+    if (v->measure == NULL) {
+        return MOR_FAIL(context, MOR_ERROR_INTERNAL, "probe type '%s' has no measurement", v->probe->type);
+    }
+    const mor_probe_cost cost = v->measure->cost;
+    const bool needs_soil =
+        cost == MOR_PROBE_COST_PERCENTILE || cost == MOR_PROBE_COST_PROFILE || cost == MOR_PROBE_COST_STRESS;
+    if (needs_soil && v->points.n_points == 0) {
+        return MOR_OK; /* all of it has left: there is nothing to measure */
+    }
+    shared.points.n_threads = context->n_threads;
+    const mor_status status = v->measure->run(context, &shared, value);
+    return status == MOR_OK ? status
+                            : MOR_FAIL(context, status, "%s:%d: probe '%s': %s", v->probe->place.file,
+                                       v->probe->place.line, v->probe->name, context->message);
+}
+
+mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simulation, int probe, double *value)
+{
+    view v;
+    mor_probe_scan_begin(simulation->probes->scan);
+    mor_probe_view_set(simulation, probe, &v);
+    return mor_probe_view_measure(context, &v, value);
+}
+
+const char *mor_probe_impulse_unit(const mor_case *the_case, int probe)
+{
+    return mor_case_probe_impulse_unit(mor_case_probe_type_find(the_case->probes[probe].type), the_case->dimension);
+}
+
+const char *mor_probe_unit(const mor_case *the_case, int probe)
+{
+    return mor_case_probe_unit(mor_case_probe_type_find(the_case->probes[probe].type), the_case->dimension);
+}

@@ -1,0 +1,119 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_PROBE_PROBE_MEASURE_H
+#define MOR_CASES_DRIVER_PROBE_PROBE_MEASURE_H
+
+#include "cases/driver/probe/probe.h"
+#include "core/sph/measure/measure.h"
+
+/** @file
+ *  What the files of probes share among themselves. Not for others. */
+
+struct mor_probe_measure;
+
+/** What the probes of one measurement share, so that it is found once, and their scratch. Owner: the track. */
+typedef struct mor_probe_scan {
+    bool has_energies;  /* energies are of this measurement */
+    double energies[3]; /* of soil and bodies: kinetic, potential, elastic; J (J/m) */
+    bool has_soil_kinetic;
+    double soil_kinetic; /* J (J/m) */
+    bool has_profile;
+    mor_measure_frame profile_frame;               /* that the profile was made in */
+    mor_measure_profile profile;                   /* owned */
+    mor_measure_order orders[MOR_CASE_PROBES_MAX]; /* of the percentile of each probe; owned */
+} mor_probe_scan;
+
+/** Everything a measurement may need, in the placed frame. */
+typedef struct mor_probe_view {
+    const mor_simulation *simulation;
+    const mor_case_probe *probe;
+    const struct mor_probe_measure *measure;
+    mor_probe_scan *scan;
+    const double *past;              /* shape [MOR_PROBE_RECORD_NUMBERS]; of what `past` of the measure gives */
+    const mor_simulation_body *body; /* NULL: of none */
+    int wall;                        /* number in the case; -1: of none */
+    int number;                      /* of the probe in the case */
+    mor_measure_points points;       /* of the soil */
+    mor_measure_frame frame;
+} mor_probe_view;
+
+/** What a sub-step of some bodies did to a probe of contact. */
+typedef enum mor_probe_contact {
+    MOR_PROBE_CONTACT_NONE, /* nothing: it is about others */
+    MOR_PROBE_CONTACT_NEW,  /* it has a new value */
+    MOR_PROBE_CONTACT_LATE  /* a new value, in which the part of others is that of their last sub-step */
+} mor_probe_contact;
+
+/** What a measurement costs that looks at all particles. Those that are shared are made once for all probes of a case;
+ *  times are those of one core of a common processor, for the choice of an interval alone. */
+typedef enum mor_probe_cost {
+    MOR_PROBE_COST_NONE,       /* next to nothing, or little beside the step of what it looks at */
+    MOR_PROBE_COST_ENERGIES,   /* energies of everything, shared */
+    MOR_PROBE_COST_KINETIC,    /* of the soil, shared */
+    MOR_PROBE_COST_PROFILE,    /* thickness of the deposit, shared */
+    MOR_PROBE_COST_STRESS,     /* of a column */
+    MOR_PROBE_COST_SUM,        /* over all particles */
+    MOR_PROBE_COST_PERCENTILE, /* of all particles */
+    MOR_PROBE_COST_DISTANCE,   /* of all particles from a shape */
+    MOR_PROBE_COSTS
+} mor_probe_cost;
+
+/** One type of probe. A table ends with type NULL. */
+typedef struct mor_probe_measure {
+    const char *type;
+    /** Writes the value, one number, in the unit of the type. */
+    mor_status (*run)(mor_context *context, const mor_probe_view *view, double *value);
+    /** Writes what is recorded over the whole run so that `run` can look back, one number, any unit; NULL: nothing. */
+    mor_status (*past)(mor_context *context, const mor_probe_view *view, double *value);
+    /** Of contact, NULL for others: writes the value after a sub-step of the steppers with the bits of members, and the
+     *  part of it that they gave, both in the unit of the type. */
+    mor_probe_contact (*contact)(const mor_probe_view *view, uint64_t members, double *whole, double *part);
+    mor_probe_cost cost;
+} mor_probe_measure;
+
+/** Probes of bodies and contact. */
+extern const mor_probe_measure mor_probe_body_measures[];
+
+/** Probes of where energy goes. */
+extern const mor_probe_measure mor_probe_energy_measures[];
+
+/** Makes the scratch of a simulation's probes.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in]      one object
+ *  @param scan       [out]     one pointer; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_probe_scan_new(mor_context *context, const mor_simulation *simulation, mor_probe_scan **scan);
+
+/** Frees a scratch; accepts NULL.
+ *  @param context [in,out]  one object
+ *  @param scan    [in,out]  one pointer; NULL afterwards */
+void mor_probe_scan_free(mor_context *context, mor_probe_scan **scan);
+
+/** Forgets what was found for the measurement before.
+ *  @param scan [in,out]  one object */
+void mor_probe_scan_begin(mor_probe_scan *scan);
+
+/** Prepares the measurement of a probe.
+ *  @param simulation [in]   one object
+ *  @param probe      [in]   index of the probe in the case
+ *  @param view       [out]  one object */
+void mor_probe_view_set(const mor_simulation *simulation, int probe, mor_probe_view *view);
+
+/** Measures a probe; what was found since mor_probe_scan_begin is not found again.
+ *  @param context [in,out]  one object
+ *  @param view    [in]      one object
+ *  @param value   [out]     one number, in the unit of the probe; NaN where there is nothing to measure
+ *  Returns: MOR_OK; what the measurement returns, with the place of the probe. */
+mor_status mor_probe_view_measure(mor_context *context, const mor_probe_view *view, double *value);
+
+/** Returns kinetic, potential and elastic energy of soil and bodies, shape [3], unit J (J/m in plane strain).
+ *  @param context [in]  one object
+ *  @param view    [in]  one object */
+const double *mor_probe_energies(const mor_context *context, const mor_probe_view *view);
+
+/** Returns their sum, unit J (J/m in plane strain).
+ *  @param context [in]  one object
+ *  @param view    [in]  one object */
+double mor_probe_total_energy(const mor_context *context, const mor_probe_view *view);
+
+#endif

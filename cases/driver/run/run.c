@@ -1,0 +1,470 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/run/run_files.h"
+
+#include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/picture/pictures.h"
+#include "cases/driver/picture/rocks_report.h"
+#include "cases/driver/probe/probe.h"
+#include "cases/driver/run/clock.h"
+#include "cases/driver/run/run_failure.h"
+#include "cases/driver/run/run_settle.h"
+#include "cases/driver/run/run_warnings.h"
+#include "cases/driver/scene/check/simulation_warnings.h"
+#include "core/base/math.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The clockwork of a run beside the simulation itself. */
+typedef struct pace {
+    double loop_seconds;   /* wall time spent in steps, s */
+    uint64_t n_loop_steps; /* steps behind loop_seconds */
+    uint64_t n_sub_steps;  /* of the bodies in these steps */
+    double last_save;      /* wall time of the last checkpoint, s */
+    int64_t next_row;      /* number of the next row of the series */
+    int64_t next_snapshot; /* number of the next snapshot */
+    double fastest;        /* largest speed of the soil in these steps, m/s */
+    double fastest_time;   /* when that was, s */
+} pace;
+
+static int64_t snapshot_tick(const mor_simulation *s, int64_t number)
+{
+    const int n = s->the_case->output.n_snapshots;
+    /* In floating point: the product of ticks and number does not fit into 64 bits. */
+    return number >= n ? s->schedule.end : (int64_t)llround((double)s->schedule.end * ((double)number / n));
+}
+
+/* Rows closer than ticks would be a row in each step all the same. */
+static double row_interval(const mor_simulation *s)
+{
+    return fmax(s->the_case->output.series_interval, s->schedule.tick);
+}
+
+static int64_t row_tick(const mor_simulation *s, int64_t number)
+{
+    return mor_schedule_ticks(&s->schedule, (double)number * row_interval(s));
+}
+
+static void find_next_outputs(const mor_simulation *s, pace *p)
+{
+    const int64_t n_passed = (int64_t)(mor_schedule_time(&s->schedule) / row_interval(s));
+    p->next_row = n_passed > p->next_row ? n_passed : p->next_row; /* one by one would take as long as there are rows */
+    while (row_tick(s, p->next_row) <= s->schedule.now) {
+        ++p->next_row;
+    }
+    while (p->next_snapshot < s->the_case->output.n_snapshots &&
+           snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
+        ++p->next_snapshot;
+    }
+}
+
+static void show_progress(mor_run_progress *progress, const mor_simulation *s, const pace *p)
+{
+    char line[MOR_RUN_PROGRESS_BYTES];
+    if (p->n_loop_steps == 0 || !mor_run_progress_is_due(progress, mor_clock_now())) {
+        return;
+    }
+    const mor_schedule *schedule = &s->schedule;
+    const double part = (double)schedule->now / (double)schedule->end;
+    const double seconds_per_step = p->loop_seconds / (double)p->n_loop_steps;
+    const double steps_left = (double)(schedule->end - schedule->now) * schedule->tick / schedule->step_length;
+    const double left = steps_left * seconds_per_step;
+    snprintf(line, sizeof line,
+             "%5.1f %%  t = %.4g s  step %llu  dt = %.3g s  sub-steps %d  %.2f M %s/s  %.0f min %02d s left",
+             100.0 * part, mor_schedule_time(schedule), (unsigned long long)schedule->n_steps, schedule->step_length,
+             mor_schedule_rate_ratio(schedule), 1e-6 * (double)mor_simulation_counted_particles(s) / seconds_per_step,
+             mor_simulation_counted_unit(s), floor(left / 60.0), (int)fmod(left, 60.0));
+    mor_run_progress_show(progress, line);
+}
+
+/* Rows and snapshots that are due now. */
+static mor_status write_outputs(mor_context *context, mor_run_files *files, pace *p)
+{
+    const mor_simulation *s = files->simulation;
+    if (row_tick(s, p->next_row) <= s->schedule.now || s->schedule.now >= s->schedule.end) {
+        MOR_TRY(context, mor_run_files_add_row(context, files));
+    }
+    if (snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
+        MOR_TRY(context, mor_run_files_add_snapshot(context, files));
+    }
+    find_next_outputs(s, p);
+    if (mor_clock_now() - p->last_save >= files->the_case->output.checkpoint_seconds) {
+        MOR_TRY(context, mor_run_files_save(context, files));
+        p->last_save = mor_clock_now();
+    }
+    return MOR_OK;
+}
+
+static bool is_stopping(const mor_run_options *options, const mor_simulation *s)
+{
+    return mor_stop_is_requested(options->stop) ||
+           (!isnan(options->stop_at) && mor_schedule_time(&s->schedule) >= options->stop_at);
+}
+
+/* Springs that are loaded before anything has moved throw bodies apart. */
+static void warn_of_overlap(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 0.01;
+    double kinetic = 0.0;
+    double potential = 0.0;
+    double elastic = 0.0;
+    if (s->schedule.n_steps != 1 || !s->bodies.has_contact) {
+        return;
+    }
+    mor_simulation_bodies_energy(&s->bodies, (const double[3]){0.0, 0.0, 0.0}, &kinetic, &potential, &elastic);
+    const double stored = s->bodies.contact.spring_energy;
+    if (stored > advisable * (kinetic + mor_simulation_bodies_lift(&s->bodies))) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts hold %.3g "
+            "%s, which throws them apart: leave them a gap (surfaces of meshes bulge beside edges by up to a 25th of a "
+            "spacing)",
+            s->bodies.contact.deepest, stored, s->the_case->dimension == 2 ? "J/m" : "J");
+    }
+}
+
+/* Steps until the end or until the user stops. Snapshots fall on their times exactly; rows of the series are written at
+ * the first step at or after theirs, so that they do not change the steps. */
+static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
+{
+    mor_simulation *s = files->simulation;
+    while (s->schedule.now < s->schedule.end && !is_stopping(files->options, s)) {
+        if (p->n_loop_steps % MOR_RUN_KEEP_INTERVAL == 0) {
+            MOR_TRY(context, mor_run_files_keep(context, files, p->next_snapshot));
+        }
+        mor_stop_enter(files->options->stop, MOR_STOP_AFTER_STEP);
+        const double before = mor_clock_now();
+        MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
+        p->loop_seconds += mor_clock_now() - before;
+        p->n_loop_steps += 1;
+        warn_of_overlap(context, s);
+        p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
+        if (s->soil.largest_speed > p->fastest) {
+            p->fastest = s->soil.largest_speed;
+            p->fastest_time = mor_schedule_time(&s->schedule);
+        }
+        MOR_TRY(context, mor_probe_follow(context, s));
+        mor_stop_enter(files->options->stop, MOR_STOP_AFTER_WRITING);
+        MOR_TRY(context, write_outputs(context, files, p));
+        show_progress(&files->progress, s, p);
+    }
+    return MOR_OK;
+}
+
+/* A step without its files. */
+static mor_status retake_step(mor_context *context, mor_simulation *s, int64_t *next_snapshot)
+{
+    pace p = {.next_snapshot = *next_snapshot};
+    MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p.next_snapshot)));
+    MOR_TRY(context, mor_probe_follow(context, s));
+    while (p.next_snapshot < s->the_case->output.n_snapshots && snapshot_tick(s, p.next_snapshot) <= s->schedule.now) {
+        ++p.next_snapshot;
+    }
+    *next_snapshot = p.next_snapshot;
+    return MOR_OK;
+}
+
+/* First state: restored, or built, settled and saved. */
+static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
+{
+    bool is_restored = false;
+    if (files->options->is_resume) {
+        MOR_TRY(context, mor_run_files_restore(context, files, &is_restored));
+    }
+    if (!is_restored) {
+        MOR_TRY(context, mor_run_settle(context, files));
+        if (mor_stop_is_requested(files->options->stop)) {
+            fprintf(files->options->output, "stopped while the initial stress settled; the next run starts over\n");
+            return MOR_OK;
+        }
+    }
+    if (is_restored) {
+        MOR_TRY(context, mor_run_files_renew_case(context, files));
+    }
+    MOR_TRY(context, mor_run_files_start(context, files, is_restored));
+    if (!is_restored) {
+        MOR_TRY(context, mor_run_files_add_row(context, files));
+        MOR_TRY(context, mor_run_files_add_snapshot(context, files));
+        MOR_TRY(context, mor_run_files_save(context, files));
+    }
+    find_next_outputs(files->simulation, p);
+    p->last_save = mor_clock_now();
+    return MOR_OK;
+}
+
+/* The method takes soil to be hardly compressible, which needs speeds far below that of sound. */
+static void warn_of_speed(mor_context *context, const mor_simulation *s, const pace *p)
+{
+    const double advisable = 0.1;
+    if (s->has_soil && p->fastest > advisable * s->soil.sound_speed) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "the largest speed was %.2f of the speed of sound (at t = %.4g s); below %g is advisable: raise "
+            "youngs_modulus",
+            p->fastest / s->soil.sound_speed, p->fastest_time, advisable);
+    }
+}
+
+/* Results are those of the soil that stayed. */
+static void warn_of_outflow(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 1.0e-3;
+    const double n_out = s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES];
+    const double share = s->has_soil ? n_out / (double)s->soil.set.n_created : 0.0;
+    if (share > advisable) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            MOR_RUN_WARNING_AT_END
+            "%.0f of %lld soil particles (%.3g %%) had left the domain and were removed; results are those of "
+            "the rest. Above %g %%, see whether the domain is large enough",
+            n_out, (long long)s->soil.set.n_created, 100.0 * share, 100.0 * advisable);
+    }
+}
+
+/* Stress comes from rates, but volumes of particles, and with them forces and weights in sums, come from densities. */
+static mor_status warn_of_density_drift(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 0.2; /* collapses at coarse spacing reach 0.14; what goes wrong, 0.4 to 12 */
+    const mor_case_numerics *n = &s->the_case->numerics;
+    double drift = 0.0;
+    if (!s->has_soil) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_probe_density_drift(context, s, 99.0, &drift));
+    if (!(drift <= advisable)) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        MOR_RUN_WARNING_AT_END
+                        "the density of a hundredth of the soil is off its initial one by %.3g %% or more; below %g %% "
+                        "is advisable: particles crowd or part, so that run-out and heights are not to be trusted; "
+                        "%suse a finer spacing or a stiffer soil, and compare",
+                        100.0 * drift, 100.0 * advisable,
+                        n->shifting              ? "set numerics.shifting = false, "
+                        : n->gradient_correction ? "set numerics.gradient_correction = false, "
+                        : n->xsph > 0.0          ? "set numerics.xsph = 0, "
+                                                 : "");
+    }
+    return MOR_OK;
+}
+
+/* A window that lies between two measurements gives no largest, smallest or mean value. */
+static void warn_of_windows(mor_context *context, const mor_simulation *s)
+{
+    for (int k = 0; k < s->the_case->n_probes; ++k) {
+        const mor_case_probe *probe = &s->the_case->probes[k];
+        mor_probe_statistics statistics;
+        mor_probe_statistics_find(s, k, &statistics);
+        if (!isnan(probe->window[0]) && statistics.n_measured == 0.0) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            MOR_RUN_WARNING_AT_END
+                            "the window of probe '%s', %g s to %g s, held no measurement (%s:%d): it has no largest, "
+                            "smallest or mean value; make it longer than a time step, about %.3g s",
+                            probe->name, probe->window[0], probe->window[1], probe->place.file, probe->place.line,
+                            s->schedule.step_length);
+        }
+    }
+}
+
+/* Energies that do not add up say that forces were wrong, whatever else looks right. */
+static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 0.05;
+    const double still = 1.0e-4; /* of a spacing: where less energy moved than lifts all by it, nothing has happened */
+    double share = 0.0;
+    const double error = mor_probe_bodies_error(s, &share);
+    if (!(fabs(share) <= advisable)) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            MOR_RUN_WARNING_AT_END
+            "the energies of the bodies do not add up: %.3g %s too %s, %.3g %% of what changed hands; do not "
+            "report results before that is mended: bodies that overlapped at the start, or a contact stiffness "
+            "too large for their steps (contact_modulus; of elastic bodies also numerics.body_courant)",
+            fabs(error), s->the_case->dimension == 2 ? "J/m" : "J", error > 0.0 ? "much" : "little",
+            100.0 * fabs(share));
+    }
+    for (int k = 0; k < s->the_case->n_probes; ++k) {
+        const char *type = s->the_case->probes[k].type;
+        double value = 1.0;
+        if (strcmp(type, "energy_balance") != 0) {
+            continue;
+        }
+        MOR_TRY(context, mor_probe_evaluate(context, s, k, &value));
+        if (mor_probe_energy_moved(s, k) < still * mor_probe_lift_energy(s)) {
+            continue;
+        }
+        if (!(fabs(value - 1.0) <= advisable)) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            MOR_RUN_WARNING_AT_END
+                            "the energies of the run do not add up: '%s' is %.4g, not 1 within %g; do not report its "
+                            "results before a smaller numerics.courant or spacing has mended that",
+                            s->the_case->probes[k].name, value, advisable);
+        }
+    }
+    return MOR_OK;
+}
+
+/* Particles, steps and speed of a run that has reached its end. */
+static void print_end(const mor_run_files *files, const pace *p, double speed)
+{
+    const mor_simulation *s = files->simulation;
+    FILE *out = files->options->output;
+    fprintf(out, "%s\n", s->the_case->title);
+    if (p->n_loop_steps == 0) {
+        fprintf(out, "the run was complete at t = %.6g s; nothing was computed, results%s are drawn anew\n",
+                mor_schedule_time(&s->schedule), s->the_case->output.has_pictures ? " and pictures" : "");
+    }
+    fprintf(out, "%lld particles, %llu steps", (long long)mor_simulation_particles(s),
+            (unsigned long long)s->schedule.n_steps);
+    if (p->n_loop_steps > 0) {
+        fprintf(out, ", %.3g M %s/s", 1e-6 * speed, mor_simulation_counted_unit(s));
+    }
+    if (s->bodies.n_groups > 0 && p->n_loop_steps > 0) {
+        const double mean = (double)p->n_sub_steps / (double)p->n_loop_steps;
+        fprintf(out, ", %.3g sub-step%s of bodies per step in the mean", mean, fabs(mean - 1.0) < 0.005 ? "" : "s");
+    }
+    if (s->has_soil) {
+        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+    }
+    fprintf(out, "\n");
+    if (s->has_soil && s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES] > 0.0) {
+        fprintf(out, "%.0f particles, %.6g %s, left the domain\n", s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES],
+                s->soil.outflow[MOR_SOIL_OUTFLOW_MASS], s->the_case->dimension == 2 ? "kg/m" : "kg");
+    }
+}
+
+static mor_status finish_run(mor_context *context, mor_run_files *files, const pace *p, mor_run_outcome *outcome)
+{
+    const mor_simulation *s = files->simulation;
+    const mor_run_options *options = files->options;
+    const double speed = p->loop_seconds > 0.0
+                             ? (double)mor_simulation_counted_particles(s) * (double)p->n_loop_steps / p->loop_seconds
+                             : NAN;
+    outcome->is_finished = s->schedule.now >= s->schedule.end;
+    mor_run_progress_end(&files->progress);
+    mor_stop_enter(options->stop, MOR_STOP_AFTER_WRITING);
+    MOR_TRY(context, mor_run_files_save(context, files));
+    mor_stop_enter(options->stop, MOR_STOP_AT_ONCE);
+    warn_of_speed(context, s, p); /* of this part of the run: one that goes on begins anew */
+    if (!outcome->is_finished) {
+        outcome->is_interrupted = mor_stop_is_requested(options->stop);
+        fprintf(options->output,
+                "stopped at t = %.6g s of %.6g s, step %llu; go on with the same command and --resume\n",
+                mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
+        return MOR_OK;
+    }
+    print_end(files, p, speed);
+    warn_of_outflow(context, s);
+    MOR_TRY(context, warn_of_density_drift(context, s));
+    warn_of_windows(context, s);
+    MOR_TRY(context, warn_of_energy(context, s));
+    MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
+    fflush(options->output); /* a signal may end the program while it draws */
+    if (mor_stop_is_requested(options->stop)) {
+        fprintf(options->output, "the run is complete; 'moraine render %s' draws its pictures\n", options->folder);
+    } else if (s->the_case->output.has_pictures) {
+        MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
+    }
+    return MOR_OK;
+}
+
+/* Adds what the folder of the run means to an error: the library that found it knows nothing of runs. */
+static void add_advice(mor_context *context, mor_status status)
+{
+    const size_t length = strlen(context->message);
+    snprintf(context->message + length, sizeof context->message - length, "%s",
+             status == MOR_ERROR_NUMERIC ? "; the last checkpoint is kept"
+             : status == MOR_ERROR_IO    ? "; then go on with the same command and --resume"
+                                         : "");
+}
+
+/* The message, and where in the program it arose, for whoever mends the program. */
+static void log_reason(const mor_context *context, FILE *log)
+{
+    fprintf(log, "stopped: %s\n", context->message);
+    for (int k = 0; k < context->n_frames; ++k) {
+        const mor_frame *frame = &context->frames[k];
+        fprintf(log, "  in %s, %s:%d\n", frame->function, frame->file, frame->line);
+    }
+}
+
+static mor_status run_simulation(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                 mor_run_outcome *outcome)
+{
+    pace p = {.next_snapshot = 1};
+    files->progress = (mor_run_progress){
+        .stream = files->options->progress, .is_terminal = files->options->is_terminal, .last = mor_clock_now()};
+    MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
+    mor_rocks_report_log(context, files->the_case);
+    mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
+    if (status == MOR_OK) {
+        mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+        const int n_sets = mor_simulation_sets(files->simulation, false, sets);
+        status = mor_pictures_check(context, files->the_case, sets, n_sets);
+    }
+    const bool is_refused = status != MOR_OK;
+    if (status == MOR_OK) {
+        status = mor_simulation_warn(context, files->simulation);
+    }
+    if (status == MOR_OK) {
+        status = start_run(context, files, &p);
+    }
+    if (status == MOR_OK && files->series.stream != NULL) {
+        status = run_steps(context, files, &p);
+    }
+    outcome->is_interrupted = mor_stop_is_requested(files->options->stop);
+    if (status == MOR_OK && files->series.stream != NULL) {
+        status = finish_run(context, files, &p, outcome);
+    }
+    mor_run_progress_end(&files->progress);
+    mor_stop_enter(files->options->stop, MOR_STOP_AT_ONCE);
+    if (status != MOR_OK) {
+        if (files->series.stream != NULL) { /* before that there is nothing to go on from */
+            add_advice(context, status);
+        }
+        if (files->kept.is_valid && status != MOR_ERROR_IO && status != MOR_ERROR_MEMORY) {
+            status = mor_run_conclude_failure(context, files, retake_step);
+        }
+        log_reason(context, files->log);
+    }
+    if (is_refused) {
+        mor_run_files_discard(context, files);
+    }
+    return status;
+}
+
+mor_status mor_run(mor_context *context, const mor_run_options *options, const mor_registry *registry,
+                   mor_run_outcome *outcome)
+{
+    memset(outcome, 0, sizeof *outcome);
+    mor_case *the_case = calloc(1, sizeof *the_case);
+    mor_simulation *simulation = calloc(1, sizeof *simulation);
+    mor_run_files *files = calloc(1, sizeof *files);
+    mor_status status = MOR_OK;
+    if (the_case == NULL || simulation == NULL || files == NULL) {
+        status = MOR_FAIL(context, MOR_ERROR_MEMORY, "no memory for a run");
+        goto out;
+    }
+    status = mor_run_files_listen(context, files);
+    if (status == MOR_OK) {
+        status = mor_case_read(context, options->case_path, options->settings, options->n_settings, registry, the_case);
+    }
+    if (status == MOR_OK) {
+        status = mor_run_files_open(context, files, options);
+    }
+    if (status == MOR_OK) {
+        files->the_case = the_case;
+        files->simulation = simulation;
+        status = run_simulation(context, files, registry, outcome);
+    }
+    mor_run_files_close(context, files);
+    mor_simulation_clear(context, simulation);
+out:
+    if (the_case != NULL) {
+        mor_case_clear(context, the_case);
+    }
+    free(files);
+    free(simulation);
+    free(the_case);
+    return status;
+}

@@ -1,0 +1,79 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/run/run_failure.h"
+
+#include "cases/driver/picture/pictures.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef mor_status (*retake_step)(mor_context *context, mor_simulation *simulation, int64_t *next_snapshot);
+
+/* Brings back the last finished step; the state kept in memory when a step fails that once did not. */
+static mor_status go_back(mor_context *context, mor_run_files *files, retake_step retake)
+{
+    mor_simulation *s = files->simulation;
+    const uint64_t n_steps = s->schedule.n_steps;
+    int64_t next_snapshot = files->kept.next_snapshot;
+    MOR_TRY(context, mor_run_files_recall(context, files));
+    while (s->schedule.n_steps < n_steps) {
+        if (retake(context, s, &next_snapshot) != MOR_OK) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "the last finished step cannot be computed again; results are of "
+                            "an earlier one");
+            return mor_run_files_recall(context, files);
+        }
+    }
+    return MOR_OK;
+}
+
+static bool is_in_series(const mor_run_files *files)
+{
+    return files->series.has_rows && files->series.last_time >= mor_schedule_time(&files->simulation->schedule);
+}
+
+static bool is_in_snapshots(const mor_run_files *files)
+{
+    const mor_snapshot_list *list = &files->snapshots.list;
+    return list->n > 0 && list->items[list->n - 1].step >= (int64_t)files->simulation->schedule.n_steps;
+}
+
+static mor_status write_results(mor_context *context, mor_run_files *files, const mor_summary_failure *failure)
+{
+    int n_missed = 0;
+    if (!is_in_series(files)) {
+        MOR_TRY(context, mor_run_files_add_row(context, files));
+    }
+    if (!is_in_snapshots(files)) {
+        files->snapshots.note = "run stopped";
+        MOR_TRY(context, mor_run_files_add_snapshot(context, files));
+    }
+    MOR_TRY(context, mor_run_files_conclude(context, files, NAN, failure, &n_missed));
+    fflush(files->options->output); /* a signal may end the program while it draws */
+    const bool is_drawn = files->the_case->output.has_pictures && !mor_stop_is_requested(files->options->stop);
+    return is_drawn ? mor_pictures_render(context, files->the_case, files->options->folder, MOR_PICTURES_KEY,
+                                          files->options->output)
+                    : MOR_OK;
+}
+
+mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files, retake_step retake)
+{
+    const mor_context reason = *context;
+    const mor_schedule *schedule = &files->simulation->schedule;
+    mor_status status = go_back(context, files, retake);
+    const mor_summary_failure failure = {.reason = reason.message,
+                                         .time = mor_schedule_time(schedule),
+                                         .end = files->the_case->end,
+                                         .step = (int64_t)schedule->n_steps,
+                                         .set = reason.particle_set,
+                                         .particle = reason.particle};
+    if (status == MOR_OK) {
+        status = write_results(context, files, &failure);
+    }
+    if (status != MOR_OK) { /* the reason why the run stopped matters more */
+        mor_context_log(context, MOR_LOG_WARNING, "not all results of the stopped run could be written: %s",
+                        context->message);
+    }
+    mor_context_restore_error(context, &reason);
+    return reason.status;
+}

@@ -1,0 +1,169 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The end of a run: measured against reference, on the terminal and in summary.json. */
+#include "cases/driver/case/reader/case_inputs.h"
+#include "cases/driver/run/run_files.h"
+
+#include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/probe/probe.h"
+#include "cases/driver/run/run_table.h"
+#include "core/base/hash.h"
+#include "core/io/summary.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { INPUTS_MAX = 512 }; /* files that shapes were made from */
+
+static void print_warnings(FILE *out, const mor_run_warnings *warnings)
+{
+    for (int k = 0; k < warnings->n; ++k) {
+        fprintf(out, "%swarning: %s\n", k == 0 ? "\n" : "", warnings->texts[k]);
+    }
+}
+
+static void fill_statistics(const mor_simulation *simulation, int probe, mor_summary_statistics *out)
+{
+    mor_probe_statistics it;
+    mor_probe_statistics_find(simulation, probe, &it);
+    *out = (mor_summary_statistics){.maximum = it.maximum,
+                                    .minimum = it.minimum,
+                                    .time_of_maximum = it.time_of_maximum,
+                                    .time_of_minimum = it.time_of_minimum,
+                                    .mean = it.mean,
+                                    .impulse = it.impulse,
+                                    .impulse_unit = mor_probe_impulse_unit(simulation->the_case, probe),
+                                    .window = {it.window.begin, fmin(it.window.end, simulation->the_case->end)},
+                                    .n_measured = it.n_measured,
+                                    .n_skipped = it.n_skipped,
+                                    .interval = it.interval};
+}
+
+/* Measured against expected; returns the number of those missed. */
+static int compare(const mor_case *c, const mor_summary_result *results, bool is_failed,
+                   mor_summary_expectation *expectations)
+{
+    static const char *const words[] = {"value", "maximum", "minimum", "mean", "impulse"};
+    int n_missed = 0;
+    for (int k = 0; k < c->n_expectations; ++k) {
+        const mor_case_expectation *e = &c->expectations[k];
+        const mor_summary_result *result = &results[mor_run_table_probe(c, e->probe)];
+        const mor_summary_statistics *it = result->statistics;
+        const double numbers[] = {result->value, it->maximum, it->minimum, it->mean, it->impulse};
+        const double measured = numbers[e->statistic];
+        double low = 0.0;
+        double high = 0.0;
+        mor_run_table_limits(e, &low, &high);
+        const bool passes = !is_failed && measured >= low && measured <= high;
+        n_missed += !passes;
+        expectations[k] = (mor_summary_expectation){.probe = e->probe,
+                                                    .statistic = words[e->statistic],
+                                                    .measured = measured,
+                                                    .reference = e->value,
+                                                    .tolerance = e->tolerance,
+                                                    .tolerance_low = e->tolerance_low,
+                                                    .is_absolute = e->is_absolute,
+                                                    .passes = passes,
+                                                    .source = e->source};
+    }
+    return n_missed;
+}
+
+static void fill_summary(mor_run_files *files, mor_summary *summary)
+{
+    mor_simulation *simulation = files->simulation;
+    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+    uint64_t hashes[MOR_BODY_GROUPS_MAX + 2];
+    const int n_sets = mor_simulation_sets(simulation, true, sets);
+    for (int k = 0; k < n_sets; ++k) {
+        hashes[k] = mor_set_checksum(sets[k]);
+    }
+    summary->state_hash = n_sets == 1 ? hashes[0] : mor_hash_bytes(hashes, (size_t)n_sets * sizeof *hashes);
+    summary->bytes_per_fine_particle = simulation->has_soil ? mor_soil_bytes_per_particle(&simulation->soil) : NAN;
+    summary->version = files->options->version;
+    summary->commit = files->options->commit;
+    summary->seed = files->the_case->seed;
+    summary->command = files->options->command;
+    summary->warnings = (const char *const *)files->warnings.texts;
+    summary->n_warnings = files->warnings.n;
+}
+
+/* The speed in the summary of an earlier end of the same run; NaN when there is none that can be read. */
+static double find_old_speed(const char *path)
+{
+    mor_context context; /* of its own: an old file that is missing or damaged is no error, it is replaced */
+    double speed = NAN;
+    mor_context_init(&context);
+    return mor_summary_read_speed(&context, path, &speed) == MOR_OK ? speed : NAN;
+}
+
+/* The last value of a probe. A step that failed has left a state behind that is neither the one before nor the one
+ * after it: of such a run what was measured last. */
+static mor_status find_result(mor_context *context, mor_run_files *files, int probe, bool is_failed, double *value)
+{
+    if (is_failed) {
+        *value = mor_probe_last(files->simulation, probe);
+        return MOR_OK;
+    }
+    return mor_probe_value(context, files->simulation, probe, value);
+}
+
+/* Above the table of a run that did not reach its end. */
+static void print_failure(FILE *out, const mor_summary *summary)
+{
+    if (summary->failure != NULL) {
+        fprintf(out,
+                "\nincomplete: the run stopped at t = %.6g s of %.6g s, step %lld; the values are those of its last "
+                "finished step%s\n",
+                summary->failure->time, summary->failure->end, (long long)summary->failure->step,
+                summary->n_expectations > 0 ? ", and expectations were not reached" : "");
+    }
+}
+
+mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
+                                  const mor_summary_failure *failure, int *n_missed)
+{
+    const mor_case *c = files->the_case;
+    char path[MOR_PATH_BYTES];
+    mor_summary_result results[MOR_CASE_PROBES_MAX];
+    mor_summary_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];
+    mor_summary_input inputs[1 + INPUTS_MAX] = {{c->path, files->case_hash}};
+    mor_case_input shapes[INPUTS_MAX];
+    const int n_shapes = mor_case_inputs(c, shapes, INPUTS_MAX);
+    if (n_shapes == INPUTS_MAX) {
+        mor_context_log(context, MOR_LOG_WARNING, "summary.json names the first %d files of shapes only", INPUTS_MAX);
+    }
+    for (int k = 0; k < n_shapes; ++k) {
+        inputs[1 + k] = (mor_summary_input){shapes[k].path, shapes[k].hash};
+    }
+    mor_summary summary = {.failure = failure,
+                           .results = results,
+                           .n_results = c->n_probes,
+                           .expectations = expectations,
+                           .n_expectations = c->n_expectations,
+                           .particle_steps_per_second = particle_steps_per_second,
+                           .n_threads = context->n_threads,
+                           .inputs = inputs,
+                           .n_inputs = 1 + n_shapes};
+    mor_summary_statistics statistics[MOR_CASE_PROBES_MAX];
+    for (int k = 0; k < c->n_probes; ++k) {
+        results[k] = (mor_summary_result){.probe = c->probes[k].name,
+                                          .value = NAN,
+                                          .unit = mor_probe_unit(c, k),
+                                          .statistics = &statistics[k],
+                                          .remark = mor_probe_remark(files->simulation, k)};
+        MOR_TRY(context, find_result(context, files, k, failure != NULL, &results[k].value));
+        fill_statistics(files->simulation, k, &statistics[k]);
+    }
+    *n_missed = compare(c, results, failure != NULL, expectations);
+    fill_summary(files, &summary);
+    MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, MOR_SUMMARY_FILE));
+    if (isnan(particle_steps_per_second)) {
+        summary.particle_steps_per_second = find_old_speed(path);
+    }
+    MOR_TRY(context, mor_summary_write(context, path, &summary));
+    print_failure(files->options->output, &summary);
+    MOR_TRY(context, mor_run_table_print(context, c, &summary, files->options->output));
+    print_warnings(files->options->output, &files->warnings);
+    return MOR_OK;
+}

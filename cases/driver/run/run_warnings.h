@@ -1,0 +1,38 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_RUN_RUN_WARNINGS_H
+#define MOR_CASES_DRIVER_RUN_RUN_WARNINGS_H
+
+#include <stdbool.h>
+
+/** @file
+ *  What a run warned of, each text once and in order, so that it stands beside the results. Whatever is logged with
+ *  MOR_LOG_WARNING while a run goes on arrives here. */
+
+enum { MOR_RUN_WARNINGS_MAX = 64 };
+
+/** Begins what is judged at the end of a run: a run that is resumed beyond its end is judged anew. */
+#define MOR_RUN_WARNING_AT_END "at the end of the run "
+
+/** The texts of a run. Zeroed: none. Owner: the run's files, which end it with mor_run_warnings_clear. */
+typedef struct mor_run_warnings {
+    char *texts[MOR_RUN_WARNINGS_MAX]; /* shape [n]; zero-terminated; owned */
+    int n;
+} mor_run_warnings;
+
+/** Adds a text unless it is there already. The last place says that log.txt has more.
+ *  @param warnings [in,out]  one object
+ *  @param text     [in]      zero-terminated
+ *  Returns: whether the text was new and had room. */
+bool mor_run_warnings_add(mor_run_warnings *warnings, const char *text);
+
+/** Adds the warnings that a log of an earlier part of the run tells, but for those of its end.
+ *  @param warnings [in,out]  one object
+ *  @param path     [in]      zero-terminated; of the log; one that is missing tells none */
+void mor_run_warnings_load(mor_run_warnings *warnings, const char *path);
+
+/** Frees the texts.
+ *  @param warnings [in,out]  one object; becomes zeroed */
+void mor_run_warnings_clear(mor_run_warnings *warnings);
+
+#endif

@@ -1,0 +1,44 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_RUN_STOP_H
+#define MOR_CASES_DRIVER_RUN_STOP_H
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/** @file
+ *  How a signal and a run get along. The program is told to stop at moments nobody chose; what it may do then depends
+ *  on what it is at. Every file of a run is whole at any moment, so that only a state in memory can be lost. */
+
+/** What the program is at, and what the first signal does. */
+enum {
+    MOR_STOP_AT_ONCE,      /* nothing that a checkpoint would keep: the program ends there and then */
+    MOR_STOP_AFTER_STEP,   /* a step of a run: it is finished and saved, or given up when it takes too long */
+    MOR_STOP_AFTER_WRITING /* files of a run: they are finished */
+};
+
+/** One program that can be stopped. Written by a signal handler and by the run. */
+typedef struct mor_stop {
+    volatile sig_atomic_t is_requested; /* non-zero once a signal has come that did not end the program at once */
+    volatile sig_atomic_t phase;        /* one of the words above */
+} mor_stop;
+
+/** Whether a run is to stop.
+ *  @param stop [in]  one object; NULL: never */
+static inline bool mor_stop_is_requested(const mor_stop *stop)
+{
+    return stop != NULL && stop->is_requested != 0;
+}
+
+/** Says what the program is at.
+ *  @param stop  [in,out]  one object; NULL: nobody asks
+ *  @param phase [in]      one of the words above */
+static inline void mor_stop_enter(mor_stop *stop, int phase)
+{
+    if (stop != NULL) {
+        stop->phase = phase;
+    }
+}
+
+#endif

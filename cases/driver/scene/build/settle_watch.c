@@ -1,0 +1,155 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/scene/build/settle_watch.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/sph/measure/measure.h"
+
+#include <string.h>
+
+/* Plastic strain grows steadily when its rate falls by less than this from quarter to quarter. */
+static const double steady = 0.5;
+
+/* Rest that is farther away than so many times the time spent is not in sight. */
+static const double far_away = 20.0;
+
+/* A speed decays when its logarithm falls by this over the second half of the time; vibrations fall by less. */
+static const double decay_least = 0.3;
+
+/* Fewer samples than this tell nothing. */
+enum { SAMPLES_LEAST = 8 };
+
+mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_set *set)
+{
+    const double *position = set->data[MOR_FIELD_POSITION];
+    memset(watch, 0, sizeof *watch);
+    watch->stride = 1;
+    MOR_TRY(context, MOR_NEW(context, &watch->moved, set->n_particles, "displacements while settling"));
+    MOR_TRY(context, MOR_NEW(context, &watch->start, 3 * set->n_particles, "positions before settling"));
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        memcpy(watch->start + 3 * set->id[i], position + 3 * i, 3 * sizeof *position);
+    }
+    return MOR_OK;
+}
+
+void mor_settle_watch_clear(mor_context *context, mor_settle_watch *watch)
+{
+    MOR_FREE(context, &watch->start);
+    MOR_FREE(context, &watch->moved);
+    memset(watch, 0, sizeof *watch);
+}
+
+void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sample)
+{
+    if (++watch->n_skipped < watch->stride) {
+        return;
+    }
+    watch->n_skipped = 0;
+    if (watch->n == MOR_SETTLE_SAMPLES) {
+        for (int k = 0; k < MOR_SETTLE_SAMPLES / 2; ++k) {
+            watch->samples[k] = watch->samples[2 * k + 1];
+        }
+        watch->n = MOR_SETTLE_SAMPLES / 2;
+        watch->stride *= 2;
+    }
+    watch->samples[watch->n++] = *sample;
+}
+
+mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set, double time,
+                                double speed)
+{
+    mor_settle_sample sample = {.time = time, .speed = speed, .plastic_strain = NAN};
+    const double *position = set->data[MOR_FIELD_POSITION];
+    const int field = mor_set_find_field(set, "plastic_strain");
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double *start = watch->start + 3 * set->id[i];
+        double way[3];
+        for (int a = 0; a < 3; ++a) {
+            way[a] = position[3 * i + a] - start[a];
+        }
+        watch->moved[i] = mor_vector_length(way);
+    }
+    MOR_TRY(context, mor_measure_percentile(context, watch->moved, NULL, set->n_particles, 99.0, &sample.displacement));
+    if (field >= 0 && set->data[field] != NULL) {
+        double sum = 0.0;
+        for (int64_t i = 0; i < set->n_particles; ++i) {
+            sum += set->data[field][i];
+        }
+        sample.plastic_strain = sum / (double)set->n_particles;
+    }
+    mor_settle_watch_keep(watch, &sample);
+    return MOR_OK;
+}
+
+/* The sample nearest to a share of the time so far. */
+static const mor_settle_sample *sample_at(const mor_settle_watch *watch, double share)
+{
+    const double time = share * watch->samples[watch->n - 1].time;
+    int best = 0;
+    for (int k = 1; k < watch->n; ++k) {
+        if (fabs(watch->samples[k].time - time) < fabs(watch->samples[best].time - time)) {
+            best = k;
+        }
+    }
+    return &watch->samples[best];
+}
+
+static double strain_rate(const mor_settle_sample *from, const mor_settle_sample *to)
+{
+    return (to->plastic_strain - from->plastic_strain) / (to->time - from->time);
+}
+
+/* Line through the logarithm of the speed over the second half of the time; speed: where it ends. */
+static double fit_decay(const mor_settle_watch *watch, double *speed)
+{
+    const double half = 0.5 * watch->samples[watch->n - 1].time;
+    double sums[5] = {0.0}; /* of 1, t, t2, y, t y */
+    for (int k = 0; k < watch->n; ++k) {
+        const double t = watch->samples[k].time;
+        const double y = log(fmax(watch->samples[k].speed, 1.0e-300));
+        if (t >= half) {
+            sums[0] += 1.0;
+            sums[1] += t;
+            sums[2] += t * t;
+            sums[3] += y;
+            sums[4] += t * y;
+        }
+    }
+    const double spread = sums[0] * sums[2] - sums[1] * sums[1];
+    const double slope = spread > 0.0 ? (sums[0] * sums[4] - sums[1] * sums[3]) / spread : 0.0;
+    const double middle = sums[1] / sums[0];
+    *speed = exp(sums[3] / sums[0] + slope * (watch->samples[watch->n - 1].time - middle));
+    return -slope;
+}
+
+void mor_settle_watch_judge(const mor_settle_watch *watch, double limit, double spacing, mor_settle_judgment *judgment)
+{
+    *judgment = (mor_settle_judgment){.verdict = MOR_SETTLE_OPEN, .time_needed = INFINITY, .strain_rates = {NAN, NAN}};
+    if (watch->n == 0) {
+        return;
+    }
+    const mor_settle_sample *last = &watch->samples[watch->n - 1];
+    double speed = 0.0;
+    judgment->displacement = last->displacement;
+    if (watch->n < SAMPLES_LEAST) {
+        return;
+    }
+    judgment->decay = fit_decay(watch, &speed);
+    judgment->strain_rates[0] = strain_rate(sample_at(watch, 0.5), sample_at(watch, 0.75));
+    judgment->strain_rates[1] = strain_rate(sample_at(watch, 0.75), last);
+    if (judgment->decay > 0.0) {
+        judgment->time_needed = last->time + fmax(0.0, log(speed / limit)) / judgment->decay;
+    }
+    /* Soil that yields as fast as before, and does not slow down or will be elsewhere until it does. */
+    const bool is_yielding =
+        judgment->strain_rates[1] > 0.0 && judgment->strain_rates[1] >= steady * judgment->strain_rates[0];
+    const bool is_decaying =
+        judgment->time_needed < far_away * last->time && 0.5 * judgment->decay * last->time > decay_least;
+    const double to_come = is_decaying ? speed / judgment->decay : INFINITY;
+    if ((is_yielding && last->displacement + to_come > spacing) || (!is_decaying && last->displacement > spacing)) {
+        judgment->verdict = MOR_SETTLE_FAILS;
+    } else if (is_decaying) {
+        judgment->verdict = MOR_SETTLE_NEEDS_TIME;
+    }
+}

@@ -1,0 +1,83 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_SCENE_BUILD_SETTLE_WATCH_H
+#define MOR_CASES_DRIVER_SCENE_BUILD_SETTLE_WATCH_H
+
+#include "core/particle/set.h"
+
+/** @file
+ *  How soil settles under damping, and what that says of soil that does not come to rest in the time given: whether it
+ *  does not stand under its own weight, or needs longer. */
+
+enum { MOR_SETTLE_SAMPLES = 256 };
+
+/** The soil at one time. */
+typedef struct mor_settle_sample {
+    double time;           /* s */
+    double speed;          /* 99 % of the particles are slower, m/s */
+    double plastic_strain; /* mean over the particles, 1; NaN for a material that has none */
+    double displacement;   /* 99 % of the particles have moved less since the start of settling, m */
+} mor_settle_sample;
+
+/** The course of settling, thinned out evenly where there are more samples than room. Owner: the caller, who ends it
+ *  with mor_settle_watch_clear. */
+typedef struct mor_settle_watch {
+    mor_settle_sample samples[MOR_SETTLE_SAMPLES]; /* shape [n]; by rising time */
+    int n;
+    int stride;    /* samples that one stands for */
+    int n_skipped; /* since the last one that was kept */
+    double *start; /* shape [particles, 3], positions at the start by id, m; owned */
+    double *moved; /* shape [particles], scratch: displacements, m; owned */
+} mor_settle_watch;
+
+/** What is the matter with soil that did not come to rest. */
+typedef enum mor_settle_verdict {
+    MOR_SETTLE_FAILS,      /* it goes on to flow under its own weight */
+    MOR_SETTLE_NEEDS_TIME, /* its speed decays, and it will be at rest later */
+    MOR_SETTLE_OPEN        /* neither is clear */
+} mor_settle_verdict;
+
+/** The verdict and what it rests on. */
+typedef struct mor_settle_judgment {
+    mor_settle_verdict verdict;
+    double decay;           /* rate at which the speed decays over the second half, 1/s; <= 0: it does not */
+    double time_needed;     /* to reach the limit at that rate, from the start of settling, s; INFINITY: never */
+    double displacement;    /* so far, m */
+    double strain_rates[2]; /* mean plastic strain / time over the third and the last quarter, 1/s; NaN: not known */
+} mor_settle_judgment;
+
+/** Begins to watch.
+ *  @param context [in,out]  one object
+ *  @param watch   [out]     one object
+ *  @param set     [in]      one object; the soil's particles, with ids from 0 to their number - 1
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_set *set);
+
+/** Frees what a watch owns; accepts a zeroed one.
+ *  @param context [in,out]  one object
+ *  @param watch   [in,out]  one object */
+void mor_settle_watch_clear(mor_context *context, mor_settle_watch *watch);
+
+/** Looks at the soil.
+ *  @param context [in,out]  one object
+ *  @param watch   [in,out]  one object
+ *  @param set     [in]      one object; the same particles in any order
+ *  @param time    [in]      since the start of settling, s; rising
+ *  @param speed   [in]      99 % of the particles are slower, m/s
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY; MOR_ERROR_NUMERIC. */
+mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set, double time,
+                                double speed);
+
+/** Keeps a sample, or leaves it out where samples are thinned.
+ *  @param watch  [in,out]  one object
+ *  @param sample [in]      one object */
+void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sample);
+
+/** Judges from the course so far.
+ *  @param watch    [in]   one object
+ *  @param limit    [in]   speed below which soil is at rest, m/s; > 0
+ *  @param spacing  [in]   of particles, m
+ *  @param judgment [out]  one object */
+void mor_settle_watch_judge(const mor_settle_watch *watch, double limit, double spacing, mor_settle_judgment *judgment);
+
+#endif

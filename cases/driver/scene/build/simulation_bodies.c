@@ -1,0 +1,528 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* From the rocks of a case to groups of bodies and their contact. */
+#include "cases/driver/scene/simulation_bodies.h"
+
+#include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/scene/build/simulation_fill.h"
+#include "cases/driver/scene/simulation.h"
+#include "cases/driver/scene/wall_seams.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Overlap below this part of the spacing is touching. */
+#define TOUCHING 0.05
+
+/* A ball in the thinnest relaxed rock that is not refused, spacings. */
+#define THICKNESS_LEAST 4.0
+
+static mor_status make_request(mor_context *context, const mor_case *c, const mor_case_body *it, mor_point_cache *cache,
+                               mor_lattice_points *points, mor_body_request *request)
+{
+    MOR_TRY(context, mor_simulation_fill_body(context, c, it, cache, points));
+    *request = (mor_body_request){.name = it->name,
+                                  .positions = points->positions,
+                                  .n_particles = points->n_points,
+                                  .shape = it->shape,
+                                  .density = it->density,
+                                  .soil_friction = (mor_wall_friction)it->soil_friction,
+                                  .soil_friction_coefficient = it->soil_friction_coefficient,
+                                  .contact_modulus = mor_case_contact_modulus(c, it),
+                                  .contact_poisson = it->contact_poisson};
+    mor_simulation_body_frame(c, it, request->shape_turn, request->shape_move);
+    MOR_TRY(context, mor_shape_find_moments(context, it->shape, c->dimension, &request->geometry));
+    mor_shape_moments_place(&request->geometry, request->shape_turn, request->shape_move);
+    mor_matrix_apply(c->turn, it->velocity, request->velocity);
+    mor_matrix_apply(c->turn, it->angular_velocity, request->angular_velocity);
+    return MOR_OK;
+}
+
+static bool has_same_material(const mor_case_body *a, const mor_case_body *b)
+{
+    return strcmp(a->model, b->model) == 0 && a->density == b->density &&
+           memcmp(a->parameters, b->parameters, sizeof a->parameters) == 0;
+}
+
+/* How a rigid body moves, in the frame of the run. */
+static void set_motion(const mor_case *c, const mor_case_body *it, const mor_body_request *request,
+                       mor_rigid_motion *motion)
+{
+    memset(motion, 0, sizeof *motion);
+    motion->is_prescribed = it->is_prescribed;
+    memcpy(motion->velocity, request->velocity, sizeof motion->velocity);
+    memcpy(motion->angular_velocity, request->angular_velocity, sizeof motion->angular_velocity);
+    for (int k = 0; k < 6; ++k) {
+        motion->locked |= it->is_locked[k] ? 1u << k : 0u;
+    }
+    motion->has_spring = it->has_spring;
+    if (it->has_spring) {
+        double offset[3];
+        mor_matrix_apply(request->shape_turn, it->spring_point, motion->spring_point);
+        mor_matrix_apply(c->turn, it->spring_anchor, motion->spring_anchor);
+        for (int a = 0; a < 3; ++a) {
+            motion->spring_point[a] += request->shape_move[a];
+            motion->spring_anchor[a] += c->move[a];
+            offset[a] = motion->spring_point[a] - motion->spring_anchor[a];
+        }
+        motion->spring_length = isnan(it->spring_length) ? mor_vector_length(offset) : it->spring_length;
+        motion->spring_stiffness = it->spring_stiffness;
+        motion->spring_damping = it->spring_damping;
+    }
+}
+
+/* One group in the making. Zeroed before each. */
+typedef struct recipe {
+    int members[MOR_CASE_BODIES_MAX]; /* numbers in the case */
+    int n_members;
+    mor_lattice_points points[MOR_CASE_BODIES_MAX];
+    mor_body_request requests[MOR_CASE_BODIES_MAX];
+    mor_rigid_motion motions[MOR_CASE_BODIES_MAX];
+} recipe;
+
+/* What the groups are made with. */
+typedef struct workshop {
+    const mor_registry *registry; /* borrowed */
+    mor_point_cache cache;        /* of all groups */
+    recipe recipe;
+} workshop;
+
+static void name_group(const mor_simulation_bodies *bodies, const char *model, char *name, size_t room)
+{
+    int n_same = 1;
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        n_same += strncmp(bodies->groups[g]->set.name, model, strlen(model)) == 0;
+    }
+    snprintf(name, room, n_same > 1 ? "%s_%d" : "%s", model, n_same);
+}
+
+static mor_status make_elastic(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_material *material, recipe *r)
+{
+    const mor_case_body *first = &c->bodies[r->members[0]];
+    mor_material_instance **instance = &bodies->materials[bodies->n_elastics];
+    mor_elastic *elastic = &bodies->elastics[bodies->n_elastics];
+    const mor_elastic_settings settings = {c->numerics.body_smoothing_ratio, c->numerics.body_courant,
+                                           c->numerics.body_damping, c->numerics.hourglass};
+    char name[MOR_FIELD_NAME_BYTES];
+    name_group(bodies, first->model, name, sizeof name);
+    MOR_TRY(context, mor_material_create(context, material, first->density, first->parameters, instance));
+    MOR_TRY(context, mor_elastic_init(context, elastic, name, &settings, *instance, c->dimension, c->spacing,
+                                      r->requests, r->n_members));
+    bodies->n_elastics += 1;
+    for (int m = 0; m < r->n_members; ++m) {
+        bodies->of[r->members[m]] = (mor_simulation_body){&elastic->group, m, elastic, NULL};
+    }
+    bodies->groups[bodies->n_groups++] = &elastic->group;
+    return MOR_OK;
+}
+
+static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, recipe *r)
+{
+    mor_rigid *rigid = &bodies->rigid;
+    for (int m = 0; m < r->n_members; ++m) {
+        set_motion(c, &c->bodies[r->members[m]], &r->requests[m], &r->motions[m]);
+    }
+    MOR_TRY(context,
+            mor_rigid_init(context, rigid, "rigid", c->dimension, c->spacing, r->requests, r->motions, r->n_members));
+    for (int m = 0; m < r->n_members; ++m) {
+        bodies->of[r->members[m]] = (mor_simulation_body){&rigid->group, m, NULL, rigid};
+    }
+    bodies->groups[bodies->n_groups++] = &rigid->group;
+    return MOR_OK;
+}
+
+/* A body that cannot be made is an error of the case: says where it stands there. */
+static mor_status blame_body(mor_context *context, const mor_case *c, const recipe *r, mor_status status)
+{
+    const mor_case_body *it = &c->bodies[r->members[r->n_members - 1]];
+    if (status != MOR_ERROR_ARGUMENT) {
+        return status;
+    }
+    for (int m = 0; m < r->n_members; ++m) {
+        char quoted[MOR_CASE_NAME_BYTES + 2];
+        snprintf(quoted, sizeof quoted, "'%s'", c->bodies[r->members[m]].name);
+        if (strstr(context->message, quoted) != NULL) {
+            it = &c->bodies[r->members[m]];
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: found a body that cannot be made: %s", it->place.file,
+                    it->place.line, context->message);
+}
+
+/* The thickness of a shape, nearly and never too much. */
+static double guess_thickness(const mor_shape *shape, int dimension)
+{
+    enum { ACROSS = 20 };
+    mor_bounds bounds;
+    double deepest = 0.0;
+    mor_shape_bounds(shape, &bounds);
+    const int n_layers = dimension == 3 ? ACROSS : 1;
+    for (int k = 0; k < ACROSS * ACROSS * n_layers; ++k) {
+        const int index[3] = {k % ACROSS, k / ACROSS % ACROSS, k / (ACROSS * ACROSS)};
+        double point[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < dimension; ++a) {
+            point[a] = bounds.minimum[a] + (index[a] + 0.5) / ACROSS * (bounds.maximum[a] - bounds.minimum[a]);
+        }
+        deepest = fmax(deepest, -mor_shape_distance(shape, point));
+    }
+    return 2.0 * deepest;
+}
+
+/* Another spacing may lead to another packing: names one that is fine enough for whatever rock may be drawn. */
+static mor_status blame_thin(mor_context *context, const mor_case *c, const mor_case_body *it)
+{
+    const mor_case_rocks *rocks = c->rocks;
+    int end = c->n_listed_bodies + rocks->n_rocks;
+    while (it - c->bodies >= end) {
+        rocks += 1;
+        end += rocks->n_rocks;
+    }
+    double least = INFINITY;
+    for (int k = 0; k < rocks->n_shapes; ++k) {
+        least = fmin(least, guess_thickness(rocks->shapes[k], c->dimension));
+    }
+    return MOR_FAIL(
+        context, MOR_ERROR_CONFIG,
+        "%s; it is the thinnest of the rocks, which may be drawn anew with another spacing: %.3g m does for "
+        "all that the sizes allow",
+        context->message, 0.98 * least * rocks->sizes[0].diameter / THICKNESS_LEAST);
+}
+
+/* Fills the thinnest packed rock before all others, so that not each of them is refused in turn. */
+static mor_status try_thinnest(mor_context *context, const mor_case *c, mor_point_cache *cache)
+{
+    const mor_case_body *thinnest = NULL;
+    double least = INFINITY;
+    for (int b = 0; b < c->n_bodies; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        const double thickness = it->packed_diameter > 0.0 && mor_simulation_fill_is_relaxed(it)
+                                     ? guess_thickness(it->shape, c->dimension)
+                                     : INFINITY;
+        if (thickness < least) {
+            least = thickness;
+            thinnest = it;
+        }
+    }
+    if (thinnest == NULL) {
+        return MOR_OK;
+    }
+    mor_lattice_points points;
+    const mor_status status = mor_simulation_fill_body(context, c, thinnest, cache, &points);
+    mor_lattice_clear(context, &points);
+    return status == MOR_ERROR_CONFIG ? blame_thin(context, c, thinnest) : status;
+}
+
+/* The group of one body and of all later bodies of its material. */
+static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, int leader,
+                             workshop *shop)
+{
+    recipe *r = &shop->recipe;
+    const mor_case_body *first = &c->bodies[leader];
+    const mor_material *material = NULL;
+    mor_status status = MOR_OK;
+    MOR_CHECK(context, bodies->n_groups < MOR_BODY_GROUPS_MAX, MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' of one more material; allowed are %d materials of bodies, all rigid bodies "
+              "counting as one; give some bodies the same material",
+              first->place.file, first->place.line, first->name, MOR_BODY_GROUPS_MAX);
+    if (!mor_case_body_is_rigid(first)) {
+        MOR_TRY(context, mor_registry_require(context, shop->registry, first->model, &material));
+    }
+    memset(r, 0, sizeof *r);
+    for (int b = leader; b < c->n_bodies && status == MOR_OK; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        if (b == leader ||
+            (mor_case_body_is_rigid(first) ? mor_case_body_is_rigid(it) : has_same_material(first, it))) {
+            const int m = r->n_members++;
+            r->members[m] = b;
+            status = make_request(context, c, it, &shop->cache, &r->points[m], &r->requests[m]);
+        }
+    }
+    if (status == MOR_OK) {
+        status = mor_case_body_is_rigid(first) ? make_rigid(context, bodies, c, r)
+                                               : make_elastic(context, bodies, c, material, r);
+    }
+    status = blame_body(context, c, r, status);
+    for (int m = 0; m < r->n_members; ++m) {
+        mor_lattice_clear(context, &r->points[m]);
+    }
+    return status;
+}
+
+/* A body's number as a field, so that pictures can tell bodies apart. */
+static mor_status add_body_field(mor_context *context, mor_body_group *group)
+{
+    const mor_field_info info = {.name = "body",
+                                 .n_components = 1,
+                                 .unit = "1",
+                                 .writer = "set-up",
+                                 .flags = MOR_FIELD_OUTPUT,
+                                 .text = "number of the body in its group"};
+    int field = 0;
+    MOR_TRY(context, mor_set_add_field(context, &group->set, &info, &field));
+    for (int64_t i = 0; i < group->set.n_particles; ++i) {
+        group->set.data[field][i] = (double)group->body_of[i];
+    }
+    return MOR_OK;
+}
+
+/* The number of a body in the case by its group and place there. */
+static int case_number(const mor_simulation_bodies *bodies, const mor_case *c, const mor_body *body)
+{
+    int b = 0;
+    while (b + 1 < c->n_bodies && &bodies->of[b].group->bodies[bodies->of[b].index] != body) {
+        ++b;
+    }
+    return b;
+}
+
+/* What to do about a body that lies wrong; packed rocks have no place of their own to change. */
+static const char *advise_place(const mor_case_body *it, const char *advice)
+{
+    return it->packed_diameter > 0.0 ? "rocks are packed without regard to walls and the domain; raise 'margin' or "
+                                       "shrink 'region'"
+                                     : advice;
+}
+
+/* What is moved as prescribed or clamped may stand in a wall. */
+static mor_status check_walls(mor_context *context, const mor_case *c, const mor_case_body *it, const double *point)
+{
+    for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
+        const double depth = -mor_simulation_placed_distance(c->walls[w].shape, c->turn, c->move, point);
+        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' overlapping wall '%s' by at least %.2g m at (%g, %g, %g) m; allowed is less "
+                  "than %g m; %s",
+                  it->place.file, it->place.line, it->name, c->walls[w].name, depth, point[0], point[1], point[2],
+                  TOUCHING * c->spacing, advise_place(it, "move the body or the wall"));
+    }
+    return MOR_OK;
+}
+
+/* A point of a body may not lie deep in another one. */
+static mor_status check_others(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_bounds *boxes, int number, const double *point)
+{
+    const mor_case_body *it = &c->bodies[number];
+    for (int b = 0; b < c->n_bodies; ++b) {
+        if (b == number || !mor_simulation_body_may_hold(&boxes[b], point)) {
+            continue;
+        }
+        const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
+        const double depth = -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, point);
+        MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
+                  "%s:%d: found body '%s' overlapping body '%s' by at least %.2g m at (%g, %g, %g) m; allowed is less "
+                  "than %g m; move one of them",
+                  it->place.file, it->place.line, it->name, c->bodies[b].name, depth, point[0], point[1], point[2],
+                  TOUCHING * c->spacing);
+    }
+    return MOR_OK;
+}
+
+static mor_status check_node(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                             const mor_simulation_frame *frame, const mor_bounds *boxes, int number, const double *node)
+{
+    const mor_case_body *it = &c->bodies[number];
+    const double *low = frame->domain_minimum;
+    const double *high = frame->domain_maximum;
+    double local[3];
+    mor_domain_localize(frame->is_placed ? &frame->placement : NULL, node, local);
+    MOR_CHECK(context, mor_domain_holds(low, high, c->dimension, local), MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' reaching out of the domain at (%g, %g, %g) m; the domain is (%g, %g, %g) to "
+              "(%g, %g, %g) m; allowed are bodies inside it; %s",
+              it->place.file, it->place.line, it->name, local[0], local[1], local[2], low[0], low[1], low[2], high[0],
+              high[1], high[2], advise_place(it, "enlarge 'domain' or move the body"));
+    MOR_TRY(context, check_others(context, bodies, c, boxes, number, node));
+    return check_walls(context, c, it, node);
+}
+
+/* Surfaces tell overlaps exactly, particles only to half a spacing; but a wall may stand inside a body. */
+static mor_status check_groups(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_simulation_frame *frame, const mor_bounds *boxes)
+{
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        const mor_body_group *group = bodies->groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            const mor_body *body = &group->bodies[b];
+            const int number = case_number(bodies, c, body);
+            /* Of bodies in one place the surfaces coincide, and no point of one lies in the other. */
+            for (int k = 0; k < 3; ++k) {
+                const int64_t i = body->first + k * (body->n_particles - 1) / 2;
+                MOR_TRY(context, check_others(context, bodies, c, boxes, number, group->reference + 3 * i));
+            }
+            for (int64_t s = body->first_node; s < body->first_node + body->n_nodes; ++s) {
+                MOR_TRY(context, check_node(context, bodies, c, frame, boxes, number, group->node_reference + 3 * s));
+            }
+            for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
+                MOR_TRY(context, check_walls(context, c, &c->bodies[number], group->reference + 3 * i));
+            }
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status check_places(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_simulation_frame *frame)
+{
+    mor_bounds *boxes = NULL;
+    MOR_TRY(context, MOR_NEW(context, &boxes, c->n_bodies, "boxes around bodies"));
+    for (int b = 0; b < c->n_bodies; ++b) {
+        mor_simulation_body_box(c, &c->bodies[b], &boxes[b]);
+    }
+    const mor_status status = check_groups(context, bodies, c, frame, boxes);
+    MOR_FREE(context, &boxes);
+    return status;
+}
+
+static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_simulation_frame *frame, int first_bit)
+{
+    mor_contact_wall walls[MOR_CASE_WALLS_MAX];
+    uint64_t bits[MOR_BODY_GROUPS_MAX];
+    const double strength = mor_vector_length(frame->gravity);
+    const double slowest = strength > 0.0 ? 0.1 * sqrt(strength * c->spacing) : 1.0e-3 * mor_case_largest_speed(c);
+    memset(walls, 0, sizeof walls);
+    for (int w = 0; w < c->n_walls; ++w) {
+        snprintf(walls[w].name, sizeof walls[w].name, "%s", c->walls[w].name);
+        walls[w].shape = c->walls[w].shape;
+        memcpy(walls[w].turn, c->turn, sizeof walls[w].turn);
+        memcpy(walls[w].move, c->move, sizeof walls[w].move);
+        mor_matrix_apply(c->turn, c->walls[w].velocity, walls[w].velocity);
+        walls[w].modulus = c->walls[w].contact_modulus;
+        walls[w].poisson = c->walls[w].contact_poisson;
+    }
+    MOR_TRY(context, mor_wall_seams_join(context, c, walls, bodies->wholes));
+    for (int p = 0; p < c->contact.n_pairs; ++p) {
+        const mor_case_contact_pair *it = &c->contact.pairs[p];
+        snprintf(bodies->pairs[p].first, sizeof bodies->pairs[p].first, "%s", it->first);
+        snprintf(bodies->pairs[p].second, sizeof bodies->pairs[p].second, "%s", it->second);
+        bodies->pairs[p].law = (mor_contact_law){it->friction_coefficient, it->restitution};
+    }
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        bits[g] = MOR_BIT(first_bit + g);
+    }
+    const mor_contact_settings settings = {{c->contact.friction_coefficient, c->contact.restitution},
+                                           bodies->pairs,
+                                           c->contact.n_pairs,
+                                           slowest,
+                                           mor_case_start_speed(c)};
+    MOR_TRY(context, mor_contact_init(context, &bodies->contact, &settings, bodies->groups, bits, bodies->n_groups,
+                                      walls, c->n_walls));
+    bodies->has_contact = true;
+    mor_contact_exchange(&bodies->contact, &bodies->exchange);
+    return MOR_OK;
+}
+
+static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                              const mor_registry *registry)
+{
+    workshop *shop = NULL;
+    MOR_TRY(context, MOR_NEW(context, &shop, 1, "groups of bodies"));
+    shop->registry = registry;
+    mor_point_cache_init(&shop->cache, NULL);
+    mor_status status = try_thinnest(context, c, &shop->cache);
+    /* Elastic groups first, so that the rigid one is the last. */
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int b = 0; b < c->n_bodies && status == MOR_OK; ++b) {
+            if (mor_case_body_is_rigid(&c->bodies[b]) == (pass == 1) && bodies->of[b].group == NULL) {
+                status = make_group(context, bodies, c, b, shop);
+            }
+        }
+    }
+    mor_point_cache_clear(context, &shop->cache);
+    MOR_FREE(context, &shop);
+    return status;
+}
+
+mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
+                                      const mor_registry *registry, const mor_simulation_frame *frame, int first_bit)
+{
+    memset(bodies, 0, sizeof *bodies);
+    if (the_case->n_bodies == 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, make_groups(context, bodies, the_case, registry));
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        mor_body_group *group = bodies->groups[g];
+        memcpy(group->gravity, frame->gravity, sizeof group->gravity);
+        memcpy(group->domain_minimum, frame->domain_minimum, sizeof group->domain_minimum);
+        memcpy(group->domain_maximum, frame->domain_maximum, sizeof group->domain_maximum);
+        group->placement = frame->is_placed ? &frame->placement : NULL;
+        group->gravity_ramp = the_case->numerics.gravity_ramp;
+        group->damping = the_case->numerics.damping;
+        MOR_TRY(context, add_body_field(context, group));
+    }
+    MOR_TRY(context, check_places(context, bodies, the_case, frame));
+    MOR_TRY(context, make_contact(context, bodies, the_case, frame, first_bit));
+    bodies->n_packed = mor_simulation_bodies_packed(bodies);
+    MOR_TRY(context, MOR_NEW(context, &bodies->packed, bodies->n_packed, "motion of bodies for checkpoints"));
+    return mor_simulation_bodies_settle(context, bodies, the_case, 0.0);
+}
+
+void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bodies)
+{
+    if (bodies->has_contact) {
+        mor_contact_clear(context, &bodies->contact);
+    }
+    for (int w = 0; w < MOR_CASE_WALLS_MAX; ++w) {
+        mor_shape_free(context, &bodies->wholes[w]);
+    }
+    for (int k = 0; k < MOR_BODY_GROUPS_MAX; ++k) {
+        mor_elastic_clear(context, &bodies->elastics[k]);
+        mor_material_destroy(context, &bodies->materials[k]);
+    }
+    mor_rigid_clear(context, &bodies->rigid);
+    MOR_FREE(context, &bodies->packed);
+    memset(bodies, 0, sizeof *bodies);
+}
+
+static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil *soil, mor_boundary *boundary)
+{
+    const mor_soil_barrier barrier = {true, c->numerics.barrier_stiffness, c->numerics.barrier_radius};
+    MOR_TRY(context, mor_soil_add_boundary(context, soil, boundary, (mor_wall_stress)c->numerics.body_stress));
+    return barrier.stiffness > 0.0 ? mor_soil_set_barrier(context, soil, boundary, &barrier) : MOR_OK;
+}
+
+/* Tells each body the soil it may lie in. What is prescribed or clamped does not give way as a whole. */
+static void meet_soil(mor_simulation_bodies *bodies, const mor_case *c, const mor_soil *soil)
+{
+    enum { ALL = 0x3f, OUT_OF_PLANE = 0x1c };
+    for (int b = 0; b < c->n_bodies; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        const mor_simulation_body *body = &bodies->of[b];
+        unsigned locked = c->dimension == 2 ? OUT_OF_PLANE : 0u;
+        for (int k = 0; k < 6; ++k) {
+            locked |= it->is_locked[k] ? 1u << k : 0u;
+        }
+        locked = it->is_prescribed || it->clamp != NULL ? ALL : locked;
+        mor_body_meet_soil(body->group, body->index, soil->settings.reference_density, soil->sound_speed,
+                           body->elastic != NULL ? body->elastic->sound_speed : INFINITY, locked);
+    }
+}
+
+mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
+                                      mor_soil *soil, mor_schedule *schedule)
+{
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        mor_stepper stepper;
+        uint64_t evolving = 0;
+        if (g < bodies->n_elastics) {
+            mor_elastic_stepper(&bodies->elastics[g], &stepper, &evolving);
+        } else {
+            mor_rigid_stepper(&bodies->rigid, &stepper, &evolving);
+        }
+        MOR_TRY(context, mor_schedule_add(context, schedule, &stepper, evolving));
+        bodies->groups[g]->is_unseen = soil == NULL;
+        if (soil != NULL) {
+            MOR_TRY(context, show_to_soil(context, the_case, soil, &bodies->groups[g]->boundary));
+        }
+    }
+    if (soil != NULL) {
+        meet_soil(bodies, the_case, soil);
+    }
+    schedule->exchange = bodies->has_contact ? &bodies->exchange : NULL;
+    return MOR_OK;
+}

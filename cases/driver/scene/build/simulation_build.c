@@ -1,0 +1,470 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/scene/build/simulation_build.h"
+
+#include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/probe/probe_track.h"
+#include "cases/driver/scene/build/memory_room.h"
+#include "cases/driver/scene/build/simulation_terrain.h"
+#include "cases/driver/scene/check/narrow_gaps.h"
+#include "cases/driver/scene/check/simulation_check.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/material/params.h"
+#include "core/sph/measure/measure.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The lattice that soil and walls share. */
+static void set_request(const mor_case *the_case, const mor_shape *shape, mor_lattice_request *request)
+{
+    mor_lattice_request_init(request);
+    request->shape = shape;
+    request->dimension = the_case->dimension;
+    request->spacing = the_case->spacing;
+    request->seed = the_case->seed;
+    memcpy(request->origin, the_case->lattice_origin, sizeof request->origin);
+    memcpy(request->domain.minimum, the_case->domain_minimum, sizeof request->domain.minimum);
+    memcpy(request->domain.maximum, the_case->domain_maximum, sizeof request->domain.maximum);
+    memcpy(request->turn, the_case->turn, sizeof request->turn);
+    memcpy(request->move, the_case->move, sizeof request->move);
+}
+
+/* More lattice nodes than this along an axis are a slip of the pen, and counting them would take minutes. */
+#define NODES_ALONG 1.0e5
+
+static mor_status refuse_size(mor_context *context, const mor_case_place *place, const char *name, double bytes_each,
+                              const char *why)
+{
+    return MOR_FAIL(
+        context, MOR_ERROR_CONFIG,
+        "%s:%d: found '%s' too large for the memory: %s; allowed is what fits into %.3g GiB that are free, at "
+        "%.0f bytes a particle; use a larger spacing or a smaller shape",
+        place->file, place->line, name, why, mor_memory_room() / 1073741824.0, bytes_each);
+}
+
+/* What a shape is filled for: its place in the case, and the memory that particles take. */
+typedef struct filling {
+    const mor_case_place *place;
+    const char *name;
+    double bytes_each; /* of a particle, 1 */
+    double reserved;   /* bytes that particles found before will take, 1 */
+} filling;
+
+/* Cells with their shares, or nodes where shares is NULL. */
+static mor_status fill_shape(mor_context *context, const filling *it, mor_lattice_request *request,
+                             mor_lattice_points *points, double **shares)
+{
+    char why[MOR_CONTEXT_MESSAGE_BYTES];
+    mor_bounds bounds;
+    double n_rows = 1.0;
+    mor_shape_bounds(request->shape, &bounds);
+    request->n_points_most = mor_memory_room_particles(it->bytes_each, it->reserved);
+    for (int a = 0; a < request->dimension; ++a) {
+        const double extent =
+            fmin(bounds.maximum[a], request->domain.maximum[a]) - fmax(bounds.minimum[a], request->domain.minimum[a]);
+        const bool is_endless = !isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a]);
+        MOR_CHECK(
+            context, !(extent > NODES_ALONG * request->spacing), MOR_ERROR_CONFIG,
+            "%s:%d: found '%s' %g m long along %c at a spacing of %g m; allowed are %g particles along an axis; use "
+            "a larger spacing%s",
+            it->place->file, it->place->line, it->name, extent, "xyz"[a], request -> spacing, NODES_ALONG,
+            is_endless ? " or a smaller 'domain', which ends the shape there" : "");
+        n_rows *= a > 0 ? fmax(1.0, extent / request->spacing) : 1.0;
+    }
+    if (n_rows > (double)request->n_points_most) { /* to count the particles would take minutes */
+        snprintf(why, sizeof why, "it has %.3g rows of particles at a spacing of %g m", n_rows, request->spacing);
+        return refuse_size(context, it->place, it->name, it->bytes_each, why);
+    }
+    const mor_status status = shares != NULL ? mor_lattice_fill_cells(context, request, points, shares)
+                                             : mor_lattice_fill(context, request, points);
+    if (status != MOR_ERROR_MEMORY) {
+        return status;
+    }
+    snprintf(why, sizeof why, "%.1500s", context->message);
+    return refuse_size(context, it->place, it->name, it->bytes_each, why);
+}
+
+/* A shape that cannot be filled is an error of the case, told with its place. */
+static mor_status tell_place(mor_context *context, mor_status status, const mor_case_place *place, const char *name)
+{
+    return status != MOR_ERROR_ARGUMENT ? status
+                                        : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", place->file,
+                                                   place->line, name, context->message);
+}
+
+mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
+                                    mor_lattice_points *points, double **shares)
+{
+    const mor_shape *earlier[MOR_CASE_WALLS_MAX];
+    for (int w = 0; w < wall; ++w) {
+        earlier[w] = the_case->walls[w].shape;
+    }
+    const mor_case_wall *it = &the_case->walls[wall];
+    mor_lattice_request request;
+    set_request(the_case, it->shape, &request);
+    const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_WALL, 0.0};
+    *shares = NULL;
+    const double margin = MOR_CASE_WALL_LAYERS * the_case->spacing;
+    request.depth = layers * the_case->spacing;
+    request.excluded = earlier;
+    request.n_excluded = wall;
+    /* Walls carry soil up to the very edge of the domain, so they reach beyond it by their own thickness. */
+    for (int a = 0; a < 3; ++a) {
+        request.domain.minimum[a] -= margin;
+        request.domain.maximum[a] += margin;
+    }
+    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_TERRAIN
+                                  ? mor_simulation_fill_terrain(context, the_case, wall, layers, points)
+                                  : fill_shape(context, &wanted, &request, points, shares);
+    MOR_TRY(context, tell_place(context, status, &it->place, it->name));
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
+              "inside the domain and outside earlier walls; make the wall thicker or move it",
+              it->place.file, it->place.line, it->name, the_case->spacing);
+    return MOR_OK;
+}
+
+/* Soil particles inside a wall or inside an earlier soil region are an error of the case. */
+static mor_status check_overlap(mor_context *context, const mor_case *the_case, int soil,
+                                const mor_lattice_points *points)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    for (int other = 0; other < the_case->n_walls + soil; ++other) {
+        const bool is_wall = other < the_case->n_walls;
+        const mor_shape *shape =
+            is_wall ? the_case->walls[other].shape : the_case->soils[other - the_case->n_walls].shape;
+        const char *name = is_wall ? the_case->walls[other].name : the_case->soils[other - the_case->n_walls].name;
+        int64_t n_inside = 0;
+        double first[3] = {0.0, 0.0, 0.0};
+        for (int64_t i = 0; i < points->n_points; ++i) {
+            double point[3];
+            mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
+            if (shape->operations->distance(shape, point) < 0.0 && n_inside++ == 0) {
+                memcpy(first, point, sizeof first);
+            }
+        }
+        MOR_CHECK(context, n_inside == 0, MOR_ERROR_CONFIG,
+                  "%s:%d: found soil '%s' overlapping %s '%s': %lld of its %lld particles lie inside, the first at "
+                  "(%g, %g, %g) m; allowed are none; move one of the shapes or cut it off with a difference",
+                  it->place.file, it->place.line, it->name, is_wall ? "wall" : "soil", name, (long long)n_inside,
+                  (long long)points->n_points, first[0], first[1], first[2]);
+    }
+    return MOR_OK;
+}
+
+/* A bounded region is filled whole; what lies outside the domain is an error, not cut off. */
+static bool release_domain(const mor_shape *shape, int dimension, mor_lattice_request *request)
+{
+    mor_bounds bounds;
+    shape->operations->bounds(shape, &bounds);
+    for (int a = 0; a < dimension; ++a) {
+        if (!isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a])) {
+            return false;
+        }
+    }
+    for (int a = 0; a < dimension; ++a) {
+        request->domain.minimum[a] = -INFINITY;
+        request->domain.maximum[a] = INFINITY;
+    }
+    return true;
+}
+
+static mor_status check_inside(mor_context *context, const mor_case *the_case, const mor_case_soil *it,
+                               const mor_lattice_points *points)
+{
+    int64_t n_outside = 0;
+    double first[3] = {0.0, 0.0, 0.0};
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        double point[3];
+        bool is_outside = false;
+        mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
+        for (int a = 0; a < the_case->dimension; ++a) {
+            is_outside = is_outside || point[a] < the_case->domain_minimum[a] || point[a] > the_case->domain_maximum[a];
+        }
+        if (is_outside && n_outside++ == 0) {
+            memcpy(first, point, sizeof first);
+        }
+    }
+    MOR_CHECK(context, n_outside == 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' reaching out of the domain: %lld of its %lld particles lie outside, the first at "
+              "(%g, %g, %g) m; allowed are none; enlarge 'domain' or make the region smaller",
+              it->place.file, it->place.line, it->name, (long long)n_outside, (long long)points->n_points, first[0],
+              first[1], first[2]);
+    return MOR_OK;
+}
+
+/* Soil fills what rocks leave free. */
+static void leave_out_bodies(mor_context *context, const mor_case *the_case, const char *name,
+                             mor_lattice_points *points)
+{
+    int64_t n_kept = points->n_points;
+    for (int b = 0; b < the_case->n_bodies; ++b) {
+        const mor_shape *shape = the_case->bodies[b].shape;
+        const int64_t n = n_kept;
+        double turn[9];
+        double move[3];
+        mor_bounds box;
+        mor_simulation_body_frame(the_case, &the_case->bodies[b], turn, move);
+        mor_simulation_body_box(the_case, &the_case->bodies[b], &box);
+        n_kept = 0;
+        for (int64_t i = 0; i < n; ++i) {
+            const double *point = points->positions + 3 * i;
+            if (!mor_simulation_body_may_hold(&box, point) ||
+                mor_simulation_placed_distance(shape, turn, move, point) >= 0.0) {
+                memmove(points->positions + 3 * n_kept++, point, 3 * sizeof *point);
+            }
+        }
+    }
+    if (n_kept < points->n_points) {
+        mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles left out where bodies are", name,
+                        (long long)(points->n_points - n_kept), (long long)points->n_points);
+        points->n_points = n_kept;
+    }
+}
+
+static mor_status fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
+                            mor_lattice_points *points)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_SOIL, MOR_MEMORY_ROOM_SOIL * (double)n_before};
+    mor_lattice_request request;
+    set_request(the_case, it->shape, &request);
+    request.jitter_ratio = the_case->jitter_ratio;
+    const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
+    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
+                                  ? mor_simulation_fill_release(context, the_case, soil, points)
+                                  : fill_shape(context, &wanted, &request, points, NULL);
+    MOR_TRY(context, tell_place(context, status, &it->place, it->name));
+    leave_out_bodies(context, the_case, it->name, points);
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
+              "lattice point inside the domain; make the region larger, the spacing smaller, or move the domain",
+              it->place.file, it->place.line, it->name, the_case->spacing);
+    MOR_CHECK(context, it->initial_stress != MOR_CASE_STRESS_SETTLED || mor_vector_length(it->velocity) == 0.0,
+              MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' with a settled initial stress and a velocity of (%g, %g, %g) m/s; allowed is one "
+              "of them, because settling brings the soil to rest; remove 'velocity' or choose type = \"k0\"",
+              it->place.file, it->place.line, it->name, it->velocity[0], it->velocity[1], it->velocity[2]);
+    if (is_whole) {
+        MOR_TRY(context, check_inside(context, the_case, it, points));
+    }
+    return check_overlap(context, the_case, soil, points);
+}
+
+/* All regions form one set, so they must be of one material. */
+static mor_status check_materials(mor_context *context, const mor_case *the_case, const mor_material *material)
+{
+    const mor_case_soil *first = &the_case->soils[0];
+    const int n = mor_params_count(material->parameters);
+    for (int k = 1; k < the_case->n_soils; ++k) {
+        const mor_case_soil *it = &the_case->soils[k];
+        const bool is_same = strcmp(it->model, first->model) == 0 && it->density == first->density &&
+                             memcmp(it->parameters, first->parameters, (size_t)n * sizeof(double)) == 0;
+        MOR_CHECK(context, is_same, MOR_ERROR_CONFIG,
+                  "%s:%d: found a material of soil '%s' that differs from that of soil '%s'; allowed is one material "
+                  "for all soil regions of a case; give both the same 'material'",
+                  it->place.file, it->place.line, it->name, first->name);
+    }
+    return MOR_OK;
+}
+
+static void set_settings(const mor_simulation *simulation, const mor_material *material, mor_soil_settings *s)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_case_numerics *n = &c->numerics;
+    *s = (mor_soil_settings){
+        .dimension = c->dimension,
+        .spacing = c->spacing,
+        .smoothing_ratio = n->smoothing_ratio,
+        .has_lattice_normalization = n->lattice_normalization,
+        .courant = n->courant,
+        .dissipation = (mor_dissipation)n->dissipation,
+        .wall_dissipation = (mor_dissipation)n->wall_dissipation,
+        .dissipation_factor = n->dissipation_factor,
+        .has_density_pressure_term = n->density_pressure_term,
+        .has_reconstruction = n->reconstruction == 1,
+        .stress_diffusion = n->stress_diffusion,
+        .has_limited_diffusion = n->stress_diffusion_limiter == 1,
+        .lateral_ratio = mor_simulation_lateral_ratio(material, &c->soils[0]),
+        .has_artificial_stress = n->artificial_stress,
+        .artificial_stress_exponent = n->artificial_stress_exponent,
+        .artificial_stress_factor = n->artificial_stress_factor,
+        .has_gradient_correction = n->gradient_correction,
+        .xsph = n->xsph,
+        .has_shifting = n->shifting,
+        .density_interval = n->density_reinitialization,
+        .skin_ratio = n->skin_ratio,
+        .sort_interval = n->sort_interval,
+        .damping = n->damping,
+        .gravity_ramp = n->gravity_ramp,
+        .has_angular_momentum = n->angular_momentum,
+        .reference_density = c->soils[0].density,
+    };
+    const mor_simulation_frame *frame = &simulation->frame;
+    memcpy(s->gravity, frame->gravity, sizeof s->gravity);
+    memcpy(s->domain_minimum, frame->domain_minimum, sizeof s->domain_minimum);
+    memcpy(s->domain_maximum, frame->domain_maximum, sizeof s->domain_maximum);
+    s->placement = frame->is_placed ? &frame->placement : NULL;
+    s->removes_outflow = c->outflow == 1;
+}
+
+/* Gravity and the domain, which is turned with the scene. */
+static void find_frame(const mor_case *c, mor_simulation_frame *frame)
+{
+    mor_matrix_apply(c->turn, c->gravity, frame->gravity);
+    memcpy(frame->domain_minimum, c->domain_minimum, sizeof frame->domain_minimum);
+    memcpy(frame->domain_maximum, c->domain_maximum, sizeof frame->domain_maximum);
+    memcpy(frame->placement.turn, c->turn, sizeof frame->placement.turn);
+    memcpy(frame->placement.move, c->move, sizeof frame->placement.move);
+    frame->is_placed = c->placement_angle != 0.0 || mor_vector_length(c->move) > 0.0;
+}
+
+/* Copies the regions' points into the set and gives them mass, density, velocity and stress. */
+static mor_status set_particles(mor_context *context, mor_simulation *simulation, const mor_lattice_points *regions)
+{
+    const mor_case *c = simulation->the_case;
+    double *const *data = simulation->soil.set.data;
+    const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
+    int64_t first = 0;
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        const int64_t n = regions[k].n_points;
+        simulation->region_particles[k] = n;
+        double velocity[3];
+        mor_matrix_apply(c->turn, it->velocity, velocity);
+        memcpy(data[MOR_FIELD_POSITION] + 3 * first, regions[k].positions, (size_t)(3 * n) * sizeof(double));
+        for (int64_t i = first; i < first + n; ++i) {
+            memcpy(data[MOR_FIELD_VELOCITY] + 3 * i, velocity, sizeof velocity);
+            data[MOR_FIELD_DENSITY][i] = it->density;
+            data[MOR_FIELD_MASS][i] = it->density * volume;
+        }
+        simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
+        first += n;
+    }
+    return mor_simulation_set_stress(context, simulation, regions);
+}
+
+static mor_status add_walls(mor_context *context, mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
+    for (int w = 0; w < c->n_walls; ++w) {
+        mor_lattice_points points = {NULL, 0};
+        double *shares = NULL;
+        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, MOR_CASE_WALL_LAYERS, &points, &shares));
+        mor_wall_request request = {.name = c->walls[w].name,
+                                    .points = points.positions,
+                                    .n_points = points.n_points,
+                                    .point_volume = volume,
+                                    .shares = shares,
+                                    .dimension = c->dimension,
+                                    .stress = (mor_wall_stress)c->numerics.wall_stress,
+                                    .friction = (mor_wall_friction)c->walls[w].friction,
+                                    .friction_coefficient = c->walls[w].friction_coefficient};
+        mor_matrix_apply(c->turn, c->walls[w].velocity, request.velocity);
+        const mor_status status = mor_soil_add_wall(context, &simulation->soil, &request);
+        mor_lattice_clear(context, &points);
+        MOR_FREE(context, &shares);
+        MOR_TRY(context, status);
+    }
+    return MOR_OK;
+}
+
+static mor_status build_soil(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_material *material = NULL;
+    mor_lattice_points regions[MOR_CASE_SOILS_MAX] = {{NULL, 0}};
+    mor_soil_settings settings;
+    int64_t n_particles = 0;
+    MOR_TRY(context, mor_registry_require(context, registry, c->soils[0].model, &material));
+    MOR_TRY(context, check_materials(context, c, material));
+    mor_status status =
+        mor_material_create(context, material, c->soils[0].density, c->soils[0].parameters, &simulation->material);
+    if (status != MOR_OK) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: %s", c->soils[0].place.file, c->soils[0].place.line,
+                        context->message);
+    }
+    for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
+        status = fill_soil(context, c, k, n_particles, &regions[k]);
+        n_particles += regions[k].n_points;
+    }
+    if (status == MOR_OK) {
+        set_settings(simulation, material, &settings);
+        status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
+    }
+    if (status == MOR_OK) {
+        status = set_particles(context, simulation, regions);
+    }
+    for (int k = 0; k < c->n_soils; ++k) {
+        mor_lattice_clear(context, &regions[k]);
+    }
+    MOR_TRY(context, status);
+    MOR_TRY(context, add_walls(context, simulation));
+    MOR_TRY(context, mor_soil_init_state(context, &simulation->soil));
+    mor_soil_sort(&simulation->soil);
+    return MOR_OK;
+}
+
+static mor_status build_schedule(mor_context *context, mor_simulation *simulation)
+{
+    mor_stepper stepper;
+    uint64_t evolving = 0;
+    MOR_TRY(context, mor_schedule_init(context, &simulation->schedule, simulation->the_case->end));
+    simulation->schedule.is_single_rate = simulation->the_case->numerics.single_rate;
+    if (simulation->has_soil) {
+        mor_soil_stepper(&simulation->soil, &stepper, &evolving);
+        MOR_TRY(context, mor_schedule_add(context, &simulation->schedule, &stepper, evolving));
+    }
+    for (int k = 0; k < simulation->the_case->n_probes && simulation->has_soil; ++k) {
+        const mor_case_probe_type *type = mor_case_probe_type_find(simulation->the_case->probes[k].type);
+        if (type != NULL && (type->traits & MOR_CASE_PROBE_OF_AUDIT) != 0) {
+            MOR_TRY(context, mor_soil_watch_energy(context, &simulation->soil));
+        }
+    }
+    return mor_simulation_bodies_join(context, &simulation->bodies, simulation->the_case,
+                                      simulation->has_soil ? &simulation->soil : NULL, &simulation->schedule);
+}
+
+mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation, const mor_case *the_case,
+                               const mor_registry *registry)
+{
+    memset(simulation, 0, sizeof *simulation);
+    simulation->the_case = the_case;
+    simulation->has_soil = the_case->n_soils > 0;
+    mor_simulation_find_up(the_case, simulation->up);
+    find_frame(the_case, &simulation->frame);
+    mor_status status = simulation->has_soil ? build_soil(context, simulation, registry) : MOR_OK;
+    if (status == MOR_OK) {
+        status = mor_simulation_bodies_init(context, &simulation->bodies, the_case, registry, &simulation->frame,
+                                            simulation->has_soil ? 1 : 0);
+    }
+    if (status == MOR_OK) {
+        status = mor_narrow_gaps_check(context, simulation);
+    }
+    if (status == MOR_OK) {
+        status = build_schedule(context, simulation);
+    }
+    if (status == MOR_OK) {
+        status = mor_simulation_check(context, simulation);
+    }
+    if (status == MOR_OK) {
+        status = mor_probe_track_new(context, simulation);
+    }
+    if (status != MOR_OK) {
+        mor_simulation_clear(context, simulation);
+    }
+    return status;
+}
+
+void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
+{
+    mor_probe_track_free(context, &simulation->probes);
+    mor_simulation_bodies_clear(context, &simulation->bodies);
+    mor_soil_clear(context, &simulation->soil);
+    mor_material_destroy(context, &simulation->material);
+    memset(simulation, 0, sizeof *simulation);
+}

@@ -1,0 +1,210 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The stress soil starts with. */
+#include "cases/driver/scene/build/simulation_build.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+
+/* The surface of the soil over a grid of vertical columns one spacing wide. */
+typedef struct surface {
+    double across[2][3]; /* unit vectors across up */
+    double low[2];       /* smallest coordinate along them, m */
+    int64_t n[2];        /* columns along them */
+    double spacing;      /* m */
+    double *top;         /* shape [n[0], n[1]]; height of the highest particle over the origin of space, m */
+} surface;
+
+static void set_axes(const double *up, surface *s)
+{
+    /* Any axis that is not along up will do; the grid only has to be the same for all particles. */
+    const int least =
+        fabs(up[0]) <= fabs(up[1]) ? (fabs(up[0]) <= fabs(up[2]) ? 0 : 2) : (fabs(up[1]) <= fabs(up[2]) ? 1 : 2);
+    double *e = s->across[0];
+    for (int a = 0; a < 3; ++a) {
+        e[a] = (a == least ? 1.0 : 0.0) - up[least] * up[a];
+    }
+    const double length = mor_vector_length(e);
+    for (int a = 0; a < 3; ++a) {
+        e[a] /= length;
+    }
+    mor_vector_cross(up, e, s->across[1]);
+}
+
+static int64_t column_of(const surface *s, const double *position)
+{
+    int64_t place[2];
+    for (int k = 0; k < 2; ++k) {
+        /* The middle of a column lies on the lattice, so rounding decides nothing there. */
+        place[k] = (int64_t)floor((mor_vector_dot(position, s->across[k]) - s->low[k]) / s->spacing + 0.5);
+    }
+    return place[0] * s->n[1] + place[1];
+}
+
+static mor_status find_surface(mor_context *context, const mor_simulation *simulation, surface *s)
+{
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    const int64_t n = simulation->soil.set.n_particles;
+    double high[2] = {-INFINITY, -INFINITY};
+    s->spacing = simulation->the_case->spacing;
+    s->low[0] = s->low[1] = INFINITY;
+    set_axes(simulation->up, s);
+    for (int64_t i = 0; i < n; ++i) {
+        for (int k = 0; k < 2; ++k) {
+            const double along = mor_vector_dot(position + 3 * i, s->across[k]);
+            s->low[k] = fmin(s->low[k], along);
+            high[k] = fmax(high[k], along);
+        }
+    }
+    for (int k = 0; k < 2; ++k) {
+        s->n[k] = (int64_t)floor((high[k] - s->low[k]) / s->spacing + 0.5) + 1;
+    }
+    MOR_TRY(context, MOR_NEW(context, &s->top, s->n[0] * s->n[1], "surface of the soil"));
+    for (int64_t k = 0; k < s->n[0] * s->n[1]; ++k) {
+        s->top[k] = -INFINITY;
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        double *top = &s->top[column_of(s, position + 3 * i)];
+        *top = fmax(*top, mor_vector_dot(position + 3 * i, simulation->up));
+    }
+    return MOR_OK;
+}
+
+/* Soil above the level that is to be its surface would start free of stress, and soil far below it would be pressed by
+ * a weight that is not there. */
+static mor_status check_level(mor_context *context, const mor_simulation *simulation, const mor_case_soil *it,
+                              int64_t first, int64_t n)
+{
+    const double spacing = simulation->the_case->spacing;
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    double origin[3];
+    double highest = -INFINITY; /* center of a particle above the origin of the case, along up */
+    int64_t n_above = 0;
+    if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(it->surface_level)) {
+        return MOR_OK;
+    }
+    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    for (int64_t i = first; i < first + n; ++i) {
+        const double height = mor_vector_dot(position + 3 * i, simulation->up) - mor_vector_dot(origin, simulation->up);
+        highest = fmax(highest, height);
+        n_above += height > it->surface_level;
+    }
+    MOR_CHECK(
+        context, n_above == 0, MOR_ERROR_CONFIG,
+        "%s:%d: found surface_level = %g m of soil '%s', whose highest point is at %g m: %lld of its %lld particles "
+        "lie above the level and would start without stress; allowed: at or above the highest point of the soil; "
+        "raise the level, or leave it out for the surface of the soil as it is",
+        it->place.file, it->place.line, it->surface_level, it->name, highest + 0.5 * spacing, (long long)n_above,
+        (long long)n);
+    if (it->surface_level > highest + 1.5 * spacing) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s:%d: surface_level = %g m of soil '%s' is %g m above its highest point, so that even there it "
+            "starts with a vertical stress of %.3g Pa, which nothing in the case holds",
+            it->place.file, it->place.line, it->surface_level, it->name, it->surface_level - highest - 0.5 * spacing,
+            it->density * mor_vector_length(simulation->soil.settings.gravity) * (it->surface_level - highest));
+    }
+    return MOR_OK;
+}
+
+/* Particles of other regions in the columns of this one that begin within a spacing above its level; covered: shape
+ * [columns]. Writes the highest center of such a column. */
+static int64_t find_cover(const mor_simulation *simulation, const surface *s, double level, int64_t first, int64_t n,
+                          const bool *covered, double *highest)
+{
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    int64_t n_cover = 0;
+    *highest = -INFINITY;
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        const int64_t column = column_of(s, position + 3 * i);
+        const double above = mor_vector_dot(position + 3 * i, simulation->up) - level;
+        if ((i < first || i >= first + n) && covered[column] && above > 0.0 && above <= s->spacing) {
+            n_cover += 1;
+            *highest = fmax(*highest, s->top[column]);
+        }
+    }
+    return n_cover;
+}
+
+/* Soil of another region that lies on the level is no part of the weight that the level stands for. */
+static mor_status warn_of_cover(mor_context *context, const mor_simulation *simulation, const surface *s,
+                                const mor_case_soil *it, int64_t first, int64_t n)
+{
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    double origin[3];
+    double highest = 0.0;
+    bool *covered = NULL;
+    if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(it->surface_level)) {
+        return MOR_OK;
+    }
+    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    const double level = it->surface_level + mor_vector_dot(origin, simulation->up);
+    MOR_TRY(context, MOR_NEW(context, &covered, s->n[0] * s->n[1], "columns of a region of soil"));
+    for (int64_t i = first; i < first + n; ++i) {
+        covered[column_of(s, position + 3 * i)] = true;
+    }
+    const int64_t n_cover = find_cover(simulation, s, level, first, n, covered, &highest);
+    MOR_FREE(context, &covered);
+    if (n_cover > 0) {
+        const double missing = highest + 0.5 * s->spacing - level;
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s:%d: surface_level = %g m of soil '%s' has other soil on it, up to %.4g m above: that weight, "
+            "up to %.3g Pa, is missing in its initial stress, and the soil below gives way as the run "
+            "begins; leave surface_level out for the weight of all soil straight above, or raise it",
+            it->place.file, it->place.line, it->surface_level, it->name, missing,
+            it->density * mor_vector_length(simulation->soil.settings.gravity) * missing);
+    }
+    return MOR_OK;
+}
+
+/* Geostatic stress of one region. */
+static void set_region(mor_simulation *simulation, const surface *s, const mor_case_soil *it, int64_t first, int64_t n)
+{
+    mor_soil *soil = &simulation->soil;
+    const double *up = simulation->up;
+    const double *position = soil->set.data[MOR_FIELD_POSITION];
+    const double weight = it->density * mor_vector_length(soil->settings.gravity);
+    const double lateral = mor_simulation_lateral_ratio(simulation->material->material, it);
+    double origin[3];
+    mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
+    const double level = it->surface_level + mor_vector_dot(origin, up); /* NaN when not given */
+    for (int64_t i = first; i < first + n; ++i) {
+        const double *x = position + 3 * i;
+        const double top = isnan(level) ? s->top[column_of(s, x)] + 0.5 * s->spacing : level;
+        simulation->surface_height = fmax(simulation->surface_height, top);
+        /* Both halves of a spacing: above the highest center and below the lowest. */
+        simulation->soil_depth =
+            fmax(simulation->soil_depth, s->top[column_of(s, x)] - mor_vector_dot(x, up) + s->spacing);
+        if (it->initial_stress == MOR_CASE_STRESS_NONE) {
+            continue;
+        }
+        const double vertical = -weight * fmax(top - mor_vector_dot(x, up), 0.0);
+        double *stress = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
+        for (int a = 0; a < 3; ++a) {
+            stress[a] = vertical * (lateral + (1.0 - lateral) * up[a] * up[a]);
+            stress[3 + a] = vertical * (1.0 - lateral) * up[a] * up[(a + 1) % 3];
+        }
+    }
+}
+
+mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
+                                     const mor_lattice_points *regions)
+{
+    surface s = {.top = NULL};
+    MOR_TRY(context, find_surface(context, simulation, &s));
+    int64_t first = 0;
+    simulation->surface_height = -INFINITY;
+    mor_status status = MOR_OK;
+    for (int k = 0; k < simulation->the_case->n_soils && status == MOR_OK; ++k) {
+        const mor_case_soil *it = &simulation->the_case->soils[k];
+        status = check_level(context, simulation, it, first, regions[k].n_points);
+        if (status == MOR_OK) {
+            status = warn_of_cover(context, simulation, &s, it, first, regions[k].n_points);
+        }
+        set_region(simulation, &s, it, first, regions[k].n_points);
+        first += regions[k].n_points;
+    }
+    MOR_FREE(context, &s.top);
+    return status;
+}

@@ -1,0 +1,26 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_SCENE_CHECK_SIMULATION_CHECK_H
+#define MOR_CASES_DRIVER_SCENE_CHECK_SIMULATION_CHECK_H
+
+#include "cases/driver/scene/simulation.h"
+
+/** @file
+ *  Whether a scene that could be built can be computed: what only the particles, the speed of sound and the first time
+ *  step can tell. */
+
+/** Refuses a scene whose settings make it void or endless: damping under which nothing moves, more steps than can be
+ *  taken, speeds beyond that of sound, walls outside the domain.
+ *  @param context    [in,out]  one object; warns of runs that take days
+ *  @param simulation [in,out]  one object, built; first_step is set
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; what a stepper returns. */
+mor_status mor_simulation_check(mor_context *context, mor_simulation *simulation);
+
+/** Prints a duration in the unit that suits it.
+ *  @param seconds [in]   unit s
+ *  @param text    [out]  shape [n_bytes]; zero-terminated
+ *  @param n_bytes [in]   room
+ *  Returns: text. */
+const char *mor_simulation_duration(double seconds, char *text, size_t n_bytes);
+
+#endif

@@ -1,0 +1,330 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/scene/check/simulation_resolution.h"
+
+#include "core/base/math.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
+#include "relaxation/terrain/terrain.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Mass that may be missing, and a side of a region that is filled well enough, relative. */
+static const double mass_allowed = 0.01;
+static const double side_allowed = 0.002;
+
+enum { ADVICE_BYTES = 512, SPACINGS_TRIED = 64 };
+
+/* ---- Volume of a region ------------------------------------------------------------------------------------------ */
+
+/* A region as it is filled, and where one asks for it, only what a body takes of it. In the frame of the case. */
+typedef struct region {
+    mor_shape base;
+    const mor_shape *shape;
+    mor_bounds bounds;
+    bool is_clipped; /* by the domain */
+    int dimension;
+    const mor_case *the_case;
+    const mor_body *body; /* NULL: the whole region */
+} region;
+
+static double region_distance(const mor_shape *shape, const double *point)
+{
+    const region *it = (const region *)shape;
+    double distance = mor_shape_distance(it->shape, point);
+    for (int a = 0; a < it->dimension && it->is_clipped; ++a) {
+        distance = fmax(distance, fmax(it->bounds.minimum[a] - point[a], point[a] - it->bounds.maximum[a]));
+    }
+    if (it->body != NULL) {
+        double placed[3];
+        mor_simulation_place_point(it->the_case, point, placed);
+        distance = fmax(distance, mor_simulation_placed_distance(it->body->shape, it->body->shape_turn,
+                                                                 it->body->shape_move, placed));
+    }
+    return distance;
+}
+
+static void region_bounds(const mor_shape *shape, mor_bounds *bounds)
+{
+    *bounds = ((const region *)shape)->bounds;
+}
+
+static const mor_shape_operations region_operations = {
+    .kind = "region", .distance = region_distance, .bounds = region_bounds};
+
+/* A region that has no end ends at the domain; others are filled whole. */
+static void make_region(const mor_case *c, int soil, region *it)
+{
+    *it =
+        (region){.base = {&region_operations}, .shape = c->soils[soil].shape, .dimension = c->dimension, .the_case = c};
+    mor_shape_bounds(it->shape, &it->bounds);
+    for (int a = 0; a < c->dimension; ++a) {
+        it->is_clipped = it->is_clipped || !isfinite(it->bounds.minimum[a]) || !isfinite(it->bounds.maximum[a]);
+    }
+    for (int a = 0; a < c->dimension && it->is_clipped; ++a) {
+        it->bounds.minimum[a] = fmax(it->bounds.minimum[a], c->domain_minimum[a]);
+        it->bounds.maximum[a] = fmin(it->bounds.maximum[a], c->domain_maximum[a]);
+    }
+}
+
+/* The number of the surface nodes of a body that lie in a region. */
+static int64_t count_inside(const mor_body_group *group, const mor_body *body, const region *it)
+{
+    int64_t n = 0;
+    for (int64_t k = body->first_node; k < body->first_node + body->n_nodes; ++k) {
+        double point[3];
+        mor_simulation_take_point_back(it->the_case, group->node_reference + 3 * k, point);
+        n += region_distance(&it->base, point) < 0.0;
+    }
+    return n;
+}
+
+/* What a body takes of a region. Wholly inside it is its own volume, which is known; across the surface it is found as
+ * the region's is. */
+static mor_status find_taken(mor_context *context, const mor_body_group *group, const mor_body *body, const region *it,
+                             double *volume)
+{
+    const int64_t n = count_inside(group, body, it);
+    mor_shape_moments moments;
+    *volume = n == body->n_nodes ? body->geometry.volume : 0.0;
+    if (n == 0 || n == body->n_nodes) {
+        return MOR_OK;
+    }
+    region part = *it;
+    part.body = body;
+    const mor_status status = mor_shape_find_moments(context, &part.base, it->dimension, &moments);
+    if (status == MOR_ERROR_ARGUMENT) { /* nodes touch the region, nothing else does */
+        mor_context_clear_error(context);
+        return MOR_OK;
+    }
+    MOR_TRY(context, status);
+    *volume = moments.volume;
+    return MOR_OK;
+}
+
+static mor_status find_whole(mor_context *context, const region *it, double *volume)
+{
+    mor_shape_moments moments;
+    if (mor_terrain_release_volume(it->shape, volume)) { /* its faces are as rough as the ground */
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_shape_find_moments(context, it->is_clipped ? &it->base : it->shape, it->dimension, &moments));
+    *volume = moments.volume;
+    return MOR_OK;
+}
+
+mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation *simulation, int soil, double *volume)
+{
+    region whole;
+    make_region(simulation->the_case, soil, &whole);
+    MOR_TRY(context, find_whole(context, &whole, volume));
+    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
+        const mor_body_group *group = simulation->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            double taken = 0.0;
+            MOR_TRY(context, find_taken(context, group, &group->bodies[b], &whole, &taken));
+            *volume -= taken;
+        }
+    }
+    return MOR_OK;
+}
+
+/* ---- Mass of soil ------------------------------------------------------------------------------------------------ */
+
+/* Layers of particles along an axis of a region, as the lattice fills its bounds. */
+static double count_layers(const mor_case *c, const mor_bounds *bounds, int axis, double spacing)
+{
+    const double tolerance = 1.0e-9;
+    const double first = (bounds->minimum[axis] - c->lattice_origin[axis]) / spacing;
+    const double last = (bounds->maximum[axis] - c->lattice_origin[axis]) / spacing;
+    return fmax(0.0, ceil(last - 0.5 - tolerance) - floor(first + 0.5 + tolerance));
+}
+
+static double side_error(const mor_case *c, const mor_bounds *bounds, int axis, double spacing)
+{
+    const double side = bounds->maximum[axis] - bounds->minimum[axis];
+    return count_layers(c, bounds, axis, spacing) * spacing / side - 1.0;
+}
+
+/* The axis along which the layers miss the side of the region most. */
+static int find_worst_axis(const mor_case *c, const mor_bounds *bounds, double spacing)
+{
+    int worst = 0;
+    for (int a = 1; a < c->dimension; ++a) {
+        if (fabs(side_error(c, bounds, a, spacing)) > fabs(side_error(c, bounds, worst, spacing))) {
+            worst = a;
+        }
+    }
+    return worst;
+}
+
+/* The next smaller spacing that fills every side; 0 when there is none nearby. */
+static double find_spacing(const mor_case *c, const mor_bounds *bounds, int axis)
+{
+    const double side = bounds->maximum[axis] - bounds->minimum[axis];
+    const double n_first = ceil(side / c->spacing * (1.0 - 1.0e-9));
+    for (int k = 0; k < SPACINGS_TRIED; ++k) {
+        const double spacing = side / (n_first + k);
+        if (fabs(side_error(c, bounds, find_worst_axis(c, bounds, spacing), spacing)) <= side_allowed) {
+            return spacing;
+        }
+    }
+    return 0.0;
+}
+
+static void advise_mass(const mor_case *c, const mor_bounds *bounds, double error, char *text, size_t n_bytes)
+{
+    const int axis = find_worst_axis(c, bounds, c->spacing);
+    const double side = bounds->maximum[axis] - bounds->minimum[axis];
+    const double n = count_layers(c, bounds, axis, c->spacing);
+    const double n_near = floor(side / c->spacing + 0.5);
+    const double spacing = find_spacing(c, bounds, axis);
+    const double of_side = n * c->spacing / side - 1.0;
+    if (fabs(of_side) <= side_allowed || of_side * error < 0.0 || fabs(of_side) < 0.5 * fabs(error)) {
+        /* The sides fit, or do not explain it, so slopes and curves do. */
+        snprintf(text, n_bytes, "its slanted or curved faces%s are coarse: a spacing of %.2g m or less fits",
+                 c->n_bodies > 0 ? ", or those of bodies in it," : "", c->spacing * mass_allowed / fabs(error));
+        return;
+    }
+    size_t used =
+        (size_t)snprintf(text, n_bytes, "along %c it is %.6g m, %.4g spacings, and has %.0f layers: ", "xyz"[axis],
+                         side, side / c->spacing, n);
+    if (fabs(n_near * c->spacing / side - 1.0) <= side_allowed) {
+        snprintf(text + used, n_bytes - used, "put its faces a whole number of spacings from lattice.origin");
+        return;
+    }
+    used += (size_t)snprintf(text + used, n_bytes - used, "%.6g m or %.6g m would fit",
+                             floor(side / c->spacing) * c->spacing, ceil(side / c->spacing) * c->spacing);
+    if (spacing > 0.0) {
+        snprintf(text + used, n_bytes - used, ", or a spacing of %.6g m", spacing);
+    } else {
+        snprintf(text + used, n_bytes - used, ", or faces a whole number of spacings from lattice.origin");
+    }
+}
+
+static mor_status warn_of_mass(mor_context *context, const mor_simulation *s, int soil)
+{
+    const mor_case *c = s->the_case;
+    const mor_case_soil *it = &c->soils[soil];
+    const double volume_each = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
+    const double filled = (double)s->region_particles[soil] * volume_each;
+    char advice[ADVICE_BYTES];
+    double volume = 0.0;
+    region whole;
+    MOR_TRY(context, mor_simulation_find_volume(context, s, soil, &volume));
+    const double error = filled / volume - 1.0;
+    if (!(fabs(error) > mass_allowed)) {
+        return MOR_OK;
+    }
+    make_region(c, soil, &whole);
+    advise_mass(c, &whole.bounds, error, advice, sizeof advice);
+    mor_context_log(context, MOR_LOG_WARNING,
+                    "%s:%d: soil '%s' has %.4g kg%s of particles where its shape holds %.4g kg%s, %+.2g %%; %s",
+                    it->place.file, it->place.line, it->name, filled * it->density, c->dimension == 2 ? "/m" : "",
+                    volume * it->density, c->dimension == 2 ? "/m" : "", 100.0 * error, advice);
+    return MOR_OK;
+}
+
+/* ---- Bodies that meet soil --------------------------------------------------------------------------------------- */
+
+/* Largest shortfall of the depth of balls dropped on sand, docs/validation/crater.md, by radius over spacing. */
+static const struct {
+    double n, error;
+} depth_errors[] = {{2.5, 0.52}, {4.0, 0.30}, {6.0, 0.15}};
+
+enum { N_DEPTH_ERRORS = sizeof depth_errors / sizeof *depth_errors };
+
+/* Linear reconstruction takes most of the dissipation away that holds a coarse ball: 2 % short at 4 spacings. */
+static const double least_reconstructed = 3.5;
+
+double mor_simulation_depth_error(double n)
+{
+    if (n >= depth_errors[N_DEPTH_ERRORS - 1].n) {
+        return 0.0;
+    }
+    int k = 1;
+    while (k + 1 < N_DEPTH_ERRORS && n > depth_errors[k].n) {
+        ++k;
+    }
+    const double share = (n - depth_errors[k - 1].n) / (depth_errors[k].n - depth_errors[k - 1].n);
+    return depth_errors[k - 1].error + fmax(share, 0.0) * (depth_errors[k].error - depth_errors[k - 1].error);
+}
+
+/* Half the shortest side of a body in its own frame, m. */
+static double find_radius(const mor_body *body, int dimension)
+{
+    mor_bounds bounds;
+    double least = INFINITY;
+    mor_shape_bounds(body->shape, &bounds);
+    for (int a = 0; a < dimension; ++a) {
+        least = fmin(least, 0.5 * (bounds.maximum[a] - bounds.minimum[a]));
+    }
+    return least;
+}
+
+/* Whether a body lies in soil and moves with it: it has no soil to push aside. */
+static bool is_carried(const mor_simulation *s, const mor_body_group *group, const mor_body *body)
+{
+    const mor_case *c = s->the_case;
+    for (int k = 0; k < c->n_soils; ++k) {
+        region whole;
+        double velocity[3];
+        make_region(c, k, &whole);
+        mor_matrix_apply(c->turn, c->soils[k].velocity, velocity);
+        if (memcmp(velocity, body->velocity, sizeof velocity) == 0 &&
+            count_inside(group, body, &whole) == body->n_nodes) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    const bool is_reconstructed = c->numerics.reconstruction == 1;
+    const double enough = is_reconstructed ? least_reconstructed : depth_errors[N_DEPTH_ERRORS - 1].n;
+    const mor_body *coarsest = NULL;
+    double least = enough;
+    int n_coarse = 0;
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        const mor_body_group *group = s->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            const mor_body *body = &group->bodies[b];
+            const double n = find_radius(body, c->dimension) / c->spacing * (1.0 + 1.0e-9);
+            if (n >= enough || body->is_held || is_carried(s, group, body)) {
+                continue;
+            }
+            n_coarse += 1;
+            coarsest = n < least ? body : coarsest;
+            least = fmin(least, n);
+        }
+    }
+    if (coarsest == NULL) {
+        return;
+    }
+    char which[MOR_CASE_NAME_BYTES + 64];
+    snprintf(which, sizeof which, "%d bodies are coarse: '%s' has", n_coarse, coarsest->name);
+    if (n_coarse == 1) {
+        snprintf(which, sizeof which, "body '%s' has", coarsest->name);
+    }
+    mor_context_log(
+        context, MOR_LOG_WARNING,
+        "%s %.3g spacings from the middle to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
+        "too little into sand (docs/validation/crater.md); use a spacing of at most %.3g m%s",
+        which, least, enough, 100.0 * mor_simulation_depth_error(least), least * c->spacing / enough,
+        is_reconstructed ? "" : ", or numerics.reconstruction = \"linear\" from 4 spacings on");
+}
+
+mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_simulation *simulation)
+{
+    if (!simulation->has_soil) {
+        return MOR_OK;
+    }
+    for (int k = 0; k < simulation->the_case->n_soils; ++k) {
+        MOR_TRY(context, warn_of_mass(context, simulation, k));
+    }
+    warn_of_coarse_bodies(context, simulation);
+    return MOR_OK;
+}

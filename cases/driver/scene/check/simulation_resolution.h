@@ -1,0 +1,35 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_SCENE_CHECK_SIMULATION_RESOLUTION_H
+#define MOR_CASES_DRIVER_SCENE_CHECK_SIMULATION_RESOLUTION_H
+
+#include "cases/driver/scene/simulation.h"
+
+/** @file
+ *  Whether the spacing does justice to what the case describes: the mass of soil against that of its shape, and the
+ *  particles across bodies that meet soil. */
+
+/** Finds the volume of a soil region inside the domain, without the bodies in it.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in]      one object, as it begins
+ *  @param soil       [in]      number of the region in the case
+ *  @param volume     [out]     one number, unit m3 (m2)
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a region without end; MOR_ERROR_MEMORY.
+ *  Accuracy: 1e-5 relative or better; 1e-3 of a layer on the ground.
+ *  Cost: milliseconds, and some more for each body across the surface of the region. */
+mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation *simulation, int soil, double *volume);
+
+/** By what share a ball sinks too little into dry sand at most, with so few particles from its middle to its side.
+ *  Source: docs/validation/crater.md, Spacing.
+ *  @param n [in]  radius / spacing, 1
+ *  Returns: 1; 0 from where on the depth is within its tolerance. */
+double mor_simulation_depth_error(double n);
+
+/** Logs a warning for each soil region whose particles weigh more than 1 % more or less than its shape, with what would
+ *  fit, and one for bodies that are too coarse for the soil they move through.
+ *  @param context    [in,out]  one object
+ *  @param simulation [in]      one object, as it begins
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_simulation *simulation);
+
+#endif

@@ -1,0 +1,287 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/scene/check/simulation_warnings.h"
+
+#include "cases/driver/scene/check/simulation_resolution.h"
+#include "cases/driver/scene/check/wall_thickness.h"
+#include "cases/driver/scene/wall_seams.h"
+#include "core/base/math.h"
+#include "core/geometry/shape_analytic.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The soil is hardly compressible in the method: compression by its own weight that is advisable, and at most. */
+static const double compression_advisable = 0.01;
+static const double compression_largest = 0.02;
+
+/* Rows and snapshots that a case has without asking; a short run has more of them than steps. */
+enum { ROWS_USUAL = 200, SNAPSHOTS_USUAL = 20 };
+
+static void warn_of_softness(mor_context *context, const mor_simulation *s)
+{
+    static const struct {
+        double size;
+        const char *name;
+    } units[] = {{1.0e9, "GPa"}, {1.0e6, "MPa"}, {1.0e3, "kPa"}, {1.0, "Pa"}};
+    const mor_case *c = s->the_case;
+    if (!s->has_soil) {
+        return;
+    }
+    const mor_case_soil *it = &c->soils[0];
+    const double stiffness =
+        mor_simulation_parameter(s->material->material, it->parameters, "youngs_modulus", INFINITY);
+    const double weight = it->density * mor_vector_length(c->gravity) * s->soil_depth;
+    if (!(weight > compression_largest * stiffness)) {
+        return;
+    }
+    int k = 0;
+    while (k < 3 && weight / compression_advisable < units[k].size) {
+        ++k;
+    }
+    mor_context_log(context, MOR_LOG_WARNING,
+                    "the soil is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% "
+                    "is advisable: raise youngs_modulus to %.3g %s or more",
+                    100.0 * weight / stiffness, weight / compression_advisable / units[k].size, units[k].name);
+}
+
+/* A lateral stress that the soil cannot bear is none of rest: it yields in the first step. The limits are Rankine's at
+ * the largest depth, where cohesion matters least. */
+static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    const double slack = 1.05; /* cones differ from Mohr and Coulomb by some per cent */
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        const mor_material *law = s->material->material;
+        const double angle = mor_simulation_parameter(law, it->parameters, "friction_angle", NAN);
+        const double cohesion = mor_simulation_parameter(law, it->parameters, "cohesion", 0.0);
+        const double vertical = it->density * mor_vector_length(c->gravity) * s->soil_depth;
+        if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(angle) || !(vertical > 0.0)) {
+            continue;
+        }
+        const double passive = (1.0 + sin(angle)) / (1.0 - sin(angle));
+        const double share = 2.0 * cohesion * sqrt(passive) / vertical;
+        const double least = (1.0 - share) / passive;
+        const double largest = passive + share;
+        const double ratio = mor_simulation_lateral_ratio(law, it);
+        if (ratio < least / slack || ratio > largest * slack) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s' begins with a lateral stress of %.3g of the vertical one, but at its foot its "
+                            "strength holds %.3g to %.3g: it yields at once, with a jerk; correct lateral_ratio",
+                            it->name, ratio, fmax(least, 0.0), largest);
+        }
+    }
+}
+
+/* Densities that nothing has which slides down a slope: a unit was forgotten. */
+static void warn_of_density(mor_context *context, const char *what, const char *name, double density, double least,
+                            double largest)
+{
+    if (density < least || density > largest) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s '%s' has a density of %.4g kg/m3, which no %s has: a bare number is in kg/m3; give the unit, "
+            "such as \"%s\"",
+            what, name, density, what, strcmp(what, "soil") == 0 ? "1.8 t/m3" : "2.6 t/m3");
+    }
+}
+
+static void warn_of_modulus(mor_context *context, const char *what, const char *name, double modulus)
+{
+    const double least = 1.0e5; /* Pa; below, bodies of any size lie deep in one another */
+    if (modulus > 0.0 && modulus < least) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s '%s' has a contact_modulus of %.4g Pa, softer than any rock or wall: a bare number is in Pa; "
+            "give the unit, such as \"50 GPa\"",
+            what, name, modulus);
+    }
+}
+
+static void warn_of_moduli(mor_context *context, const mor_case *c)
+{
+    for (int k = 0; k < c->n_listed_bodies; ++k) {
+        warn_of_modulus(context, "body", c->bodies[k].name, c->bodies[k].contact_modulus);
+    }
+    for (int k = 0; k < c->n_walls; ++k) {
+        warn_of_modulus(context, "wall", c->walls[k].name, c->walls[k].contact_modulus);
+    }
+}
+
+static void warn_of_densities(mor_context *context, const mor_case *c)
+{
+    for (int k = 0; k < c->n_soils; ++k) {
+        warn_of_density(context, "soil", c->soils[k].name, c->soils[k].density, 100.0, 1.0e4);
+    }
+    for (int k = 0; k < c->n_listed_bodies; ++k) {
+        warn_of_density(context, "body", c->bodies[k].name, c->bodies[k].density, 5.0, 1.0e5);
+    }
+}
+
+/* Smallest distance of a soil particle from the face of a wall, in spacings. */
+static double find_gap(const mor_simulation *s, int wall)
+{
+    const mor_case *c = s->the_case;
+    const mor_shape *shape = c->walls[wall].shape;
+    double nearest = INFINITY;
+    for (int64_t i = 0; i < s->soil.set.n_particles; ++i) {
+        const double *position = s->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
+        double local[3];
+        mor_simulation_take_point_back(c, position, local);
+        nearest = fmin(nearest, shape->operations->distance(shape, local));
+    }
+    return nearest / c->spacing;
+}
+
+/* Soil that rests on a wall begins half a spacing off its face; nearer it is thrown off, farther it falls first. Soil
+ * more than a spacing off, and a little for rounding, is not meant to touch. */
+static void warn_of_gaps(mor_context *context, const mor_simulation *s)
+{
+    const double allowed = 0.2;
+    const double touching = 1.01;
+    for (int w = 0; w < s->the_case->n_walls && s->has_soil; ++w) {
+        const double gap = find_gap(s, w);
+        if (gap <= touching && fabs(gap - 0.5) > allowed) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "the soil begins %.2f spacings off wall '%s', not 0.5, and will %s; put faces of walls "
+                            "and soil a whole number of spacings from lattice.origin",
+                            gap, s->the_case->walls[w].name, gap < 0.5 ? "be pushed away" : "fall against it");
+        }
+    }
+}
+
+/* Soil that is too thin for the method. */
+static void warn_of_thinness(mor_context *context, const mor_simulation *s)
+{
+    enum { THIN = 8 };
+    const mor_case *c = s->the_case;
+    const double *position = s->soil.set.data[MOR_FIELD_POSITION];
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 3 * s->soil.set.n_particles; ++k) {
+        low[k % 3] = fmin(low[k % 3], position[k]);
+        high[k % 3] = fmax(high[k % 3], position[k]);
+    }
+    for (int a = 0; a < c->dimension && s->has_soil; ++a) {
+        const double slack = 0.01; /* for rounding of positions */
+        const double n = floor((high[a] - low[a]) / c->spacing + 1.0 + slack);
+        if (n < THIN) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "the soil is only %.0f particles wide along %c; at least %d are advisable: choose a "
+                            "smaller spacing",
+                            n, "xyz"[a], THIN);
+        }
+    }
+}
+
+/* What is written more often than there are steps. */
+static void warn_of_outputs(mor_context *context, const mor_simulation *s)
+{
+    const mor_case_output *output = &s->the_case->output;
+    const double n_steps = ceil(s->the_case->end / s->first_step);
+    if (output->series_interval < s->first_step && s->the_case->end / output->series_interval > ROWS_USUAL) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "output.series_interval = %g s is shorter than a time step (%.3g s), so that each of about %.3g "
+            "steps makes one row",
+            output->series_interval, s->first_step, n_steps);
+    }
+    if (output->n_snapshots > n_steps && output->n_snapshots > SNAPSHOTS_USUAL) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "output.snapshots = %d is more than the run has steps (about %.3g of %.3g s): the snapshots make "
+            "the steps, which takes %.3g times as long",
+            output->n_snapshots, n_steps, s->first_step, output->n_snapshots / n_steps);
+    }
+}
+
+/* A sign that was forgotten: what is drawn with its ground below would fall upwards. */
+static void warn_of_gravity(mor_context *context, const mor_case *c)
+{
+    const int up = c->dimension - 1;
+    if (c->gravity[up] > 0.0) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "gravity points up, along +%c: everything falls away from what lies "
+                        "below; write a negative number if that is not meant",
+                        up == 1 ? 'y' : 'z');
+    }
+}
+
+/* Each step moves a particle by a length in proportion to its way, off crowded neighbors, at a free surface inwards as
+ * well: nothing there tells the empty side from a gap. */
+static void warn_of_shifting(mor_context *context, const mor_case *c)
+{
+    if (c->numerics.shifting && c->n_soils > 0) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s: numerics.shifting = true holds soil back that flows far: the shift grows with the "
+                        "distance traveled and is not corrected at free surfaces; columns that collapse ran out 15 to "
+                        "26 %% too short with it; remove it unless soil hardly moves",
+                        c->path);
+    }
+}
+
+/* Whether a body may be kept from falling: it moves as prescribed, or something outside holds it. */
+static bool is_carried(const mor_case_body *it)
+{
+    bool is_held = it->is_prescribed || it->has_spring || it->clamp != NULL;
+    for (int k = 0; k < 3; ++k) {
+        is_held = is_held || it->is_locked[k];
+    }
+    return is_held;
+}
+
+static void warn_of_free_fall(mor_context *context, const mor_case *c)
+{
+    bool is_held = c->n_walls > 0 || mor_vector_length(c->gravity) == 0.0;
+    for (int b = 0; b < c->n_bodies; ++b) {
+        is_held = is_held || is_carried(&c->bodies[b]);
+    }
+    if (!is_held) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "there is no wall, nor a body that is held or prescribed; everything falls freely");
+    }
+}
+
+mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    warn_of_gravity(context, c);
+    warn_of_shifting(context, c);
+    warn_of_thinness(context, simulation);
+    warn_of_gaps(context, simulation);
+    warn_of_softness(context, simulation);
+    if (simulation->has_soil) {
+        warn_of_lateral_stress(context, simulation);
+    }
+    warn_of_densities(context, c);
+    warn_of_moduli(context, c);
+    mor_wall_thickness_warn(context, c);
+    mor_wall_seams_warn(context, c);
+    MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
+    warn_of_outputs(context, simulation);
+    warn_of_free_fall(context, c);
+    if (c->n_probes == 0) {
+        mor_context_log(context, MOR_LOG_WARNING, "there is no probe; the run will report no result");
+    }
+    return MOR_OK;
+}
+
+static void print_line(void *user, mor_log_level level, const char *text)
+{
+    if (level == MOR_LOG_WARNING) {
+        fprintf(user, "warning: %s\n", text);
+    }
+}
+
+mor_status mor_simulation_print_warnings(mor_context *context, const mor_simulation *simulation, FILE *stream)
+{
+    const mor_log_sink sink = context->log_sink;
+    void *user = context->log_user;
+    context->log_sink = print_line;
+    context->log_user = stream;
+    const mor_status status = mor_simulation_warn(context, simulation);
+    context->log_sink = sink;
+    context->log_user = user;
+    return status;
+}

@@ -1,0 +1,158 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_SCENE_SIMULATION_BODIES_H
+#define MOR_CASES_DRIVER_SCENE_SIMULATION_BODIES_H
+
+#include "bodies/contact/contact.h"
+#include "bodies/elastic/elastic.h"
+#include "bodies/rigid/rigid.h"
+#include "cases/driver/case/case.h"
+#include "core/material/registry.h"
+#include "core/sph/soil.h"
+#include "core/time/schedule.h"
+
+/** @file
+ *  The rocks of a simulation: bodies of one elastic material form one group, all rigid bodies another. */
+
+/** Where a body of the case is kept. */
+typedef struct mor_simulation_body {
+    mor_body_group *group; /* borrowed */
+    int index;             /* in the group */
+    mor_elastic *elastic;  /* NULL for a rigid body; borrowed */
+    mor_rigid *rigid;      /* NULL for an elastic body; borrowed */
+} mor_simulation_body;
+
+/** All rocks, their contact, and what a checkpoint must know of them. Owner: the simulation. */
+typedef struct mor_simulation_bodies {
+    mor_material_instance *materials[MOR_BODY_GROUPS_MAX]; /* of the elastic groups */
+    mor_elastic elastics[MOR_BODY_GROUPS_MAX];
+    int n_elastics;
+    mor_rigid rigid;
+    mor_body_group *groups[MOR_BODY_GROUPS_MAX]; /* shape [n_groups]; all groups, elastic ones first; borrowed */
+    int n_groups;
+    mor_simulation_body of[MOR_CASE_BODIES_MAX]; /* by number of the body in the case */
+    mor_contact contact;
+    mor_shape *wholes[MOR_CASE_WALLS_MAX]; /* of walls that make one face with others; owned */
+    bool has_contact;
+    mor_contact_pair pairs[MOR_CASE_PAIRS_MAX];
+    mor_exchange exchange;
+    double *packed; /* shape [n_packed]; for checkpoints: of each group the rotation angle [rad] and the impulses
+                     * received and given [N s] of its bodies, the mean velocities of its particles over the last common
+                     * step and the largest of them [m/s] */
+    int64_t n_packed;
+} mor_simulation_bodies;
+
+/** What the bodies need to know of the case in the frame of the run. */
+typedef struct mor_simulation_frame {
+    double gravity[3];          /* m/s2 */
+    double domain_minimum[3];   /* m, in the frame of the case */
+    double domain_maximum[3];   /* likewise */
+    mor_domain_frame placement; /* the placement of the case */
+    bool is_placed;             /* whether that turns or moves anything */
+} mor_simulation_frame;
+
+/** Builds the bodies and their contact: fills the shapes with particles, checks that nothing overlaps and that all of
+ *  it lies in the domain, sets the motion at the start.
+ *  @param context  [in,out]  one object
+ *  @param bodies   [out]     one object; storage supplied by the caller; cleared by the caller also after a failure
+ *  @param the_case [in]      one object; borrowed
+ *  @param registry [in]      one object
+ *  @param frame    [in]      one object
+ *  @param first_bit [in]     number of the stepper that the first group becomes
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line; MOR_ERROR_MEMORY. */
+mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
+                                      const mor_registry *registry, const mor_simulation_frame *frame, int first_bit);
+
+/** Frees what the bodies own; accepts a zeroed one.
+ *  @param context [in,out]  one object
+ *  @param bodies  [in,out]  one object */
+void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bodies);
+
+/** Adds the bodies to the schedule and shows them to the soil.
+ *  @param context  [in,out]  one object
+ *  @param bodies   [in,out]  one object
+ *  @param the_case [in]      one object
+ *  @param soil     [in,out]  one object; NULL: there is no soil
+ *  @param schedule [in,out]  one object
+ *  Returns: MOR_OK; what the parts return. */
+mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
+                                      mor_soil *soil, mor_schedule *schedule);
+
+/** The frame of a body: X = turn * x + move.
+ *  @param the_case [in]   one object
+ *  @param body     [in]   one object
+ *  @param turn     [out]  shape [3,3], unit 1
+ *  @param move     [out]  shape [3], unit m */
+void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *turn, double *move);
+
+/** Writes a box around a body at its place in the run, a little wider.
+ *  @param the_case [in]   one object
+ *  @param body     [in]   one object
+ *  @param box      [out]  one object; unit m */
+void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body, mor_bounds *box);
+
+/** Whether a point lies in a box; if not, it lies not in its body either.
+ *  @param box   [in]  one object, from mor_simulation_body_box
+ *  @param point [in]  shape [3], unit m */
+bool mor_simulation_body_may_hold(const mor_bounds *box, const double *point);
+
+/** Signed distance of a point of the run to a shape given in a frame of its own, X = turn * x + move; unit m.
+ *  @param shape [in]  one object
+ *  @param turn  [in]  shape [3,3], rotation matrix, unit 1
+ *  @param move  [in]  shape [3], unit m
+ *  @param point [in]  shape [3], unit m */
+double mor_simulation_placed_distance(const mor_shape *shape, const double *turn, const double *move,
+                                      const double *point);
+
+/** Work to lift all bodies by a spacing of their own: less moves nothing that is resolved; unit J (J/m).
+ *  @param bodies [in]  one object */
+double mor_simulation_bodies_lift(const mor_simulation_bodies *bodies);
+
+/** Energy that contact and viscous damping took from all bodies since the start, unit J (J/m).
+ *  @param bodies [in]  one object */
+double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies);
+
+/** Energies of all bodies, unit J (J/m).
+ *  @param bodies    [in]   one object
+ *  @param datum     [in]   shape [3]; potential energy counts from here, unit m
+ *  @param kinetic   [out]  one number, unit J
+ *  @param potential [out]  one number; of weight and springs to fixed points, unit J
+ *  @param elastic   [out]  one number; strain energy and contact springs, unit J */
+void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const double *datum, double *kinetic,
+                                  double *potential, double *elastic);
+
+/** Linear momentum of all bodies, and angular momentum about a point.
+ *  @param bodies           [in]   one object
+ *  @param point            [in]   shape [3], unit m
+ *  @param momentum         [out]  shape [3], unit kg m/s (kg/s)
+ *  @param angular_momentum [out]  shape [3], unit kg m2/s (kg m/s) */
+void mor_simulation_bodies_momentum(const mor_simulation_bodies *bodies, const double *point, double *momentum,
+                                    double *angular_momentum);
+
+/** How far the lowest surface node of a body lies below a level, unit m; negative above it.
+ *  @param body  [in]  one object
+ *  @param up    [in]  shape [3], unit vector, unit 1
+ *  @param level [in]  along up over the origin of coordinates, unit m */
+double mor_simulation_body_depth(const mor_simulation_body *body, const double *up, double level);
+
+/** Numbers that `packed` holds.
+ *  @param bodies [in]  one object */
+int64_t mor_simulation_bodies_packed(const mor_simulation_bodies *bodies);
+
+/** Collects what a checkpoint saves of the bodies into `packed`, or puts it back and makes everything else follow.
+ *  @param context  [in,out]  one object
+ *  @param bodies   [in,out]  one object
+ *  @param is_saved [in]      true: before saving; false: after restoring
+ *  Returns: MOR_OK; what a material returns. */
+mor_status mor_simulation_bodies_pack(mor_context *context, mor_simulation_bodies *bodies, bool is_saved);
+
+/** Brings all bodies to rest and sets the damping of their motion, or gives them their motion at the start.
+ *  @param context  [in,out]  one object
+ *  @param bodies   [in,out]  one object
+ *  @param the_case [in]      one object
+ *  @param damping  [in]      unit 1/s; while the soil settles; 0: the start of the run
+ *  Returns: MOR_OK; what a material returns. */
+mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
+                                        double damping);
+
+#endif

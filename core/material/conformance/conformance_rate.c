@@ -1,0 +1,314 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/math.h"
+#include "core/material/conformance/conformance_bench.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { N = MOR_BENCH_PARTICLES };
+
+static double mean_of(const double *stress)
+{
+    return mor_symmetric_trace(stress) / 3.0;
+}
+
+static double root_j2_of(const double *stress)
+{
+    const double mean = mean_of(stress);
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        sum += 0.5 * (stress[a] - mean) * (stress[a] - mean) + stress[3 + a] * stress[3 + a];
+    }
+    return sqrt(sum);
+}
+
+/* A magnitude that may be divided by. */
+static double divisor(double magnitude)
+{
+    return magnitude > DBL_MIN ? magnitude : DBL_MIN;
+}
+
+static int is_step_made(mor_bench *bench, mor_bench_arrays *arrays, mor_conformance_row *row)
+{
+    const mor_status status = mor_bench_step(bench, arrays);
+    if (status != MOR_OK) {
+        mor_bench_fail(row, "advance_rate stopped: %s", mor_status_text(status));
+    }
+    return status == MOR_OK;
+}
+
+static void keep_at_step_zero(mor_bench *bench, mor_conformance_row *row)
+{
+    bench->work = bench->start;
+    const double time_step = bench->time_step;
+    bench->time_step = 0.0;
+    if (is_step_made(bench, &bench->work, row)) {
+        for (int i = 0; i < N; ++i) {
+            const double scale = divisor(mor_bench_largest(bench->start.stress + 6 * i, 6));
+            for (int a = 0; a < 6; ++a) {
+                const double change = bench->work.stress[6 * i + a] - bench->start.stress[6 * i + a];
+                mor_bench_take(row, fabs(change) / scale);
+            }
+        }
+        const double *before = bench->start.state;
+        for (int k = 0; k < MOR_BENCH_NUMBERS * N; ++k) {
+            const double change = fabs(bench->work.state[k] - before[k]);
+            mor_bench_take(row, change / divisor(fabs(before[k])) > row->tolerance && change > 0.0 ? 1.0 : 0.0);
+        }
+    }
+    bench->time_step = time_step;
+}
+
+static void keep_invariants_in_spin(mor_bench *bench, mor_conformance_row *row)
+{
+    enum { STEPS = 200 };
+    bench->work = bench->start;
+    memset(bench->work.extra, 0, sizeof bench->work.extra);
+    for (int i = 0; i < N; ++i) {
+        double spin[3];
+        for (int a = 0; a < 3; ++a) {
+            spin[a] = 0.05 / bench->time_step * mor_bench_random(bench, i, 500 + (uint64_t)a);
+        }
+        const double motion[9] = {0.0, -spin[2], spin[1], spin[2], 0.0, -spin[0], -spin[1], spin[0], 0.0};
+        memcpy(bench->work.motion + 9 * i, motion, sizeof motion);
+    }
+    for (int step = 0; step < STEPS; ++step) {
+        if (!is_step_made(bench, &bench->work, row)) {
+            return;
+        }
+    }
+    for (int i = 0; i < N; ++i) {
+        const double *before = bench->start.stress + 6 * i;
+        const double *after = bench->work.stress + 6 * i;
+        const double scale = divisor(mor_bench_largest(before, 6));
+        mor_bench_take(row, fabs(mean_of(after) - mean_of(before)) / scale);
+        mor_bench_take(row, fabs(root_j2_of(after) - root_j2_of(before)) / scale);
+    }
+}
+
+/* seen = Q own Q^T + (dQ/dt) Q^T, for a turn at rate omega about axis. */
+static void turn_gradient(const double *q, const double *axis, double omega, const double *own, double *seen)
+{
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            double sum = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                sum += q[3 * a + c] * mor_vector_dot(own + 3 * c, q + 3 * b);
+            }
+            seen[3 * a + b] = sum;
+        }
+    }
+    seen[1] -= omega * axis[2];
+    seen[2] += omega * axis[1];
+    seen[3] += omega * axis[2];
+    seen[5] -= omega * axis[0];
+    seen[6] -= omega * axis[1];
+    seen[7] += omega * axis[0];
+}
+
+/* Component (a, b) of Q^T stress Q. */
+static double turn_back(const double *q, const double *stress, int a, int b)
+{
+    const double column_a[3] = {q[a], q[3 + a], q[6 + a]};
+    const double column_b[3] = {q[b], q[3 + b], q[6 + b]};
+    double product[3];
+    mor_symmetric_apply(stress, column_b, product);
+    return mor_vector_dot(column_a, product);
+}
+
+static void turn_with_the_frame(mor_bench *bench, mor_conformance_row *row)
+{
+    enum { STEPS = 1000 };
+    static const double ANGLE = 0.4;
+    static const double AXIS[3] = {2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0};
+    mor_bench_arrays *still = &bench->work;
+    mor_bench_arrays *turning = &bench->other;
+    *still = bench->start;
+    memset(still->extra, 0, sizeof still->extra);
+    for (int k = 0; k < 9 * N; ++k) {
+        still->motion[k] *= 0.1;
+    }
+    *turning = *still;
+    const double omega = ANGLE / (STEPS * bench->time_step);
+    double q[9];
+    for (int step = 0; step < STEPS; ++step) {
+        mor_matrix_rotation(AXIS, ANGLE * (step + 0.5) / STEPS, q);
+        for (int i = 0; i < N; ++i) {
+            turn_gradient(q, AXIS, omega, still->motion + 9 * i, turning->motion + 9 * i);
+        }
+        if (!is_step_made(bench, still, row) || !is_step_made(bench, turning, row)) {
+            return;
+        }
+    }
+    mor_matrix_rotation(AXIS, ANGLE, q);
+    for (int i = 0; i < N; ++i) {
+        const double *here = still->stress + 6 * i;
+        /* Beside the elastic stress of the path: a cohesionless particle may end with no stress at all. */
+        const double scale = divisor(mor_bench_largest(here, 6) + 1e-3 * bench->modulus);
+        for (int m = 0; m < 6; ++m) {
+            static const int ROW[6] = {0, 1, 2, 0, 1, 2};
+            static const int COLUMN[6] = {0, 1, 2, 1, 2, 0};
+            const double back = turn_back(q, turning->stress + 6 * i, ROW[m], COLUMN[m]);
+            mor_bench_take(row, fabs(back - here[m]) / scale);
+        }
+    }
+}
+
+static void take_yield_distance(mor_bench *bench, const mor_bench_arrays *arrays, mor_conformance_row *row)
+{
+    const double *state_in[MOR_MATERIAL_STATES_MAX] = {0};
+    const double *state = arrays->state;
+    for (int k = 0; k < bench->instance->n_state; ++k) {
+        state_in[k] = state;
+        state += (int64_t)bench->material->state[k].n_components * N;
+    }
+    double distance[N];
+    const mor_batch batch = {.n = N, .stress_in = arrays->stress, .state_in = state_in};
+    if (bench->instance->operations.admissible(bench->instance, &batch, distance) != MOR_OK) {
+        mor_bench_fail(row, "admissible failed");
+        return;
+    }
+    for (int i = 0; i < N; ++i) {
+        const double excess = distance[i] > 0.0 || isnan(distance[i]) ? distance[i] : 0.0;
+        mor_bench_take(row, excess / divisor(mor_bench_largest(arrays->stress + 6 * i, 6)));
+    }
+}
+
+static void end_admissible(mor_bench *bench, mor_conformance_row *row)
+{
+    bench->work = bench->start;
+    for (int step = 0; step < 50; ++step) {
+        if (!is_step_made(bench, &bench->work, row)) {
+            return;
+        }
+        take_yield_distance(bench, &bench->work, row);
+    }
+}
+
+/* Starts and motions at the edges; each must end finite and admissible, or be refused. */
+static void survive_extremes(mor_bench *bench, mor_conformance_row *row)
+{
+    static const struct {
+        double stress, mean_strain, shear_strain; /* of modulus, 1, 1 */
+    } CASES[] = {{0.0, 0.0, 0.0},    {0.0, 0.05, 0.0},  {0.0, -0.05, 0.0},  {0.0, 0.0, 0.1},
+                 {0.0, 0.03, 0.1},   {-1e-3, 0.1, 0.0}, {-1e-3, 0.02, 0.1}, {-1e-300, 1e-300, 1e-300},
+                 {0.0, 1e-200, 0.0}, {-1e3, 0.0, 0.1},  {-1e100, 0.0, 0.1}, {0.0, 0.3, 0.3},
+                 {0.0, 1e6, 1e6},    {0.0, 1e200, 0.0}};
+    for (size_t k = 0; k < sizeof CASES / sizeof CASES[0]; ++k) {
+        mor_bench_arrays *work = &bench->work;
+        *work = bench->start;
+        memset(work->extra, 0, sizeof work->extra);
+        for (int i = 0; i < N; ++i) {
+            for (int a = 0; a < 6; ++a) {
+                work->stress[6 * i + a] = a < 3 ? CASES[k].stress * bench->modulus : 0.0;
+            }
+            for (int a = 0; a < 9; ++a) {
+                const double strain =
+                    a % 4 == 0 ? CASES[k].mean_strain : CASES[k].shear_strain * mor_bench_random(bench, i, (uint64_t)a);
+                work->motion[9 * i + a] = strain / bench->time_step;
+            }
+        }
+        if (mor_bench_step(bench, work) != MOR_OK) {
+            continue;
+        }
+        const double sum = mor_bench_largest(work->stress, 6 * N) + mor_bench_largest(work->state_out, N);
+        for (int m = 0; m < 6 * N; ++m) {
+            if (!isfinite(work->stress[m]) || !isfinite(sum)) {
+                mor_bench_take(row, INFINITY);
+                mor_bench_fail(row, "start %g of the modulus, strains %g, %g: ok, but a stress is not finite",
+                               CASES[k].stress, CASES[k].mean_strain, CASES[k].shear_strain);
+                return;
+            }
+        }
+        take_yield_distance(bench, work, row);
+    }
+}
+
+static void dissipate(mor_bench *bench, mor_conformance_row *row)
+{
+    if ((bench->material->capabilities & MOR_MATERIAL_DISSIPATION) == 0) {
+        mor_bench_skip(row, "the model does not report dissipation");
+        return;
+    }
+    bench->work = bench->start;
+    for (int step = 0; step < 50; ++step) {
+        if (!is_step_made(bench, &bench->work, row)) {
+            return;
+        }
+        for (int i = 0; i < N; ++i) {
+            const double gained = bench->work.dissipation[i] >= 0.0 ? 0.0 : -bench->work.dissipation[i];
+            mor_bench_take(row, gained / bench->modulus);
+        }
+    }
+}
+
+static mor_status store_energy(const mor_bench *bench, const mor_bench_arrays *arrays, double *stored)
+{
+    const double *state_in[MOR_MATERIAL_STATES_MAX] = {0};
+    const double *state = arrays->state;
+    for (int k = 0; k < bench->instance->n_state; ++k) {
+        state_in[k] = state;
+        state += (int64_t)bench->material->state[k].n_components * N;
+    }
+    const mor_batch batch = {.n = N, .stress_in = arrays->stress, .state_in = state_in};
+    return bench->instance->operations.energy(bench->instance, &batch, stored);
+}
+
+static double power_of(const double *stress, const double *l)
+{
+    return stress[0] * l[0] + stress[1] * l[4] + stress[2] * l[8] + stress[3] * (l[1] + l[3]) +
+           stress[4] * (l[5] + l[7]) + stress[5] * (l[2] + l[6]);
+}
+
+static void balance_energy(mor_bench *bench, mor_conformance_row *row)
+{
+    enum { STEPS = 400 };
+    double stored_before[N];
+    double stored_after[N];
+    if ((bench->material->capabilities & MOR_MATERIAL_DISSIPATION) == 0 ||
+        store_energy(bench, &bench->start, stored_before) == MOR_ERROR_UNSUPPORTED) {
+        mor_bench_skip(row, "the model does not report stored energy and dissipation");
+        return;
+    }
+    mor_bench_arrays *work = &bench->work;
+    *work = bench->start;
+    memset(work->extra, 0, sizeof work->extra);
+    for (int k = 0; k < 9 * N; ++k) {
+        work->motion[k] *= 0.02;
+    }
+    double done[N] = {0};
+    double moved[N] = {0};
+    for (int step = 0; step < STEPS; ++step) {
+        for (int half = 0; half < 2; ++half) {
+            if (half == 1 && !is_step_made(bench, work, row)) {
+                return;
+            }
+            for (int i = 0; i < N; ++i) {
+                const double work_half = 0.5 * bench->time_step * power_of(work->stress + 6 * i, work->motion + 9 * i);
+                done[i] += work_half - (half == 1 ? work->dissipation[i] : 0.0);
+                moved[i] += fabs(work_half);
+            }
+        }
+    }
+    if (store_energy(bench, work, stored_after) != MOR_OK) {
+        mor_bench_fail(row, "energy failed");
+        return;
+    }
+    for (int i = 0; i < N; ++i) {
+        const double scale = moved[i] + stored_before[i] + stored_after[i] + 1e-12 * bench->modulus;
+        mor_bench_take(row, fabs(done[i] - (stored_after[i] - stored_before[i])) / scale);
+    }
+}
+
+const mor_bench_entry mor_bench_rate_laws[] = {
+    {"step zero is the identity", keep_at_step_zero, 1e-12, "rounding"},
+    {"a rigid spin keeps the invariants", keep_invariants_in_spin, 1e-12, "rounding of 200 steps"},
+    {"a superposed rotation turns the stress with it", turn_with_the_frame, 1e-6, "second order in 4e-4 rad a step"},
+    {"the stress ends admissible", end_admissible, 1e-9, "rounding of the return mapping"},
+    {"extreme input ends finite and admissible or is refused", survive_extremes, 1e-9, "rounding, large stresses"},
+    {"dissipation is not negative", dissipate, 0.0, "exact"},
+    {"work is stored or dissipated", balance_energy, 2e-3, "first order in strains of 1e-5 a step; volume change"},
+    {NULL, NULL, 0.0, NULL},
+};

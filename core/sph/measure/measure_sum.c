@@ -1,0 +1,78 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/sph/measure/measure_sum.h"
+
+#include "core/base/parallel.h"
+
+/* Chunks are so many whatever the number of threads, so that no sum depends on that. */
+enum { CHUNKS = 64, LANES = 8, BATCH = 256, FEW = 4 * MOR_BLOCK };
+
+/* Several sums side by side, which processors take at once. */
+typedef struct lane_sums {
+    double high[LANES];
+    double low[LANES];
+} lane_sums;
+
+MOR_TARGET_CLONES static void add_batch(lane_sums *sums, double *terms, int64_t n)
+{
+    for (int64_t i = n; i % LANES != 0; ++i) {
+        terms[i] = 0.0;
+    }
+    lane_sums kept = *sums; /* in registers */
+    for (int64_t i = 0; i < n; i += LANES) {
+        for (int k = 0; k < LANES; ++k) {
+            const double term = terms[i + k];
+            const double total = kept.high[k] + term;
+            const double taken = total - kept.high[k];
+            kept.low[k] += (kept.high[k] - (total - taken)) + (term - taken);
+            kept.high[k] = total;
+        }
+    }
+    *sums = kept;
+}
+
+static mor_sum sum_chunk(int64_t first, int64_t last, mor_sum_fill fill, const void *job)
+{
+    lane_sums sums = {{0.0}, {0.0}};
+    mor_sum sum = {0.0, 0.0};
+    double terms[BATCH];
+    for (int64_t i = first; i < last; i += BATCH) {
+        const int64_t n = last - i < BATCH ? last - i : BATCH;
+        fill(job, i, n, terms);
+        add_batch(&sums, terms, n);
+    }
+    for (int k = 0; k < LANES; ++k) {
+        mor_sum_add(&sum, sums.high[k]);
+        mor_sum_add(&sum, sums.low[k]);
+    }
+    return sum;
+}
+
+mor_measure_team mor_measure_team_for(int64_t n, int n_threads)
+{
+    return (mor_measure_team){n < FEW || n_threads < 1 ? 1 : n_threads};
+}
+
+double mor_sum_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job)
+{
+    const mor_measure_team team = mor_measure_team_for(n, n_threads);
+    mor_sum sums[CHUNKS];
+    mor_sum sum = {0.0, 0.0};
+    MOR_PARALLEL_FOR (&team, chunk, CHUNKS, 1) {
+        sums[chunk] = sum_chunk(chunk * n / CHUNKS, (chunk + 1) * n / CHUNKS, fill, job);
+    }
+    for (int chunk = 0; chunk < CHUNKS; ++chunk) {
+        mor_sum_add(&sum, sums[chunk].high);
+        mor_sum_add(&sum, sums[chunk].low);
+    }
+    return mor_sum_value(sum);
+}
+
+void mor_fill_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job, double *values)
+{
+    const mor_measure_team team = mor_measure_team_for(n, n_threads);
+    MOR_PARALLEL_FOR (&team, block, mor_block_count(n), 1) {
+        const int64_t first = block * MOR_BLOCK;
+        fill(job, first, mor_block_end(block, n) - first, values + first);
+    }
+}

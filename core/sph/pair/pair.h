@@ -1,0 +1,168 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_PAIR_PAIR_H
+#define MOR_CORE_SPH_PAIR_PAIR_H
+
+#include "core/particle/relation.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** @file
+ *  The pair sums of updated-Lagrangian soil. Each routine walks a range of clusters: eight particles stand in the
+ *  lanes of one vector and gather from one list, target by target, without branches. Beyond the kernel's support
+ *  every term is exactly zero. The routines are compiled for several instruction sets; mor_pair_select takes the best
+ *  the processor has.
+ *  Theory: Zhang et al. (2024) eqs. 15-31, with the corrections listed in docs/theory/soil.md. */
+
+/** What a pair loop reads of a particle, in one record of 16 doubles. The first eight fill one cache line. */
+enum {
+    MOR_RECORD_POSITION = 0,  /* 3, m */
+    MOR_RECORD_VOLUME = 3,    /* m3, or m2 in plane strain */
+    MOR_RECORD_VELOCITY = 4,  /* 3, m/s */
+    MOR_RECORD_IMPEDANCE = 7, /* density times sound speed, kg/m2/s */
+    MOR_RECORD_STRESS = 8,    /* 6, Pa */
+    MOR_RECORD_PRESSURE = 14, /* Pa */
+    MOR_RECORD_DENSITY = 15,  /* kg/m3 */
+    MOR_RECORD_SIZE = 16
+};
+
+/** On which sign of the closing speed the Riemann dissipation acts. */
+typedef enum mor_dissipation {
+    MOR_DISSIPATION_SEPARATION, /* as printed in the source: only while a pair separates */
+    MOR_DISSIPATION_APPROACH,   /* only while it closes */
+    MOR_DISSIPATION_BOTH
+} mor_dissipation;
+
+/** Numbers the pair loops share. Plain data; owner: the soil solver. */
+typedef struct mor_pair_constants {
+    int dimension;               /* 2 or 3 */
+    mor_dissipation dissipation; /* between soil particles */
+    bool has_artificial_stress;  /* artificial_stress is read */
+    bool has_limited_diffusion;  /* stress diffuses as far as a pair moves, by the limiter of the dissipation */
+    bool has_pressure_term;      /* pressure part of U* in the density rate */
+    double smoothing_length;     /* h, m */
+    double gradient_factor;      /* mor_kernel_gradient_factor, unit 1/m^(d+2) */
+    double limiter_rate;         /* eta / c0, s/m: slope of the dissipation limiter */
+    double diffusion_rate;       /* 2 zeta h c0, m2/s; 0 without stress diffusion */
+    double gravity_direction[3]; /* unit vector, 1; zero without gravity */
+    double rest_gradient[6];     /* d stress / d height at rest, symmetric tensor, Pa/m */
+    double artificial_exponent;  /* n, 1 */
+    double spacing_kernel;       /* W(spacing), unit 1/m^d */
+    double kernel_normalization; /* alpha_d, unit 1/m^d */
+    double shift_diameter;       /* of the sphere (disc) with a particle's volume, m */
+} mor_pair_constants;
+
+/** Arrays of one set for the pair loops; borrowed. */
+typedef struct mor_pair_arrays {
+    int64_t n_particles;
+    const double *records;           /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const mor_relation *inner;       /* one object, current; momentum shortens its lists for the others */
+    const double *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
+    double *acceleration;            /* shape [n, 3], m/s2 */
+    double *stress_diffusion;        /* shape [n, 6], Pa/s; NULL without */
+    double *velocity_gradient;       /* shape [n, 9], 1/s */
+    double *density_rate;            /* shape [n], kg/m3/s */
+    double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
+    const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
+    const double *strain_rate;       /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
+} mor_pair_arrays;
+
+/** A sum over the clusters [first, last); writes its own particles only, and momentum the short lists of its clusters,
+ *  see mor_relation_near. The other loops read those: they come after momentum with the particles at the same places,
+ *  or after a build. */
+typedef void (*mor_pair_loop)(const mor_pair_constants *constants, const mor_pair_arrays *arrays, int64_t first,
+                              int64_t last);
+
+/** Eight particles that gather and what they see of one patch of a boundary: a run of their list. */
+typedef struct mor_pair_slot {
+    const int32_t *list; /* shape [count]; targets, ascending */
+    int32_t count;       /* entries */
+    int32_t cluster;     /* of the particles that gather */
+    int32_t patch;       /* of the boundary */
+} mor_pair_slot;
+
+/** Sums of kernel values over soil and, slot by slot, over boundaries. */
+typedef struct mor_pair_kernel_job {
+    const double *source;         /* shape [n padded to 8, 16]; records of who gathers, units of MOR_RECORD_... */
+    const double *target;         /* shape [n_target, target_stride]; x, y, z, volume first; unit m, volume m3 (m2) */
+    int target_stride;            /* doubles per target record */
+    const mor_relation *relation; /* one object: source -> target; its clusters are the range when slots is NULL */
+    double *sums;                 /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range; units of the enum */
+    const mor_pair_slot *slots;   /* shape [n_slots]; the range when not NULL */
+} mor_pair_kernel_job;
+
+/** What a kernel job sums over the targets j of a particle i. */
+enum {
+    MOR_KERNEL_SUM_VALUE,      /* sum V_j W, 1 */
+    MOR_KERNEL_SUM_GRADIENT,   /* 3: sum V_j grad_i W, 1/m */
+    MOR_KERNEL_SUM_MOMENT = 4, /* 6: sum V_j (r_j - r_i) (x) grad_i W, symmetric, 1 */
+    MOR_KERNEL_SUMS = 10
+};
+
+typedef void (*mor_pair_kernel_loop)(const mor_pair_constants *constants, const mor_pair_kernel_job *job, int64_t first,
+                                     int64_t last);
+
+/** The stress divergence by soil neighbors, along and across a wall apart, for the particles that see it. */
+typedef struct mor_pair_tangent_job {
+    const double *records;      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const mor_relation *inner;  /* one object, current, with short lists */
+    const mor_pair_slot *slots; /* shape [n_slots]; who sees what of the boundary */
+    const double *sums;         /* shape [n_slots * 8, MOR_KERNEL_SUMS]; over the slots; units of the enum */
+    double *out;                /* shape [n_slots * 8, 2, 3], Pa/m; along, then across the boundary */
+} mor_pair_tangent_job;
+
+typedef void (*mor_pair_tangent_loop)(const mor_pair_constants *constants, const mor_pair_tangent_job *job,
+                                      int64_t first, int64_t last);
+
+/** Mean velocity of the points of a boundary that each particle sees, by kernel values; zero where it sees none. */
+typedef struct mor_pair_mean_job {
+    const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
+    const mor_pair_slot *slots; /* shape [n_slots] */
+    double *out;                /* shape [n_slots * 8, 3], m/s */
+} mor_pair_mean_job;
+
+typedef void (*mor_pair_mean_loop)(const mor_pair_constants *constants, const mor_pair_mean_job *job, int64_t first,
+                                   int64_t last);
+
+/** What each particle of a slot gives to the points it sees. */
+enum {
+    MOR_SHARE_FORCE = 0,     /* 3, to be handed out, N (N/m) */
+    MOR_SHARE_DIRECTION = 3, /* 3, sum V grad_i W over its squared length, m; zero: shares go by kernel values */
+    MOR_SHARE_VALUE = 6,     /* 1 / sum V W when shares go by kernel values, else 0; 1 */
+    MOR_SHARES = 7
+};
+
+/** Hands out the force of each particle to the points it sees, by shares that add up to one. */
+typedef struct mor_pair_share_job {
+    const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
+    const mor_pair_slot *slots; /* shape [n_slots] */
+    const int32_t *chosen;      /* shape [>= last]; slots to be served, in this order */
+    const double *given;        /* shape [n_slots * 8, MOR_SHARES]; units of the enum */
+    double *force;              /* shape [n_target, 3], N (N/m); added to */
+} mor_pair_share_job;
+
+typedef void (*mor_pair_share_loop)(const mor_pair_constants *constants, const mor_pair_share_job *job, int64_t first,
+                                    int64_t last);
+
+/** The routines of one instruction set. Static, shared. */
+typedef struct mor_pair_table {
+    const char *instruction_set;   /* "avx512", "avx2", "baseline" */
+    mor_pair_loop momentum[2];     /* by dimension - 2: acceleration and stress diffusion, eqs. 25, 27 */
+    mor_pair_loop gradient[2];     /* by dimension - 2: velocity gradient and density rate, eqs. 15, 24 */
+    mor_pair_loop regularize;      /* XSPH and shifting sums, Hu et al. (2021) eqs. 13, 16 */
+    mor_pair_kernel_loop kernel;   /* kernel sums */
+    mor_pair_tangent_loop tangent; /* stress divergence along and across a wall */
+    mor_pair_mean_loop mean;       /* velocity of a boundary as particles see it */
+    mor_pair_share_loop share;     /* forces on the points of a boundary */
+    mor_pair_loop spin;            /* adds the acceleration by spin_stress */
+} mor_pair_table;
+
+/** Returns the routines for the best instruction set this processor has, or those asked for.
+ *  @param name [in]  zero-terminated: "avx512", "avx2", "baseline"; nullable: the best
+ *  Returns: a static table; NULL when the set asked for is unknown or not on this processor. */
+const mor_pair_table *mor_pair_select(const char *name);
+
+#endif

@@ -1,0 +1,194 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The sums that see a boundary. Compiled once per instruction set; MOR_ISA is its name. */
+#include "core/particle/boundary.h"
+#include "core/sph/pair/pair_lanes.h"
+
+INLINE void kernel_part(const mor_pair_constants *c, const mor_pair_kernel_job *job, const int32_t *list, int32_t count,
+                        int64_t first, double *out)
+{
+    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    vec sums[MOR_KERNEL_SUMS];
+    memset(sums, 0, sizeof sums);
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const double *target = job->target + (int64_t)list[entry] * job->target_stride;
+        const pair p = pair_of(&f, target, 3);
+        const vec cube = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+        sums[MOR_KERNEL_SUM_VALUE] += cube * p.reach * (5.0 - 4.0 * p.reach);
+        const vec kr[3] = {cube * p.r[0], cube * p.r[1], cube * p.r[2]};
+        for (int a = 0; a < 3; ++a) {
+            sums[MOR_KERNEL_SUM_GRADIENT + a] -= kr[a];
+            sums[MOR_KERNEL_SUM_MOMENT + a] += kr[a] * p.r[a];
+            sums[MOR_KERNEL_SUM_MOMENT + 3 + a] += kr[a] * p.r[(a + 1) % 3];
+        }
+    }
+    store(out, MOR_KERNEL_SUMS, 0, LANES, sums[0] * c->kernel_normalization);
+    for (int a = 1; a < MOR_KERNEL_SUMS; ++a) {
+        store(out, MOR_KERNEL_SUMS, a, LANES, sums[a] * c->gradient_factor);
+    }
+}
+
+void MOR_JOIN(mor_pair_kernel_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
+                                         int64_t last)
+{
+    for (int64_t place = first; place < last; ++place) {
+        const mor_pair_slot *slot = job->slots != NULL ? job->slots + place : NULL;
+        const int64_t cluster = slot != NULL ? slot->cluster : place;
+        const int32_t *list = slot != NULL ? slot->list : job->relation->lists[cluster];
+        const int32_t count = slot != NULL ? slot->count : job->relation->counts[cluster];
+        for (int64_t part = 0; part < PARTS; ++part) {
+            double *out = job->sums + ((place - first) * MOR_CLUSTER + part * LANES) * MOR_KERNEL_SUMS;
+            kernel_part(c, job, list, count, cluster * MOR_CLUSTER + part * LANES, out);
+        }
+    }
+}
+
+/* Adds V_j (stress_j - stress_i) . grad_i W of a pair, the parts of grad_i W along and across a wall apart. */
+INLINE void add_divergence(vec *sum, const geometry *g, const double *target, const frame *f, const vec *stress,
+                           const vec *normal, vec inverse)
+{
+    pair p;
+    separate(p.r, f, target, 3);
+    const vec across = g->k * dot_r(&p, normal[0], normal[1], normal[2], 3) * inverse;
+    vec d[6];
+    for (int a = 0; a < 6; ++a) {
+        d[a] = target[MOR_RECORD_STRESS + a] - stress[a];
+    }
+    for (int part = 0; part < 2; ++part) {
+        vec t[3];
+        for (int a = 0; a < 3; ++a) {
+            const vec both = across * normal[a];
+            t[a] = part == 0 ? fused(g->k, p.r[a], -both) : both;
+        }
+        vec *out = sum + 3 * part;
+        out[0] = fused(d[MOR_ZX], t[2], fused(d[MOR_XY], t[1], fused(d[MOR_XX], t[0], out[0])));
+        out[1] = fused(d[MOR_YZ], t[2], fused(d[MOR_YY], t[1], fused(d[MOR_XY], t[0], out[1])));
+        out[2] = fused(d[MOR_ZZ], t[2], fused(d[MOR_YZ], t[1], fused(d[MOR_ZX], t[0], out[2])));
+    }
+}
+
+/* Sums over soil neighbors of V_j (stress_j - stress_i) . grad_i W, the parts of grad_i W along and across a wall
+ * apart. */
+INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t slot)
+{
+    const double *own = job->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    const double *gradients = job->sums + slot * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    vec n[3];
+    for (int a = 0; a < 3; ++a) {
+        n[a] = load(gradients, MOR_KERNEL_SUMS, a);
+    }
+    const vec length2 = fused(n[2], n[2], fused(n[1], n[1], n[0] * n[0]));
+    /* No normal where the wall is out of reach: everything is then tangential, and the caller's factor is zero. */
+    const vec inverse = pick(length2 > 0.0, 1.0 / length2, spread(0.0));
+    vec s[6];
+    for (int a = 0; a < 6; ++a) {
+        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
+    }
+    vec sum[6];
+    memset(sum, 0, sizeof sum);
+    const int32_t *near = mor_relation_near(job->inner, first / MOR_CLUSTER);
+    const int32_t count = job->inner->near_counts[first / MOR_CLUSTER];
+    geometry geometries[CHUNK];
+    for (int32_t entry = 0; entry < count; entry += CHUNK) {
+        const int size = count - entry < CHUNK ? count - entry : CHUNK;
+        find_geometry(geometries, job->records, near + entry, size, &f, 3);
+        for (int q = 0; q < size; ++q) {
+            const double *target = job->records + (int64_t)near[entry + q] * MOR_RECORD_SIZE;
+            add_divergence(sum, geometries + q, target, &f, s, n, inverse);
+        }
+    }
+    for (int a = 0; a < 6; ++a) {
+        store(job->out + slot * 6, 6, a, LANES, -c->gradient_factor * sum[a]);
+    }
+}
+
+void MOR_JOIN(mor_pair_tangent_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
+                                          int64_t last)
+{
+    for (int64_t place = first; place < last; ++place) {
+        for (int64_t part = 0; part < PARTS; ++part) {
+            const int64_t particle = (int64_t)job->slots[place].cluster * MOR_CLUSTER + part * LANES;
+            tangent_part(c, job, particle, place * MOR_CLUSTER + part * LANES);
+        }
+    }
+}
+
+/* Sum V W v / sum V W over the points of a slot. */
+INLINE void mean_part(const mor_pair_constants *c, const mor_pair_mean_job *job, const mor_pair_slot *slot,
+                      int64_t first, double *out)
+{
+    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    vec sum[3];
+    vec total = spread(0.0);
+    memset(sum, 0, sizeof sum);
+    for (int32_t entry = 0; entry < slot->count; ++entry) {
+        const double *target = job->target + (int64_t)slot->list[entry] * MOR_BOUNDARY_RECORD;
+        const pair p = pair_of(&f, target, 3);
+        const vec square = p.reach * p.reach;
+        const vec weight = square * square * (5.0 - 4.0 * p.reach) * target[MOR_BOUNDARY_VOLUME];
+        total += weight;
+        for (int a = 0; a < 3; ++a) {
+            sum[a] += weight * target[MOR_BOUNDARY_VELOCITY + a];
+        }
+    }
+    const vec inverse = pick(total > 0.0, 1.0 / total, spread(0.0));
+    for (int a = 0; a < 3; ++a) {
+        store(out, 3, a, LANES, sum[a] * inverse);
+    }
+}
+
+void MOR_JOIN(mor_pair_mean_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first,
+                                       int64_t last)
+{
+    for (int64_t place = first; place < last; ++place) {
+        const mor_pair_slot *slot = job->slots + place;
+        for (int64_t part = 0; part < PARTS; ++part) {
+            const int64_t lane = part * LANES;
+            mean_part(c, job, slot, (int64_t)slot->cluster * MOR_CLUSTER + lane,
+                      job->out + (place * MOR_CLUSTER + lane) * 3);
+        }
+    }
+}
+
+/* Lanes are added one by one, so that a point's force does not depend on their number. */
+INLINE void share_part(const mor_pair_constants *c, const mor_pair_share_job *job, const mor_pair_slot *slot,
+                       int64_t first, const double *given)
+{
+    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    vec g[MOR_SHARES];
+    for (int a = 0; a < MOR_SHARES; ++a) {
+        g[a] = load(given, MOR_SHARES, a);
+    }
+    const vec *d = g + MOR_SHARE_DIRECTION;
+    const vec by_value = g[MOR_SHARE_VALUE] * c->kernel_normalization;
+    for (int32_t entry = 0; entry < slot->count; ++entry) {
+        const double *target = job->target + (int64_t)slot->list[entry] * MOR_BOUNDARY_RECORD;
+        double *force = job->force + (int64_t)slot->list[entry] * 3;
+        const pair p = pair_of(&f, target, 3);
+        const vec cube = p.reach * p.reach * p.reach * target[MOR_BOUNDARY_VOLUME];
+        const vec along = dot_r(&p, d[0], d[1], d[2], 3);
+        const vec by_gradient = c->gradient_factor * along;
+        const vec weight = cube * fused(by_value * p.reach, 5.0 - 4.0 * p.reach, -by_gradient);
+        for (int a = 0; a < 3; ++a) {
+            const vec part = weight * g[MOR_SHARE_FORCE + a];
+            for (int lane = 0; lane < LANES; ++lane) {
+                force[a] += part[lane];
+            }
+        }
+    }
+}
+
+void MOR_JOIN(mor_pair_share_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
+                                        int64_t last)
+{
+    for (int64_t k = first; k < last; ++k) {
+        const int64_t place = job->chosen[k];
+        const mor_pair_slot *slot = job->slots + place;
+        for (int64_t part = 0; part < PARTS; ++part) {
+            const int64_t lane = part * LANES;
+            share_part(c, job, slot, (int64_t)slot->cluster * MOR_CLUSTER + lane,
+                       job->given + (place * MOR_CLUSTER + lane) * MOR_SHARES);
+        }
+    }
+}

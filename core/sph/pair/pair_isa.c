@@ -1,0 +1,573 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Compiled once per instruction set; MOR_ISA is its name. */
+#include "core/sph/pair/pair_lanes.h"
+
+/* FIRST_BYTES: of the next cluster's short list, which are asked for before its turn. */
+enum { FIRST_BYTES = 512 };
+
+INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
+{
+    return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
+}
+
+/* What a copy of the momentum loop does; constant in each copy, so that no pair asks. */
+typedef struct momentum_form {
+    int dimension;
+    int diffuses;   /* stress diffusion: none, always (1), or as far as pairs move (2) */
+    int artificial; /* artificial stress */
+    int linear;     /* velocities reconstructed at the middle of a pair */
+} momentum_form;
+
+/* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
+INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
+{
+    vec d[6];
+    for (int a = 0; a < 6; ++a) {
+        d[a] = own[a] + other[a];
+    }
+    const vec *r = p->r;
+    const vec twice_y = 2.0 * r[1];
+    vec sum = fused(r[0], fused(d[MOR_XY], twice_y, d[MOR_XX] * r[0]), d[MOR_YY] * r[1] * r[1]);
+    if (dimension == 3) {
+        const vec shear = fused(d[MOR_YZ], twice_y, d[MOR_ZX] * (2.0 * r[0]));
+        sum = fused(r[2], fused(d[MOR_ZZ], r[2], shear), sum);
+    }
+    return sum;
+}
+
+/* The jump that is left between a value and one reconstructed: never larger than the value, never of its other sign. */
+INLINE vec limited_jump(vec jump, vec reconstructed)
+{
+    const vec least = smaller(jump, spread(0.0));
+    const vec most = positive_part(jump);
+    return pick(reconstructed < least, least, smaller(reconstructed, most));
+}
+
+/* What the momentum loop keeps of its own particles. */
+typedef struct momentum {
+    mask counts_closing, counts_opening; /* all bits where the dissipation acts on a pair that closes, opens */
+    vec v[3], impedance, pressure;       /* own state */
+    vec minus_twice_impedance;
+    vec strain_rate[6]; /* own, with reconstruction */
+} momentum;
+
+/* Its sums. */
+typedef struct momentum_sums {
+    vec force[3];         /* sum k (stress_j + extra + f^n (R_i + R_j)) r */
+    vec weight[3];        /* sum k r */
+    vec spread_stress[6]; /* sum kd stress_j */
+    vec spread_weight;    /* sum kd */
+    vec spread_way[3];    /* sum kd r */
+} momentum_sums;
+
+INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const double *s, const int dimension)
+{
+    const vec kr[3] = {k * p->r[0], k * p->r[1], k * p->r[2]};
+    m->weight[0] += kr[0];
+    m->weight[1] += kr[1];
+    /* Each is summed before it is added: only the last addition waits for that of the pair before. */
+    vec x = fused(kr[0], s[MOR_XX] + extra, kr[1] * s[MOR_XY]);
+    vec y = fused(kr[0], spread(s[MOR_XY]), kr[1] * (s[MOR_YY] + extra));
+    if (dimension == 3) {
+        m->weight[2] += kr[2];
+        x = fused(kr[2], spread(s[MOR_ZX]), x);
+        y = fused(kr[2], spread(s[MOR_YZ]), y);
+        const vec z = fused(kr[0], spread(s[MOR_ZX]), kr[1] * s[MOR_YZ]);
+        m->force[2] += fused(kr[2], s[MOR_ZZ] + extra, z);
+    }
+    m->force[0] += x;
+    m->force[1] += y;
+}
+
+INLINE void add_diffusion(momentum_sums *m, const pair *p, vec kd, const double *s, const int dimension)
+{
+    for (int a = 0; a < 6; ++a) {
+        m->spread_stress[a] += kd * s[a];
+    }
+    m->spread_weight += kd;
+    for (int a = 0; a < dimension; ++a) {
+        m->spread_way[a] += kd * p->r[a];
+    }
+}
+
+/* f^n (R_i + R_j) r, eq. 27. The power is taken lane by lane and only where the pair is under tension. */
+INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const double *own,
+                           const double *other, const int dimension)
+{
+    vec ratio = p->reach * p->reach;
+    ratio = ratio * ratio * (4.0 * (1.0 - p->reach) + 1.0) * (c->kernel_normalization / c->spacing_kernel);
+    vec power;
+    for (int lane = 0; lane < LANES; ++lane) {
+        power[lane] = ratio[lane] > 0.0 ? pow(ratio[lane], c->artificial_exponent) : 0.0;
+    }
+    vec s[6];
+    for (int a = 0; a < 6; ++a) {
+        s[a] = (load(own, 6, a) + other[a]) * power;
+    }
+    m->force[0] += k * dot_r(p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], dimension);
+    m->force[1] += k * dot_r(p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], dimension);
+    if (dimension == 3) {
+        m->force[2] += k * dot_r(p, s[MOR_ZX], s[MOR_YZ], s[MOR_ZZ], dimension);
+    }
+}
+
+/* What is found of a pair before it is added. */
+typedef struct momentum_pair {
+    vec kd;    /* weight of stress diffusion */
+    vec extra; /* isotropic part beside the stresses, Pa */
+} momentum_pair;
+
+INLINE void find_extra(momentum_pair *it, const geometry *g, const double *target, const momentum *m, const frame *f,
+                       const mor_pair_constants *c, const double *strain_rate, const momentum_form form)
+{
+    const vec *v = m->v;
+    pair p;
+    separate(p.r, f, target, form.dimension);
+    const double h = c->smoothing_length;
+    const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
+    /* Division is slow: one serves both quotients. */
+    const vec inverse = 1.0 / (g->distance * impedance_sum);
+    const vec inverse_distance = inverse * impedance_sum;
+    const vec speed =
+        dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension) * inverse_distance;
+    vec closing = speed;
+    if (form.linear) {
+        const vec smooth = smooth_closing(&p, m->strain_rate, strain_rate, form.dimension);
+        closing = limited_jump(speed, speed + 0.5 * smooth * inverse_distance);
+    }
+    /* Closing speed on which the limiter acts, eq. 23. */
+    const vec slope = closing * c->limiter_rate;
+    const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
+    const vec limited = smaller(counted, spread(1.0)) * closing;
+    /* Twice (mean pressure - P*), eq. 20. */
+    const vec pressures = (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]);
+    const vec dissipation = m->minus_twice_impedance * target[MOR_RECORD_IMPEDANCE];
+    it->extra = fused(dissipation, limited, pressures) * (inverse * g->distance);
+    if (form.diffuses) {
+        it->kd = g->k * g->distance2 / (g->distance2 + 0.01 * h * h);
+    }
+    if (form.diffuses == 2) {
+        it->kd *= smaller(magnitude(speed) * c->limiter_rate, spread(1.0));
+    }
+}
+
+INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const double *target, const frame *f,
+                     const momentum_form form)
+{
+    pair p;
+    separate(p.r, f, target, form.dimension);
+    add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, form.dimension);
+    if (form.diffuses) {
+        add_diffusion(m, &p, it->kd, target + MOR_RECORD_STRESS, form.dimension);
+    }
+}
+
+INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const double *target, const frame *f,
+                                const mor_pair_constants *c, const double *own, const double *other,
+                                const momentum_form form)
+{
+    vec size = spread(0.0);
+    for (int a = 0; a < 6; ++a) {
+        size -= magnitude(load(own, 6, a) + other[a]);
+    }
+    /* The power is dear, and few pairs are under tension. */
+    if (any_less(size, 0.0)) {
+        pair p;
+        separate(p.r, f, target, form.dimension);
+        p.reach = positive_part(1.0 - g->distance * f->half_inverse_h);
+        add_artificial(m, &p, c, g->k, own, other, form.dimension);
+    }
+}
+
+/* A part of a cluster, as the momentum loop sees it. */
+typedef struct momentum_part {
+    frame frame;
+    momentum own;
+    momentum_sums sums;
+} momentum_part;
+
+INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                           int64_t first, const momentum_form form)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    momentum *m = &part->own;
+    memset(part, 0, sizeof *part);
+    part->frame = frame_of(c, own, MOR_RECORD_SIZE);
+    m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
+    m->counts_opening -= c->dissipation != MOR_DISSIPATION_APPROACH;
+    for (int a = 0; a < 3; ++a) {
+        m->v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
+    }
+    m->impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
+    m->minus_twice_impedance = -2.0 * m->impedance;
+    m->pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
+    for (int a = 0; a < 6 && form.linear; ++a) {
+        m->strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
+    }
+}
+
+/* Keeps a part in memory between two passes, so that each has the registers for itself. */
+INLINE void lay_down(momentum_part *part)
+{
+    __asm__ volatile("" : "+m"(*part));
+}
+
+INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor_pair_constants *c,
+                      const mor_pair_arrays *arrays, int64_t first, const momentum_form form)
+{
+    const frame *f = &part->frame;
+    const double *artificial = arrays->artificial_stress;
+    geometry geometries[CHUNK];
+    momentum_pair pairs[CHUNK];
+    lay_down(part);
+    find_geometry(geometries, arrays->records, near, n, f, form.dimension);
+    lay_down(part);
+    for (int q = 0; q < n; ++q) {
+        const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
+        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, form);
+    }
+    lay_down(part);
+    momentum_sums sums = part->sums;
+    for (int q = 0; q < n; ++q) {
+        add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), f, form);
+    }
+    part->sums = sums;
+    lay_down(part);
+    for (int q = 0; q < n && form.artificial; ++q) {
+        add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), f, c, artificial + first * 6,
+                            artificial + (int64_t)near[q] * 6, form);
+    }
+}
+
+/* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
+INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, const int32_t *list, int32_t count,
+                     int32_t *entry, int32_t *near, const int dimension)
+{
+    /* A little wide, so that rounding leaves out no pair that counts. */
+    const double half = parts[0].frame.half_inverse_h;
+    const double reach2 = (1.0 + 0x1p-40) / (half * half);
+    int32_t k = *entry;
+    int n = 0;
+    for (; k < count && n < CHUNK; ++k) {
+        const double *ahead = target_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]);
+        __builtin_prefetch(ahead);
+        __builtin_prefetch(ahead + MOR_RECORD_STRESS);
+        int any = 0;
+        for (int part = 0; part < PARTS; ++part) {
+            vec r[3];
+            separate(r, &parts[part].frame, target_of(arrays, list[k]), dimension);
+            any |= any_less(squared(r, &parts[part].frame, dimension), reach2);
+        }
+        near[n] = list[k];
+        n += any != 0;
+    }
+    *entry = k;
+    return n;
+}
+
+/* Eq. 25 with the operator of eq. 26 for any direction of gravity: what departs from the line of rest spreads. */
+INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const vec *s, double *out,
+                             int n_lanes)
+{
+    const double rate = -c->gradient_factor * c->diffusion_rate;
+    const double *g = c->gravity_direction;
+    const vec *way = m->spread_way;
+    const vec height = fused(spread(g[2]), way[2], fused(spread(g[0]), way[0], g[1] * way[1]));
+    for (int a = 0; a < 6; ++a) {
+        /* Height is -g . r, hence the plus. */
+        const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * height;
+        store(out, 6, a, n_lanes, rate * sum);
+    }
+}
+
+INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                            int64_t first, const momentum_form form)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const int n_lanes = lanes_of(first, arrays->n_particles);
+    vec s[6];
+    for (int a = 0; a < 6; ++a) {
+        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
+    }
+    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    const vec *w = m->weight;
+    double *out = arrays->acceleration + first * 3;
+    store(out, 3, 0, n_lanes, factor * (m->force[0] + s[MOR_XX] * w[0] + s[MOR_XY] * w[1] + s[MOR_ZX] * w[2]));
+    store(out, 3, 1, n_lanes, factor * (m->force[1] + s[MOR_XY] * w[0] + s[MOR_YY] * w[1] + s[MOR_YZ] * w[2]));
+    if (form.dimension == 3) {
+        store(out, 3, 2, n_lanes, factor * (m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]));
+    } else {
+        store(out, 3, 2, n_lanes, spread(0.0));
+    }
+    if (form.diffuses) {
+        finish_diffusion(m, c, s, arrays->stress_diffusion + first * 6, n_lanes);
+    }
+}
+
+INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t cluster,
+                             const momentum_form form)
+{
+    momentum_part parts[PARTS];
+    for (int part = 0; part < PARTS; ++part) {
+        start_momentum(parts + part, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
+    }
+    const int32_t *list = arrays->inner->lists[cluster];
+    const int32_t count = arrays->inner->counts[cluster];
+    int32_t *near = mor_relation_near(arrays->inner, cluster);
+    int32_t n_near = 0;
+    for (int32_t entry = 0; entry < count;) {
+        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form.dimension);
+        for (int part = 0; part < PARTS; ++part) {
+            add_chunk(parts + part, near + n_near, n, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
+        }
+        n_near += n;
+    }
+    arrays->inner->near_counts[cluster] = n_near;
+    for (int part = 0; part < PARTS; ++part) {
+        momentum_finish(&parts[part].sums, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
+    }
+}
+
+/* The choices are hoisted out of the loops: each combination is its own copy of the inlined body. */
+INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                           const int dimension)
+{
+    const int diffuses = c->diffusion_rate > 0.0 ? (c->has_limited_diffusion ? 2 : 1) : 0;
+    const int artificial = c->has_artificial_stress;
+    const int linear = arrays->strain_rate != NULL;
+#define MOR_MOMENTUM_CASE(d, a, l)                                                                                     \
+    if (diffuses == (d) && artificial == (a) && linear == (l)) {                                                       \
+        for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \
+            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, a, l});                                 \
+        }                                                                                                              \
+    }
+#define MOR_MOMENTUM_CASES(d)                                                                                          \
+    MOR_MOMENTUM_CASE(d, 0, 0)                                                                                         \
+    MOR_MOMENTUM_CASE(d, 0, 1)                                                                                         \
+    MOR_MOMENTUM_CASE(d, 1, 0)                                                                                         \
+    MOR_MOMENTUM_CASE(d, 1, 1)
+    MOR_MOMENTUM_CASES(0)
+    MOR_MOMENTUM_CASES(1)
+    MOR_MOMENTUM_CASES(2)
+}
+
+static void momentum_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    momentum_range(c, arrays, first, last, 2);
+}
+
+static void momentum_3d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    momentum_range(c, arrays, first, last, 3);
+}
+
+/* What the gradient loop keeps of its own particles, and its sums. */
+typedef struct gradient {
+    vec v[3], impedance, pressure; /* own state */
+    vec moment[9];                 /* sum k (v_i - v_j) (x) r */
+    vec rate;                      /* sum k t (v_i - v_j) . r */
+} gradient;
+
+/* What is found of a pair before it is added. */
+typedef struct gradient_pair {
+    vec distance; /* m */
+    vec reach;    /* 1 - q/2 inside the support, 0 outside */
+    vec share;    /* of the closing speed that v_i - v* takes, halved, eqs. 15 and 19 */
+} gradient_pair;
+
+INLINE void find_share(gradient_pair *it, const double *target, const gradient *g, const frame *f, const int dimension)
+{
+    const pair p = pair_of(f, target, dimension);
+    it->distance = p.distance;
+    it->reach = p.reach;
+    it->share = target[MOR_RECORD_IMPEDANCE] / (g->impedance + target[MOR_RECORD_IMPEDANCE]);
+}
+
+INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *target, const frame *f,
+                         const int dimension, const int pressure)
+{
+    const vec k = it->reach * it->reach * it->reach * target[MOR_RECORD_VOLUME];
+    vec r[3];
+    vec jump[3];
+    vec kr[3];
+    separate(r, f, target, dimension);
+    for (int a = 0; a < dimension; ++a) {
+        jump[a] = g->v[a] - target[MOR_RECORD_VELOCITY + a];
+    }
+    for (int b = 0; b < dimension; ++b) {
+        kr[b] = k * r[b];
+        for (int a = 0; a < dimension; ++a) {
+            g->moment[3 * a + b] += kr[b] * jump[a];
+        }
+    }
+    const vec plane = fused(kr[0], jump[0], kr[1] * jump[1]);
+    g->rate += it->share * (dimension == 3 ? fused(kr[2], jump[2], plane) : plane);
+    if (pressure) {
+        const vec impedances = g->impedance + target[MOR_RECORD_IMPEDANCE];
+        g->rate += k / impedances * (g->pressure - target[MOR_RECORD_PRESSURE]) * it->distance;
+    }
+}
+
+/* RING: pairs in a ring, more than STEP_AHEAD. */
+enum { RING = 8 };
+
+INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                          const int dimension, const int pressure)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    gradient g;
+    memset(&g, 0, sizeof g);
+    for (int a = 0; a < 3; ++a) {
+        g.v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
+    }
+    g.impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
+    g.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
+    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
+    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
+    const int64_t next = first / MOR_CLUSTER + 1;
+    if (first % MOR_CLUSTER == 0 && (next + 1) * MOR_CLUSTER <= arrays->n_particles) {
+        const int64_t size_bytes = arrays->inner->near_counts[next] * (int64_t)sizeof *near;
+        ask_for(mor_relation_near(arrays->inner, next), size_bytes < FIRST_BYTES ? size_bytes : FIRST_BYTES, 0);
+        ask_for(arrays->velocity_gradient + next * MOR_CLUSTER * 9, MOR_CLUSTER * 9 * sizeof(double), 1);
+    }
+    gradient_pair ring[RING];
+    for (int32_t q = 0; q < count && q < STEP_AHEAD; ++q) {
+        find_share(ring + q % RING, target_of(arrays, near[q]), &g, &f, dimension);
+    }
+    int32_t q = 0;
+    for (; q + STEP_AHEAD < count; ++q) {
+        const int32_t later = q + STEP_AHEAD;
+        __builtin_prefetch(target_of(arrays, near[q + AHEAD < count ? q + AHEAD : q]));
+        find_share(ring + later % RING, target_of(arrays, near[later]), &g, &f, dimension);
+        add_gradient(&g, ring + q % RING, target_of(arrays, near[q]), &f, dimension, pressure);
+    }
+    for (; q < count; ++q) {
+        add_gradient(&g, ring + q % RING, target_of(arrays, near[q]), &f, dimension, pressure);
+    }
+    const int n_lanes = lanes_of(first, arrays->n_particles);
+    for (int a = 0; a < 9; ++a) {
+        /* Exactly zero out of the plane, where the sum is zero. */
+        store(arrays->velocity_gradient + first * 9, 9, a, n_lanes, c->gradient_factor * g.moment[a]);
+    }
+    const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
+}
+
+INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                           const int dimension)
+{
+    if (c->has_pressure_term) {
+        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+            gradient_part(c, arrays, part * LANES, dimension, 1);
+        }
+    } else {
+        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+            gradient_part(c, arrays, part * LANES, dimension, 0);
+        }
+    }
+}
+
+static void gradient_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    gradient_range(c, arrays, first, last, 2);
+}
+
+static void gradient_3d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    gradient_range(c, arrays, first, last, 3);
+}
+
+/* Acceleration by the skew stresses A_i + A_j, each the cross product with an axial vector. */
+INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    vec s[3];
+    vec sum[3];
+    memset(sum, 0, sizeof sum);
+    for (int a = 0; a < 3; ++a) {
+        s[a] = load(arrays->spin_stress + first * 3, 3, a);
+    }
+    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
+    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const double *target = target_of(arrays, near[entry]);
+        const double *other = arrays->spin_stress + (int64_t)near[entry] * 3;
+        const pair p = pair_of(&f, target, 3);
+        const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+        for (int a = 0; a < 3; ++a) {
+            const int b = (a + 1) % 3;
+            const int d = (a + 2) % 3;
+            sum[a] += k * fused(s[b] + other[b], p.r[d], -(s[d] + other[d]) * p.r[b]);
+        }
+    }
+    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    double *out = arrays->acceleration + first * 3;
+    for (int lane = 0; lane < lanes_of(first, arrays->n_particles); ++lane) {
+        for (int a = 0; a < 3; ++a) {
+            out[3 * lane + a] += factor[lane] * sum[a][lane];
+        }
+    }
+}
+
+static void spin_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+        spin_part(c, arrays, part * LANES);
+    }
+}
+
+/* XSPH velocity, Hu et al. (2021) eq. 13, and the sum of the penetration-based shift, eq. 16. */
+INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    const vec v[3] = {load(own, MOR_RECORD_SIZE, 4), load(own, MOR_RECORD_SIZE, 5), load(own, MOR_RECORD_SIZE, 6)};
+    vec sums[6];
+    memset(sums, 0, sizeof sums);
+    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
+    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const double *target = target_of(arrays, near[entry]);
+        const pair p = pair_of(&f, target, 3);
+        const vec square = p.reach * p.reach;
+        const vec weight =
+            square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
+        const vec overlap = 1.0 - p.distance / c->shift_diameter;
+        const vec floored = -smaller(-overlap, spread(0.1));
+        const vec push = pick(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
+        const vec inside = pick(p.reach > 0.0, push, spread(0.0));
+        for (int a = 0; a < 3; ++a) {
+            sums[a] += weight * (target[MOR_RECORD_VELOCITY + a] - v[a]);
+            sums[3 + a] += inside * p.r[a];
+        }
+    }
+    for (int a = 0; a < 6; ++a) {
+        store(arrays->regularization + first * 6, 6, a, lanes_of(first, arrays->n_particles), sums[a]);
+    }
+}
+
+static void regularize_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+        regularize_part(c, arrays, part * LANES);
+    }
+}
+
+const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void);
+
+const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void)
+{
+    static const mor_pair_table table = {MOR_TEXT(MOR_ISA),
+                                         {momentum_2d, momentum_3d},
+                                         {gradient_2d, gradient_3d},
+                                         regularize_range,
+                                         MOR_JOIN(mor_pair_kernel_, MOR_ISA),
+                                         MOR_JOIN(mor_pair_tangent_, MOR_ISA),
+                                         MOR_JOIN(mor_pair_mean_, MOR_ISA),
+                                         MOR_JOIN(mor_pair_share_, MOR_ISA),
+                                         spin_range};
+    return &table;
+}

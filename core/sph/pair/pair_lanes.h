@@ -1,0 +1,230 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_PAIR_PAIR_LANES_H
+#define MOR_CORE_SPH_PAIR_PAIR_LANES_H
+
+#include "core/base/math.h"
+#include "core/particle/lanes.h"
+#include "core/sph/pair/pair.h"
+
+#include <math.h>
+#include <string.h>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+/** @file
+ *  What the files of the pair loops share among themselves: choices between lanes and the separation of a pair. Not for
+ *  others. */
+
+/** A mask for each of LANES particles: all bits or none. */
+typedef int64_t mask __attribute__((vector_size(LANES * sizeof(int64_t))));
+
+/** Returns one number, any unit, in all lanes. */
+INLINE vec spread(double a)
+{
+    return a - (vec){0.0};
+}
+
+/** Returns a where the mask is set, b elsewhere; any unit. */
+INLINE vec pick(mask where, vec a, vec b)
+{
+    return (vec)(((mask)a & where) | ((mask)b & ~where));
+}
+
+/* The names of the instructions that fill a register, where there are any. */
+#if defined(__AVX512F__)
+#define WIDE(operation) _mm512_##operation
+typedef __m512d wide;
+#elif defined(__AVX__) && defined(__FMA__)
+#define WIDE(operation) _mm256_##operation
+typedef __m256d wide;
+#endif
+
+/** Returns the larger of two lanes, the second when one is no number; any unit. */
+INLINE vec larger(vec a, vec b)
+{
+#if defined(WIDE)
+    return (vec)WIDE(max_pd)((wide)a, (wide)b);
+#else
+    return pick(a > b, a, b);
+#endif
+}
+
+/** Returns the smaller of two lanes, the second when one is no number; any unit. */
+INLINE vec smaller(vec a, vec b)
+{
+#if defined(WIDE)
+    return (vec)WIDE(min_pd)((wide)a, (wide)b);
+#else
+    return pick(a < b, a, b);
+#endif
+}
+
+/** Returns a b + c with one rounding where the processor has it; any unit. Written out where a sum has two products,
+ *  for a compiler may fuse either, and not the same one for every instruction set. */
+INLINE vec fused(vec a, vec b, vec c)
+{
+#if defined(WIDE)
+    return (vec)WIDE(fmadd_pd)((wide)a, (wide)b, (wide)c);
+#else
+    return a * b + c;
+#endif
+}
+
+/** Returns the larger of each lane and zero; any unit. */
+INLINE vec positive_part(vec a)
+{
+    return larger(a, spread(0.0));
+}
+
+/** Returns a number other than zero when any lane of a is less than b, else zero; any unit. */
+INLINE int any_less(vec a, double b)
+{
+#if defined(__AVX512F__)
+    return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ);
+#elif defined(__AVX__)
+    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, _mm256_set1_pd(b), _CMP_LT_OQ));
+#else
+    int any = 0;
+    for (int lane = 0; lane < LANES; ++lane) {
+        any |= a[lane] < b;
+    }
+    return any;
+#endif
+}
+
+/** Returns the absolute values; any unit. */
+INLINE vec magnitude(vec a)
+{
+    return (vec)((mask)a & INT64_MAX);
+}
+
+/** Returns the square roots; any unit. */
+INLINE vec square_root(vec a)
+{
+    vec root;
+    for (int lane = 0; lane < LANES; ++lane) {
+        root[lane] = sqrt(a[lane]);
+    }
+    return root;
+}
+
+/** Returns the number of lanes from a first particle on that hold particles of the set, 1. */
+INLINE int lanes_of(int64_t first, int64_t n_particles)
+{
+    const int64_t left = n_particles - first;
+    return left < LANES ? (left > 0 ? (int)left : 0) : LANES;
+}
+
+/** Where a cluster is and the constants of the kernel. */
+typedef struct frame {
+    vec x[3];
+    double half_inverse_h; /* 1 / (2 h), 1/m */
+    double tiny;           /* m2; added to squared distances so that nothing divides by zero; vanishes beside h^2 */
+} frame;
+
+/** Returns where the cluster is whose first record is given, shape [8, stride], unit m; constants: one object. */
+INLINE frame frame_of(const mor_pair_constants *constants, const double *records, int stride)
+{
+    const double h = constants->smoothing_length;
+    return (frame){
+        {load(records, stride, 0), load(records, stride, 1), load(records, stride, 2)}, 0.5 / h, h * h * 0x1p-100};
+}
+
+/** Separation of a pair. */
+typedef struct pair {
+    vec r[3];      /* r_i - r_j, m */
+    vec distance2; /* |r|^2 + tiny */
+    vec distance;
+    vec reach; /* 1 - q/2 inside the support, 0 outside */
+} pair;
+
+/* The arithmetic of a pair is a long chain of dependent operations, and a processor looks no more than some hundred
+ * operations ahead. Cut into passes over a chunk of targets, each chain is short, and many pairs are under way at once.
+ * CHUNK: targets in a chunk. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD: entries of a
+ * list whose records are asked for before their turn. */
+enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32 };
+
+/** The geometry of a target and the lanes of a cluster. */
+typedef struct geometry {
+    vec distance2; /* m2 */
+    vec distance;  /* m */
+    vec k;         /* (1 - q/2)^3 V, m3 (m2) */
+} geometry;
+
+/** Returns the vector from a target, shape [3], unit m, to the particles of a frame, one object. */
+INLINE void separate(vec *r, const frame *f, const double *target, const int dimension)
+{
+    r[0] = f->x[0] - target[0];
+    r[1] = f->x[1] - target[1];
+    r[2] = dimension == 3 ? f->x[2] - target[2] : spread(0.0);
+}
+
+/** Returns its squared length, padded so that nothing divides by zero, unit m2. */
+INLINE vec squared(const vec *r, const frame *f, const int dimension)
+{
+    const vec plane = fused(r[0], r[0], r[1] * r[1]);
+    const vec sum = dimension == 3 ? fused(r[2], r[2], plane) : plane;
+    return sum + f->tiny;
+}
+
+/** Returns the separation from a target, shape [3], unit m, as seen from a frame, one object. */
+INLINE pair pair_of(const frame *f, const double *target, const int dimension)
+{
+    pair p;
+    separate(p.r, f, target, dimension);
+    p.distance2 = squared(p.r, f, dimension);
+    p.distance = square_root(p.distance2);
+    p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
+    return p;
+}
+
+/** Finds the geometry of n targets, shape [n], and the lanes of a frame, one object; records: shape [n_records,
+ *  MOR_RECORD_SIZE], units of MOR_RECORD_.... */
+INLINE void find_geometry(geometry *g, const double *records, const int32_t *targets, int n, const frame *f,
+                          const int dimension)
+{
+    for (int q = 0; q < n; ++q) {
+        const double *target = records + (int64_t)targets[q] * MOR_RECORD_SIZE;
+        const pair p = pair_of(f, target, dimension);
+        g[q].distance2 = p.distance2;
+        g[q].distance = p.distance;
+        g[q].k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+    }
+}
+
+/** Asks for memory, shape [size_bytes], before it is read (0) or written (1). */
+INLINE void ask_for(const void *memory, int64_t size_bytes, const int writes)
+{
+    enum { LINE = 64 };
+    for (int64_t byte = 0; byte < size_bytes; byte += LINE) {
+        if (writes) {
+            __builtin_prefetch((const char *)memory + byte, 1);
+        } else {
+            __builtin_prefetch((const char *)memory + byte, 0);
+        }
+    }
+}
+
+/** Returns the inner product of a vector, by components, with the separation, one object; unit: its own times m. */
+INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
+{
+    const vec sum = fused(a, p->r[0], b * p->r[1]);
+    return dimension == 3 ? fused(c, p->r[2], sum) : sum;
+}
+
+/** Finds kernel sums over a range of a job, one object; constants: one object. See mor_pair_table. */
+void MOR_JOIN(mor_pair_kernel_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
+                                         int64_t last);
+/** Finds the stress divergence over a range of a job, one object; constants: one object. See mor_pair_table. */
+void MOR_JOIN(mor_pair_tangent_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
+                                          int64_t last);
+/** Finds the mean velocities over a range of a job, one object; constants: one object. See mor_pair_table. */
+void MOR_JOIN(mor_pair_mean_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first,
+                                       int64_t last);
+/** Finds the forces on points over a range of a job, one object; constants: one object. See mor_pair_table. */
+void MOR_JOIN(mor_pair_share_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
+                                        int64_t last);
+
+#endif

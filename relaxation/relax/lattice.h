@@ -1,0 +1,77 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_RELAXATION_RELAX_LATTICE_H
+#define MOR_RELAXATION_RELAX_LATTICE_H
+
+#include "core/geometry/shape.h"
+
+/** @file
+ *  First positions of particles: the nodes of a square or cubic lattice that lie inside a shape, and the check that
+ *  two sets of positions do not overlap. It does not relax positions, and knows no particle set. */
+
+/** What to fill. All places are in the scene frame, in which geometry is described; the finished points are mapped by
+ *  x -> turn * x + move at the very end, so that geometry and lattice turn together exactly.
+ *
+ *  Node (i, j, k) lies at origin + ((i, j, k) + 1/2) * spacing: a box with faces at origin + multiples of spacing is
+ *  filled exactly. In two dimensions there is one layer, at z = 0. A node closer to a surface than 1e-9 spacing counts
+ *  as lying on it, and a node on a surface is outside: of the shape, of an excluded shape, of the domain alike.
+ *
+ *  Made ready by mor_lattice_request_init. Everything pointed to is borrowed during the call. */
+typedef struct mor_lattice_request {
+    const mor_shape *shape;           /* one object; the solid to fill */
+    const mor_shape *const *excluded; /* shape [n_excluded]; nodes inside any of these are left out; NULL for none */
+    int n_excluded;                   /* number of excluded shapes, >= 0 */
+    int dimension;                    /* 2 (in x-y) or 3 */
+    double spacing;                   /* lattice spacing, unit m, > 0 */
+    double origin[3];                 /* shape [3]; a corner of a lattice cell, unit m; z is not used in 2D */
+    double depth;                     /* nodes deeper than this under the surface are left out, m; INFINITY: none */
+    mor_bounds domain;                /* nodes outside are left out, unit m; infinite: no limit; z is not used in 2D */
+    int64_t n_points_most;            /* more are refused; 0: only by what an index of 32 bits can count */
+    double jitter_ratio;              /* each coordinate moves by up to this times spacing, 1; 0 <= ratio < 0.5 */
+    uint64_t seed;                    /* of the jitter, which depends on seed and (i, j, k) only */
+    double turn[9];                   /* shape [3,3]; rotation matrix, unit 1; about z in 2D */
+    double move[3];                   /* shape [3]; unit m; within x-y in 2D */
+} mor_lattice_request;
+
+/** Points. Owner: the caller, who clears them. */
+typedef struct mor_lattice_points {
+    double *positions; /* shape [n_points,3]; unit m; NULL when there are none */
+    int64_t n_points;  /* number of points */
+} mor_lattice_points;
+
+/** Sets what is not written to: no excluded shapes, whole depth, no domain limit, no jitter, seed 1, no placement,
+ *  lattice corner at the origin, three dimensions. Shape and spacing are left to the caller.
+ *  @param request [out]  one object */
+void mor_lattice_request_init(mor_lattice_request *request);
+
+/** Finds the lattice nodes inside a shape. The order is that of (k, j, i): z outermost, x fastest. Nodes are counted
+ *  before memory is asked for; stretches of a row that the distance proves to be in or out are not tested one by one.
+ *  @param context [in,out]  one object
+ *  @param request [in]      one object
+ *  @param points  [out]     one object; owned by the caller; may come out empty
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong request, an unbounded region, a 2D shape that does not reach
+ *  z = 0, or more than 2^31 - 64 points; MOR_ERROR_MEMORY, also for more than n_points_most. On failure points is
+ *  empty.
+ *  Cost: O(rows + points + surface nodes) distances, allocates the result only. Threads: neither. */
+mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points);
+
+/** Fills a solid with its cells: a cell that the surface cuts becomes a point at the middle of the part inside, with
+ *  the share that is inside, so that points stand for the true volume up to the true surface wherever it lies on the
+ *  lattice. A cell that lies inside as a whole becomes its node. Which nodes are kept for the depth and the domain is
+ *  decided as by mor_lattice_fill; of a shape whose faces lie on the faces of cells both give the same.
+ *  @param context [in,out]  one object
+ *  @param request [in]      one object; without jitter
+ *  @param points  [out]     one object; owned by the caller; may come out empty
+ *  @param shares  [out]     the address of one array [n_points], above 0 to 1, 1; from MOR_NEW; owned by the caller;
+ *                           NULL after a failure
+ *  Returns: as mor_lattice_fill; MOR_ERROR_ARGUMENT for a request with jitter.
+ *  Cost: up to 64 distances (16 in the plane) for each cell at the surface. Threads: neither. */
+mor_status mor_lattice_fill_cells(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points,
+                                  double **shares);
+
+/** Frees points and sets them empty. Empty points are accepted.
+ *  @param context [in,out]  one object
+ *  @param points  [in,out]  one object */
+void mor_lattice_clear(mor_context *context, mor_lattice_points *points);
+
+#endif

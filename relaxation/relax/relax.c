@@ -1,0 +1,436 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "relaxation/relax/relax.h"
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/geometry/shape_moments.h"
+#include "relaxation/relax/relax_internal.h"
+
+#include <string.h>
+
+/* Rows reach further than the kernel by this, spacings, so that they serve for many steps. */
+#define SKIN 0.45
+
+/* A particle moves by the pace times the push, in spacings, plus this part of its last move. */
+#define MEMORY 0.85
+
+/* The pace holds for the first steps and then falls by this factor in each: particles at edges, pushed out by their
+ * neighbors and put back to either side in turn, come to rest. */
+#define PACE 0.15
+#define PACE_FALL 0.985
+enum { STEPS_AT_PACE = 150 };
+
+/* How dense the outside counts, 1: less than the inside, as it forms no layers and the outer layer cannot yield. With
+ * this the inside comes out at its right density; measured, see docs/theory/relaxation.md. */
+#define OUTSIDE_DENSITY 0.8
+
+/* Push of close particles per spacing that they are too near, in units of that of the kernel; measured. */
+#define CLOSE_PUSH 1.0
+
+/* Longest move of a step, spacings. */
+#define MOVE_MOST 0.1
+
+/* Thinnest shape, spacings. */
+#define THICKNESS_LEAST 4.0
+
+enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041 };
+
+/* A relaxation on its way. Places in units of the spacing. */
+typedef struct relaxation {
+    mor_relax_frame frame;
+    mor_relax_wall wall;
+    mor_relax_neighbors neighbors;
+    int64_t n;
+    double volume;            /* of a particle, spacing^dimension */
+    double pace;              /* of the step, spacing^2 */
+    double smallest_distance; /* at the end, spacings */
+    double *x;                /* shape [3, n]; first all x, then all y, then all z */
+    double *moves;            /* shape [3, n]; of the last step */
+    double *rest;             /* shape [n]; way a particle may go before its depth is looked at again */
+    double *strays;           /* shape [n]; way since the rows were found */
+    double *blocks;           /* shape [mor_block_count(n), 2]; largest move and stray of each */
+} relaxation;
+
+void mor_relax_request_init(mor_relax_request *request)
+{
+    memset(request, 0, sizeof *request);
+    request->dimension = 3;
+    request->volume = NAN;
+    request->seed = 1;
+    request->largest_residual = 2e-3;
+    request->most_steps = 500;
+}
+
+void mor_relax_clear(mor_context *context, mor_relax_points *points)
+{
+    MOR_FREE(context, &points->positions);
+    memset(points, 0, sizeof *points);
+}
+
+static mor_status check_request(mor_context *context, const mor_relax_request *request)
+{
+    MOR_CHECK(context, isnan(request->volume) || (isfinite(request->volume) && request->volume > 0.0),
+              MOR_ERROR_ARGUMENT,
+              "the volume of the shape to fill is %g: give one above zero, or none to have it found", request->volume);
+    MOR_CHECK(context, request->largest_residual >= 0.0 && request->largest_residual < 1.0, MOR_ERROR_ARGUMENT,
+              "the residual to reach is %g: give 0 <= residual < 1 (the largest move of a step over the spacing)",
+              request->largest_residual);
+    MOR_CHECK(context, request->most_steps >= 0, MOR_ERROR_ARGUMENT, "%d steps are allowed: give a number from 0 on",
+              request->most_steps);
+    return MOR_OK;
+}
+
+/* The volume in spacings^dimension. */
+static mor_status find_volume(mor_context *context, const mor_relax_request *request, double *volume)
+{
+    *volume = request->volume;
+    if (isnan(*volume)) {
+        mor_shape_moments moments;
+        MOR_TRY(context, mor_shape_find_moments(context, request->shape, request->dimension, &moments));
+        *volume = moments.volume;
+    }
+    for (int a = 0; a < request->dimension; ++a) {
+        *volume /= request->spacing;
+    }
+    return MOR_OK;
+}
+
+/* The thickness that a refused shape has, spacings, or where none of its places was found inside the most it may have:
+ * the least side of the box around it. */
+static mor_status refuse_thin(mor_context *context, const mor_relax_request *request, const mor_relax_frame *frame,
+                              double depth)
+{
+    const bool is_found = depth > 0.0;
+    double thickness = is_found ? 2.0 * depth : INFINITY;
+    for (int a = 0; a < frame->dimension && !is_found; ++a) {
+        thickness = fmin(thickness, 2.0 * frame->half[a]);
+    }
+    return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
+                    "the shape (%s) is %s%.4g m thick at its thickest: at a spacing of %g m that is %.4g spacings; "
+                    "allowed are %g at "
+                    "least: use a spacing of at most %.4g m, or make it larger or thicker",
+                    request->shape->operations->kind, is_found ? "" : "at most ", thickness * request->spacing,
+                    request->spacing, thickness, THICKNESS_LEAST,
+                    0.999 * thickness * request->spacing / THICKNESS_LEAST); /* digits round up, too */
+}
+
+static mor_status count_particles(mor_context *context, const mor_relax_request *request, relaxation *it)
+{
+    double volume = 0.0;
+    double depth = 0.0;
+    const bool is_thick = mor_relax_frame_holds(&it->frame, 0.5 * THICKNESS_LEAST * (1.0 - 1e-6), &depth);
+    if (!is_thick) {
+        return refuse_thin(context, request, &it->frame, depth);
+    }
+    MOR_TRY(context, find_volume(context, request, &volume));
+    MOR_CHECK(context, volume < MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
+              "the shape (%s) holds %g particles at a spacing of %g m; allowed are %g: use a larger spacing",
+              request->shape->operations->kind, volume, request->spacing, MOR_RELAX_PARTICLES_MOST);
+    it->n = (int64_t)floor(volume + 0.5);
+    MOR_CHECK(context, it->n > 0, MOR_ERROR_ARGUMENT,
+              "the volume of the shape (%s) is %g particles at a spacing of %g m: give its right volume",
+              request->shape->operations->kind, volume, request->spacing);
+    it->volume = volume / (double)it->n;
+    return MOR_OK;
+}
+
+static mor_status make_room(mor_context *context, relaxation *it)
+{
+    MOR_TRY(context, MOR_NEW(context, &it->x, 3 * it->n, "places to relax"));
+    MOR_TRY(context, MOR_NEW(context, &it->moves, 3 * it->n, "moves of relaxation"));
+    MOR_TRY(context, MOR_NEW(context, &it->rest, it->n, "depths of relaxation"));
+    MOR_TRY(context, MOR_NEW(context, &it->strays, it->n, "ways of relaxation"));
+    MOR_TRY(context, MOR_NEW(context, &it->blocks, 2 * mor_block_count(it->n), "largest moves"));
+    MOR_TRY(context, mor_relax_neighbors_init(context, it->n, MOR_RELAX_SUPPORT + SKIN, &it->neighbors));
+    MOR_TRY(context, mor_relax_wall_init(context, &it->frame, &it->wall));
+    return MOR_OK;
+}
+
+static void free_room(mor_context *context, relaxation *it)
+{
+    MOR_FREE(context, &it->x);
+    MOR_FREE(context, &it->moves);
+    MOR_FREE(context, &it->rest);
+    MOR_FREE(context, &it->strays);
+    MOR_FREE(context, &it->blocks);
+    mor_relax_neighbors_clear(context, &it->neighbors);
+    mor_relax_wall_clear(context, &it->wall);
+}
+
+static mor_status place_starts(mor_context *context, uint64_t seed, relaxation *it)
+{
+    double *places = NULL;
+    MOR_TRY(context, MOR_NEW(context, &places, 3 * it->n, "starting places"));
+    const mor_status status = mor_relax_fill(context, &it->frame, seed, it->n, places);
+    for (int64_t i = 0; status == MOR_OK && i < it->n; ++i) {
+        for (int a = 0; a < 3; ++a) {
+            it->x[a * it->n + i] = places[3 * i + a];
+        }
+    }
+    MOR_FREE(context, &places);
+    return status;
+}
+
+/* Pushes of the neighbors on the particles from first on: sum of (1 - r / support)^3 (x_i - x_j), and how many of them
+ * are close. Lanes are added in a fixed order, so that the result is that of any instruction set. */
+MOR_TARGET_CLONES
+static void push_apart(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end,
+                       double (*out)[4])
+{
+    const int64_t n = neighbors->n;
+    const double *y = x + n;
+    const double *z = x + 2 * n;
+    for (int64_t i = first; i < end; ++i) {
+        double sum[4][MOR_RELAX_LANES] = {{0.0}};
+        const int32_t *row = neighbors->rows + i * neighbors->capacity;
+        const double xi = x[i];
+        const double yi = y[i];
+        const double zi = z[i];
+        for (int64_t k = 0; k < neighbors->counts[i]; k += MOR_RELAX_LANES) {
+            for (int l = 0; l < MOR_RELAX_LANES; ++l) {
+                const int32_t j = row[k + l];
+                const double dx = xi - x[j];
+                const double dy = yi - y[j];
+                const double dz = zi - z[j];
+                const double r2 = dx * dx + dy * dy + dz * dz;
+                const double u0 = 1.0 - (1.0 / MOR_RELAX_SUPPORT) * sqrt(r2);
+                const double u = u0 > 0.0 ? u0 : 0.0;
+                const double weight = u * u * u;
+                sum[0][l] += weight * dx;
+                sum[1][l] += weight * dy;
+                sum[2][l] += weight * dz;
+                sum[3][l] += r2 < MOR_RELAX_CLOSE * MOR_RELAX_CLOSE && j != i ? 1.0 : 0.0;
+            }
+        }
+        for (int a = 0; a < 4; ++a) {
+            double total = 0.0;
+            for (int l = 0; l < MOR_RELAX_LANES; ++l) {
+                total += sum[a][l];
+            }
+            out[i - first][a] = total;
+        }
+    }
+}
+
+/* A direction for two particles at one place, by their numbers: opposite for the other of the two. */
+static void draw_direction(int64_t i, int64_t j, int dimension, double *direction)
+{
+    const int64_t low = i < j ? i : j;
+    const int64_t high = i < j ? j : i;
+    for (int a = 0; a < dimension; ++a) {
+        const double number = mor_random_uniform((uint64_t)low, (uint64_t)high, PART_PURPOSE + (uint64_t)a);
+        direction[a] = i < j ? number - 0.5 : 0.5 - number;
+    }
+}
+
+/* Adds what parts close particles. The kernel's push falls to nothing with their distance; this one, along the line
+ * between them, grows as they come nearer: CLOSE_PUSH (CLOSE - r). Few particles need it. */
+static void part_close(const relaxation *it, int64_t i, double *push)
+{
+    const int32_t *row = it->neighbors.rows + i * it->neighbors.capacity;
+    for (int32_t k = 0; k < it->neighbors.counts[i]; ++k) {
+        const int32_t j = row[k];
+        double way[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < 3; ++a) {
+            way[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+        }
+        const double r = mor_vector_length(way);
+        if (r >= MOR_RELAX_CLOSE) {
+            continue;
+        }
+        if (!(r > 0.0)) {
+            draw_direction(i, j, it->frame.dimension, way);
+        }
+        const double length = mor_vector_length(way);
+        for (int a = 0; a < 3 && length > 0.0; ++a) {
+            push[a] += CLOSE_PUSH * (MOR_RELAX_CLOSE - r) * (way[a] / length);
+        }
+    }
+}
+
+/* Next moves from the places of all; nothing is moved yet. */
+static void find_moves(mor_context *context, relaxation *it)
+{
+    const double factor = it->volume * mor_kernel_gradient_factor(MOR_RELAX_SMOOTHING, it->frame.dimension);
+    enum { CHUNK = 64 };
+    MOR_PARALLEL_FOR (context, chunk, (it->n + CHUNK - 1) / CHUNK, 1) {
+        const int64_t first = chunk * CHUNK;
+        const int64_t end = first + CHUNK < it->n ? first + CHUNK : it->n;
+        double pushes[CHUNK][4];
+        push_apart(&it->neighbors, it->x, first, end, pushes);
+        for (int64_t i = first; i < end; ++i) {
+            const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
+            double push[3];
+            double move[3];
+            mor_relax_wall_push(&it->wall, place, push);
+            if (pushes[i - first][3] > 0.0) {
+                part_close(it, i, pushes[i - first]);
+            }
+            for (int a = 0; a < 3; ++a) {
+                push[a] = 2.0 * (factor * pushes[i - first][a] + OUTSIDE_DENSITY * push[a]);
+                move[a] = MEMORY * it->moves[a * it->n + i] + it->pace * push[a];
+            }
+            const double length = mor_vector_length(move);
+            const double limit = length > MOVE_MOST ? MOVE_MOST / length : 1.0;
+            for (int a = 0; a < 3; ++a) {
+                it->moves[a * it->n + i] = limit * move[a];
+            }
+        }
+    }
+}
+
+/* Moves one particle, back under the outer layer where it left it, and never out of the shape. Returns its way. */
+static double move_particle(relaxation *it, int64_t i)
+{
+    double old[3];
+    double place[3];
+    double way[3];
+    for (int a = 0; a < 3; ++a) {
+        old[a] = it->x[a * it->n + i];
+        place[a] = old[a] + it->moves[a * it->n + i];
+    }
+    for (int a = 0; a < 3; ++a) {
+        way[a] = place[a] - old[a];
+    }
+    it->rest[i] -= MOR_SHAPE_SLOPE_MOST * mor_vector_length(way);
+    if (!(it->rest[i] > 0.0)) {
+        const double depth = mor_relax_frame_sink(&it->frame, place, SINK_MOST);
+        if (!(depth > 0.0)) {
+            memcpy(place, old, sizeof place);
+        }
+        it->rest[i] = depth - MOR_RELAX_LAYER;
+    }
+    for (int a = 0; a < 3; ++a) {
+        way[a] = place[a] - old[a];
+        it->x[a * it->n + i] = place[a];
+        it->moves[a * it->n + i] = way[a];
+    }
+    return mor_vector_length(way);
+}
+
+/* Moves all; residual receives the longest way of the step, stray the longest since the rows were found. */
+static void move_particles(mor_context *context, relaxation *it, double *residual, double *stray)
+{
+    const int64_t n_blocks = mor_block_count(it->n);
+    MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
+        double longest = 0.0;
+        double furthest = 0.0;
+        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, it->n); ++i) {
+            const double way = move_particle(it, i);
+            it->strays[i] += way;
+            longest = fmax(longest, way);
+            furthest = fmax(furthest, it->strays[i]);
+        }
+        it->blocks[2 * block] = longest;
+        it->blocks[2 * block + 1] = furthest;
+    }
+    *residual = 0.0;
+    *stray = 0.0;
+    for (int64_t block = 0; block < n_blocks; ++block) {
+        *residual = fmax(*residual, it->blocks[2 * block]);
+        *stray = fmax(*stray, it->blocks[2 * block + 1]);
+    }
+}
+
+/* The smallest distance of two particles, spacings, of those in the rows. */
+static double find_smallest_distance(mor_context *context, relaxation *it)
+{
+    const int64_t n_blocks = mor_block_count(it->n);
+    double smallest = INFINITY;
+    MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
+        double nearest2 = INFINITY;
+        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, it->n); ++i) {
+            for (int32_t k = 0; k < it->neighbors.counts[i]; ++k) {
+                const int32_t j = it->neighbors.rows[i * it->neighbors.capacity + k];
+                double way[3];
+                for (int a = 0; a < 3; ++a) {
+                    way[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+                }
+                nearest2 = fmin(nearest2, mor_vector_dot(way, way));
+            }
+        }
+        it->blocks[2 * block] = sqrt(nearest2);
+    }
+    for (int64_t block = 0; block < n_blocks; ++block) {
+        smallest = fmin(smallest, it->blocks[2 * block]);
+    }
+    return smallest;
+}
+
+static mor_status relax_particles(mor_context *context, const mor_relax_request *request, relaxation *it,
+                                  mor_relax_points *points)
+{
+    double stray = 0.0;
+    points->residual = INFINITY;
+    it->pace = PACE;
+    MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
+    for (int step = 0; step < request->most_steps && !points->is_converged; ++step) {
+        if (stray > 0.5 * SKIN) {
+            MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
+            memset(it->strays, 0, (size_t)it->n * sizeof *it->strays);
+        }
+        it->pace *= step >= STEPS_AT_PACE ? PACE_FALL : 1.0;
+        find_moves(context, it);
+        move_particles(context, it, &points->residual, &stray);
+        points->n_steps = step + 1;
+        points->is_converged =
+            points->residual < request->largest_residual && find_smallest_distance(context, it) >= MOR_RELAX_APART;
+    }
+    it->smallest_distance = find_smallest_distance(context, it);
+    return MOR_OK;
+}
+
+static mor_status write_points(mor_context *context, const relaxation *it, mor_relax_points *points)
+{
+    MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * it->n, "relaxed positions"));
+    for (int64_t i = 0; i < it->n; ++i) {
+        const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
+        mor_relax_frame_point(&it->frame, place, points->positions + 3 * i);
+    }
+    points->n_points = it->n;
+    points->volume = it->volume;
+    for (int a = 0; a < it->frame.dimension; ++a) {
+        points->volume *= it->frame.spacing;
+    }
+    if (!points->is_converged) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "relaxation of %lld particles in a shape (%s) stopped after %d steps at a residual of %.3g "
+                        "spacings; their positions are used as they are",
+                        (long long)it->n, it->frame.shape->operations->kind, points->n_steps, points->residual);
+    }
+    if (it->smallest_distance < MOR_RELAX_APART) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "relaxation of %lld particles in a shape (%s) left two of them %.3g spacings apart, below %g: "
+                        "forces between them may be large; use a smaller spacing, a less pointed shape or a lattice",
+                        (long long)it->n, it->frame.shape->operations->kind, it->smallest_distance, MOR_RELAX_APART);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_relax(mor_context *context, const mor_relax_request *request, mor_relax_points *points)
+{
+    relaxation it;
+    memset(points, 0, sizeof *points);
+    memset(&it, 0, sizeof it);
+    MOR_TRY(context, check_request(context, request));
+    MOR_TRY(context, mor_relax_frame_init(context, request, &it.frame));
+    MOR_TRY(context, count_particles(context, request, &it));
+    mor_status status = make_room(context, &it);
+    if (status == MOR_OK) {
+        status = place_starts(context, request->seed, &it);
+    }
+    if (status == MOR_OK) {
+        status = relax_particles(context, request, &it, points);
+    }
+    if (status == MOR_OK) {
+        status = write_points(context, &it, points);
+    }
+    free_room(context, &it);
+    if (status != MOR_OK) {
+        mor_relax_clear(context, points);
+    }
+    return status;
+}

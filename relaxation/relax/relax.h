@@ -1,0 +1,85 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_RELAXATION_RELAX_RELAX_H
+#define MOR_RELAXATION_RELAX_RELAX_H
+
+#include "core/geometry/shape.h"
+
+/** @file
+ *  An even, surface-fitted set of particles in a shape: a lattice fill, then relaxation under a constant background
+ *  pressure with the missing part of the kernel beyond the surface made up for, until the spacing is even and the
+ *  outer layer lies half a layer, 0.46 spacings, inside the surface. After Zhu et al. (2021); theory:
+ *  docs/theory/relaxation.md. */
+
+/** What to fill and when to stop. Made ready by mor_relax_request_init. */
+typedef struct mor_relax_request {
+    const mor_shape *shape;  /* one object; bounded; borrowed during the call */
+    int dimension;           /* 2 (in x-y, z = 0) or 3 */
+    double spacing;          /* of the particles, unit m; > 0 */
+    double volume;           /* of the shape, m3 (m2); NaN: that of the shape's moments, else by integration */
+    uint64_t seed;           /* of the jitter that breaks the symmetry of the lattice */
+    double largest_residual; /* stops when the largest move of a step is below this times spacing, 1. Steps become
+                              * shorter from the 151st on: it tells rest under a falling pace, not balance of pushes */
+    int most_steps;          /* stops, with is_converged false, after so many steps */
+} mor_relax_request;
+
+/** The particles. Owner: the caller, who ends it with mor_relax_clear. */
+typedef struct mor_relax_points {
+    double *positions; /* shape [n_points, 3], unit m; in the shape's frame */
+    int64_t n_points;
+    double volume;     /* of each particle, m3 (m2): the shape's over n_points */
+    double residual;   /* largest move of the last step over the spacing, 1 */
+    int n_steps;       /* taken */
+    bool is_converged; /* whether the residual asked for was reached, with no two nearer than 0.4 spacings */
+} mor_relax_points;
+
+/** How even a set of particles is. W: Wendland C2 with a smoothing length of 1.5 spacings, a support of 3. */
+typedef struct mor_relax_quality {
+    double spacing_deviation; /* standard deviation of the distance to the nearest neighbor over its mean, 1 */
+    double smallest_distance; /* of two particles over the spacing, 1; INFINITY: none within 3 spacings */
+    double nearest_mean;      /* that mean over (volume of a particle)^(1/dimension), 1 */
+    double kernel_sum_error;  /* largest |sum W V - 1| of particles deeper than the kernel's support, 1; NaN: none */
+    double kernel_sum_mean;   /* mean of sum W V of those, 1; NaN: none; a perfect lattice has 1.003 */
+    double surface_depth;     /* mean depth of the outer layer (depth < 1 spacing) over the spacing, 1 */
+    double surface_deviation; /* standard deviation of that depth over the spacing, 1 */
+} mor_relax_quality;
+
+/** Sets what is not written to.
+ *  @param request [out]  one object */
+void mor_relax_request_init(mor_relax_request *request);
+
+/** Fills and relaxes. The number of particles is the shape's volume over spacing^dimension, rounded.
+ *  @param context [in,out]  one object
+ *  @param request [in]      one object
+ *  @param points  [out]     one object; empty after a failure
+ *  Returns: MOR_OK, also when it did not converge (is_converged tells, and a warning is logged); MOR_ERROR_ARGUMENT for
+ *  a wrong request, a shape without end, one thinner than four spacings everywhere or one too large for the grids of
+ *  the method (bounds of 2^31 spacings^dimension); MOR_ERROR_MEMORY.
+ *  Threads: uses the context's; the result does not depend on them. */
+mor_status mor_relax(mor_context *context, const mor_relax_request *request, mor_relax_points *points);
+
+/** Frees the points and sets them empty; accepts empty ones.
+ *  @param context [in,out]  one object
+ *  @param points  [in,out]  one object */
+void mor_relax_clear(mor_context *context, mor_relax_points *points);
+
+/** Measures a set of particles.
+ *  @param context   [in,out]  one object
+ *  @param request   [in]      one object; shape, dimension and spacing are used
+ *  @param positions [in]      shape [n_points, 3]; unit m
+ *  @param n_points  [in]      number of particles
+ *  @param volume    [in]      of each particle, m3 (m2)
+ *  @param quality   [out]     one object
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong shape, dimension or spacing, or a position that is not finite;
+ *  MOR_ERROR_MEMORY. */
+mor_status mor_relax_measure(mor_context *context, const mor_relax_request *request, const double *positions,
+                             int64_t n_points, double volume, mor_relax_quality *quality);
+
+/** Stands for all that decides the result of mor_relax, the shape by its distances at the nodes of a grid: equal
+ *  requests have equal hashes, also in different runs. For a cache.
+ *  @param request [in]   one object
+ *  @param hash    [out]  one number
+ *  Threads: neither. */
+void mor_relax_request_hash(const mor_relax_request *request, uint64_t *hash);
+
+#endif

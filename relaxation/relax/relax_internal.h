@@ -1,0 +1,154 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_RELAXATION_RELAX_RELAX_INTERNAL_H
+#define MOR_RELAXATION_RELAX_RELAX_INTERNAL_H
+
+#include "core/particle/kernel.h"
+#include "relaxation/relax/relax.h"
+
+/** @file
+ *  Shared by the files of relax.h only. Inside, all lengths are in units of the spacing and places are relative to the
+ *  middle of the shape's bounds, so that a change of unit by a power of two changes no bit. */
+
+/** Smoothing length over the spacing, 1: at larger ones particles come nearer to some neighbors than to others, at
+ *  smaller ones they hardly feel the next layer. */
+#define MOR_RELAX_SMOOTHING 1.3
+
+/** Radius of the kernel over the spacing, 1. */
+#define MOR_RELAX_SUPPORT (MOR_KERNEL_SUPPORT * MOR_RELAX_SMOOTHING)
+
+/** Least depth over the spacing, 1: half the distance of the layers in which particles lie at a surface, 0.92 in space
+ *  and 0.93 in the plane (dense packings). */
+#define MOR_RELAX_LAYER 0.46
+
+/** Particles nearer than this over the spacing, 1, are pushed apart by more than the kernel does. */
+#define MOR_RELAX_CLOSE 0.75
+
+/** Least distance of two particles over the spacing, 1, with which a set counts as converged. */
+#define MOR_RELAX_APART 0.4
+
+/** Most particles of a set. */
+#define MOR_RELAX_PARTICLES_MOST 2e9
+
+/** Entries of a row of neighbors come in groups of so many, for loops in lanes. */
+enum { MOR_RELAX_LANES = 8 };
+
+/** How the inside measures places. */
+typedef struct mor_relax_frame {
+    const mor_shape *shape; /* one object; borrowed */
+    int dimension;          /* 2 or 3 */
+    double spacing;         /* m */
+    double middle[3];       /* of the bounds, m; z = 0 in 2D */
+    double half[3];         /* half the size of the bounds, spacings; z = 0 in 2D */
+} mor_relax_frame;
+
+/** The push of a continuum that fills all space beyond the surface, tabulated at the nodes of a grid. */
+typedef struct mor_relax_wall {
+    int dimension;      /* 2 or 3 */
+    int64_t n_nodes[3]; /* along each axis; z: 1 in 2D */
+    double low[3];      /* place of the first node, spacings */
+    int32_t *record_of; /* shape [n_nodes]; -1 where nothing beyond the surface is in reach */
+    double *pushes;     /* shape [n_records, 3]; the integral of -grad W over the outside, 1/spacing */
+} mor_relax_wall;
+
+/** Rows of neighbors. Coordinates are kept per component, for loops in lanes. */
+typedef struct mor_relax_neighbors {
+    int64_t n;           /* particles */
+    double radius;       /* of the rows, spacings */
+    int64_t n_cells[3];  /* of the grid of the search */
+    double low[3];       /* its corner, spacings */
+    double cell;         /* its cell, spacings */
+    int64_t n_cells_max; /* room in firsts */
+    int32_t *firsts;     /* shape [n_cells_max + 1]; first entry of each cell in sorted */
+    int64_t *cell_of;    /* shape [n] */
+    int32_t *sorted;     /* shape [n]; particles by cell, within a cell by number */
+    int32_t *counts;     /* shape [n]; entries of each row, particle itself left out */
+    int32_t *rows;       /* shape [n, capacity]; filled up with the particle itself */
+    int64_t capacity;    /* of a row; a multiple of MOR_RELAX_LANES */
+} mor_relax_neighbors;
+
+/** Reads the bounds. Returns MOR_OK, or MOR_ERROR_ARGUMENT for a wrong request, a shape without end, or one whose
+ *  bounds hold 2^31 spacings^dimension or more.
+ *  @param context [in,out]  one object
+ *  @param request [in]      one object
+ *  @param frame   [out]     one object */
+mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *request, mor_relax_frame *frame);
+
+/** Writes the place in the shape's own frame.
+ *  @param frame [in]   one object
+ *  @param place [in]   shape [3]; unit spacing
+ *  @param point [out]  shape [3]; unit m */
+static inline void mor_relax_frame_point(const mor_relax_frame *frame, const double *place, double *point)
+{
+    for (int a = 0; a < 3; ++a) {
+        point[a] = frame->middle[a] + frame->spacing * place[a];
+    }
+}
+
+/** Returns the depth under the surface, unit spacing; negative outside.
+ *  @param frame [in]  one object
+ *  @param place [in]  shape [3]; unit spacing */
+double mor_relax_frame_depth(const mor_relax_frame *frame, const double *place);
+
+/** Moves a place that is shallower than the outer layer along the normal towards it; keeps the deepest place found.
+ *  @param frame  [in]      one object
+ *  @param place  [in,out]  shape [3]; unit spacing
+ *  @param n_most [in]      most moves
+ *  Returns: the depth of the place now, unit spacing; may still be below that of the layer. */
+double mor_relax_frame_sink(const mor_relax_frame *frame, double *place, int n_most);
+
+/** Returns whether a ball (disc) of a radius fits into the shape; its distances may be lower bounds deep inside.
+ *  @param frame  [in]   one object
+ *  @param radius [in]   unit spacing
+ *  @param depth  [out]  one number; the largest depth found, unit spacing */
+bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *depth);
+
+/** Writes n starting places: those of a lattice that lie deepest, each moved by a jitter and sunk to the outer layer.
+ *  One that sinks to within half a spacing of another is taken only when nothing else is left.
+ *  @param context [in,out]  one object
+ *  @param frame   [in]      one object
+ *  @param seed    [in]      of the jitter
+ *  @param n       [in]      number of places
+ *  @param places  [out]     shape [n, 3]; unit spacing
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when so many do not fit; MOR_ERROR_MEMORY. */
+mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, uint64_t seed, int64_t n, double *places);
+
+/** Tabulates the push of the outside.
+ *  @param context [in,out]  one object
+ *  @param frame   [in]      one object
+ *  @param wall    [out]     one object; owned by the caller; empty after a failure
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a shape too large for the grid; MOR_ERROR_MEMORY. */
+mor_status mor_relax_wall_init(mor_context *context, const mor_relax_frame *frame, mor_relax_wall *wall);
+
+/** Writes the push of the outside on a place inside.
+ *  @param wall  [in]   one object
+ *  @param place [in]   shape [3]; unit spacing
+ *  @param push  [out]  shape [3]; unit 1/spacing */
+void mor_relax_wall_push(const mor_relax_wall *wall, const double *place, double *push);
+
+/** Frees the table; accepts an empty one.
+ *  @param context [in,out]  one object
+ *  @param wall    [in,out]  one object */
+void mor_relax_wall_clear(mor_context *context, mor_relax_wall *wall);
+
+/** Makes room for the rows of n particles.
+ *  @param context   [in,out]  one object
+ *  @param n         [in]      particles
+ *  @param radius    [in]      of the rows, spacings
+ *  @param neighbors [out]     one object; to be cleared also after a failure
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_relax_neighbors_init(mor_context *context, int64_t n, double radius, mor_relax_neighbors *neighbors);
+
+/** Finds the rows anew. Their order is fixed: by cell, then by number.
+ *  @param context   [in,out]  one object
+ *  @param neighbors [in,out]  one object
+ *  @param x         [in]      shape [3, n]; unit spacing; first all x, then all y, then all z
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_relax_neighbors_find(mor_context *context, mor_relax_neighbors *neighbors, const double *x);
+
+/** Frees the rows; accepts empty ones.
+ *  @param context   [in,out]  one object
+ *  @param neighbors [in,out]  one object */
+void mor_relax_neighbors_clear(mor_context *context, mor_relax_neighbors *neighbors);
+
+#endif

@@ -1,0 +1,498 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "relaxation/terrain/terrain_internal.h"
+
+#include "core/base/hash.h"
+#include "core/base/memory.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <gdal.h>
+#include <gdal_frmts.h>
+#include <math.h>
+#include <ogr_srs_api.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* The door of GDAL. Only the drivers named here are made known to it: none of them reaches over a network. */
+
+/* A share of a cell by which a crop may miss a node and still keep it. */
+#define ON_NODE 1e-9
+
+/* Relief over extent beyond which a raster that names no reference system is likely in degrees; step of height over
+ * cell beyond which a mark for missing data was likely not declared, and beyond which slopes lose all digits. */
+#define LIKELY_DEGREES 20.0
+#define LIKELY_MARK 20.0
+#define SURELY_MARK 1e4
+
+/* Formats whose files GDAL can list: their hash then stands for all that was read. */
+static const char *const drivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "GSAG", "GSBG", "GS7BG", NULL};
+
+/* An open raster and what its header says. */
+typedef struct raster {
+    const char *path;
+    GDALDatasetH dataset;
+    GDALRasterBandH band;
+    double first[2];  /* of the first node along x and of the one with least y, m */
+    double cell[2];   /* m */
+    int n[2];         /* nodes */
+    int window[2][2]; /* first and last node kept, along x and upwards */
+    mor_terrain_format format;
+    mor_terrain_prj prj;
+    bool is_downward; /* row 0 of the file has the largest y */
+} raster;
+
+void mor_terrain_request_init(mor_terrain_request *request)
+{
+    *request = (mor_terrain_request){.crop_minimum = {-INFINITY, -INFINITY},
+                                     .crop_maximum = {INFINITY, INFINITY},
+                                     .cell = NAN,
+                                     .offset = {NAN, NAN, NAN}};
+}
+
+static void register_drivers(void)
+{
+    GDALRegister_GTiff();
+    GDALRegister_AAIGrid();
+    GDALRegister_GRASSASCIIGrid();
+    GDALRegister_SRTMHGT();
+    GDALRegister_GSAG();
+    GDALRegister_GSBG();
+    GDALRegister_GS7BG();
+}
+
+static mor_status check_request(mor_context *context, const mor_terrain_request *request)
+{
+    MOR_CHECK(context, request->path != NULL && request->path[0] != '\0', MOR_ERROR_ARGUMENT,
+              "no raster file is given: name one");
+    MOR_CHECK(context, isnan(request->cell) || (request->cell > 0.0 && isfinite(request->cell)), MOR_ERROR_ARGUMENT,
+              "%s: cells of %g m are asked for: give a length above zero", request->path, request->cell);
+    for (int a = 0; a < 2; ++a) {
+        MOR_CHECK(context, request->crop_minimum[a] < request->crop_maximum[a], MOR_ERROR_ARGUMENT,
+                  "%s: the crop is empty along %c: from %g m to %g m; give a minimum below the maximum", request->path,
+                  "xy"[a], request -> crop_minimum[a], request -> crop_maximum[a]);
+    }
+    for (int a = 0; a < 3; ++a) {
+        MOR_CHECK(context, !isinf(request->offset[a]), MOR_ERROR_ARGUMENT,
+                  "%s: the offset along %c is infinite: give a length, or none", request->path, "xyz"[a]);
+    }
+    return MOR_OK;
+}
+
+/* A file of this machine, not one of GDAL's names for archives, memory or the network. */
+static mor_status check_file(mor_context *context, const char *path)
+{
+    struct stat status;
+    MOR_CHECK(context, strncmp(path, "/vsi", 4) != 0 && strstr(path, "://") == NULL, MOR_ERROR_IO,
+              "%s: found the name of a virtual or remote file; allowed are files of this machine: fetch or unpack it",
+              path);
+    MOR_CHECK(context, stat(path, &status) == 0, MOR_ERROR_IO,
+              "%s: no such file; give the path of a raster (GeoTIFF, ESRI ASCII, ...)", path);
+    MOR_CHECK(context, S_ISREG(status.st_mode), MOR_ERROR_IO, "%s: is no file; give the path of a raster", path);
+    MOR_CHECK(context, status.st_size > 0, MOR_ERROR_IO, "%s: is empty; give a raster (GeoTIFF, ESRI ASCII, ...)",
+              path);
+    return MOR_OK;
+}
+
+static mor_terrain_format find_format(const char *driver)
+{
+    return strcmp(driver, "AAIGrid") == 0          ? MOR_TERRAIN_ESRI
+           : strcmp(driver, "GRASSASCIIGrid") == 0 ? MOR_TERRAIN_GRASS
+           : strcmp(driver, "GSAG") == 0           ? MOR_TERRAIN_SURFER
+                                                   : MOR_TERRAIN_BINARY;
+}
+
+static mor_status open_raster(mor_context *context, raster *it)
+{
+    CPLErrorReset();
+    it->dataset = GDALOpenEx(it->path, GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, NULL, NULL);
+    MOR_CHECK(context, it->dataset != NULL, MOR_ERROR_IO,
+              "%s: cannot be read as a raster (%s); allowed are GeoTIFF, ESRI and GRASS ASCII, SRTM (.hgt) "
+              "and Surfer grids: convert it with gdal_translate",
+              it->path, CPLGetLastErrorMsg()[0] != '\0' ? CPLGetLastErrorMsg() : "no known format");
+    MOR_CHECK(context, GDALGetRasterCount(it->dataset) >= 1, MOR_ERROR_IO, "%s: the raster holds no band", it->path);
+    it->format = find_format(GDALGetDriverShortName(GDALGetDatasetDriver(it->dataset)));
+    it->band = GDALGetRasterBand(it->dataset, 1);
+    it->n[0] = GDALGetRasterXSize(it->dataset);
+    it->n[1] = GDALGetRasterYSize(it->dataset);
+    const GDALColorInterp color = GDALGetRasterColorInterpretation(it->band);
+    MOR_CHECK(
+        context,
+        color != GCI_RedBand && color != GCI_PaletteIndex && !GDALDataTypeIsComplex(GDALGetRasterDataType(it->band)),
+        MOR_ERROR_ARGUMENT, "%s: holds a picture or complex numbers, not heights; give an elevation raster", it->path);
+    if (GDALGetRasterCount(it->dataset) > 1) {
+        mor_context_log(context, MOR_LOG_WARNING, "%s: %d bands found; heights are taken from the first", it->path,
+                        GDALGetRasterCount(it->dataset));
+    }
+    return MOR_OK;
+}
+
+/* Where the nodes lie; squares along x and y only. */
+static mor_status place_raster(mor_context *context, raster *it)
+{
+    double map[6];
+    MOR_CHECK(context, GDALGetGeoTransform(it->dataset, map) == CE_None, MOR_ERROR_ARGUMENT,
+              "%s: does not say where its cells lie; add it with gdal_translate -a_ullr left top right bottom",
+              it->path);
+    for (int k = 0; k < 6; ++k) {
+        MOR_CHECK(context, isfinite(map[k]), MOR_ERROR_ARGUMENT, "%s: its place is not given in finite numbers",
+                  it->path);
+    }
+    MOR_CHECK(
+        context, map[2] == 0.0 && map[4] == 0.0 && map[1] > 0.0 && map[5] != 0.0, MOR_ERROR_ARGUMENT,
+        "%s: is rotated, mirrored or has cells without size (cell steps (%g, %g) and (%g, %g)); allowed are rasters "
+        "along the axes: turn it with gdalwarp",
+        it->path, map[1], map[4], map[2], map[5]);
+    it->is_downward = map[5] < 0.0;
+    it->cell[0] = map[1];
+    it->cell[1] = fabs(map[5]);
+    it->first[0] = map[0] + 0.5 * it->cell[0];
+    it->first[1] = (it->is_downward ? map[3] + it->n[1] * map[5] : map[3]) + 0.5 * it->cell[1];
+    return MOR_OK;
+}
+
+/* Meters are asked for, of coordinates and heights. place: of the file that states the system. */
+static mor_status judge_system(mor_context *context, const char *place, OGRSpatialReferenceH system)
+{
+    const char *name = OSRGetName(system);
+    name = name != NULL ? name : "unnamed";
+    MOR_CHECK(context, !OSRIsGeographic(system), MOR_ERROR_ARGUMENT,
+              "%s: its coordinates are degrees (%s); allowed are meters: project it with gdalwarp -t_srs EPSG:<code of "
+              "the local map grid>",
+              place, name);
+    const bool has_heights = OSRIsVertical(system);
+    const double meters = has_heights && !OSRIsCompound(system) ? 1.0 : OSRGetLinearUnits(system, NULL);
+    MOR_CHECK(context, meters == 1.0, MOR_ERROR_ARGUMENT,
+              "%s: its coordinates are in units of %g m (%s); allowed are meters: project it with gdalwarp -t_srs",
+              place, meters, name);
+    const double height = has_heights ? OSRGetTargetLinearUnits(system, "VERT_CS", NULL) : 1.0;
+    MOR_CHECK(context, height == 1.0, MOR_ERROR_ARGUMENT,
+              "%s: its heights are in units of %g m (%s); allowed are meters: convert them with gdal_calc.py, and "
+              "correct what names their unit",
+              place, height, name);
+    return MOR_OK;
+}
+
+static void describe_system(OGRSpatialReferenceH system, char *datum, size_t n_bytes)
+{
+    const char *name = OSRGetName(system);
+    const char *vertical = OSRGetAttrValue(system, "VERT_CS", 0);
+    snprintf(datum, n_bytes, "%s; heights: %s", name != NULL ? name : "unnamed",
+             vertical != NULL ? vertical : "datum not given");
+}
+
+/* Makes a system of a text. */
+static OGRErr parse_system(OGRSpatialReferenceH system, char *text, bool is_keywords)
+{
+    if (!is_keywords) {
+        return OSRImportFromWkt(system, &(char *){text});
+    }
+    char **lines = CSLTokenizeString2(text, "\r\n", 0);
+    const OGRErr error = OSRImportFromESRI(system, lines);
+    CSLDestroy(lines);
+    return error;
+}
+
+/* One statement of a .prj; the first one is told in words where the raster itself names no system. */
+static mor_status judge_text(mor_context *context, const mor_terrain_prj *prj, char *text, char *datum, size_t n_bytes)
+{
+    enum { SHOWN = 40 };
+    OGRSpatialReferenceH system = OSRNewSpatialReference(NULL);
+    const bool is_bad = system == NULL || parse_system(system, text, prj->is_keywords) != OGRERR_NONE;
+    mor_status status = MOR_OK;
+    if (!is_bad) {
+        status = judge_system(context, prj->path, system);
+        if (datum[0] == '\0') {
+            describe_system(system, datum, n_bytes);
+        }
+    }
+    OSRDestroySpatialReference(system);
+    const int n_shown = (int)strcspn(text, "\r\n");
+    MOR_CHECK(
+        context, !is_bad, MOR_ERROR_ARGUMENT,
+        "%s: found '%.*s%s', which is not understood as a reference system; allowed is one in full, as gdalsrsinfo "
+        "-o wkt1 EPSG:<code> prints it: replace the file, or remove it if the raster is in meters",
+        prj->path, n_shown < SHOWN ? n_shown : SHOWN, text, strlen(text) > SHOWN ? "..." : "");
+    return status;
+}
+
+static mor_status read_prj(mor_context *context, const mor_terrain_prj *prj, char *datum, size_t n_bytes)
+{
+    if (prj->path[0] == '\0') {
+        return MOR_OK;
+    }
+    MOR_TRY(context, judge_text(context, prj, prj->first, datum, n_bytes));
+    if (prj->rest[0] != '\0') {
+        MOR_TRY(context, judge_text(context, prj, prj->rest, datum, n_bytes));
+    }
+    return MOR_OK;
+}
+
+/* Words for the reference system; meters are asked for. */
+static mor_status read_datum(mor_context *context, const raster *it, char *datum, size_t n_bytes)
+{
+    const char *unit = GDALGetRasterUnitType(it->band);
+    OGRSpatialReferenceH system = GDALGetSpatialRef(it->dataset);
+    MOR_CHECK(context, unit == NULL || unit[0] == '\0' || strcmp(unit, "m") == 0 || EQUALN(unit, "met", 3),
+              MOR_ERROR_ARGUMENT, "%s: heights are in '%s'; allowed are meters: convert them with gdal_calc.py",
+              it->path, unit);
+    datum[0] = '\0';
+    if (system != NULL) {
+        MOR_TRY(context, judge_system(context, it->path, system));
+        describe_system(system, datum, n_bytes);
+    }
+    MOR_TRY(context, read_prj(context, &it->prj, datum, n_bytes));
+    if (datum[0] == '\0') {
+        mor_context_log(context, MOR_LOG_INFO, "%s: names no reference system; coordinates and heights taken as meters",
+                        it->path);
+    }
+    return MOR_OK;
+}
+
+/* The hash of a single file; of several, of their hashes in order. */
+static mor_status hash_files(mor_context *context, const raster *it, uint64_t *value)
+{
+    mor_hash all;
+    uint64_t one = 0;
+    int n_files = 1;
+    mor_hash_init(&all);
+    MOR_TRY(context, mor_hash_file(context, it->path, value));
+    mor_hash_add(&all, value, sizeof *value);
+    char **files = GDALGetFileList(it->dataset);
+    mor_status status = MOR_OK;
+    for (int k = 0; files != NULL && files[k] != NULL && status == MOR_OK; ++k) {
+        if (strcmp(files[k], it->path) == 0 || strcmp(files[k], it->prj.path) == 0 ||
+            !mor_terrain_side_tells(files[k])) {
+            continue;
+        }
+        status = mor_hash_file(context, files[k], &one);
+        mor_hash_add(&all, &one, sizeof one);
+        n_files += 1;
+    }
+    CSLDestroy(files);
+    MOR_TRY(context, status);
+    if (it->prj.path[0] != '\0') {
+        MOR_TRY(context, mor_hash_file(context, it->prj.path, &one));
+        mor_hash_add(&all, &one, sizeof one);
+        n_files += 1;
+    }
+    *value = n_files > 1 ? mor_hash_value(&all) : *value;
+    return MOR_OK;
+}
+
+/* Nodes inside the crop. */
+static mor_status find_window(mor_context *context, const mor_terrain_request *request, raster *it)
+{
+    for (int a = 0; a < 2; ++a) {
+        const double low = ceil((request->crop_minimum[a] - it->first[a]) / it->cell[a] - ON_NODE);
+        const double high = floor((request->crop_maximum[a] - it->first[a]) / it->cell[a] + ON_NODE);
+        const double from = fmax(low, 0.0);
+        const double to = fmin(high, it->n[a] - 1.0);
+        MOR_CHECK(
+            context, to - from >= 1.0, MOR_ERROR_ARGUMENT,
+            "%s: %g of its %d nodes along %c are kept; allowed are two or more: the raster reaches from %g m to %g "
+            "m; widen the crop",
+            it->path, fmax(to - from + 1.0, 0.0), it->n[a], "xy"[a], it -> first[a],
+            it -> first[a] + (it->n[a] - 1) * it -> cell[a]);
+        it->window[a][0] = (int)from;
+        it->window[a][1] = (int)to;
+    }
+    const double n[2] = {it->window[0][1] - it->window[0][0] + 1.0, it->window[1][1] - it->window[1][0] + 1.0};
+    MOR_CHECK(context, n[0] * n[1] <= MOR_TERRAIN_NODES_MAX, MOR_ERROR_ARGUMENT,
+              "%s: has %g x %g nodes; allowed are %g in all: crop it, or thin it out with gdalwarp -tr", it->path, n[0],
+              n[1], MOR_TERRAIN_NODES_MAX);
+    return MOR_OK;
+}
+
+/* One row of the file into one row of the terrain, in meters, NaN where there is no data. */
+static mor_status read_row(mor_context *context, const raster *it, int file_row, double *heights)
+{
+    int has_mark = 0;
+    int has_scale = 0;
+    int has_shift = 0;
+    const double mark = GDALGetRasterNoDataValue(it->band, &has_mark);
+    const double scale = GDALGetRasterScale(it->band, &has_scale);
+    const double shift = GDALGetRasterOffset(it->band, &has_shift);
+    const int n = it->window[0][1] - it->window[0][0] + 1;
+    CPLErrorReset();
+    const CPLErr error =
+        GDALRasterIO(it->band, GF_Read, it->window[0][0], file_row, n, 1, heights, n, 1, GDT_Float64, 0, 0);
+    MOR_CHECK(context, error == CE_None, MOR_ERROR_IO,
+              "%s: row %d of %d cannot be read (%s); the file is cut off or damaged: get it again", it->path,
+              file_row + 1, it->n[1], CPLGetLastErrorMsg());
+    for (int k = 0; k < n; ++k) {
+        /* Rasters in single precision hold the mark rounded to it. */
+        const bool is_mark = has_mark && (heights[k] == mark || (float)heights[k] == (float)mark);
+        const double height = heights[k] * (has_scale ? scale : 1.0) + (has_shift ? shift : 0.0);
+        MOR_CHECK(context, is_mark || !isinf(height), MOR_ERROR_ARGUMENT,
+                  "%s: row %d, column %d: found an infinite height; allowed are finite ones: correct it, or declare "
+                  "infinity as the mark of missing data with gdal_edit.py -a_nodata",
+                  it->path, file_row + 1, it->window[0][0] + k + 1);
+        heights[k] = is_mark ? NAN : height;
+    }
+    return MOR_OK;
+}
+
+/* In the order of the file, and text from its first row on: GDAL seeks a row of text by recursion over those before. */
+static mor_status read_heights(mor_context *context, const raster *it, mor_terrain *terrain)
+{
+    const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
+    MOR_TRY(context, MOR_NEW(context, &terrain->heights, n_nodes, "terrain heights"));
+    const int first = it->is_downward ? it->n[1] - 1 - it->window[1][1] : it->window[1][0];
+    for (int file_row = it->format != MOR_TERRAIN_BINARY ? 0 : first; file_row < first + terrain->n_y; ++file_row) {
+        /* A row before the window is read into the place of the first one of the window, which comes later. */
+        const int place = file_row > first ? file_row - first : 0;
+        const int row = it->is_downward ? terrain->n_y - 1 - place : place;
+        MOR_TRY(context, read_row(context, it, file_row, terrain->heights + (int64_t)row * terrain->n_x));
+    }
+    return MOR_OK;
+}
+
+static mor_status mend_holes(mor_context *context, const mor_terrain_request *request, const raster *it,
+                             mor_terrain *terrain)
+{
+    const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
+    int64_t n_holes = 0;
+    int64_t first = -1;
+    for (int64_t n = 0; n < n_nodes; ++n) {
+        if (isnan(terrain->heights[n]) && n_holes++ == 0) {
+            first = n;
+        }
+    }
+    const int row = it->window[1][0] + (int)(first / terrain->n_x); /* upwards; of no meaning without holes */
+    MOR_CHECK(context, n_holes < n_nodes, MOR_ERROR_ARGUMENT,
+              "%s: none of the %lld nodes kept has data; move the crop, or correct the raster's NoData value",
+              request->path, (long long)n_nodes);
+    MOR_CHECK(context, n_holes == 0 || request->fills_no_data, MOR_ERROR_ARGUMENT,
+              "%s: %lld of %lld nodes have no data, the first at (%g, %g) m (row %d, column %d of the file); allowed "
+              "are none: crop them off, or have holes filled from their rims: fill_no_data = true",
+              request->path, (long long)n_holes, (long long)n_nodes,
+              terrain->origin[0] + (double)(first % terrain->n_x) * terrain->cell[0],
+              terrain->origin[1] + (double)(first / terrain->n_x) * terrain->cell[1],
+              it->is_downward ? it->n[1] - row : row + 1, it->window[0][0] + (int)(first % terrain->n_x) + 1);
+    MOR_TRY(context, mor_terrain_fill_holes(context, terrain));
+    return MOR_OK;
+}
+
+/* Heights in meters over an extent in degrees. */
+static bool may_be_degrees(const mor_terrain *terrain)
+{
+    double lowest;
+    double highest;
+    mor_terrain_range(terrain, &lowest, &highest);
+    const double extent =
+        fmax(mor_terrain_end(terrain, 0) - terrain->origin[0], mor_terrain_end(terrain, 1) - terrain->origin[1]);
+    return terrain->datum[0] == '\0' && highest - lowest > LIKELY_DEGREES * extent;
+}
+
+/* Cliffs no ground has. */
+static mor_status check_steps(mor_context *context, const mor_terrain_request *request, const mor_terrain *terrain)
+{
+    double steepest = 0.0;
+    for (int row = 0; row < terrain->n_y; ++row) {
+        for (int column = 0; column < terrain->n_x; ++column) {
+            const double *at = terrain->heights + (int64_t)row * terrain->n_x + column;
+            const double x = column > 0 ? fabs(at[0] - at[-1]) / terrain->cell[0] : 0.0;
+            const double y = row > 0 ? fabs(at[0] - at[-terrain->n_x]) / terrain->cell[1] : 0.0;
+            steepest = fmax(steepest, fmax(x, y));
+        }
+    }
+    const bool is_degrees = may_be_degrees(terrain);
+    MOR_CHECK(
+        context, steepest <= SURELY_MARK, MOR_ERROR_ARGUMENT,
+        "%s: heights of neighboring nodes differ by %g cells; allowed are %g: %sif the raster marks missing data with "
+        "a number, declare it with gdal_edit.py -a_nodata",
+        request->path, steepest, SURELY_MARK,
+        is_degrees
+            ? "it names no reference system, and if its coordinates are degrees, project it with gdalwarp -s_srs "
+              "EPSG:4326 -t_srs EPSG:<code of the local map grid>; "
+            : "");
+    if (is_degrees || steepest > LIKELY_MARK) {
+        mor_context_log(context, MOR_LOG_WARNING, "%s: heights of neighboring nodes differ by %g cells: %s",
+                        request->path, steepest,
+                        is_degrees ? "are its coordinates degrees, or does a number mark missing data without being "
+                                     "declared?"
+                                   : "does a number mark missing data without being declared?");
+    }
+    return MOR_OK;
+}
+
+/* Into the frame of the case. */
+static void subtract_offset(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain)
+{
+    const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
+    double lowest;
+    double highest;
+    mor_terrain_range(terrain, &lowest, &highest);
+    const double chosen[3] = {terrain->origin[0], terrain->origin[1], lowest};
+    for (int a = 0; a < 3; ++a) {
+        terrain->offset[a] = isnan(request->offset[a]) ? chosen[a] : request->offset[a];
+    }
+    for (int a = 0; a < 2; ++a) {
+        terrain->origin[a] -= terrain->offset[a];
+    }
+    for (int64_t n = 0; n < n_nodes; ++n) {
+        terrain->heights[n] -= terrain->offset[2];
+    }
+    mor_context_log(context, MOR_LOG_INFO,
+                    "%s: %d x %d nodes %g m apart, heights %g m to %g m; offset (%.10g, %.10g, %.10g) m subtracted%s%s",
+                    request->path, terrain->n_x, terrain->n_y, terrain->cell[0], lowest, highest, terrain->offset[0],
+                    terrain->offset[1], terrain->offset[2], terrain->datum[0] != '\0' ? "; " : "", terrain->datum);
+}
+
+static mor_status read_terrain(mor_context *context, const mor_terrain_request *request, raster *it,
+                               mor_terrain *terrain)
+{
+    MOR_TRY(context, open_raster(context, it));
+    MOR_TRY(context, mor_terrain_prj_load(context, it->path, &it->prj));
+    MOR_TRY(context, hash_files(context, it, &terrain->hash));
+    if (it->format != MOR_TERRAIN_BINARY) {
+        MOR_TRY(context, mor_terrain_check_text(context, it->path, it->format, it->n));
+    }
+    MOR_TRY(context, place_raster(context, it));
+    MOR_TRY(context, read_datum(context, it, terrain->datum, sizeof terrain->datum));
+    MOR_TRY(context, find_window(context, request, it));
+    terrain->n_x = it->window[0][1] - it->window[0][0] + 1;
+    terrain->n_y = it->window[1][1] - it->window[1][0] + 1;
+    for (int a = 0; a < 2; ++a) {
+        terrain->cell[a] = it->cell[a];
+        terrain->origin[a] = it->first[a] + it->window[a][0] * it->cell[a];
+    }
+    MOR_TRY(context, read_heights(context, it, terrain));
+    MOR_TRY(context, mend_holes(context, request, it, terrain));
+    MOR_TRY(context, check_steps(context, request, terrain));
+    if (!isnan(request->cell)) {
+        MOR_TRY(context, mor_terrain_resample(context, terrain, request->cell));
+    }
+    subtract_offset(context, request, terrain);
+    return MOR_OK;
+}
+
+mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain)
+{
+    *terrain = (mor_terrain){0};
+    MOR_TRY(context, check_request(context, request));
+    MOR_TRY(context, check_file(context, request->path));
+    raster it = {.path = request->path};
+    /* Nothing printed, nothing fetched. A file that is open for reading alone, without statistics, gets no side files;
+     * those that lie there (.aux.xml) are read: they may name units, scales and missing data. */
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLSetThreadLocalConfigOption("AAIGRID_DATATYPE", "Float64");  /* else nan among whole numbers reads as zero */
+    CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES"); /* else GeoTIFF hides the datum of heights */
+    OSRSetPROJEnableNetwork(0);
+    register_drivers();
+    const mor_status status = read_terrain(context, request, &it, terrain);
+    if (it.dataset != NULL) {
+        GDALClose(it.dataset);
+    }
+    mor_terrain_prj_clear(context, &it.prj);
+    CPLErrorReset();
+    CPLPopErrorHandler();
+    if (status != MOR_OK) {
+        mor_terrain_clear(context, terrain);
+        return mor_context_pass(context, status, MOR_HERE);
+    }
+    return MOR_OK;
+}
