@@ -70,8 +70,8 @@ static void place_body(const mor_body_request *request, mor_body *body)
     snprintf(body->name, sizeof body->name, "%s", request->name);
     body->n_particles = request->n_particles;
     body->shape = request->shape;
-    memcpy(body->shape_turn, request->shape_turn, sizeof body->shape_turn);
-    memcpy(body->shape_move, request->shape_move, sizeof body->shape_move);
+    memcpy(body->shape_rotation, request->shape_rotation, sizeof body->shape_rotation);
+    memcpy(body->shape_translation, request->shape_translation, sizeof body->shape_translation);
     body->density = request->density;
     body->mass = request->density * request->geometry.volume;
     body->geometry = request->geometry;
@@ -80,7 +80,7 @@ static void place_body(const mor_body_request *request, mor_body *body)
     memcpy(body->center, request->geometry.center, sizeof body->center);
     memcpy(body->velocity, request->velocity, sizeof body->velocity);
     memcpy(body->angular_velocity, request->angular_velocity, sizeof body->angular_velocity);
-    memcpy(body->turn, identity, sizeof body->turn);
+    memcpy(body->rotation, identity, sizeof body->rotation);
 }
 
 /* Particles of a body in cluster order, with the motion at the start. */
@@ -362,7 +362,7 @@ static void find_spin(const mor_body_group *group, const double *sums, double n,
 }
 
 /* Rotation nearest to a linear map by Newton's iteration R <- (R + R^-T)/2; leaves turn alone when the map has none. */
-static void find_turn(const double *map, double *turn)
+static void find_rotation(const double *map, double *rotation)
 {
     enum { ITERATIONS = 40 };
     double r[9];
@@ -384,7 +384,7 @@ static void find_turn(const double *map, double *turn)
             }
         }
     }
-    memcpy(turn, r, sizeof r);
+    memcpy(rotation, r, sizeof r);
 }
 
 static void observe_body(mor_body_group *group, int b, const double *sums, double length)
@@ -411,7 +411,7 @@ static void observe_body(mor_body_group *group, int b, const double *sums, doubl
     if (group->dimension == 2) {
         map[8] = 1.0;
     }
-    find_turn(map, body->turn);
+    find_rotation(map, body->rotation);
 }
 
 void mor_body_group_observe(mor_context *context, mor_body_group *group, double length)

@@ -5,8 +5,8 @@
 
 #include "core/geometry/domain.h"
 #include "core/geometry/shape.h"
-#include "core/particle/set.h"
 #include "core/particle/boundary.h"
+#include "core/particle/set.h"
 
 /** @file
  *  Rocks. A group holds all bodies of one material in one particle set, each body one range of it. The group is plain
@@ -14,7 +14,7 @@
  *  (contact.h), and the soil, which sees the group as a moving boundary (core/particle/boundary.h).
  *
  *  Reference configuration: the placed positions at time zero. A body's level set is known there; the shape itself is
- *  described in a frame of its own: X = shape_turn * x + shape_move. */
+ *  described in a frame of its own: X = shape_rotation * x + shape_translation. */
 
 enum {
     MOR_BODY_GROUPS_MAX = 8,
@@ -33,8 +33,8 @@ typedef struct mor_body {
     int64_t first, n_particles;  /* range in the set */
     int64_t first_node, n_nodes; /* range in the group's surface nodes */
     const mor_shape *shape;      /* level set in the shape's frame; borrowed */
-    double shape_turn[9];        /* shape [3,3], rotation matrix, 1; shape's frame to reference configuration */
-    double shape_move[3];        /* m */
+    double shape_rotation[9];    /* shape [3,3], rotation matrix, 1; shape's frame to reference configuration */
+    double shape_translation[3]; /* m */
     double density;              /* kg/m3 */
     double mass;                 /* kg (kg/m) */
     mor_shape_moments geometry;  /* in the reference configuration */
@@ -45,7 +45,7 @@ typedef struct mor_body {
     double center[3];           /* of mass, m */
     double velocity[3];         /* of the center, m/s */
     double angular_velocity[3]; /* rad/s */
-    double turn[9];             /* rotation since the reference configuration, shape [3,3], 1 */
+    double rotation[9];         /* rotation since the reference configuration, shape [3,3], 1 */
     double rotation_angle[3];   /* integral of the angular velocity since the start, rad */
     bool is_held;               /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
     double added_mass_ratio;    /* soil that it drags along over its own mass, see mor_body_meet_soil, 1; 0: no soil */
@@ -112,10 +112,10 @@ typedef struct mor_body_request {
     const char *name;        /* zero-terminated */
     const double *positions; /* shape [n_particles, 3], reference configuration, m */
     int64_t n_particles;
-    const mor_shape *shape;     /* one object; borrowed for the life of the group */
-    double shape_turn[9];       /* shape [3,3], 1 */
-    double shape_move[3];       /* m */
-    double density;             /* kg/m3 */
+    const mor_shape *shape;      /* one object; borrowed for the life of the group */
+    double shape_rotation[9];    /* shape [3,3], 1 */
+    double shape_translation[3]; /* m */
+    double density;              /* kg/m3 */
     mor_shape_moments geometry; /* of the shape, in the reference configuration (mor_shape_find_moments, then placed) */
     double velocity[3];         /* of the center of mass, m/s */
     double angular_velocity[3]; /* about the center of mass, rad/s */

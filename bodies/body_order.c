@@ -48,9 +48,9 @@ static void find_local(const mor_body_request *request, int64_t i, double *local
 {
     double offset[3];
     for (int a = 0; a < 3; ++a) {
-        offset[a] = request->positions[3 * i + a] - request->shape_move[a];
+        offset[a] = request->positions[3 * i + a] - request->shape_translation[a];
     }
-    mor_matrix_apply_transposed(request->shape_turn, offset, local);
+    mor_matrix_apply_transposed(request->shape_rotation, offset, local);
 }
 
 /* Block and lane of each particle, in the frame of the shape. */

@@ -31,12 +31,12 @@ static void add_node(const mor_body_group *group, const mor_body *body, int64_t 
     double shift[MOTIONS][3]; /* of the node by a unit of each motion */
     double across[MOTIONS];
     for (int a = 0; a < 3; ++a) {
-        own[a] = x[a] - body->shape_move[a];
+        own[a] = x[a] - body->shape_translation[a];
         arm[a] = x[a] - body->geometry.center[a];
     }
-    mor_matrix_apply_transposed(body->shape_turn, own, local);
+    mor_matrix_apply_transposed(body->shape_rotation, own, local);
     mor_shape_normal(body->shape, local, NORMAL_STEP * group->spacing, own);
-    mor_matrix_apply(body->shape_turn, own, normal);
+    mor_matrix_apply(body->shape_rotation, own, normal);
     memset(shift, 0, sizeof shift);
     for (int k = 0; k < MOTIONS; ++k) {
         double axis[3] = {0.0, 0.0, 0.0};

@@ -70,9 +70,9 @@ static void place_points(cover *c)
     for (int64_t i = 0; i < body->n_particles; ++i) {
         double offset[3];
         for (int a = 0; a < 3; ++a) {
-            offset[a] = c->group->reference[3 * (body->first + i) + a] - body->shape_move[a];
+            offset[a] = c->group->reference[3 * (body->first + i) + a] - body->shape_translation[a];
         }
-        mor_matrix_apply_transposed(body->shape_turn, offset, c->points + 3 * i);
+        mor_matrix_apply_transposed(body->shape_rotation, offset, c->points + 3 * i);
     }
     memcpy(c->base, c->points, sizeof c->base);
 }
@@ -205,15 +205,15 @@ static bool sharpen(const cover *c, double *point)
     if (smallest >= EDGE_COSINE) {
         return false;
     }
-    double move[3];
+    double translation[3];
     double cofactors[6];
     const double determinant = mor_symmetric_cofactors(m, cofactors);
-    mor_symmetric_apply(cofactors, b, move);
+    mor_symmetric_apply(cofactors, b, translation);
     for (int a = 0; a < 3; ++a) {
-        move[a] /= determinant;
-        best[a] = point[a] + (a < dimension ? move[a] : 0.0);
+        translation[a] /= determinant;
+        best[a] = point[a] + (a < dimension ? translation[a] : 0.0);
     }
-    if (mor_vector_length(move) < EDGE_REACH * spacing && project(c, best)) {
+    if (mor_vector_length(translation) < EDGE_REACH * spacing && project(c, best)) {
         memcpy(point, best, sizeof best);
         return true;
     }
@@ -533,9 +533,9 @@ static mor_status append_nodes(mor_context *context, mor_body_group *group, mor_
     group->n_nodes = n;
     for (int64_t k = 0; k < c->n_nodes; ++k) {
         double *place = group->node_reference + 3 * (body->first_node + k);
-        mor_matrix_apply(body->shape_turn, c->nodes + 3 * k, place);
+        mor_matrix_apply(body->shape_rotation, c->nodes + 3 * k, place);
         for (int a = 0; a < 3; ++a) {
-            place[a] += body->shape_move[a];
+            place[a] += body->shape_translation[a];
         }
         group->node_area[body->first_node + k] = c->areas[k];
     }

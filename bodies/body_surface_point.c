@@ -204,7 +204,7 @@ void mor_body_node_place(const mor_body_group *group, int body, int64_t node, do
     for (int a = 0; a < 3; ++a) {
         arm[a] = group->node_reference[3 * node + a] - b->geometry.center[a];
     }
-    mor_matrix_apply(b->turn, arm, place);
+    mor_matrix_apply(b->rotation, arm, place);
     for (int a = 0; a < 3; ++a) {
         place[a] += b->center[a];
     }

@@ -38,12 +38,12 @@ static MOR_LANES_INLINE void find_logarithms(mor_total_block *b)
 {
     int n_inside = 0;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
-        b->logarithm[lane] = sum_logarithm(b->swelling[lane]);
-        n_inside += is_in_series(b->swelling[lane]);
+        b->logarithm[lane] = sum_logarithm(b->j_minus_1[lane]);
+        n_inside += is_in_series(b->j_minus_1[lane]);
     }
     for (int lane = 0; lane < MOR_LANES && n_inside < MOR_LANES; ++lane) {
-        if (!is_in_series(b->swelling[lane])) {
-            b->logarithm[lane] = log1p(b->swelling[lane]);
+        if (!is_in_series(b->j_minus_1[lane])) {
+            b->logarithm[lane] = log1p(b->j_minus_1[lane]);
         }
     }
 }
@@ -63,7 +63,7 @@ static MOR_LANES_INLINE void stress_block(const mor_hooke *c, mor_total_block *b
             f.yy * f.zz - f.yz * f.zy, f.yz * f.zx - f.yx * f.zz, f.yx * f.zy - f.yy * f.zx,
             f.zy * f.xz - f.zz * f.xy, f.zz * f.xx - f.zx * f.xz, f.zx * f.xy - f.zy * f.xx,
             f.xy * f.yz - f.xz * f.yy, f.xz * f.yx - f.xx * f.yz, f.xx * f.yy - f.xy * f.yx};
-        mor_total_write(b, lane, 1.0 / (1.0 + b->swelling[lane]), cofactors, pulled);
+        mor_total_write(b, lane, 1.0 / (1.0 + b->j_minus_1[lane]), cofactors, pulled);
     }
 }
 
@@ -79,9 +79,9 @@ static mor_status neo_hookean_create(const mor_services *services, mor_material_
     return mor_hooke_create(services, instance, choose_stress_batch());
 }
 
-static double find_density(const mor_hooke *c, mor_symmetric strain, double swelling)
+static double find_density(const mor_hooke *c, mor_symmetric strain, double j_minus_1)
 {
-    const double logarithm = log1p(swelling);
+    const double logarithm = log1p(j_minus_1);
     return c->shear * (mor_invariant_i1(strain) - logarithm) + 0.5 * c->lame * logarithm * logarithm;
 }
 

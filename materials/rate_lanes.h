@@ -18,13 +18,13 @@
 
 /** A block of particles, one array per number, so that every loop over lanes can be one of vectors. */
 typedef struct mor_rate_block {
-    double stress[6][MOR_LANES];    /* Pa, start, then end */
-    double gradient[9][MOR_LANES];  /* velocity gradient times the step, 1 */
-    double extra[6][MOR_LANES];     /* extra stress rate times the step, Pa */
-    double state[MOR_LANES];        /* of a law with one state variable, start, then end; its unit */
-    double dissipation[MOR_LANES];  /* J/m3 */
-    double increment2[MOR_LANES];   /* squared norm of gradient, 1 */
-    double zero_if_fine[MOR_LANES]; /* 0 when all results are finite, else NaN; 1 */
+    double stress[6][MOR_LANES];   /* Pa, start, then end */
+    double gradient[9][MOR_LANES]; /* velocity gradient times the step, 1 */
+    double extra[6][MOR_LANES];    /* extra stress rate times the step, Pa */
+    double state[MOR_LANES];       /* of a law with one state variable, start, then end; its unit */
+    double dissipation[MOR_LANES]; /* J/m3 */
+    double increment2[MOR_LANES];  /* squared norm of gradient, 1 */
+    double nonfinite[MOR_LANES];   /* 0 when all results are finite, else NaN; 1 */
 } mor_rate_block;
 
 /** The end of one block: reads gradient, extra; updates stress, state; writes dissipation. Constants are one object. */
@@ -142,7 +142,7 @@ static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t 
         if (b->increment2[lane] > MOR_RATE_INCREMENT_LIMIT * MOR_RATE_INCREMENT_LIMIT) {
             return MOR_RETRY_SMALLER_STEP;
         }
-        if (!(b->zero_if_fine[lane] == 0.0)) {
+        if (!(b->nonfinite[lane] == 0.0)) {
             return MOR_ERROR_NUMERIC;
         }
     }
@@ -156,11 +156,11 @@ static MOR_LANES_INLINE int mor_rate_judge(mor_rate_block *b, int has_state)
     double zero = 0.0;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         b->increment2[lane] = mor_gradient_norm2(mor_rate_gradient(b, lane));
-        b->zero_if_fine[lane] = 0.0 * b->stress[0][lane] + 0.0 * b->stress[1][lane] + 0.0 * b->stress[2][lane] +
-                                0.0 * b->stress[3][lane] + 0.0 * b->stress[4][lane] + 0.0 * b->stress[5][lane] +
-                                (has_state ? 0.0 * b->state[lane] : 0.0);
+        b->nonfinite[lane] = 0.0 * b->stress[0][lane] + 0.0 * b->stress[1][lane] + 0.0 * b->stress[2][lane] +
+                             0.0 * b->stress[3][lane] + 0.0 * b->stress[4][lane] + 0.0 * b->stress[5][lane] +
+                             (has_state ? 0.0 * b->state[lane] : 0.0);
         worst = b->increment2[lane] > worst ? b->increment2[lane] : worst;
-        zero += b->zero_if_fine[lane];
+        zero += b->nonfinite[lane];
     }
     return worst <= MOR_RATE_INCREMENT_LIMIT * MOR_RATE_INCREMENT_LIMIT && zero == 0.0;
 }

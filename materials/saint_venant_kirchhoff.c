@@ -31,9 +31,9 @@ static mor_status saint_venant_kirchhoff_create(const mor_services *services, mo
 }
 
 /* W = lambda/2 (tr E)^2 + mu E:E = K/2 (tr E)^2 + 2 mu J2(E), so that no term is negative. */
-static double find_density(const mor_hooke *c, mor_symmetric strain, double swelling)
+static double find_density(const mor_hooke *c, mor_symmetric strain, double j_minus_1)
 {
-    (void)swelling;
+    (void)j_minus_1;
     const double trace = mor_invariant_i1(strain);
     return 0.5 * c->bulk * trace * trace + c->two_shear * mor_invariant_j2(strain);
 }

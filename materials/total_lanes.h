@@ -14,18 +14,18 @@
 
 /** A block of particles, one array per number, so that every loop over lanes can be one of vectors. */
 typedef struct mor_total_block {
-    double motion[9][MOR_LANES];    /* H = F - I, 1 */
-    double swelling[MOR_LANES];     /* det F - 1, 1 */
-    double logarithm[MOR_LANES];    /* ln det F, for laws that ask for it, 1 */
-    double stress[9][MOR_LANES];    /* first Piola-Kirchhoff, Pa */
-    double zero_if_fine[MOR_LANES]; /* 0 when all results are finite, else NaN; 1 */
+    double motion[9][MOR_LANES]; /* H = F - I, 1 */
+    double j_minus_1[MOR_LANES]; /* det F - 1, 1 */
+    double logarithm[MOR_LANES]; /* ln det F, for laws that ask for it, 1 */
+    double stress[9][MOR_LANES]; /* first Piola-Kirchhoff, Pa */
+    double nonfinite[MOR_LANES]; /* 0 when all results are finite, else NaN; 1 */
 } mor_total_block;
 
 /** The stress of one block: reads motion and swelling; writes stress, and logarithm if it needs it. */
 typedef void (*mor_total_law)(const mor_hooke *constants, mor_total_block *b);
 
 /** The energy density [J/m3] of a law as a function of strain [1] and swelling [1]. */
-typedef double (*mor_total_density)(const mor_hooke *constants, mor_symmetric strain, double swelling);
+typedef double (*mor_total_density)(const mor_hooke *constants, mor_symmetric strain, double j_minus_1);
 
 /** Green-Lagrange strain (H + H^T + H^T H)/2, Zhang et al. (2024) eq. 41; unit 1. */
 static inline mor_symmetric mor_total_strain(mor_gradient h)
@@ -39,7 +39,7 @@ static inline mor_symmetric mor_total_strain(mor_gradient h)
 }
 
 /** det(I + H) - 1 by the invariants of H, without the cancellation of det F - 1; unit 1. */
-static inline double mor_total_swelling(mor_gradient h)
+static inline double mor_total_j_minus_1(mor_gradient h)
 {
     const double minor_xy = h.xx * h.yy - h.xy * h.yx;
     const double minor_yz = h.yy * h.zz - h.yz * h.zy;
@@ -106,12 +106,12 @@ static MOR_LANES_INLINE void mor_total_store(const mor_total_block *b, int64_t n
 }
 
 /** Says why a lane may not pass: MOR_OK; MOR_RETRY_SMALLER_STEP for det F <= 0; MOR_ERROR_NUMERIC. Units 1. */
-static inline mor_status mor_total_judge(double swelling, double zero_if_fine)
+static inline mor_status mor_total_judge(double j_minus_1, double nonfinite)
 {
-    if (isfinite(swelling) && !(swelling > -1.0)) {
+    if (isfinite(j_minus_1) && !(j_minus_1 > -1.0)) {
         return MOR_RETRY_SMALLER_STEP;
     }
-    return isfinite(swelling) && zero_if_fine == 0.0 ? MOR_OK : MOR_ERROR_NUMERIC;
+    return isfinite(j_minus_1) && nonfinite == 0.0 ? MOR_OK : MOR_ERROR_NUMERIC;
 }
 
 /** Finds the first lane that may not pass.
@@ -122,7 +122,7 @@ static inline mor_status mor_total_judge(double swelling, double zero_if_fine)
 static inline mor_status mor_total_find_failure(const mor_total_block *b, int64_t n_lanes, int64_t *failed_lane)
 {
     for (int64_t lane = 0; lane < n_lanes; ++lane) {
-        const mor_status status = mor_total_judge(b->swelling[lane], b->zero_if_fine[lane]);
+        const mor_status status = mor_total_judge(b->j_minus_1[lane], b->nonfinite[lane]);
         if (status != MOR_OK) {
             *failed_lane = lane;
             return status;
@@ -137,8 +137,8 @@ static MOR_LANES_INLINE int mor_total_is_fine(const mor_total_block *b)
     double least = 0.0;
     double zero = 0.0;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
-        least = b->swelling[lane] < least ? b->swelling[lane] : least;
-        zero += b->zero_if_fine[lane];
+        least = b->j_minus_1[lane] < least ? b->j_minus_1[lane] : least;
+        zero += b->nonfinite[lane];
     }
     return least > -1.0 && zero == 0.0;
 }
@@ -163,15 +163,15 @@ static MOR_LANES_INLINE mor_status mor_total_run(const mor_hooke *constants, con
             mor_total_load(batch->deformation_gradient + 9 * first, n_lanes, &b);
         }
         for (int lane = 0; lane < MOR_LANES; ++lane) {
-            b.swelling[lane] = mor_total_swelling(mor_total_read(&b, lane));
+            b.j_minus_1[lane] = mor_total_j_minus_1(mor_total_read(&b, lane));
         }
         law(&c, &b);
         for (int lane = 0; lane < MOR_LANES; ++lane) {
-            double zero = 0.0 * b.swelling[lane];
+            double zero = 0.0 * b.j_minus_1[lane];
             for (int a = 0; a < 9; ++a) {
                 zero += 0.0 * b.stress[a][lane];
             }
-            b.zero_if_fine[lane] = zero;
+            b.nonfinite[lane] = zero;
         }
         if (!mor_total_is_fine(&b)) {
             int64_t failed_lane = 0;
@@ -203,9 +203,9 @@ static inline mor_status mor_total_energy(const mor_material_instance *instance,
     for (int64_t i = 0; i < batch->n; ++i) {
         const double *f = batch->deformation_gradient + 9 * i;
         const mor_gradient h = {f[0] - 1.0, f[1], f[2], f[3], f[4] - 1.0, f[5], f[6], f[7], f[8] - 1.0};
-        const double swelling = mor_total_swelling(h);
-        const double value = swelling > -1.0 ? density(constants, mor_total_strain(h), swelling) : 0.0;
-        const mor_status status = mor_total_judge(swelling, 0.0 * value);
+        const double j_minus_1 = mor_total_j_minus_1(h);
+        const double value = j_minus_1 > -1.0 ? density(constants, mor_total_strain(h), j_minus_1) : 0.0;
+        const mor_status status = mor_total_judge(j_minus_1, 0.0 * value);
         if (status != MOR_OK) {
             if (batch->failed != NULL) {
                 *batch->failed = i;

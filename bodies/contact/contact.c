@@ -96,7 +96,7 @@ static double largest_face(const mor_body_group *group, const mor_body *body)
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int64_t k = body->first_node; k < body->first_node + body->n_nodes; ++k) {
         double place[3];
-        mor_matrix_apply_transposed(body->shape_turn, group->node_reference + 3 * k, place);
+        mor_matrix_apply_transposed(body->shape_rotation, group->node_reference + 3 * k, place);
         for (int a = 0; a < 3; ++a) {
             low[a] = fmin(low[a], place[a]);
             high[a] = fmax(high[a], place[a]);

@@ -25,8 +25,8 @@ typedef struct mor_contact_law {
 typedef struct mor_contact_wall {
     char name[MOR_CONTACT_NAME_BYTES];
     const mor_shape *shape; /* level set in the frame of the case; borrowed */
-    double turn[9];         /* shape [3,3]; frame of the case to frame of the run, 1 */
-    double move[3];         /* likewise, m */
+    double rotation[9];     /* shape [3,3]; frame of the case to frame of the run, 1 */
+    double translation[3];  /* likewise, m */
     double velocity[3];     /* frame of the run, m/s */
     double modulus;         /* Young's modulus of its surface; 0: it does not yield, Pa */
     double poisson;         /* Poisson's ratio of it, 0 <= nu < 0.5, 1 */

@@ -31,8 +31,8 @@ static void find_lever(const mor_body *body, const mor_contact_touch *touch, dou
     const double arm[3] = {touch->place[0] - body->center[0], touch->place[1] - body->center[1],
                            touch->place[2] - body->center[2]};
     double own_arm[3];
-    mor_matrix_apply_transposed(body->turn, touch->normal, lever);
-    mor_matrix_apply_transposed(body->turn, arm, own_arm);
+    mor_matrix_apply_transposed(body->rotation, touch->normal, lever);
+    mor_matrix_apply_transposed(body->rotation, arm, own_arm);
     mor_vector_cross(own_arm, lever, lever + 3);
 }
 

@@ -133,17 +133,17 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     const double arm[3] = {place[0] - c->center[0], place[1] - c->center[1], place[2] - c->center[2]};
     const double *x = group->set.data[MOR_FIELD_POSITION];
     const double *m = group->set.data[MOR_FIELD_MASS];
-    double moment[3], turn[3];
+    double moment[3], rotation[3];
     double mass = 0.0;
     mor_vector_cross(arm, force, moment);
-    solve_symmetric(group->dimension, c->inertia, moment, turn);
+    solve_symmetric(group->dimension, c->inertia, moment, rotation);
     for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
         mass += m[i];
     }
     for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
         const double d[3] = {x[3 * i] - c->center[0], x[3 * i + 1] - c->center[1], x[3 * i + 2] - c->center[2]};
         double around[3];
-        mor_vector_cross(turn, d, around);
+        mor_vector_cross(rotation, d, around);
         for (int a = 0; a < 3; ++a) {
             group->contact_force[3 * i + a] += m[i] * (force[a] / mass + around[a]);
         }
@@ -431,12 +431,12 @@ static double inverse_share(const mor_contact *contact, const pair_sums *sums, i
     if (c->group->kind == MOR_BODY_RIGID) {
         return inverse * sums->stiffness / stiffness;
     }
-    const double area = stiffness / mor_contact_bedding(contact, sums->near->first, sums->near->second);
+    const double area = stiffness / mor_contact_area_stiffness(contact, sums->near->first, sums->near->second);
     return 1.0 / (c->group->bodies[c->body].density * c->group->spacing * area);
 }
 
 /* Tangential spring and damper of one node, capped by Coulomb's law. */
-static void rub_node(mor_contact *contact, const pair_sums *sums, int64_t index)
+static void apply_tangential_force(mor_contact *contact, const pair_sums *sums, int64_t index)
 {
     mor_contact_work *work = contact->work;
     const mor_contact_touch *touch = &work->touches[index];
@@ -523,7 +523,7 @@ static void act_on_pair(mor_contact *contact, int k, double length)
         }
         push_both(contact, sums.near, index, force);
         if (sums.law->friction_coefficient > 0.0) {
-            rub_node(contact, &sums, index);
+            apply_tangential_force(contact, &sums, index);
         }
     }
 }

@@ -31,9 +31,9 @@ void mor_contact_wall_place(const mor_contact *contact, const mor_contact_wall *
 {
     double offset[3];
     for (int a = 0; a < 3; ++a) {
-        offset[a] = point[a] - wall->velocity[a] * contact->time - wall->move[a];
+        offset[a] = point[a] - wall->velocity[a] * contact->time - wall->translation[a];
     }
-    mor_matrix_apply_transposed(wall->turn, offset, place);
+    mor_matrix_apply_transposed(wall->rotation, offset, place);
 }
 
 /* Whether the surface around the node may touch; then normal and curvature are filled in. */
@@ -53,7 +53,7 @@ static bool look_at_wall(const mor_contact *contact, const mor_contact_near *nea
     if (!(touch->gap < mor_contact_reach(contact, near, touch, curvature))) {
         return false;
     }
-    mor_matrix_apply(wall->turn, normal, touch->normal);
+    mor_matrix_apply(wall->rotation, normal, touch->normal);
     normalize(group->dimension, touch->normal);
     mor_contact_meet(contact, near, touch, curvature);
     return true;
@@ -63,9 +63,9 @@ void mor_contact_shape_place(const mor_body *body, const double *reference, doub
 {
     double offset[3];
     for (int a = 0; a < 3; ++a) {
-        offset[a] = reference[a] - body->shape_move[a];
+        offset[a] = reference[a] - body->shape_translation[a];
     }
-    mor_matrix_apply_transposed(body->shape_turn, offset, place);
+    mor_matrix_apply_transposed(body->shape_rotation, offset, place);
 }
 
 /* Gap of a point of the reference configuration; unless NULL, the normal in that configuration and the curvature. */
@@ -77,7 +77,7 @@ static double reference_gap(const mor_body_group *group, const mor_body *body, c
     const double gap =
         mor_contact_shape_gap(body->shape, group->dimension, place, group->spacing, normal != NULL ? own : NULL);
     if (normal != NULL) {
-        mor_matrix_apply(body->shape_turn, own, normal);
+        mor_matrix_apply(body->shape_rotation, own, normal);
     }
     if (curvature != NULL) {
         *curvature = mor_contact_curvature(body->shape, group->dimension, place, gap, own, group->spacing);
@@ -92,7 +92,7 @@ static void find_reference(const mor_body *body, const double *point, double *re
     for (int a = 0; a < 3; ++a) {
         offset[a] = point[a] - body->center[a];
     }
-    mor_matrix_apply_transposed(body->turn, offset, reference);
+    mor_matrix_apply_transposed(body->rotation, offset, reference);
     for (int a = 0; a < 3; ++a) {
         reference[a] += body->geometry.center[a];
     }
@@ -124,7 +124,7 @@ static bool look_at_rigid(const mor_contact *contact, const mor_contact_near *ne
     }
     double curvature;
     reference_gap(partner->group, body, reference, normal, &curvature);
-    mor_matrix_apply(body->turn, normal, touch->normal);
+    mor_matrix_apply(body->rotation, normal, touch->normal);
     normalize(partner->group->dimension, touch->normal);
     mor_contact_meet(contact, near, touch, curvature);
     return true;

@@ -80,7 +80,7 @@ double mor_contact_overlap(const mor_contact *contact, const mor_contact_body *o
     const int64_t entry = work->first_node[owner->group_index] + node;
     double place[3];
     double sum = 0.0;
-    mor_matrix_apply_transposed(group->bodies[owner->body].turn, offset, place);
+    mor_matrix_apply_transposed(group->bodies[owner->body].rotation, offset, place);
     for (int a = 0; a < 3; ++a) {
         place[a] += group->node_reference[3 * node + a];
     }

@@ -18,9 +18,9 @@ static void box_of_rigid(const mor_contact_body *c, double *box, double *speed)
 {
     const mor_body *body = &c->group->bodies[c->body];
     double middle[3];
-    mor_matrix_apply(body->turn, c->middle, middle);
+    mor_matrix_apply(body->rotation, c->middle, middle);
     for (int a = 0; a < 3; ++a) {
-        const double *row = body->turn + 3 * a;
+        const double *row = body->rotation + 3 * a;
         const double reach = fabs(row[0]) * c->half[0] + fabs(row[1]) * c->half[1] + fabs(row[2]) * c->half[2];
         box[a] = body->center[a] + middle[a] - reach;
         box[3 + a] = body->center[a] + middle[a] + reach;
@@ -69,14 +69,14 @@ static void measure_travel(mor_contact_body *c)
     if (c->group->kind == MOR_BODY_RIGID) {
         double turned = 0.0;
         for (int a = 0; a < 9; ++a) {
-            const double d = body->turn[a] - c->previous[3 + a];
+            const double d = body->rotation[a] - c->previous[3 + a];
             turned += d * d;
         }
         const double d[3] = {body->center[0] - c->previous[0], body->center[1] - c->previous[1],
                              body->center[2] - c->previous[2]};
         far = mor_vector_length(d) + sqrt(turned) * c->radius;
         memcpy(c->previous, body->center, sizeof body->center);
-        memcpy(c->previous + 3, body->turn, sizeof body->turn);
+        memcpy(c->previous + 3, body->rotation, sizeof body->rotation);
     } else {
         const double *x = c->group->set.data[MOR_FIELD_POSITION] + 3 * body->first;
         for (int64_t i = 0; i < body->n_particles; ++i) {
@@ -117,10 +117,10 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
         }
         double offset[3], place[3], half[3];
         for (int a = 0; a < 3; ++a) {
-            offset[a] = 0.5 * (p[a] + p[3 + a]) - wall->velocity[a] * contact->time - wall->move[a];
+            offset[a] = 0.5 * (p[a] + p[3 + a]) - wall->velocity[a] * contact->time - wall->translation[a];
             half[a] = 0.5 * (p[3 + a] - p[a]);
         }
-        mor_matrix_apply_transposed(wall->turn, offset, place);
+        mor_matrix_apply_transposed(wall->rotation, offset, place);
         if (contact->groups[contact->work->bodies[first].group_index]->dimension == 2) {
             half[2] = 0.0;
         }

@@ -47,7 +47,7 @@ static double pair_rate2(const mor_contact *contact, int own, int other, double 
     if (!mor_contact_is_hertzian(contact, first, second)) {
         const double face =
             second < work->n_bodies ? fmin(work->bodies[first].face, work->bodies[second].face) : c->face;
-        return mor_contact_bedding(contact, first, second) * face * inverse;
+        return mor_contact_area_stiffness(contact, first, second) * face * inverse;
     }
     /* What the pair may store: its motion now, or a fall over its size. At the turning point of an impact, where
      * nothing moves, the stiffness is underestimated by its third to fifth root at most. */
@@ -85,7 +85,7 @@ static double limit_pair(const mor_contact *contact, int own, int other, double 
     const double own_rate2 = pair_rate2(contact, own, other, speed) * (1.0 + y);
     double step = STEP_SHARE / sqrt(own_rate2);
     if (c->group->kind == MOR_BODY_ELASTIC) {
-        step = LAYER_SHARE / sqrt(mor_contact_bedding(contact, first, second) * c->softness * (1.0 + y));
+        step = LAYER_SHARE / sqrt(mor_contact_area_stiffness(contact, first, second) * c->softness * (1.0 + y));
     }
     if (apart > STEPS_AHEAD * step) {
         return 0.25 * apart;

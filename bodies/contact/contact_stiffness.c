@@ -112,7 +112,7 @@ static double usual_curvature(const mor_contact *contact, int second)
 }
 
 /* Stiffness per area where the curvature is largest, Pa/m; other nodes have less, by their weights. */
-static double node_bedding(const mor_contact *contact, int first, int second, double *largest_weight)
+static double node_area_stiffness(const mor_contact *contact, int first, int second, double *largest_weight)
 {
     double sharpest = contact->work->bodies[first].sharpest + usual_curvature(contact, second);
     if (second < contact->work->n_bodies) {
@@ -131,12 +131,12 @@ static double find_knee(const mor_contact *contact, int first, int second)
     const double spacing = mor_contact_spacing(contact, first, second);
     double weight;
     const double fine = fineness(contact, first, second);
-    const double bedding = fine * node_bedding(contact, first, second, &weight) / weight;
+    const double area_stiffness = fine * node_area_stiffness(contact, first, second, &weight) / weight;
     /* There d(energy)/dW = n B E s^-m W^(n - 1) is the bedding. Powers of numbers without a unit only, so that a change
      * of units by powers of two changes no bit. */
     const double knee = pow(e.power * e.energy * weight / (fine * NODE_STIFFNESS), 1.0 / (1.0 - e.power));
     const double volume = spacing * spacing * spacing;
-    return bedding * knee * (dimension == 3 ? volume * spacing : volume);
+    return area_stiffness * knee * (dimension == 3 ? volume * spacing : volume);
 }
 
 /* Inverse of the mass that two rigid sides have together, whether or not they are held now, 1/kg (m/kg). */
@@ -169,13 +169,13 @@ static double reference_softening(const mor_contact *contact, int first, int sec
     return n * energy > knee ? pow(n * energy / knee, (n - 1.0) / n) : 1.0;
 }
 
-double mor_contact_bedding(const mor_contact *contact, int first, int second)
+double mor_contact_area_stiffness(const mor_contact *contact, int first, int second)
 {
     const mor_contact_body *a = &contact->work->bodies[first];
     if (mor_contact_is_hertzian(contact, first, second)) {
         double weight;
         return fineness(contact, first, second) * reference_softening(contact, first, second) *
-               node_bedding(contact, first, second, &weight);
+               node_area_stiffness(contact, first, second, &weight);
     }
     const double own = body_of(a)->contact_modulus / a->group->spacing;
     if (mor_contact_group(contact, second) == NULL) {
@@ -194,14 +194,14 @@ double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near 
     /* Both bodies' nodes carry the same surface, each half of it. */
     const double area = (is_wall ? 1.0 : 0.5) * owner->group->node_area[node];
     if (!mor_contact_is_hertzian(contact, near->first, near->second)) {
-        return mor_contact_bedding(contact, near->first, near->second) * area;
+        return mor_contact_area_stiffness(contact, near->first, near->second) * area;
     }
     double largest;
-    node_bedding(contact, near->first, near->second, &largest);
-    const double bedding = mor_contact_bedding(contact, near->first, near->second);
+    node_area_stiffness(contact, near->first, near->second, &largest);
+    const double area_stiffness = mor_contact_area_stiffness(contact, near->first, near->second);
     const double own = work->curvatures[work->first_node[owner->group_index] + node];
     const double other = usual_curvature(contact, side == 0 ? near->second : near->first);
-    return bedding * weigh(contact, near->first, near->second, own + other) / largest * area;
+    return area_stiffness * weigh(contact, near->first, near->second, own + other) / largest * area;
 }
 
 void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
@@ -249,7 +249,7 @@ static double finest(const mor_contact *contact, int first, int second)
 }
 
 /* Mean over the nodes of stiffness per area while a contact is narrow, Pa/m. */
-static double narrow_bedding(const mor_contact *contact, int first, int second)
+static double narrow_area_stiffness(const mor_contact *contact, int first, int second)
 {
     const mor_contact_work *work = contact->work;
     const mor_contact_body *c = &work->bodies[first];
@@ -262,7 +262,7 @@ static double narrow_bedding(const mor_contact *contact, int first, int second)
 double mor_contact_least_stiffness(const mor_contact *contact, int first, int second)
 {
     const double fine = finest(contact, first, second);
-    return narrow_bedding(contact, first, second) *
+    return narrow_area_stiffness(contact, first, second) *
            (contact->work->bodies[first].group->dimension == 3 ? fine * fine : fine);
 }
 
@@ -294,7 +294,8 @@ double mor_contact_largest_stiffness(const mor_contact *contact, int first, int 
     const double spacing = mor_contact_spacing(contact, first, second);
     const double widest = largest_radius(contact, first, second);
     const double least = mor_contact_least_stiffness(contact, first, second);
-    const double tangential = reference_softening(contact, first, second) * narrow_bedding(contact, first, second);
+    const double tangential =
+        reference_softening(contact, first, second) * narrow_area_stiffness(contact, first, second);
     const touching it = touch_by_energy(contact, first, second, energy);
     const double area = c->group->dimension == 3 ? fmin(MOR_PI * widest * widest, 2.0 * MOR_PI * it.reach * it.reach) +
                                                        4.0 * spacing * spacing
@@ -340,7 +341,7 @@ static void measure_rigid(mor_contact *contact, mor_contact_body *c, double *scr
         double normal[3];
         const bool goes_on =
             !mor_contact_has_edge(body->shape, group->dimension, place, group->spacing, EDGE_DIFFERENCE, normal);
-        mor_matrix_apply(body->shape_turn, normal, normals + 3 * k);
+        mor_matrix_apply(body->shape_rotation, normal, normals + 3 * k);
         const double found = mor_contact_curvature(body->shape, group->dimension, place, 0.0, normal, group->spacing);
         curvatures[k] = fmin(fmax(found, 0.0), sharpest);
         contact->work->node_distances[entry + k] = mor_shape_distance(body->shape, place);

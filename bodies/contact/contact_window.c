@@ -182,7 +182,7 @@ static bool find_frame(const mor_contact *contact, const mor_contact_near *near,
     if (!mor_contact_is_hertzian(contact, near->first, near->second) || !work->is_smooth[entry]) {
         return false;
     }
-    mor_matrix_apply(group->bodies[it->owner->body].turn, work->normals + 3 * entry, it->own);
+    mor_matrix_apply(group->bodies[it->owner->body].rotation, work->normals + 3 * entry, it->own);
     const double facing = mor_vector_dot(it->own, touch->normal);
     for (int a = 0; a < 3; ++a) {
         it->along[a] = touch->normal[a] - facing * it->own[a];

@@ -185,7 +185,7 @@ double mor_contact_pair_modulus(const mor_contact *contact, int first, int secon
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall
  *  Returns: unit Pa/m. */
-double mor_contact_bedding(const mor_contact *contact, int first, int second);
+double mor_contact_area_stiffness(const mor_contact *contact, int first, int second);
 
 /** Stiffness of one node of a pair, unit N/m (N/m2 in plane strain); it depends on nothing that moves.
  *  @param contact [in]  one object
@@ -232,9 +232,9 @@ double mor_contact_curvature(const mor_shape *shape, int dimension, const double
                              const double *normal, double spacing);
 
 /** Gap below which the surface around a node may touch though the node does not, unit m.
- *  @param contact [in]  one object
- *  @param near    [in]  one object
- *  @param touch   [in]  one object, whose side and node are known
+ *  @param contact         [in]  one object
+ *  @param near            [in]  one object
+ *  @param touch           [in]  one object, whose side and node are known
  *  @param other_curvature [in]  of the other surface, unit 1/m */
 double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
                          double other_curvature);

@@ -40,15 +40,15 @@ typedef struct mor_elastic {
 } mor_elastic;
 
 /** Makes a group of elastic bodies: neighbors within each body only, correction matrices, deformation gradient I.
- *  @param context  [in,out]  one object
- *  @param elastic  [out]     one object; cleared after a failure
- *  @param name     [in]      zero-terminated
- *  @param settings [in]      one object; copied
- *  @param material [in]      one object; total form; borrowed
- *  @param dimension [in]     2 or 3
- *  @param spacing  [in]      unit m
- *  @param requests [in]      shape [n_bodies]
- *  @param n_bodies [in]      number of bodies
+ *  @param context   [in,out]  one object
+ *  @param elastic   [out]     one object; cleared after a failure
+ *  @param name      [in]      zero-terminated
+ *  @param settings  [in]      one object; copied
+ *  @param material  [in]      one object; total form; borrowed
+ *  @param dimension [in]      2 or 3
+ *  @param spacing   [in]      unit m
+ *  @param requests  [in]      shape [n_bodies]
+ *  @param n_bodies  [in]      number of bodies
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body so thin that a correction matrix does not exist, naming body and
  *  place, for settings out of range and for a material of the rate form; MOR_ERROR_MEMORY.
  *  Gives: fields deformation_gradient and deformation_rate in the set; the driver of a resumed run also restores

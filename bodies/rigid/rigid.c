@@ -232,7 +232,7 @@ double mor_rigid_energy(const mor_rigid *rigid, int body, double *momentum, doub
     const mor_rigid_state *state = &rigid->states[body];
     const mor_body *b = &rigid->group.bodies[body];
     const mor_rigid_constants *constants = &rigid->work->constants[body];
-    if (constants->n_turns == 3) {
+    if (constants->n_rotation_axes == 3) {
         memcpy(angular_momentum, state->angular_momentum, 3 * sizeof *angular_momentum);
     } else {
         mor_rigid_angular_momentum(constants, state->quaternion, b->angular_velocity, angular_momentum);

@@ -18,8 +18,8 @@ typedef struct mor_rigid_constants {
     double axes[2][3];     /* shape [2,3], unit vectors of the reference configuration, 1 */
     double outermost;      /* distance of the outermost point from the center, m */
     unsigned locked;       /* as in mor_rigid_motion, with what plane strain adds */
-    int n_turns;           /* free axes of turning */
-    int turn_axes[3];      /* the free axes, then the locked ones */
+    int n_rotation_axes;   /* free axes of turning */
+    int rotation_axes[3];  /* the free axes, then the locked ones */
     double held_force[3];  /* of the soil, held over a common step, N (N/m) */
     double held_moment[3]; /* likewise, about the origin of coordinates, N m (N) */
 } mor_rigid_constants;
@@ -40,8 +40,8 @@ mor_status mor_rigid_find_constants(mor_context *context, const mor_rigid *rigid
 
 /** Rotation matrix of a unit quaternion.
  *  @param quaternion [in]   shape [4], unit 1
- *  @param turn       [out]  shape [3,3], unit 1 */
-void mor_rigid_matrix(const double *quaternion, double *turn);
+ *  @param rotation   [out]  shape [3,3], unit 1 */
+void mor_rigid_matrix(const double *quaternion, double *rotation);
 
 /** Quaternion of a turn by a rotation vector.
  *  @param vector     [in]   shape [3], unit rad
@@ -68,7 +68,7 @@ void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const doub
  *  @param constants [in]      one object
  *  @param length    [in]      time, unit s
  *  @param state     [in,out]  one object; quaternion and rotation angle */
-void mor_rigid_turn(const mor_rigid_constants *constants, double length, mor_rigid_state *state);
+void mor_rigid_rotate(const mor_rigid_constants *constants, double length, mor_rigid_state *state);
 
 /** Puts bodies and particles where the states say.
  *  @param context [in,out]  one object

@@ -22,7 +22,7 @@ static bool is_in_domain(const mor_body_group *group, const double *x)
 static bool is_well_inside(const mor_body_group *group, const mor_body *body, double radius)
 {
     double local[3];
-    bool is_inside = isfinite(body->turn[0]); /* a rotation that is no number has no entry that is one */
+    bool is_inside = isfinite(body->rotation[0]); /* a rotation that is no number has no entry that is one */
     mor_domain_localize(group->placement, body->center, local);
     for (int a = 0; a < group->dimension; ++a) {
         is_inside =
@@ -57,7 +57,7 @@ static void place_piece(const mor_body_group *group, const mor_body_piece *piece
         for (int a = 0; a < 3; ++a) {
             arm[a] = group->reference[3 * i + a] - body->geometry.center[a];
         }
-        mor_matrix_apply(body->turn, arm, turned);
+        mor_matrix_apply(body->rotation, arm, turned);
         for (int a = 0; a < 3; ++a) {
             x[a] = body->center[a] + turned[a];
             v[a] = body->velocity[a];
@@ -79,7 +79,7 @@ static void place_bodies(mor_rigid *rigid)
         memcpy(body->rotation_angle, state->rotation_angle, sizeof body->rotation_angle);
         memcpy(body->soil_impulse, state->soil_impulse, sizeof body->soil_impulse);
         memcpy(body->contact_impulse, state->contact_impulse, sizeof body->contact_impulse);
-        mor_rigid_matrix(state->quaternion, body->turn);
+        mor_rigid_matrix(state->quaternion, body->rotation);
         if (motion->is_prescribed) {
             memcpy(body->angular_velocity, motion->angular_velocity, sizeof body->angular_velocity);
         } else {
@@ -131,7 +131,7 @@ static void drift_half(mor_rigid *rigid, double half_step, double time)
         for (int a = 0; a < 3; ++a) {
             state->center[a] += half_step * state->velocity[a];
         }
-        mor_rigid_turn(&rigid->work->constants[b], half_step, state);
+        mor_rigid_rotate(&rigid->work->constants[b], half_step, state);
     }
 }
 
@@ -234,7 +234,7 @@ double mor_rigid_spring(const mor_rigid *rigid, int body, double *arm, double *d
     for (int a = 0; a < 3; ++a) {
         reference[a] = motion->spring_point[a] - b->geometry.center[a];
     }
-    mor_matrix_apply(b->turn, reference, arm);
+    mor_matrix_apply(b->rotation, reference, arm);
     for (int a = 0; a < 3; ++a) {
         direction[a] = b->center[a] + arm[a] - motion->spring_anchor[a];
     }

@@ -34,14 +34,14 @@ void mor_rigid_quaternion(const double *vector, double *quaternion)
     }
 }
 
-void mor_rigid_matrix(const double *q, double *turn)
+void mor_rigid_matrix(const double *q, double *rotation)
 {
     for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3;
         const int c = (a + 2) % 3;
-        turn[3 * a + a] = 1.0 - 2.0 * (q[b + 1] * q[b + 1] + q[c + 1] * q[c + 1]);
-        turn[3 * a + b] = 2.0 * (q[a + 1] * q[b + 1] - q[0] * q[c + 1]);
-        turn[3 * b + a] = 2.0 * (q[a + 1] * q[b + 1] + q[0] * q[c + 1]);
+        rotation[3 * a + a] = 1.0 - 2.0 * (q[b + 1] * q[b + 1] + q[c + 1] * q[c + 1]);
+        rotation[3 * a + b] = 2.0 * (q[a + 1] * q[b + 1] - q[0] * q[c + 1]);
+        rotation[3 * b + a] = 2.0 * (q[a + 1] * q[b + 1] + q[0] * q[c + 1]);
     }
 }
 
@@ -85,9 +85,9 @@ mor_status mor_rigid_find_constants(mor_context *context, const mor_rigid *rigid
     int n_locked = 0;
     for (int a = 0; a < 3; ++a) {
         if ((constants->locked >> (3 + a) & 1u) == 0) {
-            constants->turn_axes[constants->n_turns++] = a;
+            constants->rotation_axes[constants->n_rotation_axes++] = a;
         } else {
-            constants->turn_axes[2 - n_locked++] = a;
+            constants->rotation_axes[2 - n_locked++] = a;
         }
     }
     for (int k = 0; k < 6; ++k) {
@@ -99,7 +99,7 @@ mor_status mor_rigid_find_constants(mor_context *context, const mor_rigid *rigid
                   "finite",
                   b->name, b->mass, constants->inertia[a], 'x' + a);
     }
-    if (constants->n_turns == 3) {
+    if (constants->n_rotation_axes == 3) {
         split_inertia(constants);
     }
     for (int64_t i = b->first; i < b->first + b->n_particles; ++i) {
@@ -113,41 +113,41 @@ mor_status mor_rigid_find_constants(mor_context *context, const mor_rigid *rigid
 }
 
 /* Entry of the inertia about fixed axes. */
-static double find_inertia(const mor_rigid_constants *constants, const double *turn, int a, int b)
+static double find_inertia(const mor_rigid_constants *constants, const double *rotation, int a, int b)
 {
     double half[3];
-    mor_symmetric_apply(constants->inertia, turn + 3 * b, half);
-    return mor_vector_dot(turn + 3 * a, half);
+    mor_symmetric_apply(constants->inertia, rotation + 3 * b, half);
+    return mor_vector_dot(rotation + 3 * a, half);
 }
 
 void mor_rigid_angular_velocity(const mor_rigid_constants *constants, const double *quaternion,
                                 const double *angular_momentum, double *angular_velocity)
 {
-    const int *axes = constants->turn_axes;
+    const int *axes = constants->rotation_axes;
     const double *l = angular_momentum;
-    double turn[9];
-    mor_rigid_matrix(quaternion, turn);
+    double rotation[9];
+    mor_rigid_matrix(quaternion, rotation);
     memset(angular_velocity, 0, 3 * sizeof *angular_velocity);
-    if (constants->n_turns == 3) {
+    if (constants->n_rotation_axes == 3) {
         for (int a = 0; a < 3; ++a) {
             angular_velocity[a] = constants->common * l[a];
         }
         for (int k = 0; k < 2; ++k) {
             double axis[3];
-            mor_matrix_apply(turn, constants->axes[k], axis);
+            mor_matrix_apply(rotation, constants->axes[k], axis);
             const double rate = constants->rates[k] * mor_vector_dot(axis, l);
             for (int a = 0; a < 3; ++a) {
                 angular_velocity[a] += rate * axis[a];
             }
         }
-    } else if (constants->n_turns == 2) {
-        const double first = find_inertia(constants, turn, axes[0], axes[0]);
-        const double second = find_inertia(constants, turn, axes[1], axes[1]);
-        const double mixed = find_inertia(constants, turn, axes[0], axes[1]);
+    } else if (constants->n_rotation_axes == 2) {
+        const double first = find_inertia(constants, rotation, axes[0], axes[0]);
+        const double second = find_inertia(constants, rotation, axes[1], axes[1]);
+        const double mixed = find_inertia(constants, rotation, axes[0], axes[1]);
         const double determinant = first * second - mixed * mixed;
         angular_velocity[axes[0]] = (second * l[axes[0]] - mixed * l[axes[1]]) / determinant;
         angular_velocity[axes[1]] = (first * l[axes[1]] - mixed * l[axes[0]]) / determinant;
-    } else if (constants->n_turns == 1) {
+    } else if (constants->n_rotation_axes == 1) {
         /* A turn about the axis does not change the inertia about it. */
         angular_velocity[axes[0]] = l[axes[0]] / constants->inertia[axes[0]];
     }
@@ -156,22 +156,22 @@ void mor_rigid_angular_velocity(const mor_rigid_constants *constants, const doub
 void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const double *quaternion,
                                 const double *angular_velocity, double *angular_momentum)
 {
-    double turn[9];
+    double rotation[9];
     double local[3];
     double local_momentum[3];
-    mor_rigid_matrix(quaternion, turn);
-    mor_matrix_apply_transposed(turn, angular_velocity, local);
+    mor_rigid_matrix(quaternion, rotation);
+    mor_matrix_apply_transposed(rotation, angular_velocity, local);
     mor_symmetric_apply(constants->inertia, local, local_momentum);
-    mor_matrix_apply(turn, local_momentum, angular_momentum);
+    mor_matrix_apply(rotation, local_momentum, angular_momentum);
 }
 
 /* Turns about an axis of the body with the share of the angular velocity that is due to it: exact. */
-static void turn_about_axis(const double *axis, double rate, const double *angular_momentum, double *quaternion)
+static void rotate_about_axis(const double *axis, double rate, const double *angular_momentum, double *quaternion)
 {
-    double turn[9];
+    double rotation[9];
     double local[3];
-    mor_rigid_matrix(quaternion, turn);
-    mor_matrix_apply_transposed(turn, angular_momentum, local);
+    mor_rigid_matrix(quaternion, rotation);
+    mor_matrix_apply_transposed(rotation, angular_momentum, local);
     const double half_angle = 0.5 * rate * mor_vector_dot(axis, local);
     const double part = sin(half_angle);
     const double factor[4] = {cos(half_angle), part * axis[0], part * axis[1], part * axis[2]};
@@ -181,8 +181,8 @@ static void turn_about_axis(const double *axis, double rate, const double *angul
 
 /* Splitting of fourth order by Blanes and Moan (2002), S6: symmetric in time, and symplectic, so that the energy does
  * not drift. The part common to all axes commutes with the others and is taken whole. */
-static void turn_freely(const mor_rigid_constants *constants, double length, const double *angular_momentum,
-                        double *quaternion)
+static void rotate_freely(const mor_rigid_constants *constants, double length, const double *angular_momentum,
+                          double *quaternion)
 {
     static const double first[] = {0.0792036964311957, 0.353172906049774, -0.0420650803577195, 0.2193769557534996};
     static const double second[] = {0.209515106613362, -0.143851773179818, 0.434336666566456};
@@ -196,22 +196,22 @@ static void turn_freely(const mor_rigid_constants *constants, double length, con
     mor_rigid_quaternion(vector, factor);
     multiply_quaternions(factor, before, quaternion);
     if (constants->rates[1] == 0.0) {
-        turn_about_axis(constants->axes[0], length * constants->rates[0], angular_momentum, quaternion);
+        rotate_about_axis(constants->axes[0], length * constants->rates[0], angular_momentum, quaternion);
         return;
     }
     for (int k = 0; k <= N_SECOND; ++k) {
         const double share = first[k <= 3 ? k : N_SECOND - k];
-        turn_about_axis(constants->axes[0], share * length * constants->rates[0], angular_momentum, quaternion);
+        rotate_about_axis(constants->axes[0], share * length * constants->rates[0], angular_momentum, quaternion);
         if (k < N_SECOND) {
             const double other = second[k < 3 ? k : N_SECOND - 1 - k];
-            turn_about_axis(constants->axes[1], other * length * constants->rates[1], angular_momentum, quaternion);
+            rotate_about_axis(constants->axes[1], other * length * constants->rates[1], angular_momentum, quaternion);
         }
     }
 }
 
 /* With one axis locked: the classical method of Runge and Kutta for the quaternion. */
-static void turn_with_lock(const mor_rigid_constants *constants, double length, const double *angular_momentum,
-                           double *quaternion)
+static void rotate_with_lock(const mor_rigid_constants *constants, double length, const double *angular_momentum,
+                             double *quaternion)
 {
     static const double places[4] = {0.0, 0.5, 0.5, 1.0};
     static const double weights[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
@@ -234,17 +234,17 @@ static void turn_with_lock(const mor_rigid_constants *constants, double length, 
     memcpy(quaternion, sum, sizeof sum);
 }
 
-void mor_rigid_turn(const mor_rigid_constants *constants, double length, mor_rigid_state *state)
+void mor_rigid_rotate(const mor_rigid_constants *constants, double length, mor_rigid_state *state)
 {
     double before[3];
     double after[3];
     double *q = state->quaternion;
     mor_rigid_angular_velocity(constants, q, state->angular_momentum, before);
-    if (constants->n_turns == 3) {
-        turn_freely(constants, length, state->angular_momentum, q);
-    } else if (constants->n_turns == 2) {
-        turn_with_lock(constants, length, state->angular_momentum, q);
-    } else if (constants->n_turns == 1) {
+    if (constants->n_rotation_axes == 3) {
+        rotate_freely(constants, length, state->angular_momentum, q);
+    } else if (constants->n_rotation_axes == 2) {
+        rotate_with_lock(constants, length, state->angular_momentum, q);
+    } else if (constants->n_rotation_axes == 1) {
         const double vector[3] = {length * before[0], length * before[1], length * before[2]};
         const double old[4] = {q[0], q[1], q[2], q[3]};
         double factor[4];

@@ -62,10 +62,10 @@ void mor_context_clear_error(mor_context *context);
 void mor_context_restore_error(mor_context *context, const mor_context *earlier);
 
 /** Records an error and returns its code. Use MOR_FAIL, which fills in the place.
- *  @param context  [in,out]  one object
- *  @param status   [in]      the code to record; must not be MOR_OK
- *  @param place    [in]      one object; where the error arose
- *  @param format   [in]      printf format, then its arguments; zero-terminated
+ *  @param context [in,out]  one object
+ *  @param status  [in]      the code to record; must not be MOR_OK
+ *  @param place   [in]      one object; where the error arose
+ *  @param format  [in]      printf format, then its arguments; zero-terminated
  *  Returns: status.
  *  Threads: not inside a parallel loop. */
 mor_status mor_context_fail(mor_context *context, mor_status status, const mor_frame *place, const char *format, ...)

@@ -11,10 +11,10 @@
 /** @file
  *  The box that particles may not leave. A scene that is turned as a whole takes its box along. */
 
-/** A turned and moved frame: a place x of it lies at turn * x + move. */
+/** A turned and moved frame: a place x of it lies at rotation * x + translation. */
 typedef struct mor_domain_frame {
-    double turn[9]; /* shape [3,3], rotation matrix, 1 */
-    double move[3]; /* m */
+    double rotation[9];    /* shape [3,3], rotation matrix, 1 */
+    double translation[3]; /* m */
 } mor_domain_frame;
 
 /** Finds where a place lies in a frame.
@@ -24,11 +24,11 @@ typedef struct mor_domain_frame {
 static inline void mor_domain_localize(const mor_domain_frame *frame, const double *place, double *local)
 {
     for (int a = 0; a < 3; ++a) {
-        local[a] = frame != NULL ? place[a] - frame->move[a] : place[a];
+        local[a] = frame != NULL ? place[a] - frame->translation[a] : place[a];
     }
     if (frame != NULL) {
         const double moved[3] = {local[0], local[1], local[2]};
-        mor_matrix_apply_transposed(frame->turn, moved, local);
+        mor_matrix_apply_transposed(frame->rotation, moved, local);
     }
 }
 

@@ -106,14 +106,15 @@ mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_pa
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_difference(mor_context *context, mor_shape **from, mor_shape **minus, mor_shape **shape);
 
-/** Makes the child moved: x -> x + move.
- *  @param context [in,out]  one object
- *  @param move    [in]      shape [3]; unit m
- *  @param child   [in,out]  one pointer; taken: becomes NULL
- *  @param shape   [out]     one pointer; owned by the caller
+/** Makes the child moved: x -> x + translation.
+ *  @param context     [in,out]  one object
+ *  @param translation [in]      shape [3]; unit m
+ *  @param child       [in,out]  one pointer; taken: becomes NULL
+ *  @param shape       [out]     one pointer; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
  *  Cost: O(1), allocates. */
-mor_status mor_shape_new_translate(mor_context *context, const double *move, mor_shape **child, mor_shape **shape);
+mor_status mor_shape_new_translate(mor_context *context, const double *translation, mor_shape **child,
+                                   mor_shape **shape);
 
 /** Makes the child turned about a line, right-handed. Turns by quarter circles about a coordinate axis are exact.
  *  @param context [in,out]  one object
@@ -127,17 +128,17 @@ mor_status mor_shape_new_translate(mor_context *context, const double *move, mor
 mor_status mor_shape_new_rotate(mor_context *context, const double *axis, double angle, const double *center,
                                 mor_shape **child, mor_shape **shape);
 
-/** Makes the child placed: x -> turn * x + move.
- *  @param context [in,out]  one object
- *  @param turn    [in]      shape [3,3]; unit 1; rotation matrix (orthonormal to 1e-9, determinant 1)
- *  @param move    [in]      shape [3]; unit m
- *  @param child   [in,out]  one pointer; taken: becomes NULL
- *  @param shape   [out]     one pointer; owned by the caller
+/** Makes the child placed: x -> rotation * x + translation.
+ *  @param context     [in,out]  one object
+ *  @param rotation    [in]      shape [3,3]; unit 1; rotation matrix (orthonormal to 1e-9, determinant 1)
+ *  @param translation [in]      shape [3]; unit m
+ *  @param child       [in,out]  one pointer; taken: becomes NULL
+ *  @param shape       [out]     one pointer; owned by the caller
  *  Gives: bounds that hold the shape; exact for a box child, wider for others when the turn is oblique.
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
  *  Cost: O(1), allocates. */
-mor_status mor_shape_new_placed(mor_context *context, const double *turn, const double *move, mor_shape **child,
-                                mor_shape **shape);
+mor_status mor_shape_new_placed(mor_context *context, const double *rotation, const double *translation,
+                                mor_shape **child, mor_shape **shape);
 
 /** Makes the child scaled about the origin: x -> factor * x.
  *  @param context [in,out]  one object

@@ -33,10 +33,10 @@ mor_status mor_shape_check_length(mor_context *context, double length, const cha
 mor_status mor_shape_check_direction(mor_context *context, const double *direction, const char *what, double *unit);
 
 /** Refuses a matrix that is not a rotation: rows orthonormal to 1e-9, determinant 1.
- *  @param context [in,out]  one object
- *  @param turn    [in]      shape [3,3]; unit 1
+ *  @param context  [in,out]  one object
+ *  @param rotation [in]      shape [3,3]; unit 1
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
-mor_status mor_shape_check_turn(mor_context *context, const double *turn);
+mor_status mor_shape_check_rotation(mor_context *context, const double *rotation);
 
 /** Finds two edges of a closed line that cross or touch, other than neighbors at their common corner.
  *  @param points   [in]   shape [n_points,2]; unit m; edge i joins points i and i + 1, the last one n_points - 1 and 0

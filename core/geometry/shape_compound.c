@@ -35,8 +35,8 @@ typedef struct view_shape {
 typedef struct placed_shape {
     mor_shape base;
     mor_shape *child; /* owned */
-    double turn[9];
-    double move[3];
+    double rotation[9];
+    double translation[3];
 } placed_shape;
 
 static double measure_union(const mor_shape *shape, const double *point, mor_shape_measure measure)
@@ -95,9 +95,10 @@ static void difference_free(mor_context *context, mor_shape *shape)
 static double measure_placed(const mor_shape *shape, const double *point, mor_shape_measure measure)
 {
     const placed_shape *placed = (const placed_shape *)shape;
-    const double offset[3] = {point[0] - placed->move[0], point[1] - placed->move[1], point[2] - placed->move[2]};
+    const double offset[3] = {point[0] - placed->translation[0], point[1] - placed->translation[1],
+                              point[2] - placed->translation[2]};
     double local[3];
-    mor_matrix_apply_transposed(placed->turn, offset, local);
+    mor_matrix_apply_transposed(placed->rotation, offset, local);
     return measure(placed->child, local);
 }
 
@@ -107,10 +108,10 @@ static void placed_bounds(const mor_shape *shape, mor_bounds *bounds)
     mor_bounds child;
     mor_shape_bounds(placed->child, &child);
     for (int a = 0; a < 3; ++a) {
-        bounds->minimum[a] = placed->move[a];
-        bounds->maximum[a] = placed->move[a];
+        bounds->minimum[a] = placed->translation[a];
+        bounds->maximum[a] = placed->translation[a];
         for (int b = 0; b < 3; ++b) {
-            const double part = placed->turn[3 * a + b];
+            const double part = placed->rotation[3 * a + b];
             /* Zero times infinity would be NaN: a direction that does not contribute is left out. */
             if (part != 0.0) {
                 bounds->minimum[a] += part * (part > 0.0 ? child.minimum[b] : child.maximum[b]);
@@ -345,29 +346,30 @@ mor_status mor_shape_new_view(mor_context *context, const mor_shape *other, mor_
     return MOR_OK;
 }
 
-mor_status mor_shape_new_placed(mor_context *context, const double *turn, const double *move, mor_shape **child,
-                                mor_shape **shape)
+mor_status mor_shape_new_placed(mor_context *context, const double *rotation, const double *translation,
+                                mor_shape **child, mor_shape **shape)
 {
     *shape = NULL;
     MOR_CHECK(context, child != NULL && *child != NULL, MOR_ERROR_ARGUMENT,
               "there is nothing to move or turn: give a shape");
-    MOR_TRY(context, mor_shape_check_turn(context, turn));
-    MOR_TRY(context, mor_shape_check_vector(context, move, "the move"));
+    MOR_TRY(context, mor_shape_check_rotation(context, rotation));
+    MOR_TRY(context, mor_shape_check_vector(context, translation, "the move"));
     placed_shape *placed = NULL;
     MOR_TRY(context, MOR_NEW(context, &placed, 1, "placed shape"));
     placed->base.operations = &placed_operations;
-    memcpy(placed->turn, turn, sizeof placed->turn);
-    memcpy(placed->move, move, sizeof placed->move);
+    memcpy(placed->rotation, rotation, sizeof placed->rotation);
+    memcpy(placed->translation, translation, sizeof placed->translation);
     placed->child = *child;
     *child = NULL;
     *shape = &placed->base;
     return MOR_OK;
 }
 
-mor_status mor_shape_new_translate(mor_context *context, const double *move, mor_shape **child, mor_shape **shape)
+mor_status mor_shape_new_translate(mor_context *context, const double *translation, mor_shape **child,
+                                   mor_shape **shape)
 {
     const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    MOR_TRY(context, mor_shape_new_placed(context, identity, move, child, shape));
+    MOR_TRY(context, mor_shape_new_placed(context, identity, translation, child, shape));
     return MOR_OK;
 }
 
@@ -391,14 +393,14 @@ mor_status mor_shape_new_rotate(mor_context *context, const double *axis, double
     MOR_TRY(context, mor_shape_check_vector(context, center, "the center of the rotation"));
     MOR_CHECK(context, isfinite(angle), MOR_ERROR_ARGUMENT, "the angle of the rotation is %g rad: give a finite angle",
               angle);
-    double turn[9];
-    double move[3];
-    mor_matrix_rotation(unit, angle, turn);
-    snap_matrix(turn);
-    mor_matrix_apply(turn, center, move);
+    double rotation[9];
+    double translation[3];
+    mor_matrix_rotation(unit, angle, rotation);
+    snap_matrix(rotation);
+    mor_matrix_apply(rotation, center, translation);
     for (int a = 0; a < 3; ++a) {
-        move[a] = center[a] - move[a];
+        translation[a] = center[a] - translation[a];
     }
-    MOR_TRY(context, mor_shape_new_placed(context, turn, move, child, shape));
+    MOR_TRY(context, mor_shape_new_placed(context, rotation, translation, child, shape));
     return MOR_OK;
 }

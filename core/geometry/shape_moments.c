@@ -528,16 +528,16 @@ mor_status mor_shape_find_moments(mor_context *context, const mor_shape *shape, 
     return status;
 }
 
-void mor_shape_moments_place(mor_shape_moments *moments, const double *turn, const double *move)
+void mor_shape_moments_place(mor_shape_moments *moments, const double *rotation, const double *translation)
 {
     double center[3];
     double inertia[3][3];
-    mor_matrix_apply(turn, moments->center, center);
+    mor_matrix_apply(rotation, moments->center, center);
     for (int a = 0; a < 3; ++a) {
-        moments->center[a] = center[a] + move[a];
+        moments->center[a] = center[a] + translation[a];
         double half[3];
-        mor_symmetric_apply(moments->inertia, turn + 3 * a, half);
-        mor_matrix_apply(turn, half, inertia[a]);
+        mor_symmetric_apply(moments->inertia, rotation + 3 * a, half);
+        mor_matrix_apply(rotation, half, inertia[a]);
     }
     moments->inertia[MOR_XX] = inertia[0][0];
     moments->inertia[MOR_YY] = inertia[1][1];

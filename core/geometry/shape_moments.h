@@ -26,10 +26,10 @@ mor_status mor_shape_find_moments(mor_context *context, const mor_shape *shape, 
  *  Cost: O(n_points). Threads: safe to call concurrently. */
 void mor_shape_find_polygon_moments(const double *points, int n_points, mor_shape_moments *moments);
 
-/** Places moments: X = turn * x + move.
- *  @param moments [in,out]  one object
- *  @param turn    [in]      shape [3,3], rotation matrix, unit 1
- *  @param move    [in]      shape [3], unit m */
-void mor_shape_moments_place(mor_shape_moments *moments, const double *turn, const double *move);
+/** Places moments: X = rotation * x + translation.
+ *  @param moments     [in,out]  one object
+ *  @param rotation    [in]      shape [3,3], rotation matrix, unit 1
+ *  @param translation [in]      shape [3], unit m */
+void mor_shape_moments_place(mor_shape_moments *moments, const double *rotation, const double *translation);
 
 #endif

@@ -49,10 +49,10 @@ void mor_params_defaults(const mor_schema *schema, double *values);
 
 /** Checks that a schema itself makes sense: unique lower-case keys, units, texts, default within the range, allowed
  *  kinds, component counts, at most a stated number of entries and values.
- *  @param context   [in,out]  one object
- *  @param schema    [in]      table ended by key NULL
- *  @param owner     [in]      zero-terminated; named in messages
- *  @param n_max     [in]      largest allowed number of entries and of values
+ *  @param context [in,out]  one object
+ *  @param schema  [in]      table ended by key NULL
+ *  @param owner   [in]      zero-terminated; named in messages
+ *  @param n_max   [in]      largest allowed number of entries and of values
  *  Returns: MOR_OK; MOR_ERROR_PLUGIN naming owner and key. */
 mor_status mor_params_verify_schema(mor_context *context, const mor_schema *schema, const char *owner, int n_max);
 

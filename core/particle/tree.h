@@ -44,17 +44,17 @@ void mor_tree_clear(mor_context *context, mor_tree *tree);
 
 /** Finds an order in which every eight consecutive points form a compact cluster. Equal coordinates are told apart by
  *  place, so the order is a pure function of the points in their present order.
- *  @param points   [in]      shape [n_points, stride]; the first three numbers of a record are x, y, z; unit m
- *  @param stride   [in]      doubles per record, >= 3
- *  @param n_points [in]      number of points
- *  @param order    [out]     shape [n_points]; the point that belongs at each place
+ *  @param points   [in]   shape [n_points, stride]; the first three numbers of a record are x, y, z; unit m
+ *  @param stride   [in]   doubles per record, >= 3
+ *  @param n_points [in]   number of points
+ *  @param order    [out]  shape [n_points]; the point that belongs at each place
  *  Cost: O(n log n), allocates nothing. */
 void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order);
 
 /** Fits the boxes to the points, which must lie in tree order.
- *  @param tree    [in,out]  one object
- *  @param points  [in]      shape [n_points, stride]; unit m
- *  @param stride  [in]      doubles per record, >= 3 */
+ *  @param tree   [in,out]  one object
+ *  @param points [in]      shape [n_points, stride]; unit m
+ *  @param stride [in]      doubles per record, >= 3 */
 void mor_tree_fit(mor_tree *tree, const double *points, int stride);
 
 /** Number of clusters in the left child of a node with n_clusters >= 2 clusters, 1. */

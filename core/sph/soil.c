@@ -36,12 +36,12 @@ static const mor_stage soil_stages[] = {
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHORT_LISTS, 0, "acceleration and stress diffusion by the neighbors"},
     {"angular momentum", mor_soil_keep_angular_momentum, RECORDS | LISTS | SHORT_LISTS, 0, BIT(ACCELERATION),
      "takes out what turns the soil by itself, when switched on"},
-    {"wall push", mor_soil_push_walls, RECORDS | SHORT_LISTS | WALL_SUMS, 0, BIT(ACCELERATION),
+    {"wall push", mor_soil_sum_boundary_forces, RECORDS | SHORT_LISTS | WALL_SUMS, 0, BIT(ACCELERATION),
      "acceleration by walls and rocks, and the forces on them"},
     {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step"},
     {"velocity gradient", mor_soil_sum_gradient, RECORDS | SHORT_LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
      "velocity gradient and density rate by the neighbors"},
-    {"wall drag", mor_soil_drag_walls, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
+    {"wall drag", mor_soil_sum_boundary_gradient, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "the part of walls and rocks in both"},
     {"energy of forces", mor_soil_audit_forces,
      RECORDS | LISTS | WALL_SUMS | BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) |
@@ -49,7 +49,7 @@ static const mor_stage soil_stages[] = {
      0, 0, "what forces take beside what stress gets, at an interval, when a probe asks"},
     {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS | WALL_SUMS, 0,
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on"},
-    {"strain rate", mor_soil_keep_strain_rate, BIT(VELOCITY_GRADIENT), 0, BIT(STRAIN_RATE),
+    {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), 0, BIT(STRAIN_RATE),
      "kept for the next step's reconstruction, when switched on"},
     {"regularization", mor_soil_regularize, RECORDS | SHORT_LISTS | BIT(VELOCITY_GRADIENT), 0,
      BIT(POSITION) | BIT(VELOCITY), "XSPH and shifting, when switched on"},
@@ -345,7 +345,7 @@ void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
                              .is_leader = true};
     /* Forces on walls and rocks are known once the walls have pushed. */
     for (int k = 0; k < n_stages; ++k) {
-        stepper->n_before = soil_stages[k].run == mor_soil_push_walls ? k + 1 : stepper->n_before;
+        stepper->n_before = soil_stages[k].run == mor_soil_sum_boundary_forces ? k + 1 : stepper->n_before;
     }
     *evolving = evolving_fields;
 }

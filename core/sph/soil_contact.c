@@ -186,11 +186,11 @@ double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact)
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         double farthest = 0.0;
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
-            double move[3];
+            double translation[3];
             for (int a = 0; a < 3; ++a) {
-                move[a] = records[RECORD * i + a] - contact->built[3 * i + a];
+                translation[a] = records[RECORD * i + a] - contact->built[3 * i + a];
             }
-            const double distance2 = mor_vector_dot(move, move);
+            const double distance2 = mor_vector_dot(translation, translation);
             farthest = farthest >= distance2 ? farthest : distance2; /* not a number wins */
         }
         contact->block_values[block] = farthest;

@@ -165,8 +165,8 @@ void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, 
  *  @param records      [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles  [in]      number of soil particles
  *  @param acceleration [in,out]  shape [n_particles, 3], unit m/s2; added to */
-void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
-                           double limiter_rate, const double *records, int64_t n_particles, double *acceleration);
+void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
+                                 double limiter_rate, const double *records, int64_t n_particles, double *acceleration);
 
 /** Hands out the force of the push to the points of a borrowed boundary, so that force and moment of each patch are
  *  those of the push to rounding. Does nothing for a wall.
@@ -187,8 +187,8 @@ void mor_soil_contact_share(mor_context *context, mor_soil_contact *contact, con
  *  @param n_particles       [in]      number of soil particles
  *  @param velocity_gradient [in,out]  shape [n_particles, 9], unit 1/s; added to
  *  @param density_rate      [in,out]  shape [n_particles], unit kg/m3/s; added to */
-void mor_soil_contact_drag(mor_context *context, mor_soil_contact *contact, const double *records, int64_t n_particles,
-                           double *velocity_gradient, double *density_rate);
+void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *contact, const double *records,
+                                   int64_t n_particles, double *velocity_gradient, double *density_rate);
 
 /** Switches the barrier of a contact on or off.
  *  @param context [in,out]  one object
@@ -212,9 +212,9 @@ double mor_soil_barrier_slope(const mor_soil_barrier *barrier, double distance);
 
 /** Returns the stiffness with which a particle of a mass at a fifth of the radius needs no shorter step than sound,
  *  Jiang et al. (2022) eqs. 26, 27, unit N/m (N/m2).
- *  @param mass     [in]  of a particle, unit kg (kg/m), > 0
- *  @param spacing  [in]  unit m, > 0
- *  @param speed    [in]  of sound in the soil, unit m/s, > 0 */
+ *  @param mass    [in]  of a particle, unit kg (kg/m), > 0
+ *  @param spacing [in]  unit m, > 0
+ *  @param speed   [in]  of sound in the soil, unit m/s, > 0 */
 double mor_soil_barrier_stiffness(double mass, double spacing, double speed);
 
 #endif

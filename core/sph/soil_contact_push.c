@@ -213,8 +213,8 @@ static void sum_patch(mor_soil_contact *contact, int patch, const double *record
     memcpy(contact->boundary->patches[patch].moment, moment, sizeof moment);
 }
 
-void mor_soil_contact_push(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
-                           double limiter_rate, const double *records, int64_t n_particles, double *acceleration)
+void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
+                                 double limiter_rate, const double *records, int64_t n_particles, double *acceleration)
 {
     const int n_patches = contact->boundary->n_patches;
     const pusher shared = {.dissipation = dissipation, .limiter_rate = limiter_rate};
@@ -272,8 +272,8 @@ static void drag_slot(const mor_soil_contact *contact, int64_t slot, const doubl
     }
 }
 
-void mor_soil_contact_drag(mor_context *context, mor_soil_contact *contact, const double *records, int64_t n_particles,
-                           double *velocity_gradient, double *density_rate)
+void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *contact, const double *records,
+                                   int64_t n_particles, double *velocity_gradient, double *density_rate)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {

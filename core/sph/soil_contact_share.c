@@ -84,13 +84,13 @@ static void add_moment(const double *place, const double *center, const double *
 }
 
 /* Solves inertia * turn = moment; false for a patch that cannot carry a moment. In plane strain it is about z. */
-static bool find_turn(const double *inertia, const double *moment, int dimension, double *turn)
+static bool find_rotation(const double *inertia, const double *moment, int dimension, double *rotation)
 {
     const double *m = inertia;
     const double trace = mor_symmetric_trace(m);
-    memset(turn, 0, 3 * sizeof *turn);
+    memset(rotation, 0, 3 * sizeof *rotation);
     if (dimension == 2) {
-        turn[2] = m[MOR_ZZ] > 0.0 ? moment[2] / m[MOR_ZZ] : 0.0;
+        rotation[2] = m[MOR_ZZ] > 0.0 ? moment[2] / m[MOR_ZZ] : 0.0;
         return m[MOR_ZZ] > 0.0;
     }
     double cofactors[6];
@@ -98,9 +98,9 @@ static bool find_turn(const double *inertia, const double *moment, int dimension
     if (!(determinant > SMALLEST_INERTIA * trace * trace * trace)) {
         return false;
     }
-    mor_symmetric_apply(cofactors, moment, turn);
+    mor_symmetric_apply(cofactors, moment, rotation);
     for (int a = 0; a < 3; ++a) {
-        turn[a] /= determinant;
+        rotation[a] /= determinant;
     }
     return true;
 }
@@ -133,7 +133,7 @@ static void restore_moment(const mor_soil_contact *contact, int patch, const dou
     double inertia[6];
     double moment[3];
     double kept[3] = {0.0, 0.0, 0.0};
-    double turn[3];
+    double rotation[3];
     measure_patch(points, n, center, inertia);
     sum_given(contact, patch, center, records, n_particles, moment);
     for (int64_t j = 0; j < n; ++j) {
@@ -142,13 +142,13 @@ static void restore_moment(const mor_soil_contact *contact, int patch, const dou
     for (int a = 0; a < 3; ++a) {
         moment[a] -= kept[a];
     }
-    if (!find_turn(inertia, moment, contact->dimension, turn)) {
+    if (!find_rotation(inertia, moment, contact->dimension, rotation)) {
         return;
     }
     for (int64_t j = 0; j < n; ++j) {
         const double *record = points + MOR_BOUNDARY_RECORD * j;
         const double s[3] = {record[0] - center[0], record[1] - center[1], record[2] - center[2]};
-        mor_vector_cross_add(record[MOR_BOUNDARY_VOLUME], turn, s, force + 3 * j);
+        mor_vector_cross_add(record[MOR_BOUNDARY_VOLUME], rotation, s, force + 3 * j);
     }
 }
 

@@ -107,15 +107,15 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_st
     return MOR_OK;
 }
 
-mor_status mor_soil_push_walls(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
     (void)step;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
         mor_soil_contact_continue(context, contact, soil->table, &soil->constants, soil->records, &soil->inner);
-        mor_soil_contact_push(context, contact, soil->settings.wall_dissipation, soil->constants.limiter_rate,
-                              soil->records, soil->set.n_particles, soil->set.data[MOR_FIELD_ACCELERATION]);
+        mor_soil_contact_sum_forces(context, contact, soil->settings.wall_dissipation, soil->constants.limiter_rate,
+                                    soil->records, soil->set.n_particles, soil->set.data[MOR_FIELD_ACCELERATION]);
         mor_soil_contact_share(context, contact, soil->table, &soil->constants, soil->records, soil->set.n_particles);
     }
     return MOR_OK;
@@ -129,7 +129,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_st
     return MOR_OK;
 }
 
-mor_status mor_soil_drag_walls(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
     (void)step;
@@ -137,8 +137,9 @@ mor_status mor_soil_drag_walls(mor_context *context, void *owner, const mor_step
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
         /* Rocks have moved since the push; their velocity is now the mean over this step, eq. 60. */
         mor_soil_contact_follow(context, contact, soil->table, &soil->constants, soil->records);
-        mor_soil_contact_drag(context, contact, soil->records, soil->set.n_particles,
-                              soil->set.data[MOR_FIELD_VELOCITY_GRADIENT], soil->set.data[MOR_FIELD_DENSITY_RATE]);
+        mor_soil_contact_sum_gradient(context, contact, soil->records, soil->set.n_particles,
+                                      soil->set.data[MOR_FIELD_VELOCITY_GRADIENT],
+                                      soil->set.data[MOR_FIELD_DENSITY_RATE]);
     }
     return MOR_OK;
 }

@@ -17,12 +17,12 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step 
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_push_walls(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_drag_walls(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_keep_strain_rate(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step);

@@ -155,7 +155,7 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mo
     return MOR_OK;
 }
 
-mor_status mor_soil_keep_strain_rate(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
     (void)step;
@@ -247,16 +247,16 @@ static void regularize_block(mor_soil *soil, int64_t block, double xsph, double 
         double *velocity = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
         const double speed = mor_vector_length(velocity);
         double shift[3];
-        double move[3];
+        double translation[3];
         for (int a = 0; a < 3; ++a) {
             shift[a] = shifting * speed * sums[3 + a];
-            move[a] = xsph * sums[a] + shift[a];
-            soil->set.data[MOR_FIELD_POSITION][3 * i + a] += move[a];
+            translation[a] = xsph * sums[a] + shift[a];
+            soil->set.data[MOR_FIELD_POSITION][3 * i + a] += translation[a];
         }
         for (int a = 0; a < 3; ++a) {
             velocity[a] += mor_vector_dot(gradient + 3 * a, shift);
         }
-        farthest = fmax(farthest, mor_vector_dot(move, move));
+        farthest = fmax(farthest, mor_vector_dot(translation, translation));
         fastest = fmax(fastest, mor_vector_dot(velocity, velocity));
     }
     soil->block_values[2 * block] = farthest;

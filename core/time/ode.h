@@ -54,12 +54,12 @@ typedef struct mor_ode_report {
 mor_status mor_ode_new(mor_context *context, const mor_ode_settings *settings, mor_ode **ode);
 
 /** Integrates from t_start to t_end; f is never called outside of them.
- *  @param ode     [in,out]  one object; one thread at a time
- *  @param rate    [in]      one function
- *  @param user    [in,out]  one object, handed to rate; may be NULL
- *  @param span    [in]      shape [2], t_start and t_end, t_end >= t_start; unit s
- *  @param y       [in,out]  shape [n]; units: the caller's; start values, then end values; untouched on failure
- *  @param report  [out]     one object; NULL: not asked
+ *  @param ode    [in,out]  one object; one thread at a time
+ *  @param rate   [in]      one function
+ *  @param user   [in,out]  one object, handed to rate; may be NULL
+ *  @param span   [in]      shape [2], t_start and t_end, t_end >= t_start; unit s
+ *  @param y      [in,out]  shape [n]; units: the caller's; start values, then end values; untouched on failure
+ *  @param report [out]     one object; NULL: not asked
  *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP when f stayed undefined or not finite; MOR_NOT_CONVERGED when the tolerances
  *  could not be met within n_steps_max steps; the fatal code of rate; MOR_ERROR_ARGUMENT for a missing pointer, a
  *  reversed span or values that are not finite; MOR_ERROR_INTERNAL. The reason is in mor_ode_reason.

@@ -69,25 +69,25 @@ static void predict(double shear, double bulk, const double *l, const double *ex
     /* Turn minus identity: 2/(1 + w.w) ([w] + [w][w]), w half the axial vector of the spin. */
     const double w[3] = {0.25 * (l[7] - l[5]), 0.25 * (l[2] - l[6]), 0.25 * (l[3] - l[1])};
     const double f = 2.0 / (1.0 + mor_vector_dot(w, w));
-    double turn[9];
+    double rotation[9];
     for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) {
-            turn[3 * a + b] = f * w[a] * w[b];
+            rotation[3 * a + b] = f * w[a] * w[b];
         }
-        turn[4 * a] = -f * (w[(a + 1) % 3] * w[(a + 1) % 3] + w[(a + 2) % 3] * w[(a + 2) % 3]);
-        turn[3 * a + (a + 1) % 3] -= f * w[(a + 2) % 3];
-        turn[3 * a + (a + 2) % 3] += f * w[(a + 1) % 3];
+        rotation[4 * a] = -f * (w[(a + 1) % 3] * w[(a + 1) % 3] + w[(a + 2) % 3] * w[(a + 2) % 3]);
+        rotation[3 * a + (a + 1) % 3] -= f * w[(a + 2) % 3];
+        rotation[3 * a + (a + 2) % 3] += f * w[(a + 1) % 3];
     }
     const double old[9] = {stress[0], stress[3], stress[5], stress[3], stress[1],
                            stress[4], stress[5], stress[4], stress[2]};
     double product[9];
     for (int a = 0; a < 3; ++a) {
-        mor_matrix_apply_transposed(old, turn + 3 * a, product + 3 * a);
+        mor_matrix_apply_transposed(old, rotation + 3 * a, product + 3 * a);
     }
     for (int m = 0; m < 6; ++m) {
         const int a = m % 3;
         const int b = m < 3 ? a : (a + 1) % 3;
-        stress[m] += product[3 * a + b] + product[3 * b + a] + mor_vector_dot(product + 3 * a, turn + 3 * b);
+        stress[m] += product[3 * a + b] + product[3 * b + a] + mor_vector_dot(product + 3 * a, rotation + 3 * b);
         stress[m] += 0.5 * (increment[m] + (extra != NULL ? extra[m] * step : 0.0));
     }
 }

@@ -144,7 +144,7 @@ static void face_outward(mor_mesh_work *work, int64_t n_given)
     mor_shape_moments moments;
     mor_mesh_moments(&work->mesh, &moments);
     for (int64_t t = 0; t < work->mesh.n_triangles && moments.volume < 0.0; ++t) {
-        mor_mesh_turn(work, t);
+        mor_mesh_flip(work, t);
     }
     for (int64_t t = 0; t < n_given; ++t) {
         work->report.n_flipped += work->is_flipped[t];

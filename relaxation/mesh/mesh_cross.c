@@ -74,9 +74,9 @@ static bool is_pierced(const mor_mesh *mesh, int64_t t, const double *p, const d
     int n_left = 0;
     int n_right = 0;
     for (int c = 0; c < 3; ++c) {
-        double turn[3];
-        mor_vector_cross(to[c], to[(c + 1) % 3], turn);
-        const double side = mor_vector_dot(along, turn);
+        double rotation[3];
+        mor_vector_cross(to[c], to[(c + 1) % 3], rotation);
+        const double side = mor_vector_dot(along, rotation);
         n_left += side > 0.0;
         n_right += side < 0.0;
     }

@@ -54,7 +54,7 @@ mor_status mor_mesh_pair_edges(mor_context *context, mor_mesh_work *work)
 
 /* ---- Orientation ------------------------------------------------------------------------------------------------- */
 
-void mor_mesh_turn(mor_mesh_work *work, int64_t t)
+void mor_mesh_flip(mor_mesh_work *work, int64_t t)
 {
     int32_t *triangle = work->mesh.triangles + 3 * t;
     const int32_t second = triangle[1];
@@ -96,7 +96,7 @@ static bool turn_flagged(mor_mesh_work *work)
     for (int64_t t = 0; t < work->mesh.n_triangles; ++t) {
         if (work->is_flipped[t]) {
             is_any = true;
-            mor_mesh_turn(work, t);
+            mor_mesh_flip(work, t);
             work->is_flipped[t] = true;
         }
     }

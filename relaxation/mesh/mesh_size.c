@@ -8,8 +8,8 @@
 /* A rock as long as this has hundreds of millions of particles. */
 static const double likely_spacings = 500.0;
 
-mor_status mor_mesh_size_blame(mor_context *context, mor_status status, const mor_mesh *mesh, double meters,
-                               double spacing, const char *advice)
+mor_status mor_mesh_size_annotate_error(mor_context *context, mor_status status, const mor_mesh *mesh, double meters,
+                                        double spacing, const char *advice)
 {
     mor_bounds bounds;
     char why[MOR_CONTEXT_MESSAGE_BYTES];

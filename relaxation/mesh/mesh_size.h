@@ -17,7 +17,7 @@
  *  @param spacing [in]      distance of particles, m
  *  @param advice  [in]      zero-terminated; how a size is given
  *  Returns: status. */
-mor_status mor_mesh_size_blame(mor_context *context, mor_status status, const mor_mesh *mesh, double meters,
-                               double spacing, const char *advice);
+mor_status mor_mesh_size_annotate_error(mor_context *context, mor_status status, const mor_mesh *mesh, double meters,
+                                        double spacing, const char *advice);
 
 #endif

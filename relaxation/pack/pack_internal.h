@@ -27,7 +27,7 @@ typedef struct mor_pack_item {
     double diameter;    /* m */
     double position[3]; /* m */
     double spin[4];     /* unit quaternion of the turn, real part first, 1 */
-    double turn[9];     /* shape [3,3]; the same as a matrix, 1 */
+    double rotation[9]; /* shape [3,3]; the same as a matrix, 1 */
 } mor_pack_item;
 
 /** Where one thing comes too near to another. */
@@ -68,7 +68,7 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
 
 /** Brings the quaternion of an item to length 1 and writes its matrix.
  *  @param item [in,out]  one object */
-void mor_pack_item_turn(mor_pack_item *item);
+void mor_pack_item_rotate(mor_pack_item *item);
 
 /** Looks for points of one rock that are nearer to another one than contact->gap.
  *  @param state   [in]      one object

@@ -14,7 +14,7 @@ enum purpose {
     TURN_PURPOSE = PLACE_PURPOSE + 3
 };
 
-void mor_pack_item_turn(mor_pack_item *item)
+void mor_pack_item_rotate(mor_pack_item *item)
 {
     double length = 0.0;
     for (int k = 0; k < 4; ++k) {
@@ -28,11 +28,11 @@ void mor_pack_item_turn(mor_pack_item *item)
     const double x = item->spin[1];
     const double y = item->spin[2];
     const double z = item->spin[3];
-    const double turn[9] = {1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z),       2.0 * (x * z + w * y),
-                            2.0 * (x * y + w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
-                            2.0 * (x * z - w * y),       2.0 * (y * z + w * x),       1.0 - 2.0 * (x * x + y * y)};
+    const double rotation[9] = {1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z),       2.0 * (x * z + w * y),
+                                2.0 * (x * y + w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
+                                2.0 * (x * z - w * y),       2.0 * (y * z + w * x),       1.0 - 2.0 * (x * x + y * y)};
     for (int k = 0; k < 9; ++k) {
-        item->turn[k] = turn[k];
+        item->rotation[k] = rotation[k];
     }
 }
 
@@ -58,12 +58,12 @@ void mor_pack_draw(const mor_pack_state *state, uint64_t id, mor_pack_item *item
         item->spin[2] = sqrt(1.0 - u[0]) * cos(2.0 * MOR_PI * u[1]);
         item->spin[3] = sqrt(u[0]) * sin(2.0 * MOR_PI * u[2]);
     }
-    mor_pack_item_turn(item);
+    mor_pack_item_rotate(item);
 }
 
 static void place_point(const mor_pack_item *item, const double *local, double *point)
 {
-    mor_matrix_apply(item->turn, local, point);
+    mor_matrix_apply(item->rotation, local, point);
     for (int a = 0; a < 3; ++a) {
         point[a] = item->position[a] + item->diameter * point[a];
     }
@@ -93,7 +93,7 @@ static double find_distance(const probe_target *target, const double *point, dou
     }
     double offset[3];
     find_offset(target->other, point, offset);
-    mor_matrix_apply_transposed(target->other->turn, offset, local);
+    mor_matrix_apply_transposed(target->other->rotation, offset, local);
     for (int a = 0; a < 3; ++a) {
         local[a] /= target->other->diameter;
     }
@@ -106,7 +106,7 @@ static void find_normal(const probe_target *target, const mor_pack_item *owner, 
     double normal[3];
     if (target->other != NULL) {
         mor_shape_normal(target->shape, nearest, normal_step, normal);
-        mor_matrix_apply(target->other->turn, normal, contact->normal);
+        mor_matrix_apply(target->other->rotation, normal, contact->normal);
         return;
     }
     mor_shape_normal(target->shape, contact->point, normal_step * owner->diameter, normal);

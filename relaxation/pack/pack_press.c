@@ -64,7 +64,7 @@ static void give_impulse(const mor_pack_state *state, mor_pack_item *item, const
     item->spin[1] += w * h[0] + h[1] * v[2] - h[2] * v[1];
     item->spin[2] += w * h[1] + h[2] * v[0] - h[0] * v[2];
     item->spin[3] += w * h[2] + h[0] * v[1] - h[1] * v[0];
-    mor_pack_item_turn(item);
+    mor_pack_item_rotate(item);
 }
 
 static double find_yield(const mor_pack_state *state, const mor_pack_item *item, const mor_pack_contact *contact)
@@ -185,7 +185,7 @@ static bool note_room(void *user, const mor_pack_state *state, const mor_pack_it
     for (int a = 0; a < 3; ++a) {
         offset[a] = (item->position[a] - other->position[a]) / other->diameter;
     }
-    mor_matrix_apply_transposed(other->turn, offset, local);
+    mor_matrix_apply_transposed(other->rotation, offset, local);
     *room = fmin(*room, other->diameter * mor_shape_distance(state->forms[other->form].shape, local));
     return true;
 }

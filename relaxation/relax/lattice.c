@@ -32,7 +32,7 @@ void mor_lattice_request_init(mor_lattice_request *request)
         request->domain.minimum[a] = -INFINITY;
         request->domain.maximum[a] = INFINITY;
     }
-    memcpy(request->turn, identity, sizeof request->turn);
+    memcpy(request->rotation, identity, sizeof request->rotation);
 }
 
 void mor_lattice_clear(mor_context *context, mor_lattice_points *points)
@@ -43,13 +43,14 @@ void mor_lattice_clear(mor_context *context, mor_lattice_points *points)
 
 static mor_status check_placement(mor_context *context, const mor_lattice_request *request)
 {
-    MOR_TRY(context, mor_shape_check_turn(context, request->turn));
-    MOR_TRY(context, mor_shape_check_vector(context, request->move, "the move of the scene"));
+    MOR_TRY(context, mor_shape_check_rotation(context, request->rotation));
+    MOR_TRY(context, mor_shape_check_vector(context, request->translation, "the move of the scene"));
     if (request->dimension == 2) {
-        MOR_CHECK(context, fabs(request->turn[8] - 1.0) <= 1e-12 && request->move[2] == 0.0, MOR_ERROR_ARGUMENT,
+        MOR_CHECK(context, fabs(request->rotation[8] - 1.0) <= 1e-12 && request->translation[2] == 0.0,
+                  MOR_ERROR_ARGUMENT,
                   "a 2D scene is turned or moved out of the x-y plane (turn zz = %.15g, move z = %g m): turn about z "
                   "and move in x and y only",
-                  request->turn[8], request->move[2]);
+                  request->rotation[8], request->translation[2]);
     }
     return MOR_OK;
 }
@@ -155,9 +156,9 @@ static bool is_node_kept(const mor_lattice_request *request, const double *node,
 
 void mor_lattice_map(const mor_lattice_request *request, const double *place, double *position)
 {
-    mor_matrix_apply(request->turn, place, position);
+    mor_matrix_apply(request->rotation, place, position);
     for (int a = 0; a < 3; ++a) {
-        position[a] += request->move[a];
+        position[a] += request->translation[a];
     }
     if (request->dimension == 2) {
         position[2] = 0.0;

@@ -10,7 +10,7 @@
  *  two sets of positions do not overlap. It does not relax positions, and knows no particle set. */
 
 /** What to fill. All places are in the scene frame, in which geometry is described; the finished points are mapped by
- *  x -> turn * x + move at the very end, so that geometry and lattice turn together exactly.
+ *  x -> rotation * x + translation at the very end, so that geometry and lattice turn together exactly.
  *
  *  Node (i, j, k) lies at origin + ((i, j, k) + 1/2) * spacing: a box with faces at origin + multiples of spacing is
  *  filled exactly. In two dimensions there is one layer, at z = 0. A node closer to a surface than 1e-9 spacing counts
@@ -29,8 +29,8 @@ typedef struct mor_lattice_request {
     int64_t n_points_most;            /* more are refused; 0: only by what an index of 32 bits can count */
     double jitter_ratio;              /* each coordinate moves by up to this times spacing, 1; 0 <= ratio < 0.5 */
     uint64_t seed;                    /* of the jitter, which depends on seed and (i, j, k) only */
-    double turn[9];                   /* shape [3,3]; rotation matrix, unit 1; about z in 2D */
-    double move[3];                   /* shape [3]; unit m; within x-y in 2D */
+    double rotation[9];               /* shape [3,3]; rotation matrix, unit 1; about z in 2D */
+    double translation[3];            /* shape [3]; unit m; within x-y in 2D */
 } mor_lattice_request;
 
 /** Points. Owner: the caller, who clears them. */

@@ -264,19 +264,19 @@ static void find_moves(mor_context *context, relaxation *it)
         for (int64_t i = first; i < end; ++i) {
             const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
             double push[3];
-            double move[3];
+            double translation[3];
             mor_relax_wall_push(&it->wall, place, push);
             if (pushes[i - first][3] > 0.0) {
                 part_close(it, i, pushes[i - first]);
             }
             for (int a = 0; a < 3; ++a) {
                 push[a] = 2.0 * (factor * pushes[i - first][a] + OUTSIDE_DENSITY * push[a]);
-                move[a] = MEMORY * it->moves[a * it->n + i] + it->pace * push[a];
+                translation[a] = MEMORY * it->moves[a * it->n + i] + it->pace * push[a];
             }
-            const double length = mor_vector_length(move);
+            const double length = mor_vector_length(translation);
             const double limit = length > MOVE_MOST ? MOVE_MOST / length : 1.0;
             for (int a = 0; a < 3; ++a) {
-                it->moves[a * it->n + i] = limit * move[a];
+                it->moves[a * it->n + i] = limit * translation[a];
             }
         }
     }

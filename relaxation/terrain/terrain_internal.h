@@ -57,7 +57,7 @@ mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *ter
 double mor_terrain_surface_signed(const mor_terrain_surface *surface, const double *point);
 
 /** The surface and the layer of a release shape, or NULL for another shape.
- *  @param shape     [in]   one object
+ *  @param shape [in]  one object
  *  Returns: borrowed, for the life of the shape. */
 const mor_terrain_surface *mor_terrain_release_surface(const mor_shape *shape);
 
@@ -68,8 +68,8 @@ const mor_terrain_surface *mor_terrain_release_surface(const mor_shape *shape);
 double mor_terrain_release_thickness(const mor_shape *shape, double x, double y);
 
 /** Fills nodes without data: heights inside a hole solve Laplace's equation between its rims.
- *  @param context  [in,out]  one object; what was filled is logged
- *  @param terrain  [in,out]  one object; at least one node has data
+ *  @param context [in,out]  one object; what was filled is logged
+ *  @param terrain [in,out]  one object; at least one node has data
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain);
 

@@ -52,10 +52,10 @@ static inline double bench_median(double *seconds, int n)
 }
 
 /** Prints the speed of some repetitions of the same work; returns it, in million particle-steps per second, 1.
- *  @param n_threads       [in]      number of threads
- *  @param n_particle_steps [in]     particle-steps of a repetition, 1
- *  @param seconds         [in,out]  shape [n], unit s; ascending afterwards
- *  @param n               [in]      number of repetitions, >= 1 */
+ *  @param n_threads        [in]      number of threads
+ *  @param n_particle_steps [in]      particle-steps of a repetition, 1
+ *  @param seconds          [in,out]  shape [n], unit s; ascending afterwards
+ *  @param n                [in]      number of repetitions, >= 1 */
 static inline double bench_print_speed(int n_threads, double n_particle_steps, double *seconds, int n)
 {
     const double median = bench_median(seconds, n);

@@ -133,7 +133,7 @@ static inline void body_scene_open(body_scene *it, const body_scene_request *req
     body_scene_make_shape(it, request);
     mor_body_request body = {.name = "body",
                              .shape = it->shape,
-                             .shape_turn = {1, 0, 0, 0, 1, 0, 0, 0, 1},
+                             .shape_rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1},
                              .density = request->density,
                              .soil_friction = MOR_WALL_ROUGH,
                              .contact_modulus = request->youngs};

@@ -143,9 +143,9 @@ static inline double *contact_scene_fill(const contact_scene *it, int k, const m
             own[a] = ((double)(at[a] - cells[a]) + 0.5) * dp;
         }
         if (mor_shape_distance(it->shapes[k], own) < 0.0) {
-            mor_matrix_apply(to->shape_turn, own, points + 3 * *n);
+            mor_matrix_apply(to->shape_rotation, own, points + 3 * *n);
             for (int a = 0; a < 3; ++a) {
-                points[3 * *n + a] += to->shape_move[a];
+                points[3 * *n + a] += to->shape_translation[a];
             }
             *n += 1;
         }
@@ -160,7 +160,7 @@ static inline mor_body_request contact_scene_ask(contact_scene *it, int k)
     const contact_scene_body *body = &it->request.bodies[k];
     mor_body_request ask = {.name = names[k],
                             .shape = it->shapes[k],
-                            .shape_turn = {1, 0, 0, 0, 1, 0, 0, 0, 1},
+                            .shape_rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1},
                             .density = body->density > 0.0 ? body->density : it->request.density,
                             .soil_friction = MOR_WALL_ROUGH,
                             .contact_modulus = body->modulus > 0.0 ? body->modulus : it->request.modulus,
@@ -168,14 +168,14 @@ static inline mor_body_request contact_scene_ask(contact_scene *it, int k)
     const double length = mor_vector_length(body->axis);
     if (length > 0.0) {
         const double axis[3] = {body->axis[0] / length, body->axis[1] / length, body->axis[2] / length};
-        mor_matrix_rotation(axis, body->angle, ask.shape_turn);
+        mor_matrix_rotation(axis, body->angle, ask.shape_rotation);
     }
-    memcpy(ask.shape_move, body->position, sizeof ask.shape_move);
+    memcpy(ask.shape_translation, body->position, sizeof ask.shape_translation);
     memcpy(ask.velocity, body->velocity, sizeof ask.velocity);
     memcpy(ask.angular_velocity, body->angular_velocity, sizeof ask.angular_velocity);
     contact_scene_require(it,
                           mor_shape_find_moments(&it->context, it->shapes[k], it->request.dimension, &ask.geometry));
-    mor_shape_moments_place(&ask.geometry, ask.shape_turn, ask.shape_move);
+    mor_shape_moments_place(&ask.geometry, ask.shape_rotation, ask.shape_translation);
     ask.positions = contact_scene_fill(it, k, &ask, &ask.n_particles);
     return ask;
 }
@@ -232,7 +232,7 @@ static inline void contact_scene_make_contact(contact_scene *it)
                                                            request->walls[w].normal, &it->wall_shapes[w]));
         snprintf(walls[w].name, sizeof walls[w].name, "w%d", w);
         walls[w].shape = it->wall_shapes[w];
-        memcpy(walls[w].turn, ((const double[9]){1, 0, 0, 0, 1, 0, 0, 0, 1}), sizeof walls[w].turn);
+        memcpy(walls[w].rotation, ((const double[9]){1, 0, 0, 0, 1, 0, 0, 0, 1}), sizeof walls[w].rotation);
         memcpy(walls[w].velocity, request->walls[w].velocity, sizeof walls[w].velocity);
     }
     if (it->n_rigid > 0) {

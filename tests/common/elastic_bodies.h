@@ -69,7 +69,7 @@ static inline void elastic_require(const elastic_bodies *it, mor_status status)
 }
 
 /** Places the lattice points of a piece, shape [n, 3], unit m; returns how many there are. NULL: only counts. */
-static inline int64_t elastic_fill(const elastic_request *r, const elastic_piece *piece, const double *turn,
+static inline int64_t elastic_fill(const elastic_request *r, const elastic_piece *piece, const double *rotation,
                                    double *points)
 {
     int64_t n = 0;
@@ -90,7 +90,7 @@ static inline int64_t elastic_fill(const elastic_request *r, const elastic_piece
         if (piece->is_ball && ratio2 > 1.0) {
             continue;
         }
-        mor_matrix_apply(turn, x, turned);
+        mor_matrix_apply(rotation, x, turned);
         for (int a = 0; a < 3 && points != NULL; ++a) {
             points[3 * n + a] = turned[a] + piece->middle[a];
         }
@@ -130,20 +130,20 @@ static inline void elastic_describe(elastic_bodies *it, const elastic_request *r
     const elastic_piece *piece = &r->pieces[b];
     *out = (mor_body_request){.name = names[b], .density = r->density};
     if (piece->angle != 0.0) {
-        mor_matrix_rotation(piece->axis, piece->angle, out->shape_turn);
+        mor_matrix_rotation(piece->axis, piece->angle, out->shape_rotation);
     } else {
-        out->shape_turn[0] = out->shape_turn[4] = out->shape_turn[8] = 1.0;
+        out->shape_rotation[0] = out->shape_rotation[4] = out->shape_rotation[8] = 1.0;
     }
     elastic_shape(it, r, piece, &it->shapes[b]);
     out->shape = it->shapes[b];
-    memcpy(out->shape_move, piece->middle, sizeof out->shape_move);
+    memcpy(out->shape_translation, piece->middle, sizeof out->shape_translation);
     memcpy(out->geometry.center, piece->middle, sizeof out->geometry.center);
     memcpy(out->velocity, piece->velocity, sizeof out->velocity);
     memcpy(out->angular_velocity, piece->angular_velocity, sizeof out->angular_velocity);
-    out->n_particles = elastic_fill(r, piece, out->shape_turn, NULL);
+    out->n_particles = elastic_fill(r, piece, out->shape_rotation, NULL);
     out->geometry.volume = (double)out->n_particles * r->spacing * r->spacing * (r->dimension == 3 ? r->spacing : 1.0);
     elastic_require(it, MOR_NEW(&it->context, points, 3 * out->n_particles, "particles of a test"));
-    elastic_fill(r, piece, out->shape_turn, *points);
+    elastic_fill(r, piece, out->shape_rotation, *points);
     out->positions = *points;
 }
 

@@ -106,8 +106,8 @@ static inline void rigid_request(rigid_scene *it, const rigid_box *box, int b, i
     for (int a = 0; a < 3; ++a) {
         high[a] = 0.5 * spacing * (a < dimension ? box->sides[a] : 2);
         low[a] = -high[a];
-        request->shape_turn[4 * a] = 1.0;
-        request->shape_move[a] = box->place[a] * spacing;
+        request->shape_rotation[4 * a] = 1.0;
+        request->shape_translation[a] = box->place[a] * spacing;
         request->velocity[a] = box->velocity[a] * speed;
         request->angular_velocity[a] = box->spin[a] / units->time;
     }
@@ -122,7 +122,7 @@ static inline void rigid_request(rigid_scene *it, const rigid_box *box, int b, i
     assert_int_equal(mor_shape_new_box(&it->context, low, high, &it->shapes[b]), MOR_OK);
     request->shape = it->shapes[b];
     rigid_geometry(low, high, dimension, &request->geometry);
-    mor_shape_moments_place(&request->geometry, request->shape_turn, request->shape_move);
+    mor_shape_moments_place(&request->geometry, request->shape_rotation, request->shape_translation);
 }
 
 /** Puts the spring and the prescribed motion of a box into units. */

@@ -5,8 +5,8 @@
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
-#include "core/particle/tree.h"
 #include "core/particle/boundary.h"
+#include "core/particle/tree.h"
 #include "core/time/stepper.h"
 
 #include <setjmp.h>
@@ -36,7 +36,7 @@ typedef struct rock {
     double mass, inertia;    /* kg, kg m2 (kg/m, kg m) */
     double impulse[3];       /* received from the soil, N s */
     double given[2 * 3];     /* force and moment about the center in the present common step */
-    double turn[9];          /* since the start, shape [3,3] */
+    double rotation[9];      /* since the start, shape [3,3] */
     double seen[3];          /* center in the middle of the common step, as the soil saw it, m */
     int64_t first, n_points; /* range of points */
 } rock;
@@ -58,7 +58,7 @@ static inline void rock_place(rock_pile *pile, double time)
 {
     for (int r = 0; r < pile->n_rocks; ++r) {
         rock *it = &pile->rocks[r];
-        double turn[9];
+        double rotation[9];
         double further[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
         const double speed = mor_vector_length(it->spin);
         if (speed > 0.0) {
@@ -66,12 +66,12 @@ static inline void rock_place(rock_pile *pile, double time)
             mor_matrix_rotation(axis, speed * time, further);
         }
         for (int k = 0; k < 9; ++k) {
-            turn[k] = further[k / 3 * 3] * it->turn[k % 3] + further[k / 3 * 3 + 1] * it->turn[3 + k % 3] +
-                      further[k / 3 * 3 + 2] * it->turn[6 + k % 3];
+            rotation[k] = further[k / 3 * 3] * it->rotation[k % 3] + further[k / 3 * 3 + 1] * it->rotation[3 + k % 3] +
+                          further[k / 3 * 3 + 2] * it->rotation[6 + k % 3];
         }
         for (int64_t j = it->first; j < it->first + it->n_points; ++j) {
             double arm[3];
-            mor_matrix_apply(turn, pile->reference + 3 * j, arm);
+            mor_matrix_apply(rotation, pile->reference + 3 * j, arm);
             for (int a = 0; a < 3; ++a) {
                 pile->boundary.records[MOR_BOUNDARY_RECORD * j + a] = it->center[a] + it->velocity[a] * time + arm[a];
             }
@@ -128,7 +128,7 @@ static inline void rock_open(mor_context *context, rock_pile *pile, const char *
     n = 0;
     for (int r = 0; r < pile->n_rocks; ++r) {
         rock *it = &pile->rocks[r];
-        memcpy(it->turn, ((const double[9]){1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}), sizeof it->turn);
+        memcpy(it->rotation, ((const double[9]){1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}), sizeof it->rotation);
         it->first = n;
         it->n_points = rock_fill(pile, it, pile->reference + 3 * n);
         it->mass = it->density * volume * (double)it->n_points;
@@ -225,14 +225,15 @@ static inline mor_status rock_move(mor_context *context, void *owner, const mor_
         const double speed = mor_vector_length(it->spin);
         if (speed > 0.0) {
             double further[9];
-            double turn[9];
+            double rotation[9];
             mor_matrix_rotation((const double[3]){it->spin[0] / speed, it->spin[1] / speed, it->spin[2] / speed},
                                 speed * dt, further);
             for (int k = 0; k < 9; ++k) {
-                turn[k] = further[k / 3 * 3] * it->turn[k % 3] + further[k / 3 * 3 + 1] * it->turn[3 + k % 3] +
-                          further[k / 3 * 3 + 2] * it->turn[6 + k % 3];
+                rotation[k] = further[k / 3 * 3] * it->rotation[k % 3] +
+                              further[k / 3 * 3 + 1] * it->rotation[3 + k % 3] +
+                              further[k / 3 * 3 + 2] * it->rotation[6 + k % 3];
             }
-            memcpy(it->turn, turn, sizeof turn);
+            memcpy(it->rotation, rotation, sizeof rotation);
         }
     }
     return MOR_OK;
@@ -250,7 +251,7 @@ static inline mor_status rock_finish(mor_context *context, void *owner, const mo
         for (int64_t j = it->first; j < it->first + it->n_points; ++j) {
             double arm[3];
             double *velocity = b->records + MOR_BOUNDARY_RECORD * j + MOR_BOUNDARY_VELOCITY;
-            mor_matrix_apply(it->turn, pile->reference + 3 * j, arm);
+            mor_matrix_apply(it->rotation, pile->reference + 3 * j, arm);
             for (int a = 0; a < 3; ++a) {
                 velocity[a] = (it->center[a] + arm[a] - pile->start[3 * j + a]) / step->length;
             }

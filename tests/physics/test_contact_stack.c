@@ -189,8 +189,8 @@ static void a_box_falls_on_its_corner_and_comes_to_rest(void **state)
     const double swing = body->mass * GRAVITY * SIDE;
     double upright = 0.0;
     for (int a = 0; a < 3; ++a) {
-        const double axis[3] = {body->shape_turn[a], body->shape_turn[3 + a], body->shape_turn[6 + a]};
-        upright = fmax(upright, fabs(mor_vector_dot(body->turn + 6, axis)));
+        const double axis[3] = {body->shape_rotation[a], body->shape_rotation[3 + a], body->shape_rotation[6 + a]};
+        upright = fmax(upright, fabs(mor_vector_dot(body->rotation + 6, axis)));
     }
     contact_scene_expect("highest energy", highest, start, 0.005 * swing); /* the step's error at the impacts */
     contact_scene_expect("height", body->center[2], 0.5 * SIDE, 0.1 * request.spacing); /* depth under its weight */

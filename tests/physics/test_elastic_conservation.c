@@ -174,15 +174,15 @@ static void a_linear_motion_has_its_exact_gradient_everywhere(void **state)
     }
 }
 
-static int print_ledger(int n_across, int n_turns)
+static int print_ledger(int n_across, int n_rotation_axes)
 {
     body_scene square;
-    const double turn = 2.0 * MOR_PI / SPIN;
-    open_square(&square, n_across, 1.0, n_turns * turn);
+    const double rotation = 2.0 * MOR_PI / SPIN;
+    open_square(&square, n_across, 1.0, n_rotation_axes * rotation);
     const ledger before = take_ledger(&square);
     printf("turn  energy change  kinetic energy  momentum change  angular momentum change\n");
-    for (int k = 1; k <= n_turns; ++k) {
-        body_scene_run(&square, k * turn);
+    for (int k = 1; k <= n_rotation_axes; ++k) {
+        body_scene_run(&square, k * rotation);
         const ledger l = take_ledger(&square);
         printf("%4d  %13.2e  %14.1f  %15.2e  %23.2e\n", k, l.energy / before.energy - 1.0, l.kinetic,
                (l.momentum[0] - before.momentum[0]) / before.momentum[0], l.angular / before.angular - 1.0);

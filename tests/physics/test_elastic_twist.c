@@ -131,15 +131,15 @@ static twist measure(int n_across, double speed, double hourglass, int n_crossin
     open_column(&column, n_across, speed, hourglass, end);
     twist t = {.particles = body_scene_count(&column)};
     body_scene_watch watch = {0};
-    double turn = 0.0;
+    double rotation = 0.0;
     double kinetic = 0.0;
     const double energy = body_scene_energy(&column, &t.kinetic);
     while (watch.n_crossings < n_crossings && column.schedule.now < column.schedule.end) {
         body_scene_step(&column, end);
         /* The angle goes on beyond half a turn. */
         const double angle = tip_turn(&column);
-        turn += remainder(angle - turn, 2.0 * MOR_PI);
-        body_scene_sample(&watch, body_scene_time(&column), turn);
+        rotation += remainder(angle - rotation, 2.0 * MOR_PI);
+        body_scene_sample(&watch, body_scene_time(&column), rotation);
         if (column.schedule.n_steps % 10 == 0) {
             const double change = fabs(body_scene_energy(&column, &kinetic) / energy - 1.0);
             const double off = distance_from_axis(&column);

@@ -61,7 +61,7 @@ typedef struct rest {
     double force_last; /* in the last step, likewise, 1 */
     double swing;      /* root of the mean square of what the force departs from the weight, over the weight, 1 */
     double sideways;   /* spacings */
-    double turn;       /* rad */
+    double rotation;   /* rad */
     double nearest;    /* least distance of a soil particle from the face of the rock, below 0 inside it, spacings */
 } rest;
 
@@ -70,14 +70,14 @@ typedef struct rest {
 static double find_nearest(scene *it)
 {
     const mor_set *set = &it->simulation.soil.set;
-    const double turn = scene_probe(it, "turn");
+    const double rotation = scene_probe(it, "turn");
     const double center[2] = {0.5 + scene_probe(it, "sideways"), scene_probe(it, "height")};
     double nearest = INFINITY;
     for (int64_t i = 0; i < set->n_particles; ++i) {
         const double *x = set->data[MOR_FIELD_POSITION] + 3 * i;
         const double way[2] = {x[0] - center[0], x[1] - center[1]};
-        const double out[2] = {fabs(way[0] * cos(turn) + way[1] * sin(turn)) - 0.2,
-                               fabs(way[1] * cos(turn) - way[0] * sin(turn)) - 0.15};
+        const double out[2] = {fabs(way[0] * cos(rotation) + way[1] * sin(rotation)) - 0.2,
+                               fabs(way[1] * cos(rotation) - way[0] * sin(rotation)) - 0.15};
         nearest = fmin(nearest, hypot(fmax(out[0], 0.0), fmax(out[1], 0.0)) + fmin(fmax(out[0], out[1]), 0.0));
     }
     return nearest / SPACING;
@@ -112,14 +112,14 @@ static rest watch(const char *const *settings)
     found.force = (scene_probe(it, "impulse") - impulse) / (2.0 * WEIGHT);
     found.force_last = scene_probe(it, "force") / WEIGHT;
     found.sideways = scene_probe(it, "sideways") / SPACING;
-    found.turn = scene_probe(it, "turn");
+    found.rotation = scene_probe(it, "turn");
     scene_free(it);
     if (getenv("MOR_TEST_SHOW") != NULL) {
         printf("%-40s %-41s sinks %.4f spacings, force/weight %.5f (last %.5f, swing %.5f), sideways %.1e spacings, "
                "turn %.1e rad, nearest soil particle at %.3f spacings\n",
                settings[0] != NULL ? settings[0] : "rigid, linear",
                settings[0] != NULL && settings[1] != NULL ? settings[1] : "", found.sinking, found.force,
-               found.force_last, found.swing, found.sideways, found.turn, found.nearest);
+               found.force_last, found.swing, found.sideways, found.rotation, found.nearest);
     }
     return found;
 }
@@ -129,7 +129,7 @@ static void expect_carried(const rest *found)
     scene_expect_near("sinking in spacings", found->sinking, 0.0, 0.1);       /* a tenth of a spacing in 2 s is rest */
     scene_expect_near("mean force / weight", found->force, 1.0, 0.02);        /* kernel sums at a face */
     scene_expect_near("way sideways in spacings", found->sideways, 0.0, 0.1); /* as sinking */
-    scene_expect_near("turn", found->turn, 0.0, 0.1 * SPACING / 0.2);         /* a corner by as much as it may sink */
+    scene_expect_near("turn", found->rotation, 0.0, 0.1 * SPACING / 0.2);     /* a corner by as much as it may sink */
 }
 
 static void expect_rest(const rest *found)

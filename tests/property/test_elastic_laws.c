@@ -235,7 +235,8 @@ static void test_resumed_body_goes_on_bit_by_bit(void **state)
     elastic_steps(&it, 15);
     elastic_steps(&other, 15);
     assert_true(mor_set_checksum(&it.elastic.group.set) == mor_set_checksum(&other.elastic.group.set));
-    assert_memory_equal(it.elastic.group.bodies[0].turn, other.elastic.group.bodies[0].turn, 9 * sizeof(double));
+    assert_memory_equal(it.elastic.group.bodies[0].rotation, other.elastic.group.bodies[0].rotation,
+                        9 * sizeof(double));
     elastic_close(&it);
     elastic_close(&other);
 }

@@ -33,18 +33,18 @@ static double find_largest_gap(scene *plain, scene *placed)
     return largest;
 }
 
-static void check_variant(const char *text, const scene_variant *variant, const char *const *turn)
+static void check_variant(const char *text, const scene_variant *variant, const char *const *rotation)
 {
     const double size = 0.2; /* of the scenes, m */
     const scene_request request = {text, (const char *const *[]){variant->settings}, 1, 1};
-    const scene_request turned = {text, (const char *const *[]){variant->settings, turn}, 2, 1};
+    const scene_request turned = {text, (const char *const *[]){variant->settings, rotation}, 2, 1};
     scene *plain = scene_new(&request);
     scene *placed = scene_new(&turned);
     scene_step(plain, N_STEPS);
     scene_step(placed, N_STEPS);
     const double gap = find_largest_gap(plain, placed);
     if (!(gap <= 1e-9 * size)) { /* rounding of 1e-16, grown by the unstable motion of grains */
-        fail_msg("'%s' with %s: particles are %.3g m away from where they should be", variant->name, turn[0], gap);
+        fail_msg("'%s' with %s: particles are %.3g m away from where they should be", variant->name, rotation[0], gap);
     }
     scene_free(placed);
     scene_free(plain);

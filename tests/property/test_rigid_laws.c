@@ -38,7 +38,7 @@ static double find_drift(double steps_per_turn, double disturbance, double *tumb
         const double *q = it->rigid.states[0].quaternion;
         const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
         assert_true(fabs(square - 1.0) <= 1e-15); /* rounding of one division, never of many steps */
-        *tumbled = fmin(*tumbled, it->rigid.group.bodies[0].turn[4]);
+        *tumbled = fmin(*tumbled, it->rigid.group.bodies[0].rotation[4]);
     }
     rigid_close(it);
     return worst;
@@ -106,7 +106,7 @@ static void rotation_follows_the_equations_of_euler(void **state)
         memcpy(m, sum, sizeof m);
     }
     rigid_run(it, 5.0);
-    mor_matrix_apply_transposed(body->turn, it->rigid.states[0].angular_momentum, found);
+    mor_matrix_apply_transposed(body->rotation, it->rigid.states[0].angular_momentum, found);
     for (int a = 0; a < 3; ++a) {
         /* both of fourth order: (2 pi / 20000)^4 = 1e-14 a step here, (pi / 200)^4 / 1000 = 1e-10 there */
         assert_true(fabs(found[a] - m[a]) < 1e-8 * mor_vector_length(m));

@@ -92,7 +92,7 @@ static void init_case(mor_case *the_case, int dimension, const char *color)
 {
     *the_case = (mor_case){.dimension = dimension, .spacing = spacing, .title = "Pictures"};
     the_case->gravity[dimension - 1] = -9.81;
-    the_case->turn[0] = the_case->turn[4] = the_case->turn[8] = 1.0;
+    the_case->rotation[0] = the_case->rotation[4] = the_case->rotation[8] = 1.0;
     snprintf(the_case->output.color_field, sizeof the_case->output.color_field, "%s", color);
 }
 

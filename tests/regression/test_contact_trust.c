@@ -294,8 +294,8 @@ static void a_corner_rebounds_as_it_is_told_to(void **state)
         "  { probe = 'w'; value = 0.0; tolerance = 0.05; absolute = true; source = 'restitution'; } );"
         "output = { snapshots = 1; pictures = false; };";
     static const double restitutions[] = {0.05, 0.3, 1.0};
-    const double turn = MOR_PI / 9.0; /* the lowest corner is that of (-0.3, -0.2) */
-    const double lever = -0.3 * cos(turn) + 0.2 * sin(turn);
+    const double rotation = MOR_PI / 9.0; /* the lowest corner is that of (-0.3, -0.2) */
+    const double lever = -0.3 * cos(rotation) + 0.2 * sin(rotation);
     const double inertia = (0.6 * 0.6 + 0.4 * 0.4) / 12.0; /* over the mass, m2 */
     run_folder *folder = *state;
     for (int k = 0; k < 3; ++k) {

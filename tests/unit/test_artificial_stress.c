@@ -46,7 +46,7 @@ typedef struct sample {
 static void draw_stress(int dimension, uint64_t id, double factor, double *stress, double *answer)
 {
     double axis[3] = {0.0, 0.0, 1.0};
-    double turn[9];
+    double rotation[9];
     for (uint64_t a = 0; a < 3 && dimension == 3; ++a) {
         axis[a] = mor_random_uniform(7, id, a) - 0.5;
     }
@@ -54,13 +54,13 @@ static void draw_stress(int dimension, uint64_t id, double factor, double *stres
     for (int a = 0; a < 3; ++a) {
         axis[a] /= length;
     }
-    mor_matrix_rotation(axis, 2.0 * MOR_PI * mor_random_uniform(7, id, 3), turn);
+    mor_matrix_rotation(axis, 2.0 * MOR_PI * mor_random_uniform(7, id, 3), rotation);
     memset(stress, 0, 6 * sizeof *stress);
     memset(answer, 0, 6 * sizeof *answer);
     for (uint64_t k = 0; k < 3; ++k) {
         const double value = strength * (2.0 * mor_random_uniform(7, id, 4 + k) - 1.0);
         for (uint64_t a = 0; a < 6; ++a) {
-            const double product = turn[3 * (a % 3) + k] * turn[3 * (a < 3 ? a : (a + 1) % 3) + k];
+            const double product = rotation[3 * (a % 3) + k] * rotation[3 * (a < 3 ? a : (a + 1) % 3) + k];
             stress[a] += value * product;
             answer[a] -= factor * fmax(value, 0.0) * product;
         }

@@ -108,7 +108,7 @@ static void test_observation_finds_the_motion_at_the_start(void **state)
             assert_near(body->center[a], two[b].middle[a], 1e-14);                     /* rounding at 5 m */
             assert_near(body->velocity[a], two[b].velocity[a], 1e-14);                 /* rounding */
             assert_near(body->angular_velocity[a], two[b].angular_velocity[a], 1e-12); /* of arms at 5 m */
-            assert_near(body->turn[4 * a], 1.0, 1e-13);                                /* likewise */
+            assert_near(body->rotation[4 * a], 1.0, 1e-13);                            /* likewise */
             assert_true(body->rotation_angle[a] == 0.0);
         }
     }
@@ -127,13 +127,13 @@ static void test_observation_follows_a_rotation_over_a_whole_turn(void **state)
     elastic_bodies it;
     elastic_open(&it, &request);
     mor_body_group *group = &it.elastic.group;
-    double turn[9];
+    double rotation[9];
     for (int k = 0; k <= STEPS; ++k) {
-        mor_matrix_rotation(axis, rate * step * k, turn);
+        mor_matrix_rotation(axis, rate * step * k, rotation);
         for (int64_t i = 0; i < group->set.n_particles; ++i) {
             double *x = group->set.data[MOR_FIELD_POSITION] + 3 * i;
             double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
-            mor_matrix_apply(turn, group->reference + 3 * i, x);
+            mor_matrix_apply(rotation, group->reference + 3 * i, x);
             for (int a = 0; a < 3; ++a) {
                 const int b = (a + 1) % 3;
                 const int c = (a + 2) % 3;
@@ -148,7 +148,7 @@ static void test_observation_follows_a_rotation_over_a_whole_turn(void **state)
             assert_near(group->bodies[b].angular_velocity[a], rate * axis[a], 1e-11);              /* of arms at 6 m */
         }
         for (int k = 0; k < 9; ++k) {
-            assert_near(group->bodies[b].turn[k], turn[k], 1e-12); /* rounding */
+            assert_near(group->bodies[b].rotation[k], rotation[k], 1e-12); /* rounding */
         }
     }
     elastic_close(&it);
@@ -167,8 +167,8 @@ static void test_disc_in_plane_strain_turns_about_z(void **state)
     const mor_body *body = &it.elastic.group.bodies[0];
     /* The spin of 2 rad/s stretches the disc by (omega R / c)^2 = 5e-4 / 2, and as much slower it turns. */
     assert_near(body->rotation_angle[2], 1.0, 1e-3);
-    assert_near(atan2(body->turn[3], body->turn[0]), body->rotation_angle[2], 1e-3); /* likewise */
-    assert_true(body->rotation_angle[0] == 0.0 && body->turn[8] == 1.0);
+    assert_near(atan2(body->rotation[3], body->rotation[0]), body->rotation_angle[2], 1e-3); /* likewise */
+    assert_true(body->rotation_angle[0] == 0.0 && body->rotation[8] == 1.0);
     elastic_close(&it);
 }
 

@@ -30,9 +30,9 @@ static double worst_gap(contact_scene *scene, double *area)
     for (int64_t k = body->first_node; k < body->first_node + body->n_nodes; ++k) {
         double offset[3], place[3];
         for (int a = 0; a < 3; ++a) {
-            offset[a] = group->node_reference[3 * k + a] - body->shape_move[a];
+            offset[a] = group->node_reference[3 * k + a] - body->shape_translation[a];
         }
-        mor_matrix_apply_transposed(body->shape_turn, offset, place);
+        mor_matrix_apply_transposed(body->shape_rotation, offset, place);
         worst = fmax(worst, fabs(mor_shape_distance(body->shape, place)));
         *area += group->node_area[k];
     }
@@ -86,9 +86,9 @@ static void corners_of_boxes_are_nodes(void **state)
             double offset[3], own[3];
             bool is_corner = true;
             for (int a = 0; a < 3; ++a) {
-                offset[a] = group->node_reference[3 * node + a] - body->shape_move[a];
+                offset[a] = group->node_reference[3 * node + a] - body->shape_translation[a];
             }
-            mor_matrix_apply_transposed(body->shape_turn, offset, own);
+            mor_matrix_apply_transposed(body->shape_rotation, offset, own);
             for (int a = 0; a < 3; ++a) {
                 is_corner = is_corner && fabs(fabs(own[a]) - bodies[k].half[a]) < 1.0e-3 * SPACING; /* EDGE_STAY */
             }

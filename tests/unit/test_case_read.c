@@ -117,7 +117,7 @@ static void what_is_not_written_gets_its_default(void **state)
     assert_true(c->soils[0].settle_time == 1.0 && c->scale_length == 1.0);              /* exact */
     assert_int_equal(c->n_walls + c->n_probes + c->n_expectations, 0);
     for (int k = 0; k < 9; ++k) {
-        assert_true(c->turn[k] == (k % 4 == 0 ? 1.0 : 0.0)); /* exact: no placement is no rounding */
+        assert_true(c->rotation[k] == (k % 4 == 0 ? 1.0 : 0.0)); /* exact: no placement is no rounding */
     }
 }
 
@@ -153,16 +153,16 @@ static void the_placement_becomes_a_rotation(void **state)
 {
     case_reading *f = *state;
     case_reading_read(f, full_text, NULL, &f->first);
-    const double *turn = f->first.turn;
+    const double *rotation = f->first.rotation;
     const double axis[3] = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0};
     double turned[3];
-    mor_matrix_apply(turn, axis, turned);
+    mor_matrix_apply(rotation, axis, turned);
     for (int a = 0; a < 3; ++a) {
         assert_true(fabs(turned[a] - axis[a]) < 4e-16); /* rounding of three products */
     }
-    const double trace = turn[0] + turn[4] + turn[8];
+    const double trace = rotation[0] + rotation[4] + rotation[8];
     assert_true(fabs(trace - (1.0 + sqrt(3.0))) < 1e-15); /* rounding: 1 + 2 cos 30 deg */
-    assert_true(f->first.move[1] == 0.5);                 /* exact */
+    assert_true(f->first.translation[1] == 0.5);          /* exact */
 }
 
 static void probes_are_completed_by_their_type(void **state)
@@ -288,7 +288,7 @@ static void the_scale_multiplies_every_dimensional_value_exactly(void **state)
     assert_true(scaled->expectations[0].tolerance == plain->expectations[0].tolerance);   /* exact: a share */
     const double energy = 0.0625 * 16.0 / 4096.0;
     assert_true(scaled->expectations[1].tolerance == energy * plain->expectations[1].tolerance); /* exact: m l2 / t2 */
-    assert_memory_equal(plain->turn, scaled->turn, sizeof plain->turn);
+    assert_memory_equal(plain->rotation, scaled->rotation, sizeof plain->rotation);
 }
 
 /* ---- Writing and reading again ----------------------------------------------------------------------------------- */

@@ -416,8 +416,8 @@ static void spin_turns_the_stress_and_keeps_its_invariants(void **state)
     check_close(pressure_of(p.stress), pressure_of(start), 1e-12 * 1e5); /* asked: 1e-12 */
     /* A whole turn at the production step of 1e-3. */
     memcpy(p.stress, start, sizeof start);
-    const double turn[9] = {0, -2.0 * MOR_PI, 0, 2.0 * MOR_PI, 0, 0, 0, 0, 0};
-    steps(&p, turn, 1.0, 6284);
+    const double rotation[9] = {0, -2.0 * MOR_PI, 0, 2.0 * MOR_PI, 0, 0, 0, 0, 0};
+    steps(&p, rotation, 1.0, 6284);
     for (int a = 0; a < 6; ++a) {
         check_close(p.stress[a], start[a], 1e-3 * 1e5 * 1e-3); /* asked: 1e-3 a turn; second order gives 1e-6 */
     }

@@ -47,8 +47,8 @@ static mor_body_request describe_spiked(const elastic_bodies *it, const char *na
                               .positions = points,
                               .n_particles = n_points,
                               .shape = body->shape,
-                              .shape_turn = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
-                              .shape_move = {1.0, 2.0, 3.0},
+                              .shape_rotation = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
+                              .shape_translation = {1.0, 2.0, 3.0},
                               .density = 1000.0,
                               .geometry = body->geometry};
 }

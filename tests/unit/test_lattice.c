@@ -277,16 +277,16 @@ static void turned_scene_is_the_image_of_the_scene(void **state)
     mor_lattice_points plain;
     mor_lattice_points turned;
     assert_int_equal(mor_lattice_fill(&context, &request, &plain), MOR_OK);
-    mor_matrix_rotation(line, 0.9, request.turn);
-    request.move[0] = 5.0;
-    request.move[2] = -2.0;
+    mor_matrix_rotation(line, 0.9, request.rotation);
+    request.translation[0] = 5.0;
+    request.translation[2] = -2.0;
     assert_int_equal(mor_lattice_fill(&context, &request, &turned), MOR_OK);
     assert_int_equal(turned.n_points, plain.n_points);
     for (int64_t i = 0; i < plain.n_points; ++i) {
         double image[3];
-        mor_matrix_apply(request.turn, plain.positions + 3 * i, image);
+        mor_matrix_apply(request.rotation, plain.positions + 3 * i, image);
         for (int a = 0; a < 3; ++a) {
-            image[a] += request.move[a];
+            image[a] += request.translation[a];
         }
         assert_memory_equal(turned.positions + 3 * i, image, sizeof image); /* exact: the same operations */
     }
@@ -352,7 +352,7 @@ static void plane_scene_gets_one_layer_at_zero(void **state)
     request.dimension = 2;
     request.jitter_ratio = 0.3;
     request.origin[2] = 77.0; /* of no effect */
-    mor_matrix_rotation(axis, 0.4, request.turn);
+    mor_matrix_rotation(axis, 0.4, request.rotation);
     mor_lattice_points points;
     assert_int_equal(mor_lattice_fill(&context, &request, &points), MOR_OK);
     assert_int_equal(points.n_points, 50);
@@ -431,10 +431,10 @@ static void wrong_requests_are_refused_by_value(void **state)
     request.dimension = 4;
     expect_refusal(&context, &request, "4");
     request.dimension = 2;
-    mor_matrix_rotation((double[]){1.0, 0.0, 0.0}, 0.1, request.turn);
+    mor_matrix_rotation((double[]){1.0, 0.0, 0.0}, 0.1, request.rotation);
     expect_refusal(&context, &request, "about z");
     request = good;
-    request.turn[1] = 0.1;
+    request.rotation[1] = 0.1;
     expect_refusal(&context, &request, "rotation");
     request = good;
     request.depth = 0.0;

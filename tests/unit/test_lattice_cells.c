@@ -109,8 +109,8 @@ static void a_shape_that_fits_the_lattice_is_filled_as_ever(void **state)
     request.excluded = excluded;
     request.n_excluded = 1;
     request.depth = 0.4;
-    mor_matrix_rotation((const double[]){0, 0.6, 0.8}, 0.3, request.turn);
-    request.move[1] = 3.0;
+    mor_matrix_rotation((const double[]){0, 0.6, 0.8}, 0.3, request.rotation);
+    request.translation[1] = 3.0;
     mor_lattice_points plain;
     assert_int_equal(mor_lattice_fill(&it.context, &request, &plain), MOR_OK);
     fill_shape(&it, &request);

@@ -311,19 +311,19 @@ static void front_moves_continuously_with_the_grains(void **state)
 static mor_measure_frame turn_heap(const mor_measure_frame *frame)
 {
     const double line[3] = {2.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0};
-    const double move[3] = {0.5, -0.25, 2.0};
-    double turn[9];
-    mor_matrix_rotation(line, 0.8, turn);
+    const double translation[3] = {0.5, -0.25, 2.0};
+    double rotation[9];
+    mor_matrix_rotation(line, 0.8, rotation);
     mor_measure_frame turned = *frame;
-    mor_matrix_apply(turn, frame->up, turned.up);
-    mor_matrix_apply(turn, frame->direction, turned.direction);
-    mor_matrix_apply(turn, frame->origin, turned.origin);
+    mor_matrix_apply(rotation, frame->up, turned.up);
+    mor_matrix_apply(rotation, frame->direction, turned.direction);
+    mor_matrix_apply(rotation, frame->origin, turned.origin);
     for (int64_t i = -1; i < ground.points.n_points; ++i) {
         double *place = i < 0 ? turned.origin : ground.position + 3 * i;
         double image[3];
-        mor_matrix_apply(turn, place, image);
+        mor_matrix_apply(rotation, place, image);
         for (int a = 0; a < 3; ++a) {
-            place[a] = (i < 0 ? place[a] : image[a]) + move[a];
+            place[a] = (i < 0 ? place[a] : image[a]) + translation[a];
         }
     }
     return turned;

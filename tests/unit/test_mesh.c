@@ -38,11 +38,11 @@ static int free_draft(void **state)
 }
 
 /* Appends a mesh, scaled and moved, and ends it. */
-static void append(draft *it, mor_mesh *mesh, double scale, const double *move)
+static void append(draft *it, mor_mesh *mesh, double scale, const double *translation)
 {
     assert_true(it->n_vertices + mesh->n_vertices <= 512 && it->n_triangles + mesh->n_triangles <= 1024);
     for (int64_t k = 0; k < 3 * mesh->n_vertices; ++k) {
-        it->vertices[3 * it->n_vertices + k] = scale * mesh->vertices[k] + move[k % 3];
+        it->vertices[3 * it->n_vertices + k] = scale * mesh->vertices[k] + translation[k % 3];
     }
     for (int64_t k = 0; k < 3 * mesh->n_triangles; ++k) {
         it->triangles[3 * it->n_triangles + k] = mesh->triangles[k] + (int32_t)it->n_vertices;
@@ -54,9 +54,9 @@ static void append(draft *it, mor_mesh *mesh, double scale, const double *move)
 
 static void append_cube(draft *it, double half, double x, double y, double z)
 {
-    const double move[3] = {x, y, z};
+    const double translation[3] = {x, y, z};
     mor_mesh cube = mesh_cube(&it->context, half);
-    append(it, &cube, 1.0, move);
+    append(it, &cube, 1.0, translation);
 }
 
 static mor_status look_over(draft *it)
@@ -157,8 +157,8 @@ static void moments_turn_with_the_mesh(void **state)
 {
     draft *it = *state;
     const double axis[3] = {2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0};
-    const double move[3] = {3.0, -1.0, 0.5};
-    double turn[9];
+    const double translation[3] = {3.0, -1.0, 0.5};
+    double rotation[9];
     mor_shape_moments before;
     mor_shape_moments after;
     append_cube(it, 0.5, 0.1, 0.2, 0.3);
@@ -167,24 +167,24 @@ static void moments_turn_with_the_mesh(void **state)
     }
     assert_int_equal(look_over(it), MOR_OK);
     mor_mesh_moments(&it->mesh, &before);
-    mor_matrix_rotation(axis, 0.7, turn);
+    mor_matrix_rotation(axis, 0.7, rotation);
     for (int64_t v = 0; v < it->mesh.n_vertices; ++v) {
         double *vertex = it->mesh.vertices + 3 * v;
         const double old[3] = {vertex[0], vertex[1], vertex[2]};
-        mor_matrix_apply(turn, old, vertex);
+        mor_matrix_apply(rotation, old, vertex);
         for (int a = 0; a < 3; ++a) {
-            vertex[a] += move[a];
+            vertex[a] += translation[a];
         }
     }
     mor_mesh_moments(&it->mesh, &after);
     assert_near(after.volume, before.volume, 1e-13); /* roundings of numbers of order ten */
     double center[3];
-    mor_matrix_apply(turn, before.center, center);
+    mor_matrix_apply(rotation, before.center, center);
     for (int a = 0; a < 3; ++a) {
         double column[3];
         double expected[3];
-        const double unit[3] = {turn[a], turn[3 + a], turn[6 + a]};
-        assert_near(after.center[a], center[a] + move[a], 1e-13); /* roundings of numbers of order ten */
+        const double unit[3] = {rotation[a], rotation[3 + a], rotation[6 + a]};
+        assert_near(after.center[a], center[a] + translation[a], 1e-13); /* roundings of numbers of order ten */
         /* The box had no mixed moments: its axes are still principal ones. */
         mor_symmetric_apply(after.inertia, unit, column);
         for (int b = 0; b < 3; ++b) {

@@ -81,9 +81,9 @@ static void distance_is_that_of_a_search_through_all_triangles(void **state)
     mor_context context;
     mor_context_init(&context);
     mor_mesh mesh = mesh_ball(&context, 0.7, 2);
-    const double move[3] = {1000.0, -300.0, 20.0}; /* far from the origin, where single precision is coarse */
+    const double translation[3] = {1000.0, -300.0, 20.0}; /* far from the origin, where single precision is coarse */
     for (int64_t k = 0; k < 3 * mesh.n_vertices; ++k) {
-        mesh.vertices[k] += move[k % 3];
+        mesh.vertices[k] += translation[k % 3];
     }
     mor_mesh_distance *distance = new_distance(&context, &mesh);
     for (uint64_t id = 0; id < 3000; ++id) {
@@ -92,7 +92,7 @@ static void distance_is_that_of_a_search_through_all_triangles(void **state)
         double expected = INFINITY;
         draw_point(id, id % 10 == 0 ? 50.0 : 1.0, point);
         for (int k = 0; k < 3; ++k) {
-            point[k] += move[k];
+            point[k] += translation[k];
         }
         for (int64_t t = 0; t < mesh.n_triangles; ++t) {
             expected = fmin(expected, measure_triangle(&mesh, t, point));

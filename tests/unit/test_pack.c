@@ -453,12 +453,12 @@ static double find_corner_distance(const quarry *q, const mor_pack_rock *owner, 
 static double find_corner_depth(const quarry *q, const mor_pack_rock *rock)
 {
     const mor_mesh *mesh = &q->meshes[rock->form];
-    double turn[9];
+    double rotation[9];
     double least = INFINITY;
-    mor_matrix_rotation(rock->axis, rock->angle, turn);
+    mor_matrix_rotation(rock->axis, rock->angle, rotation);
     for (int64_t v = 0; v < mesh->n_vertices; ++v) {
         double point[3];
-        mor_matrix_apply(turn, mesh->vertices + 3 * v, point);
+        mor_matrix_apply(rotation, mesh->vertices + 3 * v, point);
         for (int a = 0; a < 3; ++a) {
             point[a] = point[a] * rock->diameter + rock->position[a];
         }

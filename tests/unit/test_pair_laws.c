@@ -278,28 +278,29 @@ static void units_changed_by_powers_of_two_change_no_bit(void **state)
 /* Quarter turns about z and, in space, about x: all entries are 0 or 1, so that states turn without rounding. */
 static const double turns[2][9] = {{0, -1, 0, 1, 0, 0, 0, 0, 1}, {1, 0, 0, 0, 0, -1, 0, 1, 0}};
 
-static void turn_vector(const double *turn, double *v)
+static void turn_vector(const double *rotation, double *v)
 {
     double turned[3];
-    mor_matrix_apply(turn, v, turned);
+    mor_matrix_apply(rotation, v, turned);
     memcpy(v, turned, sizeof turned);
 }
 
-static void turn_matrix(const double *turn, double *m)
+static void turn_matrix(const double *rotation, double *m)
 {
     double half[9];
     for (int k = 0; k < 9; ++k) {
-        half[k] = turn[k / 3 * 3] * m[k % 3] + turn[k / 3 * 3 + 1] * m[3 + k % 3] + turn[k / 3 * 3 + 2] * m[6 + k % 3];
+        half[k] = rotation[k / 3 * 3] * m[k % 3] + rotation[k / 3 * 3 + 1] * m[3 + k % 3] +
+                  rotation[k / 3 * 3 + 2] * m[6 + k % 3];
     }
     for (int row = 0; row < 3; ++row) {
-        mor_matrix_apply(turn, half + 3 * row, m + 3 * row);
+        mor_matrix_apply(rotation, half + 3 * row, m + 3 * row);
     }
 }
 
-static void turn_symmetric(const double *turn, double *s)
+static void turn_symmetric(const double *rotation, double *s)
 {
     double m[9] = {s[MOR_XX], s[MOR_XY], s[MOR_ZX], s[MOR_XY], s[MOR_YY], s[MOR_YZ], s[MOR_ZX], s[MOR_YZ], s[MOR_ZZ]};
-    turn_matrix(turn, m);
+    turn_matrix(rotation, m);
     memcpy(s, ((const double[6]){m[0], m[4], m[8], m[1], m[5], m[2]}), 6 * sizeof *s);
 }
 
@@ -316,26 +317,26 @@ static void check_turn(assembly *a, const mor_pair_table *table)
 {
     const int n = a->n;
     for (int t = 0; t < a->constants.dimension - 1; ++t) {
-        const double *turn = turns[t];
+        const double *rotation = turns[t];
         assembly_sums before;
         assembly_sums after;
         assembly_run(a, table, 1000, &before);
-        turn_vector(turn, a->constants.gravity_direction);
-        turn_symmetric(turn, a->constants.rest_gradient);
+        turn_vector(rotation, a->constants.gravity_direction);
+        turn_symmetric(rotation, a->constants.rest_gradient);
         for (int i = 0; i < n; ++i) {
             double *record = a->records + i * MOR_RECORD_SIZE;
-            turn_vector(turn, record);
-            turn_vector(turn, record + MOR_RECORD_VELOCITY);
-            turn_symmetric(turn, record + MOR_RECORD_STRESS);
-            turn_symmetric(turn, a->artificial + 6 * i);
-            turn_symmetric(turn, a->strain_rate + 6 * i);
-            turn_vector(turn, before.acceleration + 3 * i);
-            turn_symmetric(turn, before.stress_diffusion + 6 * i);
-            turn_matrix(turn, before.velocity_gradient + 9 * i);
-            turn_vector(turn, before.regularization + 6 * i);
-            turn_vector(turn, before.regularization + 6 * i + 3);
-            turn_vector(turn, before.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_GRADIENT);
-            turn_symmetric(turn, before.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_MOMENT);
+            turn_vector(rotation, record);
+            turn_vector(rotation, record + MOR_RECORD_VELOCITY);
+            turn_symmetric(rotation, record + MOR_RECORD_STRESS);
+            turn_symmetric(rotation, a->artificial + 6 * i);
+            turn_symmetric(rotation, a->strain_rate + 6 * i);
+            turn_vector(rotation, before.acceleration + 3 * i);
+            turn_symmetric(rotation, before.stress_diffusion + 6 * i);
+            turn_matrix(rotation, before.velocity_gradient + 9 * i);
+            turn_vector(rotation, before.regularization + 6 * i);
+            turn_vector(rotation, before.regularization + 6 * i + 3);
+            turn_vector(rotation, before.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_GRADIENT);
+            turn_symmetric(rotation, before.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_MOMENT);
         }
         assembly_list(a, 0.2 * ASSEMBLY_SPACING);
         assembly_run(a, table, 1000, &after);

@@ -60,10 +60,10 @@ static void check_linear_motion(assembly *a, const mor_pair_table *table)
     leave_damping_alone(a);
     for (uint64_t id = 0; id < 4; ++id) {
         double slopes[9];
-        double turn[9];
+        double rotation[9];
         choose_slopes(a->constants.dimension, id, slopes);
         for (int k = 0; k < 9; ++k) {
-            turn[k] = 0.5 * (slopes[k] - slopes[3 * (k % 3) + k / 3]);
+            rotation[k] = 0.5 * (slopes[k] - slopes[3 * (k % 3) + k / 3]);
         }
         set_linear_motion(a, slopes);
         a->constants.dissipation = MOR_DISSIPATION_BOTH;
@@ -73,7 +73,7 @@ static void check_linear_motion(assembly *a, const mor_pair_table *table)
         a->constants.dissipation = mode;
         counted = fmax(counted, find_damping(a, table, false, damping));
         assert_true(find_damping(a, table, true, damping) <= rounding); /* see above */
-        set_linear_motion(a, turn);
+        set_linear_motion(a, rotation);
         assert_true(find_damping(a, table, false, damping) <= rounding); /* likewise: a rigid rotation */
         assert_true(find_damping(a, table, true, damping) <= rounding);
     }
@@ -274,7 +274,7 @@ static void stress_of_soil_that_moves_as_one_does_not_diffuse(void **state)
 /* Motion that swells, about a hundred times as fast as the limiter counts, and slow motion at random. */
 static void check_fast_and_slow_motion(assembly *a, const mor_pair_table *table)
 {
-    static const double swelling[9] = {1e4, 0, 0, 0, 1e4, 0, 0, 0, 1e4};
+    static const double j_minus_1[9] = {1e4, 0, 0, 0, 1e4, 0, 0, 0, 1e4};
     double limited[6 * ASSEMBLY_MAX];
     double other[6 * ASSEMBLY_MAX];
     const size_t bytes = (size_t)(6 * a->n) * sizeof *limited;
@@ -287,7 +287,7 @@ static void check_fast_and_slow_motion(assembly *a, const mor_pair_table *table)
     for (int k = 0; k < 6 * a->n; ++k) {
         assert_true(other[k] == ldexp(limited[k], -9)); /* exact: goes with the speed, here a power of two */
     }
-    set_linear_motion(a, swelling);
+    set_linear_motion(a, j_minus_1);
     find_diffusion(a, table, true, limited);
     find_diffusion(a, table, false, other);
     assert_memory_equal(limited, other, bytes); /* exact: each pair's share is one */

@@ -22,7 +22,7 @@ static void set_wall(mor_case *the_case, mor_shape *shape)
     memset(the_case, 0, sizeof *the_case);
     the_case->dimension = 3;
     the_case->spacing = spacing;
-    the_case->turn[0] = the_case->turn[4] = the_case->turn[8] = 1.0;
+    the_case->rotation[0] = the_case->rotation[4] = the_case->rotation[8] = 1.0;
     the_case->n_walls = 1;
     the_case->walls[0].shape = shape;
 }
@@ -136,13 +136,13 @@ static void a_placed_case_hides_as_the_unplaced_one(void **state)
     mor_context context;
     (void)state;
     const double front[3] = {0.0, 1.0, 0.0}; /* x of the case, turned by 90 degrees about z */
-    const double turn[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+    const double rotation[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     const mor_bounds placed = {{-3.0 + 7.0, 0.0, 0.0}, {0.0 + 7.0, 4.0, 2.0}};
     set_screen(&context, &the_case, 3.0);
-    memcpy(the_case.turn, turn, sizeof turn);
-    the_case.move[0] = 7.0;
+    memcpy(the_case.rotation, rotation, sizeof rotation);
+    the_case.translation[0] = 7.0;
     assert_true(mor_picture_wall_hides(&the_case, 0, &placed, front));
-    the_case.move[0] = 70.0; /* now the wall stands elsewhere */
+    the_case.translation[0] = 70.0; /* now the wall stands elsewhere */
     assert_false(mor_picture_wall_hides(&the_case, 0, &placed, front));
     mor_shape_free(&context, &the_case.walls[0].shape);
 }

@@ -456,19 +456,19 @@ static void ground_lies_on_top_of_an_inclined_floor(void **state)
 {
     (void)state;
     const double axis[3] = {0.6, 0.8, 0.0};
-    double turn[9];
+    double rotation[9];
     double position[3 * 900];
-    mor_matrix_rotation(axis, 0.4, turn);
+    mor_matrix_rotation(axis, 0.4, rotation);
     for (int i = 0; i < 900; ++i) {
         const double flat[3] = {0.1 * (i % 20), 0.1 * (i / 20 % 15), -0.1 * (i / 300) - 0.05};
-        mor_matrix_apply(turn, flat, position + 3 * i);
+        mor_matrix_apply(rotation, flat, position + 3 * i);
     }
     const mor_picture_group floor_group = {.position = position, .n_particles = 900, .radius = 0.05};
     const double up[3] = {0.0, 0.0, 1.0};
     double normal[3];
     const double level = mor_model_plane(&floor_group, up, normal);
     for (int a = 0; a < 3; ++a) {
-        assert_true(fabs(normal[a] - turn[3 * a + 2]) < 1e-12); /* rounding of sums over 900 particles */
+        assert_true(fabs(normal[a] - rotation[3 * a + 2]) < 1e-12); /* rounding of sums over 900 particles */
     }
     assert_true(fabs(level) < 1e-12); /* rounding of sums over 900 particles */
 }

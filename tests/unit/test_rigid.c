@@ -76,7 +76,8 @@ static void symmetric_top_precesses_as_in_closed_form(void **state)
         for (int b = 0; b < 3; ++b) {
             const double column[3] = {own[b], own[3 + b], own[6 + b]};
             const double exact = mor_vector_dot(precession + 3 * a, column);
-            assert_near(first_body(it)->turn[3 * a + b], exact, 1e-10); /* inertia to 1e-12, over 10 rad; rounding */
+            assert_near(first_body(it)->rotation[3 * a + b], exact,
+                        1e-10); /* inertia to 1e-12, over 10 rad; rounding */
         }
     }
     for (int a = 0; a < 3; ++a) {
@@ -177,9 +178,9 @@ static void prescribed_motion_is_exact_and_counts_impulses(void **state)
     it->pushed = 0;
     it->push[1] = 5.0;
     rigid_run(it, 3.0);
-    double turn[9];
+    double rotation[9];
     const double axis[3] = {0.2 / 0.6, 0.4 / 0.6, -0.4 / 0.6};
-    mor_matrix_rotation(axis, 1.8, turn);
+    mor_matrix_rotation(axis, 1.8, rotation);
     assert_true(first_body(it)->is_held);
     for (int a = 0; a < 3; ++a) {
         /* exact: a function of the time */
@@ -187,7 +188,7 @@ static void prescribed_motion_is_exact_and_counts_impulses(void **state)
         assert_true(first_body(it)->velocity[a] == box.motion.velocity[a]);                          /* exact: given */
         assert_near(first_body(it)->rotation_angle[a], 3.0 * box.motion.angular_velocity[a], 1e-15); /* rounding */
         for (int b = 0; b < 3; ++b) {
-            assert_near(first_body(it)->turn[3 * a + b], turn[3 * a + b], 1e-15 * 4.0); /* rounding */
+            assert_near(first_body(it)->rotation[3 * a + b], rotation[3 * a + b], 1e-15 * 4.0); /* rounding */
         }
     }
     assert_near(first_body(it)->soil_impulse[1], 15.0, 1e-13 * 15.0); /* rounding of some hundred sums */
@@ -318,7 +319,7 @@ static void contact_moves_the_body_and_is_counted(void **state)
     assert_near(body->velocity[0], 0.5 * 3.0 / (1000.0 * 0.125), 1e-13);     /* rounding */
     assert_near(body->angular_velocity[2], 0.5 * 2.0 / inertia, 1e-12);      /* rounding */
     assert_near(body->rotation_angle[2], 0.5 * 0.25 * 2.0 / inertia, 1e-12); /* rounding: constant acceleration */
-    assert_near(body->turn[3], sin(body->rotation_angle[2]), 1e-13);         /* rounding */
+    assert_near(body->rotation[3], sin(body->rotation_angle[2]), 1e-13);     /* rounding */
     assert_near(body->contact_impulse[0], 1.5, 1e-13);                       /* rounding */
     assert_true(body->center[2] == 0.0 && body->velocity[2] == 0.0);         /* exact: locked in the plane */
     assert_true(body->angular_velocity[0] == 0.0 && body->angular_velocity[1] == 0.0); /* exact: likewise */
@@ -363,7 +364,7 @@ static void points_follow_their_body(void **state)
         for (int a = 0; a < 3; ++a) {
             arm[a] = group->reference[3 * i + a] - body->geometry.center[a];
         }
-        mor_matrix_apply(body->turn, arm, turned);
+        mor_matrix_apply(body->rotation, arm, turned);
         for (int a = 0; a < 3; ++a) {
             const int b = (a + 1) % 3;
             const int c = (a + 2) % 3;

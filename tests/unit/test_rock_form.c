@@ -132,9 +132,9 @@ static double find_sharpest(const mor_outline *outline)
         const double *a = outline->points + 2 * i;
         const double *b = outline->points + 2 * ((i + 1) % n);
         const double *c = outline->points + 2 * ((i + 2) % n);
-        const double turn = atan2((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]),
-                                  (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]));
-        sharpest = fmax(sharpest, turn / (2.0 * MOR_PI));
+        const double rotation = atan2((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]),
+                                      (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]));
+        sharpest = fmax(sharpest, rotation / (2.0 * MOR_PI));
     }
     return sharpest;
 }

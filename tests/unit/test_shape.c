@@ -80,11 +80,11 @@ static void cylinder_surface(double u, double v, double *point)
     /* Across the axis (1, 2, -2) / 3 lie (2, 1, 2) / 3 and (2, -2, -1) / 3. */
     const double side[3] = {2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
     const double other[3] = {2.0 / 3.0, -2.0 / 3.0, -1.0 / 3.0};
-    const double turn = 2.0 * MOR_PI * v;
+    const double rotation = 2.0 * MOR_PI * v;
     const double radius = u < 0.5 ? cylinder_radius : cylinder_radius * sqrt(fmod(4.0 * u, 1.0));
     const double along = u < 0.5 ? 2.0 * u * cylinder_height : (u < 0.75 ? 0.0 : cylinder_height);
     for (int a = 0; a < 3; ++a) {
-        point[a] = foot[a] + along * axis[a] / 3.0 + radius * (cos(turn) * side[a] + sin(turn) * other[a]);
+        point[a] = foot[a] + along * axis[a] / 3.0 + radius * (cos(rotation) * side[a] + sin(rotation) * other[a]);
     }
 }
 
@@ -105,12 +105,12 @@ static void cone_surface(double u, double v, double *point)
 {
     const double side[3] = {2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
     const double other[3] = {2.0 / 3.0, -2.0 / 3.0, -1.0 / 3.0};
-    const double turn = 2.0 * MOR_PI * v;
+    const double rotation = 2.0 * MOR_PI * v;
     const double share = u < 0.3 ? sqrt(u / 0.3) : sqrt((u - 0.3) / 0.7); /* of the radius: even over the area */
     const double along = u < 0.3 ? 0.0 : (1.0 - share) * cylinder_height;
     for (int a = 0; a < 3; ++a) {
-        point[a] =
-            foot[a] + along * axis[a] / 3.0 + cylinder_radius * share * (cos(turn) * side[a] + sin(turn) * other[a]);
+        point[a] = foot[a] + along * axis[a] / 3.0 +
+                   cylinder_radius * share * (cos(rotation) * side[a] + sin(rotation) * other[a]);
     }
 }
 
@@ -375,9 +375,9 @@ static void placed_shape_keeps_distances_and_lies_in_its_bounds(void **state)
     mor_context context;
     mor_context_init(&context);
     const double line[3] = {2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0};
-    const double move[3] = {0.4, -3.0, 1.5};
-    double turn[9];
-    mor_matrix_rotation(line, 1.234, turn);
+    const double translation[3] = {0.4, -3.0, 1.5};
+    double rotation[9];
+    mor_matrix_rotation(line, 1.234, rotation);
     for (int k = 0; k < N_KINDS; ++k) {
         mor_shape *child = NULL;
         mor_shape *same = NULL;
@@ -385,7 +385,7 @@ static void placed_shape_keeps_distances_and_lies_in_its_bounds(void **state)
         mor_bounds bounds;
         assert_int_equal(kinds[k].make(&context, &child), MOR_OK);
         assert_int_equal(kinds[k].make(&context, &same), MOR_OK);
-        assert_int_equal(mor_shape_new_placed(&context, turn, move, &child, &placed), MOR_OK);
+        assert_int_equal(mor_shape_new_placed(&context, rotation, translation, &child, &placed), MOR_OK);
         assert_null(child);
         mor_shape_bounds(placed, &bounds);
         for (int i = 0; i < 500; ++i) {
@@ -393,9 +393,9 @@ static void placed_shape_keeps_distances_and_lies_in_its_bounds(void **state)
             double image[3];
             draw_point((uint64_t)i, point);
             for (int pass = 0; pass < 2; ++pass) {
-                mor_matrix_apply(turn, point, image);
+                mor_matrix_apply(rotation, point, image);
                 for (int a = 0; a < 3; ++a) {
-                    image[a] += move[a];
+                    image[a] += translation[a];
                     assert_true(pass == 0 || (image[a] > bounds.minimum[a] - 1e-14 &&
                                               image[a] < bounds.maximum[a] + 1e-14)); /* rounding */
                 }
@@ -443,7 +443,7 @@ static void translate_and_rotate_are_placements(void **state)
     (void)state;
     mor_context context;
     mor_context_init(&context);
-    const double move[3] = {0.25, -0.5, 2.0};
+    const double translation[3] = {0.25, -0.5, 2.0};
     const double pivot[3] = {1.0, 2.0, 3.0};
     const double line[3] = {0.0, 0.0, 5.0};
     mor_shape *shape = NULL;
@@ -451,16 +451,16 @@ static void translate_and_rotate_are_placements(void **state)
     mor_shape *turned = NULL;
     mor_bounds bounds;
     assert_int_equal(make_box(&context, &shape), MOR_OK);
-    assert_int_equal(mor_shape_new_translate(&context, move, &shape, &moved), MOR_OK);
+    assert_int_equal(mor_shape_new_translate(&context, translation, &shape, &moved), MOR_OK);
     mor_shape_bounds(moved, &bounds);
     for (int a = 0; a < 3; ++a) {
-        assert_true(bounds.minimum[a] == box_minimum[a] + move[a]); /* exact: one sum */
-        assert_true(bounds.maximum[a] == box_maximum[a] + move[a]); /* exact: one sum */
+        assert_true(bounds.minimum[a] == box_minimum[a] + translation[a]); /* exact: one sum */
+        assert_true(bounds.maximum[a] == box_maximum[a] + translation[a]); /* exact: one sum */
     }
     mor_shape_free(&context, &moved);
     /* A quarter turn about z through (1, 2): (x, y) -> (3 - y, 1 + x). */
     const double floor_normal[3] = {1.0, 0.0, 0.0};
-    assert_int_equal(mor_shape_new_half_space(&context, move, floor_normal, &shape), MOR_OK);
+    assert_int_equal(mor_shape_new_half_space(&context, translation, floor_normal, &shape), MOR_OK);
     assert_int_equal(mor_shape_new_rotate(&context, line, 0.5 * MOR_PI, pivot, &shape, &turned), MOR_OK);
     mor_shape_bounds(turned, &bounds);
     assert_true(bounds.maximum[1] == 1.25); /* exact: quarter turns are */
@@ -469,7 +469,7 @@ static void translate_and_rotate_are_placements(void **state)
     assert_true(mor_shape_distance(turned, query) == 0.25); /* exact: binary fractions */
     mor_shape_free(&context, &turned);
     /* An oblique turn of something without end has no end anywhere across the line. */
-    assert_int_equal(mor_shape_new_half_space(&context, move, floor_normal, &shape), MOR_OK);
+    assert_int_equal(mor_shape_new_half_space(&context, translation, floor_normal, &shape), MOR_OK);
     assert_int_equal(mor_shape_new_rotate(&context, line, 0.3, pivot, &shape, &turned), MOR_OK);
     mor_shape_bounds(turned, &bounds);
     for (int a = 0; a < 3; ++a) {

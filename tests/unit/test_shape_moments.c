@@ -152,23 +152,23 @@ static void turned_box_agrees_with_the_placed_moments(void **state)
     mor_context_init(&context);
     for (uint64_t k = 0; k < 3; ++k) {
         double axis[3];
-        double turn[9];
-        double move[3];
+        double rotation[9];
+        double translation[3];
         const int dimension = k == 2 ? 2 : 3;
         for (uint64_t a = 0; a < 3; ++a) {
             axis[a] = dimension == 3 ? cloud_number(k, a, -1.0, 1.0) : a == 2;
-            move[a] = dimension == 3 || a < 2 ? cloud_number(k, 3 + a, -3.0, 3.0) : 0.0;
+            translation[a] = dimension == 3 || a < 2 ? cloud_number(k, 3 + a, -3.0, 3.0) : 0.0;
         }
         const double length = mor_vector_length(axis);
         for (int a = 0; a < 3; ++a) {
             axis[a] /= length;
         }
-        mor_matrix_rotation(axis, cloud_number(k, 6, 0.2, 3.0), turn);
+        mor_matrix_rotation(axis, cloud_number(k, 6, 0.2, 3.0), rotation);
         mor_shape *box = new_box(&context, low, high);
         mor_shape *shape = NULL;
-        assert_int_equal(mor_shape_new_placed(&context, turn, move, &box, &shape), MOR_OK);
+        assert_int_equal(mor_shape_new_placed(&context, rotation, translation, &box, &shape), MOR_OK);
         mor_shape_moments expected = box_moments(low, high, dimension);
-        mor_shape_moments_place(&expected, turn, move);
+        mor_shape_moments_place(&expected, rotation, translation);
         const mor_shape_moments found = find_moments(&context, &shape, dimension);
         assert_moments(&found, &expected, 1.0, PROMISED); /* promised */
     }

@@ -25,7 +25,7 @@ static mor_case *new_case(void)
     the_case.dimension = 3;
     the_case.spacing = 2.0;
     the_case.seed = 5;
-    the_case.turn[0] = the_case.turn[4] = the_case.turn[8] = 1.0;
+    the_case.rotation[0] = the_case.rotation[4] = the_case.rotation[8] = 1.0;
     return &the_case;
 }
 

@@ -359,11 +359,11 @@ typedef struct mor_case {
     int outflow;              /* of soil from the domain: 0 stops the run, 1 is removed */
     uint64_t seed;
     double jitter_ratio; /* random displacement of the lattice / spacing */
-    /* Placement of the whole scene (geometry, lattice, gravity): x -> turn * x + move. */
-    double turn[9];           /* shape [3,3], rotation matrix, 1; made from the two that follow */
+    /* Placement of the whole scene (geometry, lattice, gravity): x -> rotation * x + translation. */
+    double rotation[9];       /* shape [3,3], rotation matrix, 1; made from the two that follow */
     double placement_axis[3]; /* axis of the turn, any length but zero, 1 */
     double placement_angle;   /* rad */
-    double move[3];           /* m */
+    double translation[3];    /* m */
     /* Powers of two multiplying lengths, times and masses, for the unit-change check. */
     double scale_length, scale_time, scale_mass; /* 1 */
     uint64_t written, written_domain, written_lattice, written_placement, written_scale, written_numerics;

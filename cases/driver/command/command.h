@@ -42,8 +42,8 @@ typedef struct mor_command {
 } mor_command;
 
 /** Takes a command line apart and does what it says.
- *  @param argc [in]  number of words, >= 1
- *  @param argv [in]  shape [argc] of zero-terminated words
+ *  @param argc [in]      number of words, >= 1
+ *  @param argv [in]      shape [argc] of zero-terminated words
  *  @param stop [in,out]  one object that a signal handler shares
  *  Returns: the exit code. */
 int mor_command_main(int argc, char **argv, mor_stop *stop);

@@ -50,7 +50,7 @@ typedef struct filling {
 /* ---- Input ------------------------------------------------------------------------------------------------------- */
 
 /* What is wrong with a file or a number is bad input, not a failed run. */
-static mor_status blame_input(mor_context *context, mor_status status, const char *place)
+static mor_status annotate_input_error(mor_context *context, mor_status status, const char *place)
 {
     if (status != MOR_ERROR_ARGUMENT && status != MOR_ERROR_IO) {
         return status;
@@ -74,7 +74,7 @@ static mor_status read_length(mor_context *context, const mor_units *units, cons
         memcpy(why, context->message, sizeof why);
         return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s%.500s; %s", place, why, allowed);
     }
-    MOR_TRY(context, blame_input(context, status, place));
+    MOR_TRY(context, annotate_input_error(context, status, place));
     MOR_CHECK(context, isfinite(*value) && *value > 0.0, MOR_ERROR_CONFIG, "found %s '%s'; %s", option, text, allowed);
     return MOR_OK;
 }
@@ -128,14 +128,14 @@ static mor_status shape_mesh(mor_command *command, filling *it)
     mor_mesh mesh;
     mor_mesh_report report;
     char text[1024];
-    mor_status status = blame_input(context, mor_mesh_read(context, command->subject, &mesh, &report), "");
+    mor_status status = annotate_input_error(context, mor_mesh_read(context, command->subject, &mesh, &report), "");
     if (status == MOR_OK) {
         mor_mesh_report_print(&report, text, sizeof text);
         fprintf(command->output, "%s", text);
     }
     for (int k = MOR_MESH_LENGTH; k <= MOR_MESH_DIAMETER && status == MOR_OK; ++k) {
         if (!isnan(it->sizes[k])) {
-            status = blame_input(context, mor_mesh_scale(context, &mesh, (mor_mesh_size)k, it->sizes[k]), "");
+            status = annotate_input_error(context, mor_mesh_scale(context, &mesh, (mor_mesh_size)k, it->sizes[k]), "");
         }
     }
     if (status == MOR_OK) {
@@ -144,10 +144,10 @@ static mor_status shape_mesh(mor_command *command, filling *it)
         status = mor_shape_new_mesh(context, &mesh, &fineness, &it->shape);
         if (isnan(it->sizes[MOR_MESH_LENGTH]) && isnan(it->sizes[MOR_MESH_VOLUME]) &&
             isnan(it->sizes[MOR_MESH_DIAMETER])) {
-            status = mor_mesh_size_blame(context, status, &mesh, 1.0, it->spacing,
-                                         "give its size in meters with --length or --diameter");
+            status = mor_mesh_size_annotate_error(context, status, &mesh, 1.0, it->spacing,
+                                                  "give its size in meters with --length or --diameter");
         }
-        status = blame_input(context, status, "");
+        status = annotate_input_error(context, status, "");
     }
     mor_mesh_clear(context, &mesh);
     return status;
@@ -176,7 +176,7 @@ static mor_status shape_outline(mor_command *command, filling *it)
 {
     mor_context *context = command->context;
     mor_outline outline;
-    mor_status status = blame_input(context, mor_outline_read(context, command->subject, &outline), "");
+    mor_status status = annotate_input_error(context, mor_outline_read(context, command->subject, &outline), "");
     if (status == MOR_OK) {
         fprintf(command->output, "%d corners of an outline\n", outline.n_points);
         mor_outline_normalize(&outline, find_diameter(it, &outline));
@@ -324,7 +324,7 @@ static mor_status draw_points(mor_command *command, const filling *it, const cha
                                  .has_range = is_deeper,
                                  .range = {0.0, known},
                                  .has_cut = true,
-                                 .swelling = 1.0};
+                                 .j_minus_1 = 1.0};
     MOR_TRY(command->context, mor_durable_file_join(command->context, path, folder, "images/particles.png"));
     MOR_TRY(command->context, mor_picture_write(command->context, &picture, path));
     fprintf(command->output, "picture: %s\n", path);
@@ -342,8 +342,8 @@ static mor_status fill_shape(mor_command *command, filling *it)
     const double start = mor_clock_now();
     char place[256];
     snprintf(place, sizeof place, "%.250s: ", it->name);
-    MOR_TRY(context,
-            blame_input(context, mor_point_cache_relax(context, &it->cache, &it->request, &it->points), place));
+    MOR_TRY(context, annotate_input_error(
+                         context, mor_point_cache_relax(context, &it->cache, &it->request, &it->points), place));
     it->seconds = mor_clock_now() - start;
     MOR_TRY(context, MOR_NEW(context, &it->depths, it->points.n_points, "depths of particles"));
     for (int64_t i = 0; i < it->points.n_points; ++i) {

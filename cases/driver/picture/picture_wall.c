@@ -102,7 +102,7 @@ bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds
     int n_free = 0;
     int n_hidden = 0;
     mor_shape_bounds(shape, &bounds);
-    mor_matrix_apply_transposed(the_case->turn, toward, direction);
+    mor_matrix_apply_transposed(the_case->rotation, toward, direction);
     for (int k = 0; k < PLACES * PLACES * PLACES; ++k) {
         const int index[3] = {k % PLACES, k / PLACES % PLACES, k / (PLACES * PLACES)};
         double placed[3];

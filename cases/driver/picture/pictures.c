@@ -266,7 +266,7 @@ static void sort_wall(gallery *g, int w)
     mor_camera camera;
     double normal[3];
     mor_camera_orient(&camera, c->output.view, g->up);
-    mor_matrix_apply(c->turn, c->walls[w].outline.second, normal);
+    mor_matrix_apply(c->rotation, c->walls[w].outline.second, normal);
     g->is_ground[w] = is_half && mor_vector_dot(normal, g->up) > GROUND_COSINE * mor_vector_length(normal);
     g->is_veil[w] = is_half && mor_vector_dot(normal, camera.toward) < 0.0;
 }
@@ -360,7 +360,7 @@ static void move_walls(gallery *g, double time)
 {
     for (int w = 0; w < g->the_case->n_walls; ++w) {
         double velocity[3];
-        mor_matrix_apply(g->the_case->turn, g->the_case->walls[w].velocity, velocity);
+        mor_matrix_apply(g->the_case->rotation, g->the_case->walls[w].velocity, velocity);
         for (int64_t k = 0; k < 3 * g->walls[w].n_points; ++k) {
             g->walls[w].positions[k] += (time - g->wall_time) * velocity[k % 3];
         }

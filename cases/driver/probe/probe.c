@@ -315,15 +315,15 @@ static mor_status wall_gap(mor_context *context, const view *v, double *value)
     for (int w = 0; w < c->n_walls; ++w) {
         if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
             double velocity[3];
-            double move[3];
-            mor_matrix_apply(c->turn, c->walls[w].velocity, velocity);
+            double translation[3];
+            mor_matrix_apply(c->rotation, c->walls[w].velocity, velocity);
             for (int a = 0; a < 3; ++a) {
-                move[a] = c->move[a] + time * velocity[a];
+                translation[a] = c->translation[a] + time * velocity[a];
             }
             *value = INFINITY;
             for (int64_t i = 0; i < v->points.n_points; ++i) {
-                *value =
-                    fmin(*value, mor_simulation_placed_distance(c->walls[w].shape, c->turn, move, position + 3 * i));
+                *value = fmin(*value, mor_simulation_placed_distance(c->walls[w].shape, c->rotation, translation,
+                                                                     position + 3 * i));
             }
             return MOR_OK;
         }
@@ -471,7 +471,7 @@ void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
                            data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY], 0, &track->scan->orders[probe]},
                 .frame = {.is_radial = it->is_radial}};
     mor_simulation_place_point(c, it->origin, v->frame.origin);
-    mor_matrix_apply(c->turn, it->direction, v->frame.direction);
+    mor_matrix_apply(c->rotation, it->direction, v->frame.direction);
     memcpy(v->frame.up, simulation->up, sizeof v->frame.up);
 }
 

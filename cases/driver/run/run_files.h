@@ -80,8 +80,8 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
 mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry);
 
 /** Writes case.resolved.cfg of a run that goes on, where it is missing or no longer tells the case.
- *  @param context  [in,out]  one object
- *  @param files    [in,out]  one object; with the case
+ *  @param context [in,out]  one object
+ *  @param files   [in,out]  one object; with the case
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_run_files_renew_case(mor_context *context, mor_run_files *files);
 

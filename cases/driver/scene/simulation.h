@@ -84,9 +84,9 @@ static inline const char *mor_simulation_counted_unit(const mor_simulation *simu
 }
 
 /** All particle sets: the soil, the groups of bodies, what their contact remembers.
- *  @param simulation [in]   one object
- *  @param sets       [out]  shape [MOR_BODY_GROUPS_MAX + 2]; borrowed
- *  @param has_history [in]  whether the contact's memory is wanted, which has no places
+ *  @param simulation  [in]   one object
+ *  @param sets        [out]  shape [MOR_BODY_GROUPS_MAX + 2]; borrowed
+ *  @param has_history [in]   whether the contact's memory is wanted, which has no places
  *  Returns: their number. */
 int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **sets);
 

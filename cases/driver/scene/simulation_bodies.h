@@ -53,12 +53,12 @@ typedef struct mor_simulation_frame {
 
 /** Builds the bodies and their contact: fills the shapes with particles, checks that nothing overlaps and that all of
  *  it lies in the domain, sets the motion at the start.
- *  @param context  [in,out]  one object
- *  @param bodies   [out]     one object; storage supplied by the caller; cleared by the caller also after a failure
- *  @param the_case [in]      one object; borrowed
- *  @param registry [in]      one object
- *  @param frame    [in]      one object
- *  @param first_bit [in]     number of the stepper that the first group becomes
+ *  @param context   [in,out]  one object
+ *  @param bodies    [out]     one object; storage supplied by the caller; cleared by the caller also after a failure
+ *  @param the_case  [in]      one object; borrowed
+ *  @param registry  [in]      one object
+ *  @param frame     [in]      one object
+ *  @param first_bit [in]      number of the stepper that the first group becomes
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
                                       const mor_registry *registry, const mor_simulation_frame *frame, int first_bit);
@@ -78,12 +78,13 @@ void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bo
 mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
                                       mor_soil *soil, mor_schedule *schedule);
 
-/** The frame of a body: X = turn * x + move.
- *  @param the_case [in]   one object
- *  @param body     [in]   one object
- *  @param turn     [out]  shape [3,3], unit 1
- *  @param move     [out]  shape [3], unit m */
-void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *turn, double *move);
+/** The frame of a body: X = rotation * x + translation.
+ *  @param the_case    [in]   one object
+ *  @param body        [in]   one object
+ *  @param rotation    [out]  shape [3,3], unit 1
+ *  @param translation [out]  shape [3], unit m */
+void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *rotation,
+                               double *translation);
 
 /** Writes a box around a body at its place in the run, a little wider.
  *  @param the_case [in]   one object
@@ -96,12 +97,12 @@ void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body
  *  @param point [in]  shape [3], unit m */
 bool mor_simulation_body_may_hold(const mor_bounds *box, const double *point);
 
-/** Signed distance of a point of the run to a shape given in a frame of its own, X = turn * x + move; unit m.
- *  @param shape [in]  one object
- *  @param turn  [in]  shape [3,3], rotation matrix, unit 1
- *  @param move  [in]  shape [3], unit m
- *  @param point [in]  shape [3], unit m */
-double mor_simulation_placed_distance(const mor_shape *shape, const double *turn, const double *move,
+/** Signed distance of a point of the run to a shape given in a frame of its own, X = rotation * x + translation; unit m.
+ *  @param shape       [in]  one object
+ *  @param rotation    [in]  shape [3,3], rotation matrix, unit 1
+ *  @param translation [in]  shape [3], unit m
+ *  @param point       [in]  shape [3], unit m */
+double mor_simulation_placed_distance(const mor_shape *shape, const double *rotation, const double *translation,
                                       const double *point);
 
 /** Work to lift all bodies by a spacing of their own: less moves nothing that is resolved; unit J (J/m).

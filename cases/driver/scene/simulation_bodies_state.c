@@ -30,7 +30,7 @@ static double spring_energy(const mor_rigid *rigid, int body)
     for (int a = 0; a < 3; ++a) {
         arm[a] = motion->spring_point[a] - it->geometry.center[a];
     }
-    mor_matrix_apply(it->turn, arm, turned);
+    mor_matrix_apply(it->rotation, arm, turned);
     for (int a = 0; a < 3; ++a) {
         offset[a] = it->center[a] + turned[a] - motion->spring_anchor[a];
     }
@@ -137,14 +137,14 @@ static void add_motion(const mor_case *c, const mor_case_body *it, const double 
     double direction[3];
     double origin[3];
     double arm[3];
-    mor_matrix_apply(c->turn, it->motion_axis, axis);
-    mor_matrix_apply(c->turn, it->motion_direction, direction);
-    mor_matrix_apply(c->turn, it->motion_origin, origin);
+    mor_matrix_apply(c->rotation, it->motion_axis, axis);
+    mor_matrix_apply(c->rotation, it->motion_direction, direction);
+    mor_matrix_apply(c->rotation, it->motion_origin, origin);
     const double length = mor_vector_length(axis);
     const double across = mor_vector_length(direction);
     for (int a = 0; a < 3; ++a) {
         axis[a] /= length;
-        arm[a] = reference[a] - origin[a] - c->move[a];
+        arm[a] = reference[a] - origin[a] - c->translation[a];
     }
     const double along = mor_vector_dot(arm, axis) / it->motion_length;
     if (it->motion != MOR_CASE_MOTION_CANTILEVER) {
@@ -165,8 +165,8 @@ static int64_t set_elastic(const mor_case *c, const mor_case_body *it, const mor
     const mor_body *own = &group->bodies[body->index];
     double velocity[3];
     double spin[3];
-    mor_matrix_apply(c->turn, it->velocity, velocity);
-    mor_matrix_apply(c->turn, it->angular_velocity, spin);
+    mor_matrix_apply(c->rotation, it->velocity, velocity);
+    mor_matrix_apply(c->rotation, it->angular_velocity, spin);
     for (int64_t i = own->first; i < own->first + own->n_particles; ++i) {
         const double *reference = group->reference + 3 * i;
         double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
@@ -201,8 +201,8 @@ static void set_rigid(const mor_case *c, const mor_case_body *it, const mor_simu
     double relative[3];
     double momentum[3];
     double turned[3];
-    mor_matrix_apply(c->turn, it->velocity, state->velocity);
-    mor_matrix_apply(c->turn, it->angular_velocity, spin);
+    mor_matrix_apply(c->rotation, it->velocity, state->velocity);
+    mor_matrix_apply(c->rotation, it->angular_velocity, spin);
     motion->is_prescribed = it->is_prescribed || is_held;
     body->group->boundary.patches[body->index].is_driven = it->is_prescribed;
     if (is_resting) {
@@ -211,9 +211,9 @@ static void set_rigid(const mor_case *c, const mor_case_body *it, const mor_simu
     }
     memcpy(motion->velocity, state->velocity, sizeof state->velocity);
     memcpy(motion->angular_velocity, spin, sizeof spin);
-    mor_matrix_apply_transposed(own->turn, spin, relative);
+    mor_matrix_apply_transposed(own->rotation, spin, relative);
     mor_symmetric_apply(own->geometry.inertia, relative, momentum);
-    mor_matrix_apply(own->turn, momentum, turned);
+    mor_matrix_apply(own->rotation, momentum, turned);
     for (int a = 0; a < 3; ++a) {
         state->angular_momentum[a] = own->density * turned[a];
         state->rotation_angle[a] = 0.0;

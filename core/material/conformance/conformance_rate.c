@@ -89,7 +89,7 @@ static void keep_invariants_in_spin(mor_bench *bench, mor_conformance_row *row)
 }
 
 /* seen = Q own Q^T + (dQ/dt) Q^T, for a turn at rate omega about axis. */
-static void turn_gradient(const double *q, const double *axis, double omega, const double *own, double *seen)
+static void rotate_gradient(const double *q, const double *axis, double omega, const double *own, double *seen)
 {
     for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) {
@@ -109,7 +109,7 @@ static void turn_gradient(const double *q, const double *axis, double omega, con
 }
 
 /* Component (a, b) of Q^T stress Q. */
-static double turn_back(const double *q, const double *stress, int a, int b)
+static double rotate_back(const double *q, const double *stress, int a, int b)
 {
     const double column_a[3] = {q[a], q[3 + a], q[6 + a]};
     const double column_b[3] = {q[b], q[3 + b], q[6 + b]};
@@ -118,7 +118,7 @@ static double turn_back(const double *q, const double *stress, int a, int b)
     return mor_vector_dot(column_a, product);
 }
 
-static void turn_with_the_frame(mor_bench *bench, mor_conformance_row *row)
+static void rotate_with_the_frame(mor_bench *bench, mor_conformance_row *row)
 {
     enum { STEPS = 1000 };
     static const double ANGLE = 0.4;
@@ -136,7 +136,7 @@ static void turn_with_the_frame(mor_bench *bench, mor_conformance_row *row)
     for (int step = 0; step < STEPS; ++step) {
         mor_matrix_rotation(AXIS, ANGLE * (step + 0.5) / STEPS, q);
         for (int i = 0; i < N; ++i) {
-            turn_gradient(q, AXIS, omega, still->motion + 9 * i, turning->motion + 9 * i);
+            rotate_gradient(q, AXIS, omega, still->motion + 9 * i, turning->motion + 9 * i);
         }
         if (!is_step_made(bench, still, row) || !is_step_made(bench, turning, row)) {
             return;
@@ -150,7 +150,7 @@ static void turn_with_the_frame(mor_bench *bench, mor_conformance_row *row)
         for (int m = 0; m < 6; ++m) {
             static const int ROW[6] = {0, 1, 2, 0, 1, 2};
             static const int COLUMN[6] = {0, 1, 2, 1, 2, 0};
-            const double back = turn_back(q, turning->stress + 6 * i, ROW[m], COLUMN[m]);
+            const double back = rotate_back(q, turning->stress + 6 * i, ROW[m], COLUMN[m]);
             mor_bench_take(row, fabs(back - here[m]) / scale);
         }
     }
@@ -305,7 +305,7 @@ static void balance_energy(mor_bench *bench, mor_conformance_row *row)
 const mor_bench_entry mor_bench_rate_laws[] = {
     {"step zero is the identity", keep_at_step_zero, 1e-12, "rounding"},
     {"a rigid spin keeps the invariants", keep_invariants_in_spin, 1e-12, "rounding of 200 steps"},
-    {"a superposed rotation turns the stress with it", turn_with_the_frame, 1e-6, "second order in 4e-4 rad a step"},
+    {"a superposed rotation turns the stress with it", rotate_with_the_frame, 1e-6, "second order in 4e-4 rad a step"},
     {"the stress ends admissible", end_admissible, 1e-9, "rounding of the return mapping"},
     {"extreme input ends finite and admissible or is refused", survive_extremes, 1e-9, "rounding, large stresses"},
     {"dissipation is not negative", dissipate, 0.0, "exact"},

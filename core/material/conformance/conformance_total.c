@@ -51,7 +51,7 @@ static void balance_moments(mor_bench *bench, mor_conformance_row *row)
 }
 
 /* out = q * in for n matrices. */
-static void turn_all(const double *q, const double *in, double *out)
+static void rotate_all(const double *q, const double *in, double *out)
 {
     for (int i = 0; i < N; ++i) {
         for (int a = 0; a < 3; ++a) {
@@ -63,7 +63,7 @@ static void turn_all(const double *q, const double *in, double *out)
     }
 }
 
-static void turn_with_the_frame(mor_bench *bench, mor_conformance_row *row)
+static void rotate_with_the_frame(mor_bench *bench, mor_conformance_row *row)
 {
     static const double AXIS[3] = {2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0};
     double q[9];
@@ -71,11 +71,11 @@ static void turn_with_the_frame(mor_bench *bench, mor_conformance_row *row)
     mor_matrix_rotation(AXIS, 1.1, q);
     bench->work = bench->start;
     bench->other = bench->start;
-    turn_all(q, bench->start.motion, bench->other.motion);
+    rotate_all(q, bench->start.motion, bench->other.motion);
     if (!is_evaluated(bench, &bench->work, row) || !is_evaluated(bench, &bench->other, row)) {
         return;
     }
-    turn_all(q, bench->work.out, expected);
+    rotate_all(q, bench->work.out, expected);
     for (int k = 0; k < 9 * N; ++k) {
         mor_bench_take(row, fabs(bench->other.out[k] - expected[k]) / bench->modulus);
     }
@@ -144,7 +144,7 @@ static void refuse_inversion(mor_bench *bench, mor_conformance_row *row)
 const mor_bench_entry mor_bench_total_laws[] = {
     {"no deformation gives no stress", hold_identity, 1e-12, "rounding"},
     {"stress carries no moment", balance_moments, 1e-12, "rounding"},
-    {"a rotation turns the stress with it", turn_with_the_frame, 1e-12, "rounding"},
+    {"a rotation turns the stress with it", rotate_with_the_frame, 1e-12, "rounding"},
     {"stress is the derivative of the energy", derive_from_energy, 1e-8, "second-order difference of 1e-5; rounding"},
     {"an inverted deformation is refused", refuse_inversion, 0.0, "exact"},
     {NULL, NULL, 0.0, NULL},

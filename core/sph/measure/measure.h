@@ -105,12 +105,12 @@ typedef struct mor_measure_stress {
 
 /** Finds a weighted percentile. Each value stands at the middle of its weight in the sorted row; between values the
  *  result is linear; before the first and after the last middle it is the smallest and the largest value.
- *  @param context [in,out]  one object
- *  @param values  [in]      shape [n_values]; any unit
- *  @param weights [in]      shape [n_values]; any unit, >= 0, not all 0; values of weight 0 are left out; NULL: all 1
- *  @param n_values [in]     >= 1
- *  @param percent [in]      unit 1; 0 to 100
- *  @param result  [out]     one number; unit of values
+ *  @param context  [in,out]  one object
+ *  @param values   [in]      shape [n_values]; any unit
+ *  @param weights  [in]      shape [n_values]; any unit, >= 0, not all 0; values of weight 0 are left out; NULL: all 1
+ *  @param n_values [in]      >= 1
+ *  @param percent  [in]      unit 1; 0 to 100
+ *  @param result   [out]     one number; unit of values
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_NUMERIC for a value or weight that is not finite;
  *  MOR_ERROR_MEMORY.
  *  Cost: O(n log n), allocates. */

@@ -58,12 +58,12 @@ INLINE void add_divergence(vec *sum, const geometry *g, const double *target, co
         vec t[3];
         for (int a = 0; a < 3; ++a) {
             const vec both = across * normal[a];
-            t[a] = part == 0 ? fused(g->k, p.r[a], -both) : both;
+            t[a] = part == 0 ? multiply_add(g->k, p.r[a], -both) : both;
         }
         vec *out = sum + 3 * part;
-        out[0] = fused(d[MOR_ZX], t[2], fused(d[MOR_XY], t[1], fused(d[MOR_XX], t[0], out[0])));
-        out[1] = fused(d[MOR_YZ], t[2], fused(d[MOR_YY], t[1], fused(d[MOR_XY], t[0], out[1])));
-        out[2] = fused(d[MOR_ZZ], t[2], fused(d[MOR_YZ], t[1], fused(d[MOR_ZX], t[0], out[2])));
+        out[0] = multiply_add(d[MOR_ZX], t[2], multiply_add(d[MOR_XY], t[1], multiply_add(d[MOR_XX], t[0], out[0])));
+        out[1] = multiply_add(d[MOR_YZ], t[2], multiply_add(d[MOR_YY], t[1], multiply_add(d[MOR_XY], t[0], out[1])));
+        out[2] = multiply_add(d[MOR_ZZ], t[2], multiply_add(d[MOR_YZ], t[1], multiply_add(d[MOR_ZX], t[0], out[2])));
     }
 }
 
@@ -78,9 +78,9 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
     for (int a = 0; a < 3; ++a) {
         n[a] = load(gradients, MOR_KERNEL_SUMS, a);
     }
-    const vec length2 = fused(n[2], n[2], fused(n[1], n[1], n[0] * n[0]));
+    const vec length2 = multiply_add(n[2], n[2], multiply_add(n[1], n[1], n[0] * n[0]));
     /* No normal where the wall is out of reach: everything is then tangential, and the caller's factor is zero. */
-    const vec inverse = pick(length2 > 0.0, 1.0 / length2, spread(0.0));
+    const vec inverse = select_lanes(length2 > 0.0, 1.0 / length2, broadcast(0.0));
     vec s[6];
     for (int a = 0; a < 6; ++a) {
         s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
@@ -120,7 +120,7 @@ INLINE void mean_part(const mor_pair_constants *c, const mor_pair_mean_job *job,
 {
     const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
     vec sum[3];
-    vec total = spread(0.0);
+    vec total = broadcast(0.0);
     memset(sum, 0, sizeof sum);
     for (int32_t entry = 0; entry < slot->count; ++entry) {
         const double *target = job->target + (int64_t)slot->list[entry] * MOR_BOUNDARY_RECORD;
@@ -132,7 +132,7 @@ INLINE void mean_part(const mor_pair_constants *c, const mor_pair_mean_job *job,
             sum[a] += weight * target[MOR_BOUNDARY_VELOCITY + a];
         }
     }
-    const vec inverse = pick(total > 0.0, 1.0 / total, spread(0.0));
+    const vec inverse = select_lanes(total > 0.0, 1.0 / total, broadcast(0.0));
     for (int a = 0; a < 3; ++a) {
         store(out, 3, a, LANES, sum[a] * inverse);
     }
@@ -169,7 +169,7 @@ INLINE void share_part(const mor_pair_constants *c, const mor_pair_share_job *jo
         const vec cube = p.reach * p.reach * p.reach * target[MOR_BOUNDARY_VOLUME];
         const vec along = dot_r(&p, d[0], d[1], d[2], 3);
         const vec by_gradient = c->gradient_factor * along;
-        const vec weight = cube * fused(by_value * p.reach, 5.0 - 4.0 * p.reach, -by_gradient);
+        const vec weight = cube * multiply_add(by_value * p.reach, 5.0 - 4.0 * p.reach, -by_gradient);
         for (int a = 0; a < 3; ++a) {
             const vec part = weight * g[MOR_SHARE_FORCE + a];
             for (int lane = 0; lane < LANES; ++lane) {

@@ -28,10 +28,10 @@ INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, co
     }
     const vec *r = p->r;
     const vec twice_y = 2.0 * r[1];
-    vec sum = fused(r[0], fused(d[MOR_XY], twice_y, d[MOR_XX] * r[0]), d[MOR_YY] * r[1] * r[1]);
+    vec sum = multiply_add(r[0], multiply_add(d[MOR_XY], twice_y, d[MOR_XX] * r[0]), d[MOR_YY] * r[1] * r[1]);
     if (dimension == 3) {
-        const vec shear = fused(d[MOR_YZ], twice_y, d[MOR_ZX] * (2.0 * r[0]));
-        sum = fused(r[2], fused(d[MOR_ZZ], r[2], shear), sum);
+        const vec shear = multiply_add(d[MOR_YZ], twice_y, d[MOR_ZX] * (2.0 * r[0]));
+        sum = multiply_add(r[2], multiply_add(d[MOR_ZZ], r[2], shear), sum);
     }
     return sum;
 }
@@ -39,9 +39,9 @@ INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, co
 /* The jump that is left between a value and one reconstructed: never larger than the value, never of its other sign. */
 INLINE vec limited_jump(vec jump, vec reconstructed)
 {
-    const vec least = smaller(jump, spread(0.0));
+    const vec least = smaller(jump, broadcast(0.0));
     const vec most = positive_part(jump);
-    return pick(reconstructed < least, least, smaller(reconstructed, most));
+    return select_lanes(reconstructed < least, least, smaller(reconstructed, most));
 }
 
 /* What the momentum loop keeps of its own particles. */
@@ -67,14 +67,14 @@ INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const 
     m->weight[0] += kr[0];
     m->weight[1] += kr[1];
     /* Each is summed before it is added: only the last addition waits for that of the pair before. */
-    vec x = fused(kr[0], s[MOR_XX] + extra, kr[1] * s[MOR_XY]);
-    vec y = fused(kr[0], spread(s[MOR_XY]), kr[1] * (s[MOR_YY] + extra));
+    vec x = multiply_add(kr[0], s[MOR_XX] + extra, kr[1] * s[MOR_XY]);
+    vec y = multiply_add(kr[0], broadcast(s[MOR_XY]), kr[1] * (s[MOR_YY] + extra));
     if (dimension == 3) {
         m->weight[2] += kr[2];
-        x = fused(kr[2], spread(s[MOR_ZX]), x);
-        y = fused(kr[2], spread(s[MOR_YZ]), y);
-        const vec z = fused(kr[0], spread(s[MOR_ZX]), kr[1] * s[MOR_YZ]);
-        m->force[2] += fused(kr[2], s[MOR_ZZ] + extra, z);
+        x = multiply_add(kr[2], broadcast(s[MOR_ZX]), x);
+        y = multiply_add(kr[2], broadcast(s[MOR_YZ]), y);
+        const vec z = multiply_add(kr[0], broadcast(s[MOR_ZX]), kr[1] * s[MOR_YZ]);
+        m->force[2] += multiply_add(kr[2], s[MOR_ZZ] + extra, z);
     }
     m->force[0] += x;
     m->force[1] += y;
@@ -139,16 +139,16 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     /* Closing speed on which the limiter acts, eq. 23. */
     const vec slope = closing * c->limiter_rate;
     const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
-    const vec limited = smaller(counted, spread(1.0)) * closing;
+    const vec limited = smaller(counted, broadcast(1.0)) * closing;
     /* Twice (mean pressure - P*), eq. 20. */
     const vec pressures = (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]);
     const vec dissipation = m->minus_twice_impedance * target[MOR_RECORD_IMPEDANCE];
-    it->extra = fused(dissipation, limited, pressures) * (inverse * g->distance);
+    it->extra = multiply_add(dissipation, limited, pressures) * (inverse * g->distance);
     if (form.diffuses) {
         it->kd = g->k * g->distance2 / (g->distance2 + 0.01 * h * h);
     }
     if (form.diffuses == 2) {
-        it->kd *= smaller(magnitude(speed) * c->limiter_rate, spread(1.0));
+        it->kd *= smaller(magnitude(speed) * c->limiter_rate, broadcast(1.0));
     }
 }
 
@@ -167,7 +167,7 @@ INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const doubl
                                 const mor_pair_constants *c, const double *own, const double *other,
                                 const momentum_form form)
 {
-    vec size = spread(0.0);
+    vec size = broadcast(0.0);
     for (int a = 0; a < 6; ++a) {
         size -= magnitude(load(own, 6, a) + other[a]);
     }
@@ -208,7 +208,7 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
 }
 
 /* Keeps a part in memory between two passes, so that each has the registers for itself. */
-INLINE void lay_down(momentum_part *part)
+INLINE void compiler_barrier(momentum_part *part)
 {
     __asm__ volatile("" : "+m"(*part));
 }
@@ -220,20 +220,20 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     const double *artificial = arrays->artificial_stress;
     geometry geometries[CHUNK];
     momentum_pair pairs[CHUNK];
-    lay_down(part);
+    compiler_barrier(part);
     find_geometry(geometries, arrays->records, near, n, f, form.dimension);
-    lay_down(part);
+    compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
         find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, form);
     }
-    lay_down(part);
+    compiler_barrier(part);
     momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
         add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), f, form);
     }
     part->sums = sums;
-    lay_down(part);
+    compiler_barrier(part);
     for (int q = 0; q < n && form.artificial; ++q) {
         add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), f, c, artificial + first * 6,
                             artificial + (int64_t)near[q] * 6, form);
@@ -273,7 +273,7 @@ INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c
     const double rate = -c->gradient_factor * c->diffusion_rate;
     const double *g = c->gravity_direction;
     const vec *way = m->spread_way;
-    const vec height = fused(spread(g[2]), way[2], fused(spread(g[0]), way[0], g[1] * way[1]));
+    const vec height = multiply_add(broadcast(g[2]), way[2], multiply_add(broadcast(g[0]), way[0], g[1] * way[1]));
     for (int a = 0; a < 6; ++a) {
         /* Height is -g . r, hence the plus. */
         const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * height;
@@ -298,7 +298,7 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
     if (form.dimension == 3) {
         store(out, 3, 2, n_lanes, factor * (m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]));
     } else {
-        store(out, 3, 2, n_lanes, spread(0.0));
+        store(out, 3, 2, n_lanes, broadcast(0.0));
     }
     if (form.diffuses) {
         finish_diffusion(m, c, s, arrays->stress_diffusion + first * 6, n_lanes);
@@ -401,8 +401,8 @@ INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *tar
             g->moment[3 * a + b] += kr[b] * jump[a];
         }
     }
-    const vec plane = fused(kr[0], jump[0], kr[1] * jump[1]);
-    g->rate += it->share * (dimension == 3 ? fused(kr[2], jump[2], plane) : plane);
+    const vec plane = multiply_add(kr[0], jump[0], kr[1] * jump[1]);
+    g->rate += it->share * (dimension == 3 ? multiply_add(kr[2], jump[2], plane) : plane);
     if (pressure) {
         const vec impedances = g->impedance + target[MOR_RECORD_IMPEDANCE];
         g->rate += k / impedances * (g->pressure - target[MOR_RECORD_PRESSURE]) * it->distance;
@@ -500,7 +500,7 @@ INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays
         for (int a = 0; a < 3; ++a) {
             const int b = (a + 1) % 3;
             const int d = (a + 2) % 3;
-            sum[a] += k * fused(s[b] + other[b], p.r[d], -(s[d] + other[d]) * p.r[b]);
+            sum[a] += k * multiply_add(s[b] + other[b], p.r[d], -(s[d] + other[d]) * p.r[b]);
         }
     }
     const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
@@ -536,9 +536,9 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
         const vec weight =
             square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
         const vec overlap = 1.0 - p.distance / c->shift_diameter;
-        const vec floored = -smaller(-overlap, spread(0.1));
-        const vec push = pick(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
-        const vec inside = pick(p.reach > 0.0, push, spread(0.0));
+        const vec floored = -smaller(-overlap, broadcast(0.1));
+        const vec push = select_lanes(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
+        const vec inside = select_lanes(p.reach > 0.0, push, broadcast(0.0));
         for (int a = 0; a < 3; ++a) {
             sums[a] += weight * (target[MOR_RECORD_VELOCITY + a] - v[a]);
             sums[3 + a] += inside * p.r[a];

@@ -21,13 +21,13 @@
 typedef int64_t mask __attribute__((vector_size(LANES * sizeof(int64_t))));
 
 /** Returns one number, any unit, in all lanes. */
-INLINE vec spread(double a)
+INLINE vec broadcast(double a)
 {
     return a - (vec){0.0};
 }
 
 /** Returns a where the mask is set, b elsewhere; any unit. */
-INLINE vec pick(mask where, vec a, vec b)
+INLINE vec select_lanes(mask where, vec a, vec b)
 {
     return (vec)(((mask)a & where) | ((mask)b & ~where));
 }
@@ -47,7 +47,7 @@ INLINE vec larger(vec a, vec b)
 #if defined(WIDE)
     return (vec)WIDE(max_pd)((wide)a, (wide)b);
 #else
-    return pick(a > b, a, b);
+    return select_lanes(a > b, a, b);
 #endif
 }
 
@@ -57,13 +57,13 @@ INLINE vec smaller(vec a, vec b)
 #if defined(WIDE)
     return (vec)WIDE(min_pd)((wide)a, (wide)b);
 #else
-    return pick(a < b, a, b);
+    return select_lanes(a < b, a, b);
 #endif
 }
 
 /** Returns a b + c with one rounding where the processor has it; any unit. Written out where a sum has two products,
  *  for a compiler may fuse either, and not the same one for every instruction set. */
-INLINE vec fused(vec a, vec b, vec c)
+INLINE vec multiply_add(vec a, vec b, vec c)
 {
 #if defined(WIDE)
     return (vec)WIDE(fmadd_pd)((wide)a, (wide)b, (wide)c);
@@ -75,7 +75,7 @@ INLINE vec fused(vec a, vec b, vec c)
 /** Returns the larger of each lane and zero; any unit. */
 INLINE vec positive_part(vec a)
 {
-    return larger(a, spread(0.0));
+    return larger(a, broadcast(0.0));
 }
 
 /** Returns a number other than zero when any lane of a is less than b, else zero; any unit. */
@@ -158,14 +158,14 @@ INLINE void separate(vec *r, const frame *f, const double *target, const int dim
 {
     r[0] = f->x[0] - target[0];
     r[1] = f->x[1] - target[1];
-    r[2] = dimension == 3 ? f->x[2] - target[2] : spread(0.0);
+    r[2] = dimension == 3 ? f->x[2] - target[2] : broadcast(0.0);
 }
 
 /** Returns its squared length, padded so that nothing divides by zero, unit m2. */
 INLINE vec squared(const vec *r, const frame *f, const int dimension)
 {
-    const vec plane = fused(r[0], r[0], r[1] * r[1]);
-    const vec sum = dimension == 3 ? fused(r[2], r[2], plane) : plane;
+    const vec plane = multiply_add(r[0], r[0], r[1] * r[1]);
+    const vec sum = dimension == 3 ? multiply_add(r[2], r[2], plane) : plane;
     return sum + f->tiny;
 }
 
@@ -210,8 +210,8 @@ INLINE void ask_for(const void *memory, int64_t size_bytes, const int writes)
 /** Returns the inner product of a vector, by components, with the separation, one object; unit: its own times m. */
 INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
 {
-    const vec sum = fused(a, p->r[0], b * p->r[1]);
-    return dimension == 3 ? fused(c, p->r[2], sum) : sum;
+    const vec sum = multiply_add(a, p->r[0], b * p->r[1]);
+    return dimension == 3 ? multiply_add(c, p->r[2], sum) : sum;
 }
 
 /** Finds kernel sums over a range of a job, one object; constants: one object. See mor_pair_table. */

@@ -93,8 +93,8 @@ mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_
 }
 
 /* What the makers of shapes refuse becomes an error of the case, with its place. */
-static mor_status blame_case(const mor_case_reader *reader, const mor_case_node *node, const char *what,
-                             mor_status status)
+static mor_status annotate_case_error(const mor_case_reader *reader, const mor_case_node *node, const char *what,
+                                      mor_status status)
 {
     if (status == MOR_OK) {
         return MOR_OK;
@@ -180,8 +180,9 @@ static mor_status build_mesh(const mor_case_reader *reader, const mor_case_form 
         mor_mesh_center(&mesh);
         status = fit_level_set(reader, &mesh, shape);
         if (!has_size(form)) {
-            status = mor_mesh_size_blame(reader->context, status, &mesh, ldexp(1.0, -reader->length_power),
-                                         reader->spacing, "give length, diameter or, for millimeters, scale = 0.001");
+            status = mor_mesh_size_annotate_error(reader->context, status, &mesh, ldexp(1.0, -reader->length_power),
+                                                  reader->spacing,
+                                                  "give length, diameter or, for millimeters, scale = 0.001");
         }
     }
     mor_mesh_clear(reader->context, &mesh);
@@ -254,10 +255,10 @@ mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_no
     mor_case_form *form = &outline->form;
     *shape = NULL;
     if (outline->kind == MOR_CASE_SHAPE_SPHERE || outline->kind == MOR_CASE_SHAPE_ELLIPSOID) {
-        return blame_case(reader, node, "a form", build_ellipsoid(reader, outline->kind, form, shape));
+        return annotate_case_error(reader, node, "a form", build_ellipsoid(reader, outline->kind, form, shape));
     }
     if (outline->kind == MOR_CASE_SHAPE_ROCK) {
-        return blame_case(reader, node, "a rock", build_rock(reader, form, shape));
+        return annotate_case_error(reader, node, "a rock", build_rock(reader, form, shape));
     }
     const bool is_mesh = outline->kind == MOR_CASE_SHAPE_MESH;
     const char *what = is_mesh ? "a mesh" : "an outline";
@@ -272,8 +273,8 @@ mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_no
     form->volume = is_mesh ? form->volume : NAN;
     MOR_TRY(reader->context, check_sizes(reader, node, form));
     MOR_TRY(reader->context, mor_case_reader_locate(reader, node, what, form->file, &outline->file_hash));
-    return blame_case(reader, node, what,
-                      is_mesh ? build_mesh(reader, form, shape) : build_outline(reader, form, shape));
+    return annotate_case_error(reader, node, what,
+                               is_mesh ? build_mesh(reader, form, shape) : build_outline(reader, form, shape));
 }
 
 /* ---- What was read ----------------------------------------------------------------------------------------------- */

@@ -27,7 +27,7 @@ enum {
 typedef struct descent {
     const mor_case *the_case;
     const mor_shape *shape; /* of the body, in its own frame */
-    double turn[9];         /* shape [3,3]; own frame to that of the case, 1 */
+    double rotation[9];     /* shape [3,3]; own frame to that of the case, 1 */
     double up[3];           /* against gravity, 1 */
     double size;            /* diagonal of the body's box, m */
     double lowest, highest; /* of the domain along up, m */
@@ -65,7 +65,7 @@ static void project(const descent *it, double *point)
 static double sample_gap(const descent *it, const double *position, const double *sample)
 {
     double place[3];
-    mor_matrix_apply(it->turn, sample, place);
+    mor_matrix_apply(it->rotation, sample, place);
     for (int a = 0; a < 3; ++a) {
         place[a] += position[a];
     }
@@ -143,7 +143,7 @@ static void start_descent(const mor_case *c, const mor_case_body *body, descent 
                     .highest = -INFINITY,
                     .bottom = INFINITY,
                     .top = -INFINITY};
-    mor_matrix_rotation(axis, body->angle, it->turn);
+    mor_matrix_rotation(axis, body->angle, it->rotation);
     it->up[c->dimension - 1] = 1.0;
     for (int a = 0; a < 3 && strength > 0.0; ++a) {
         it->up[a] = -c->gravity[a] / strength;
@@ -156,7 +156,7 @@ static void start_descent(const mor_case *c, const mor_case_body *body, descent 
         for (int a = 0; a < c->dimension; ++a) {
             own[a] = corner >> a & 1 ? bounds.maximum[a] : bounds.minimum[a];
         }
-        mor_matrix_apply(it->turn, own, place);
+        mor_matrix_apply(it->rotation, own, place);
         it->bottom = fmin(it->bottom, mor_vector_dot(place, it->up));
         it->top = fmax(it->top, mor_vector_dot(place, it->up));
     }

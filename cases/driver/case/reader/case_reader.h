@@ -187,8 +187,8 @@ mor_status mor_case_reader_out_of_plane(const mor_case_reader *reader, const mor
  *  @param name   [in]  zero-terminated
  *  @param first  [in]  one object; where the name was taken
  *  Returns: MOR_ERROR_CONFIG. */
-mor_status mor_case_reader_twin(const mor_case_reader *reader, const mor_case_node *group, const char *name,
-                                const mor_case_place *first);
+mor_status mor_case_reader_refuse_duplicate(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                            const mor_case_place *first);
 
 /** Refuses Coulomb friction without friction_coefficient, and that key with any other friction.
  *  @param reader   [in]  one object

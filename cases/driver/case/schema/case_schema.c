@@ -76,7 +76,9 @@ static const mor_case_key placement_keys[] = {
     {{"angle", SCALAR, "rad", DEFAULT(0.0), ANY, NULL, "angle of the turn, right-handed"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, placement_angle)},
-    {{"move", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "move after the turn"}, MOR_CASE_STORE_REALS, AT(mor_case, move)},
+    {{"move", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "move after the turn"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case, translation)},
     END};
 
 static const mor_case_key scale_keys[] = {

@@ -114,7 +114,7 @@ static mor_status check_plane(const mor_case_reader *reader, const mor_case_node
                                   "strain; allowed: x and y; give gravity as (\"0\", \"-9.81 m/s2\")");
     }
     const double *axis = the_case->placement_axis;
-    if (axis[0] != 0.0 || axis[1] != 0.0 || the_case->move[2] != 0.0) {
+    if (axis[0] != 0.0 || axis[1] != 0.0 || the_case->translation[2] != 0.0) {
         return MOR_CASE_NODE_FAIL(
             reader->context, mor_case_node_find(root, "placement"),
             "found a placement that leaves "
@@ -123,7 +123,7 @@ static mor_status check_plane(const mor_case_reader *reader, const mor_case_node
     return MOR_OK;
 }
 
-static void make_turn(mor_case *the_case)
+static void make_rotation(mor_case *the_case)
 {
     const double *given = the_case->placement_axis;
     const double largest = fmax(fabs(given[0]), fmax(fabs(given[1]), fabs(given[2])));
@@ -132,7 +132,7 @@ static void make_turn(mor_case *the_case)
     for (int a = 0; a < 3; ++a) {
         axis[a] /= length;
     }
-    mor_matrix_rotation(axis, the_case->placement_angle, the_case->turn);
+    mor_matrix_rotation(axis, the_case->placement_angle, the_case->rotation);
 }
 
 static void complete_settings(mor_case *the_case)
@@ -155,7 +155,7 @@ static void complete_settings(mor_case *the_case)
     if (!mor_case_reader_has(output, the_case->written_output, "color")) {
         snprintf(the_case->output.color_field, sizeof the_case->output.color_field, "speed");
     }
-    make_turn(the_case);
+    make_rotation(the_case);
 }
 
 static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)

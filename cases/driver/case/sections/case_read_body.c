@@ -102,7 +102,7 @@ static mor_status check_locks(const mor_case_reader *reader, const mor_case_node
                                       key, mor_case_lock_words[k]);
         }
         for (int other = 0; other < 3; ++other) {
-            if (!body->is_locked[k - axis + other] && the_case->turn[3 * other + axis] != 0.0) {
+            if (!body->is_locked[k - axis + other] && the_case->rotation[3 * other + axis] != 0.0) {
                 return MOR_CASE_NODE_FAIL(
                     reader->context, list,
                     "found '%s' in locked, which the turn of placement takes away from its axis; "
@@ -263,12 +263,12 @@ mor_status mor_case_reader_body_name(const mor_case_reader *reader, const mor_ca
 {
     for (int k = 0; k < the_case->n_walls; ++k) {
         if (strcmp(the_case->walls[k].name, body->name) == 0) {
-            return mor_case_reader_twin(reader, node, body->name, &the_case->walls[k].place);
+            return mor_case_reader_refuse_duplicate(reader, node, body->name, &the_case->walls[k].place);
         }
     }
     for (const mor_case_body *other = the_case->bodies; other < body; ++other) {
         if (strcmp(other->name, body->name) == 0) {
-            return mor_case_reader_twin(reader, node, body->name, &other->place);
+            return mor_case_reader_refuse_duplicate(reader, node, body->name, &other->place);
         }
     }
     return MOR_OK;

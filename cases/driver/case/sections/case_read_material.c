@@ -132,8 +132,8 @@ mor_status mor_case_reader_out_of_plane(const mor_case_reader *reader, const mor
                               name);
 }
 
-mor_status mor_case_reader_twin(const mor_case_reader *reader, const mor_case_node *group, const char *name,
-                                const mor_case_place *first)
+mor_status mor_case_reader_refuse_duplicate(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                            const mor_case_place *first)
 {
     const mor_case_node *node = mor_case_node_find(group, "name");
     return MOR_CASE_NODE_FAIL(reader->context, node == NULL ? group : node,

@@ -161,14 +161,14 @@ static mor_status place_view(mor_context *context, const mor_case_body *body, mo
 {
     mor_shape *view = NULL;
     double axis[3];
-    double turn[9];
+    double rotation[9];
     const double length = mor_vector_length(body->axis);
     for (int a = 0; a < 3; ++a) {
         axis[a] = body->axis[a] / length;
     }
-    mor_matrix_rotation(axis, body->angle, turn);
+    mor_matrix_rotation(axis, body->angle, rotation);
     MOR_TRY(context, mor_shape_new_view(context, body->shape, &view));
-    const mor_status status = mor_shape_new_placed(context, turn, body->position, &view, placed);
+    const mor_status status = mor_shape_new_placed(context, rotation, body->position, &view, placed);
     mor_shape_free(context, &view);
     return status;
 }

@@ -91,7 +91,7 @@ static mor_status read_soil(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &soil->outline, &soil->shape));
     for (const mor_case_soil *other = the_case->soils; other < soil; ++other) {
         if (strcmp(other->name, soil->name) == 0) {
-            return mor_case_reader_twin(reader, node, soil->name, &other->place);
+            return mor_case_reader_refuse_duplicate(reader, node, soil->name, &other->place);
         }
     }
     return MOR_OK;
@@ -142,7 +142,7 @@ static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, check_ground(reader, node, wall));
     for (const mor_case_wall *other = the_case->walls; other < wall; ++other) {
         if (strcmp(other->name, wall->name) == 0) {
-            return mor_case_reader_twin(reader, node, wall->name, &other->place);
+            return mor_case_reader_refuse_duplicate(reader, node, wall->name, &other->place);
         }
     }
     return MOR_OK;

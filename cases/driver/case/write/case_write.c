@@ -85,7 +85,7 @@ static mor_status write_parts(mor_case_writer *w, const mor_case_shape *outline)
 }
 
 /* Numbers that are none were not given, and stand for a choice. */
-static mor_case_presence judge_shape(const mor_case_key *key, const void *record)
+static mor_case_presence check_shape_keys(const mor_case_key *key, const void *record)
 {
     double first = 0.0;
     if (key->storage == MOR_CASE_STORE_REALS) {
@@ -114,7 +114,7 @@ static mor_status write_shape(mor_case_writer *w, const char *name, const mor_ca
     if (outline->is_flat) {
         MOR_TRY(w->reader.context, write_flat_box(w, outline));
     } else {
-        MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, outline, judge_shape));
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, outline, check_shape_keys));
     }
     write_hash(w, outline->file_hash);
     MOR_TRY(w->reader.context, write_parts(w, outline));
@@ -330,7 +330,7 @@ static mor_status write_form(mor_case_writer *w, const mor_case_shape *form)
     char type[MOR_CASE_NAME_BYTES];
     mor_case_writer_text(group->name, type, sizeof type);
     mor_case_writer_line(w, "type", type, false);
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, form, judge_shape));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, form, check_shape_keys));
     write_hash(w, form->file_hash);
     return MOR_OK;
 }

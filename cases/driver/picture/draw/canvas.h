@@ -46,10 +46,10 @@ typedef struct mor_canvas_pen {
 mor_status mor_canvas_check_size(mor_context *context, int width, int height);
 
 /** Turns a checked wish into a size: what is not wished for follows from the usual proportions.
- *  @param width      [in]   pixels; 0: no wish
- *  @param height     [in]   pixels; 0: no wish
- *  @param n_columns  [out]  one number; pixels
- *  @param n_rows     [out]  one number; pixels */
+ *  @param width     [in]   pixels; 0: no wish
+ *  @param height    [in]   pixels; 0: no wish
+ *  @param n_columns [out]  one number; pixels
+ *  @param n_rows    [out]  one number; pixels */
 void mor_canvas_complete_size(int width, int height, int *n_columns, int *n_rows);
 
 /** Makes a white image.

@@ -77,7 +77,7 @@ void mor_camera_extent_init(mor_camera_extent *extent)
 void mor_camera_extent_add(const mor_camera *camera, mor_camera_extent *extent, const double *point, double radius)
 {
     double along[3];
-    mor_camera_turn(camera, point, along);
+    mor_camera_rotate(camera, point, along);
     for (int a = 0; a < 3; ++a) {
         extent->minimum[a] = fmin(extent->minimum[a], along[a] - radius);
         extent->maximum[a] = fmax(extent->maximum[a], along[a] + radius);
@@ -106,10 +106,10 @@ void mor_camera_to_view(const mor_camera *camera, const double *point, double *v
     const double offset[3] = {camera->scale * (point[0] - camera->center[0]),
                               camera->scale * (point[1] - camera->center[1]),
                               camera->scale * (point[2] - camera->center[2])};
-    mor_camera_turn(camera, offset, view);
+    mor_camera_rotate(camera, offset, view);
 }
 
-void mor_camera_turn(const mor_camera *camera, const double *direction, double *view)
+void mor_camera_rotate(const mor_camera *camera, const double *direction, double *view)
 {
     view[0] = mor_vector_dot(camera->right, direction);
     view[1] = mor_vector_dot(camera->up, direction);

@@ -71,12 +71,12 @@ void mor_camera_to_view(const mor_camera *camera, const double *point, double *v
  *  @param camera    [in]   one object, oriented
  *  @param direction [in]   shape [3], any unit
  *  @param view      [out]  shape [3], same unit; not aliased with direction */
-void mor_camera_turn(const mor_camera *camera, const double *direction, double *view);
+void mor_camera_rotate(const mor_camera *camera, const double *direction, double *view);
 
 /** Chooses the longest scale bar of 1, 2 or 5 times a power of ten that fits.
- *  @param camera     [in]   one object, fitted
- *  @param limit      [in]   longest allowed bar, unit px, > 0
- *  @param n_pixels   [out]  one number, px; n_pixels = length * camera->scale exactly
+ *  @param camera   [in]   one object, fitted
+ *  @param limit    [in]   longest allowed bar, unit px, > 0
+ *  @param n_pixels [out]  one number, px; n_pixels = length * camera->scale exactly
  *  Returns: the length in m. */
 double mor_camera_scale_bar(const mor_camera *camera, double limit, double *n_pixels);
 

@@ -13,9 +13,9 @@
 enum { JACOBI_SWEEPS = 30 };
 
 static const double outer_share = 0.01;     /* left out at each end of an automatic range */
-static const double plane_swelling = 1.55;  /* discs of a disturbed lattice leave no gap */
-static const double piece_swelling = 1.5;   /* in space: bumps remain, gaps do not */
-static const double space_swelling = 1.22;  /* single grains still show on a closed surface */
+static const double plane_j_minus_1 = 1.55; /* discs of a disturbed lattice leave no gap */
+static const double piece_j_minus_1 = 1.5;  /* in space: bumps remain, gaps do not */
+static const double space_j_minus_1 = 1.22; /* single grains still show on a closed surface */
 static const double magnitude_limit = 1e12; /* m; keeps view space inside single precision */
 
 static bool is_finite_vector(const double *a)
@@ -35,9 +35,9 @@ static double radius_of(const mor_picture_group *group, int64_t i)
 
 double mor_model_radius(const mor_picture *picture, const mor_picture_group *group, int64_t i)
 {
-    const double in_space = group->is_piece ? piece_swelling : space_swelling;
-    const double usual = picture->dimension == 2 ? plane_swelling : in_space;
-    return (picture->swelling > 0.0 ? picture->swelling : usual) * radius_of(group, i);
+    const double in_space = group->is_piece ? piece_j_minus_1 : space_j_minus_1;
+    const double usual = picture->dimension == 2 ? plane_j_minus_1 : in_space;
+    return (picture->j_minus_1 > 0.0 ? picture->j_minus_1 : usual) * radius_of(group, i);
 }
 
 static mor_status check_group(mor_context *context, const mor_picture_group *group)
@@ -104,8 +104,8 @@ mor_status mor_model_check(mor_context *context, const mor_picture *picture)
     MOR_CHECK(context, is_finite_vector(picture->gravity) && is_finite_vector(picture->view), MOR_ERROR_ARGUMENT,
               "gravity (%g, %g, %g) and view (%g, %g, %g) must be finite", picture->gravity[0], picture->gravity[1],
               picture->gravity[2], picture->view[0], picture->view[1], picture->view[2]);
-    MOR_CHECK(context, picture->swelling >= 0.0 && picture->swelling <= 4.0, MOR_ERROR_ARGUMENT,
-              "the swelling of the particles is %g; it must lie between 0 (the usual one) and 4", picture->swelling);
+    MOR_CHECK(context, picture->j_minus_1 >= 0.0 && picture->j_minus_1 <= 4.0, MOR_ERROR_ARGUMENT,
+              "the swelling of the particles is %g; it must lie between 0 (the usual one) and 4", picture->j_minus_1);
     int64_t n_shown = 0;
     for (int g = 0; g < picture->n_groups; ++g) {
         MOR_TRY(context, check_group(context, picture->groups + g));
@@ -229,9 +229,9 @@ mor_status mor_model_survey(mor_context *context, const mor_picture *picture, mo
 static void find_thin_direction(double matrix[3][3], double *direction)
 {
     double vectors[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    for (int turn = 0; turn < 3 * JACOBI_SWEEPS; ++turn) {
-        const int p = turn % 3 == 2 ? 1 : 0;
-        const int q = turn % 3 == 0 ? 1 : 2;
+    for (int rotation = 0; rotation < 3 * JACOBI_SWEEPS; ++rotation) {
+        const int p = rotation % 3 == 2 ? 1 : 0;
+        const int q = rotation % 3 == 0 ? 1 : 2;
         if (matrix[p][q] == 0.0) {
             continue;
         }

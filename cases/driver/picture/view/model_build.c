@@ -266,9 +266,9 @@ static void lay_ground(const mor_picture *picture, mor_model *model)
         center[a] = camera->center[a] + rise * normal[a];
     }
     mor_shade_ground *ground = &model->ground;
-    mor_camera_turn(camera, normal, ground->normal);
-    mor_camera_turn(camera, first, ground->first);
-    mor_camera_turn(camera, second, ground->second);
+    mor_camera_rotate(camera, normal, ground->normal);
+    mor_camera_rotate(camera, first, ground->first);
+    mor_camera_rotate(camera, second, ground->second);
     mor_camera_to_view(camera, origin, ground->origin);
     mor_camera_to_view(camera, center, ground->center);
     const mor_camera_extent *extent = &model->extent;

@@ -10,11 +10,11 @@
  *  length, `unit`, which is 1 px in a picture of 1600 x 1000 pixels. It does not draw particles. */
 
 /** Draws title and time text along the upper edge.
- *  @param canvas  [in,out]  one object
- *  @param title   [in]      zero-terminated UTF-8, or NULL
- *  @param time    [in]      zero-terminated UTF-8, or NULL
- *  @param width   [in]      width of the picture, px
- *  @param unit    [in]      px */
+ *  @param canvas [in,out]  one object
+ *  @param title  [in]      zero-terminated UTF-8, or NULL
+ *  @param time   [in]      zero-terminated UTF-8, or NULL
+ *  @param width  [in]      width of the picture, px
+ *  @param unit   [in]      px */
 void mor_overlay_heading(mor_canvas *canvas, const char *title, const char *time, double width, double unit);
 
 /** Draws the color bar with round ticks, its label turned along it, and arrows where values lie outside the range.

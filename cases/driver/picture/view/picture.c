@@ -135,7 +135,7 @@ static mor_status render_block(mor_context *context, plate *p)
         .n_samples = is_plane ? 4 : 3,
         .n_ambient = 2,
     };
-    mor_camera_turn(&model->camera, model->up, shade.up);
+    mor_camera_rotate(&model->camera, model->up, shade.up);
     uint8_t *rgb = NULL;
     MOR_TRY(context, MOR_NEW(context, &rgb, 3 * (int64_t)p->block[2] * p->block[3], "pixels of a picture"));
     const mor_status status = mor_shade_render(context, &shade, rgb);

@@ -61,7 +61,7 @@ typedef struct mor_picture {
     bool has_range;         /* range is given; otherwise from the 1st to the 99th percentile, rounded outwards */
     double range[2];        /* shape [2], unit value_unit; lower and upper end of the color bar */
     bool has_cut; /* in space only: the quadrant nearest to the viewer is left out of all groups that are not whole */
-    double swelling;   /* 1; particles are drawn this much larger than their radius, so that a body looks
+    double j_minus_1;  /* 1; particles are drawn this much larger than their radius, so that a body looks
                                         closed; 1: as they are; 0: 1.55 in the plane; in space 1.22, pieces 1.5 */
     int width;         /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
     int height;        /* pixels; 0: in space from the width, or MOR_CANVAS_HEIGHT; in the plane what the

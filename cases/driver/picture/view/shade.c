@@ -258,14 +258,14 @@ static void sample_pixel(const mor_shade_frame *f, const slab *s, int64_t row, i
     const mor_shade *shade = f->shade;
     const int n = shade->n_samples;
     const uint64_t id = (uint64_t)(row * shade->size[0] + column);
-    const int turn = (int)(MOR_SHADE_TURNS * mor_random_uniform(picture_seed, id, PURPOSE_TURN));
+    const int rotation = (int)(MOR_SHADE_TURNS * mor_random_uniform(picture_seed, id, PURPOSE_TURN));
     const int64_t pixel[2] = {row, column};
     mean[0] = mean[1] = mean[2] = 0.0;
     for (int sample = 0; sample < n * n; ++sample) {
         const mor_shade_probe p = {.xy = {(double)column + (sample % n + 0.5) / n - shade->origin[0],
                                           shade->origin[1] - ((double)row + (sample / n + 0.5) / n)},
                                    .rays = &f->samples[sample],
-                                   .turn = turn};
+                                   .rotation = rotation};
         double color[3];
         take_sample(f, s, pixel, &p, color);
         for (int c = 0; c < 3; ++c) {

@@ -29,7 +29,7 @@ typedef struct mor_shade_frame {
     double key[3];                                /* 1; towards the key light */
     mor_shade_rays samples[MOR_SHADE_GROUPS_MAX]; /* of the samples of a pixel */
     mor_shade_rays corners[MOR_SHADE_CORNERS];    /* of corners, by row and column within a block */
-    double turn[MOR_SHADE_TURNS][2];              /* 1; cosine and sine of turns about z */
+    double rotation[MOR_SHADE_TURNS][2];          /* 1; cosine and sine of turns about z */
     double center[3];                             /* px; of a ball around all that is solid */
     double reach;                                 /* px; its radius */
     double open_light;                            /* 1; on ground where nothing stands in the way */
@@ -39,7 +39,7 @@ typedef struct mor_shade_frame {
 typedef struct mor_shade_probe {
     double xy[2]; /* px */
     const mor_shade_rays *rays;
-    int turn; /* of the rays; the same for all samples of a pixel, so that together they are even */
+    int rotation; /* of the rays; the same for all samples of a pixel, so that together they are even */
 } mor_shade_probe;
 
 /** A place on a sphere or on the ground. */

@@ -127,12 +127,12 @@ static double gather_sky(const mor_shade_frame *f, const mor_shade_surface *s, c
     double first[3];
     double second[3];
     make_tangents(s->normal, first, second);
-    const double *turn = f->turn[p->turn];
+    const double *rotation = f->rotation[p->rotation];
     double sum = 0.0;
     for (int k = 0; k < shade->n_ambient; ++k) {
         const double *local = p->rays->sky[k];
-        const double x = turn[0] * local[0] - turn[1] * local[1];
-        const double y = turn[1] * local[0] + turn[0] * local[1];
+        const double x = rotation[0] * local[0] - rotation[1] * local[1];
+        const double y = rotation[1] * local[0] + rotation[0] * local[1];
         double direction[3];
         for (int a = 0; a < 3; ++a) {
             direction[a] = x * first[a] + y * second[a] + local[2] * s->normal[a];
@@ -150,10 +150,10 @@ static double gather_key(const mor_shade_frame *f, const mor_shade_surface *s, c
     double first[3];
     double second[3];
     make_tangents(f->key, first, second);
-    const double *turn = f->turn[p->turn];
+    const double *rotation = f->rotation[p->rotation];
     const double *lamp = p->rays->lamp;
-    const double x = turn[0] * lamp[0] - turn[1] * lamp[1];
-    const double y = turn[1] * lamp[0] + turn[0] * lamp[1];
+    const double x = rotation[0] * lamp[0] - rotation[1] * lamp[1];
+    const double y = rotation[1] * lamp[0] + rotation[0] * lamp[1];
     const double length = sqrt(1.0 + x * x + y * y);
     double direction[3];
     for (int a = 0; a < 3; ++a) {
@@ -344,8 +344,8 @@ void mor_shade_frame_init(const mor_shade *shade, mor_shade_frame *frame)
     }
     frame->reach = 0.5 * mor_vector_length(diagonal);
     for (int k = 0; k < MOR_SHADE_TURNS; ++k) {
-        frame->turn[k][0] = cos(2.0 * MOR_PI * k / MOR_SHADE_TURNS);
-        frame->turn[k][1] = sin(2.0 * MOR_PI * k / MOR_SHADE_TURNS);
+        frame->rotation[k][0] = cos(2.0 * MOR_PI * k / MOR_SHADE_TURNS);
+        frame->rotation[k][1] = sin(2.0 * MOR_PI * k / MOR_SHADE_TURNS);
     }
     aim_samples(frame);
     aim_corners(frame);

@@ -34,11 +34,11 @@ static mor_status make_request(mor_context *context, const mor_case *c, const mo
                                   .soil_friction_coefficient = it->soil_friction_coefficient,
                                   .contact_modulus = mor_case_contact_modulus(c, it),
                                   .contact_poisson = it->contact_poisson};
-    mor_simulation_body_frame(c, it, request->shape_turn, request->shape_move);
+    mor_simulation_body_frame(c, it, request->shape_rotation, request->shape_translation);
     MOR_TRY(context, mor_shape_find_moments(context, it->shape, c->dimension, &request->geometry));
-    mor_shape_moments_place(&request->geometry, request->shape_turn, request->shape_move);
-    mor_matrix_apply(c->turn, it->velocity, request->velocity);
-    mor_matrix_apply(c->turn, it->angular_velocity, request->angular_velocity);
+    mor_shape_moments_place(&request->geometry, request->shape_rotation, request->shape_translation);
+    mor_matrix_apply(c->rotation, it->velocity, request->velocity);
+    mor_matrix_apply(c->rotation, it->angular_velocity, request->angular_velocity);
     return MOR_OK;
 }
 
@@ -62,11 +62,11 @@ static void set_motion(const mor_case *c, const mor_case_body *it, const mor_bod
     motion->has_spring = it->has_spring;
     if (it->has_spring) {
         double offset[3];
-        mor_matrix_apply(request->shape_turn, it->spring_point, motion->spring_point);
-        mor_matrix_apply(c->turn, it->spring_anchor, motion->spring_anchor);
+        mor_matrix_apply(request->shape_rotation, it->spring_point, motion->spring_point);
+        mor_matrix_apply(c->rotation, it->spring_anchor, motion->spring_anchor);
         for (int a = 0; a < 3; ++a) {
-            motion->spring_point[a] += request->shape_move[a];
-            motion->spring_anchor[a] += c->move[a];
+            motion->spring_point[a] += request->shape_translation[a];
+            motion->spring_anchor[a] += c->translation[a];
             offset[a] = motion->spring_point[a] - motion->spring_anchor[a];
         }
         motion->spring_length = isnan(it->spring_length) ? mor_vector_length(offset) : it->spring_length;
@@ -76,20 +76,20 @@ static void set_motion(const mor_case *c, const mor_case_body *it, const mor_bod
 }
 
 /* One group in the making. Zeroed before each. */
-typedef struct recipe {
+typedef struct group_spec {
     int members[MOR_CASE_BODIES_MAX]; /* numbers in the case */
     int n_members;
     mor_lattice_points points[MOR_CASE_BODIES_MAX];
     mor_body_request requests[MOR_CASE_BODIES_MAX];
     mor_rigid_motion motions[MOR_CASE_BODIES_MAX];
-} recipe;
+} group_spec;
 
 /* What the groups are made with. */
-typedef struct workshop {
+typedef struct group_builder {
     const mor_registry *registry; /* borrowed */
     mor_point_cache cache;        /* of all groups */
-    recipe recipe;
-} workshop;
+    group_spec group_spec;
+} group_builder;
 
 static void name_group(const mor_simulation_bodies *bodies, const char *model, char *name, size_t room)
 {
@@ -101,7 +101,7 @@ static void name_group(const mor_simulation_bodies *bodies, const char *model, c
 }
 
 static mor_status make_elastic(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
-                               const mor_material *material, recipe *r)
+                               const mor_material *material, group_spec *r)
 {
     const mor_case_body *first = &c->bodies[r->members[0]];
     mor_material_instance **instance = &bodies->materials[bodies->n_elastics];
@@ -121,7 +121,7 @@ static mor_status make_elastic(mor_context *context, mor_simulation_bodies *bodi
     return MOR_OK;
 }
 
-static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, recipe *r)
+static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, group_spec *r)
 {
     mor_rigid *rigid = &bodies->rigid;
     for (int m = 0; m < r->n_members; ++m) {
@@ -137,7 +137,7 @@ static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies
 }
 
 /* A body that cannot be made is an error of the case: says where it stands there. */
-static mor_status blame_body(mor_context *context, const mor_case *c, const recipe *r, mor_status status)
+static mor_status annotate_error(mor_context *context, const mor_case *c, const group_spec *r, mor_status status)
 {
     const mor_case_body *it = &c->bodies[r->members[r->n_members - 1]];
     if (status != MOR_ERROR_ARGUMENT) {
@@ -174,7 +174,7 @@ static double guess_thickness(const mor_shape *shape, int dimension)
 }
 
 /* Another spacing may lead to another packing: names one that is fine enough for whatever rock may be drawn. */
-static mor_status blame_thin(mor_context *context, const mor_case *c, const mor_case_body *it)
+static mor_status explain_thin_body(mor_context *context, const mor_case *c, const mor_case_body *it)
 {
     const mor_case_rocks *rocks = c->rocks;
     int end = c->n_listed_bodies + rocks->n_rocks;
@@ -214,14 +214,14 @@ static mor_status try_thinnest(mor_context *context, const mor_case *c, mor_poin
     mor_lattice_points points;
     const mor_status status = mor_simulation_fill_body(context, c, thinnest, cache, &points);
     mor_lattice_clear(context, &points);
-    return status == MOR_ERROR_CONFIG ? blame_thin(context, c, thinnest) : status;
+    return status == MOR_ERROR_CONFIG ? explain_thin_body(context, c, thinnest) : status;
 }
 
 /* The group of one body and of all later bodies of its material. */
 static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, int leader,
-                             workshop *shop)
+                             group_builder *shop)
 {
-    recipe *r = &shop->recipe;
+    group_spec *r = &shop->group_spec;
     const mor_case_body *first = &c->bodies[leader];
     const mor_material *material = NULL;
     mor_status status = MOR_OK;
@@ -246,7 +246,7 @@ static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies
         status = mor_case_body_is_rigid(first) ? make_rigid(context, bodies, c, r)
                                                : make_elastic(context, bodies, c, material, r);
     }
-    status = blame_body(context, c, r, status);
+    status = annotate_error(context, c, r, status);
     for (int m = 0; m < r->n_members; ++m) {
         mor_lattice_clear(context, &r->points[m]);
     }
@@ -292,7 +292,7 @@ static const char *advise_place(const mor_case_body *it, const char *advice)
 static mor_status check_walls(mor_context *context, const mor_case *c, const mor_case_body *it, const double *point)
 {
     for (int w = 0; w < c->n_walls && !it->is_prescribed && it->clamp == NULL; ++w) {
-        const double depth = -mor_simulation_placed_distance(c->walls[w].shape, c->turn, c->move, point);
+        const double depth = -mor_simulation_placed_distance(c->walls[w].shape, c->rotation, c->translation, point);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' overlapping wall '%s' by at least %.2g m at (%g, %g, %g) m; allowed is less "
                   "than %g m; %s",
@@ -312,7 +312,8 @@ static mor_status check_others(mor_context *context, const mor_simulation_bodies
             continue;
         }
         const mor_body *other = &bodies->of[b].group->bodies[bodies->of[b].index];
-        const double depth = -mor_simulation_placed_distance(other->shape, other->shape_turn, other->shape_move, point);
+        const double depth =
+            -mor_simulation_placed_distance(other->shape, other->shape_rotation, other->shape_translation, point);
         MOR_CHECK(context, depth <= TOUCHING * c->spacing, MOR_ERROR_CONFIG,
                   "%s:%d: found body '%s' overlapping body '%s' by at least %.2g m at (%g, %g, %g) m; allowed is less "
                   "than %g m; move one of them",
@@ -388,9 +389,9 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
     for (int w = 0; w < c->n_walls; ++w) {
         snprintf(walls[w].name, sizeof walls[w].name, "%s", c->walls[w].name);
         walls[w].shape = c->walls[w].shape;
-        memcpy(walls[w].turn, c->turn, sizeof walls[w].turn);
-        memcpy(walls[w].move, c->move, sizeof walls[w].move);
-        mor_matrix_apply(c->turn, c->walls[w].velocity, walls[w].velocity);
+        memcpy(walls[w].rotation, c->rotation, sizeof walls[w].rotation);
+        memcpy(walls[w].translation, c->translation, sizeof walls[w].translation);
+        mor_matrix_apply(c->rotation, c->walls[w].velocity, walls[w].velocity);
         walls[w].modulus = c->walls[w].contact_modulus;
         walls[w].poisson = c->walls[w].contact_poisson;
     }
@@ -419,7 +420,7 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
 static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
                               const mor_registry *registry)
 {
-    workshop *shop = NULL;
+    group_builder *shop = NULL;
     MOR_TRY(context, MOR_NEW(context, &shop, 1, "groups of bodies"));
     shop->registry = registry;
     mor_point_cache_init(&shop->cache, NULL);

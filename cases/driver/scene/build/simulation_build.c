@@ -28,8 +28,8 @@ static void set_request(const mor_case *the_case, const mor_shape *shape, mor_la
     memcpy(request->origin, the_case->lattice_origin, sizeof request->origin);
     memcpy(request->domain.minimum, the_case->domain_minimum, sizeof request->domain.minimum);
     memcpy(request->domain.maximum, the_case->domain_maximum, sizeof request->domain.maximum);
-    memcpy(request->turn, the_case->turn, sizeof request->turn);
-    memcpy(request->move, the_case->move, sizeof request->move);
+    memcpy(request->rotation, the_case->rotation, sizeof request->rotation);
+    memcpy(request->translation, the_case->translation, sizeof request->translation);
 }
 
 /* More lattice nodes than this along an axis are a slip of the pen, and counting them would take minutes. */
@@ -88,7 +88,7 @@ static mor_status fill_shape(mor_context *context, const filling *it, mor_lattic
 }
 
 /* A shape that cannot be filled is an error of the case, told with its place. */
-static mor_status tell_place(mor_context *context, mor_status status, const mor_case_place *place, const char *name)
+static mor_status annotate_error(mor_context *context, mor_status status, const mor_case_place *place, const char *name)
 {
     return status != MOR_ERROR_ARGUMENT ? status
                                         : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", place->file,
@@ -119,7 +119,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
     const mor_status status = it->outline.kind == MOR_CASE_SHAPE_TERRAIN
                                   ? mor_simulation_fill_terrain(context, the_case, wall, layers, points)
                                   : fill_shape(context, &wanted, &request, points, shares);
-    MOR_TRY(context, tell_place(context, status, &it->place, it->name));
+    MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
               "inside the domain and outside earlier walls; make the wall thicker or move it",
@@ -204,16 +204,16 @@ static void leave_out_bodies(mor_context *context, const mor_case *the_case, con
     for (int b = 0; b < the_case->n_bodies; ++b) {
         const mor_shape *shape = the_case->bodies[b].shape;
         const int64_t n = n_kept;
-        double turn[9];
-        double move[3];
+        double rotation[9];
+        double translation[3];
         mor_bounds box;
-        mor_simulation_body_frame(the_case, &the_case->bodies[b], turn, move);
+        mor_simulation_body_frame(the_case, &the_case->bodies[b], rotation, translation);
         mor_simulation_body_box(the_case, &the_case->bodies[b], &box);
         n_kept = 0;
         for (int64_t i = 0; i < n; ++i) {
             const double *point = points->positions + 3 * i;
             if (!mor_simulation_body_may_hold(&box, point) ||
-                mor_simulation_placed_distance(shape, turn, move, point) >= 0.0) {
+                mor_simulation_placed_distance(shape, rotation, translation, point) >= 0.0) {
                 memmove(points->positions + 3 * n_kept++, point, 3 * sizeof *point);
             }
         }
@@ -237,7 +237,7 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
                                   ? mor_simulation_fill_release(context, the_case, soil, points)
                                   : fill_shape(context, &wanted, &request, points, NULL);
-    MOR_TRY(context, tell_place(context, status, &it->place, it->name));
+    MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
     leave_out_bodies(context, the_case, it->name, points);
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
@@ -314,12 +314,12 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
 /* Gravity and the domain, which is turned with the scene. */
 static void find_frame(const mor_case *c, mor_simulation_frame *frame)
 {
-    mor_matrix_apply(c->turn, c->gravity, frame->gravity);
+    mor_matrix_apply(c->rotation, c->gravity, frame->gravity);
     memcpy(frame->domain_minimum, c->domain_minimum, sizeof frame->domain_minimum);
     memcpy(frame->domain_maximum, c->domain_maximum, sizeof frame->domain_maximum);
-    memcpy(frame->placement.turn, c->turn, sizeof frame->placement.turn);
-    memcpy(frame->placement.move, c->move, sizeof frame->placement.move);
-    frame->is_placed = c->placement_angle != 0.0 || mor_vector_length(c->move) > 0.0;
+    memcpy(frame->placement.rotation, c->rotation, sizeof frame->placement.rotation);
+    memcpy(frame->placement.translation, c->translation, sizeof frame->placement.translation);
+    frame->is_placed = c->placement_angle != 0.0 || mor_vector_length(c->translation) > 0.0;
 }
 
 /* Copies the regions' points into the set and gives them mass, density, velocity and stress. */
@@ -334,7 +334,7 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
         const int64_t n = regions[k].n_points;
         simulation->region_particles[k] = n;
         double velocity[3];
-        mor_matrix_apply(c->turn, it->velocity, velocity);
+        mor_matrix_apply(c->rotation, it->velocity, velocity);
         memcpy(data[MOR_FIELD_POSITION] + 3 * first, regions[k].positions, (size_t)(3 * n) * sizeof(double));
         for (int64_t i = first; i < first + n; ++i) {
             memcpy(data[MOR_FIELD_VELOCITY] + 3 * i, velocity, sizeof velocity);
@@ -364,7 +364,7 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
                                     .stress = (mor_wall_stress)c->numerics.wall_stress,
                                     .friction = (mor_wall_friction)c->walls[w].friction,
                                     .friction_coefficient = c->walls[w].friction_coefficient};
-        mor_matrix_apply(c->turn, c->walls[w].velocity, request.velocity);
+        mor_matrix_apply(c->rotation, c->walls[w].velocity, request.velocity);
         const mor_status status = mor_soil_add_wall(context, &simulation->soil, &request);
         mor_lattice_clear(context, &points);
         MOR_FREE(context, &shares);

@@ -88,7 +88,7 @@ static mor_status find_lattice(mor_context *context, const mor_case *c, const mo
         request->origin[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]) - 0.5 * n * c->spacing;
         warn_rounding(context, c, it, a, bounds.maximum[a] - bounds.minimum[a], n);
     }
-    mor_simulation_body_frame(c, it, request->turn, request->move);
+    mor_simulation_body_frame(c, it, request->rotation, request->translation);
     return MOR_OK;
 }
 
@@ -97,9 +97,9 @@ static void place_points(const mor_lattice_request *frame, const mor_relax_point
 {
     for (int64_t i = 0; i < relaxed->n_points; ++i) {
         double *position = positions + 3 * i;
-        mor_matrix_apply(frame->turn, relaxed->positions + 3 * i, position);
+        mor_matrix_apply(frame->rotation, relaxed->positions + 3 * i, position);
         for (int a = 0; a < 3; ++a) {
-            position[a] = frame->dimension == 2 && a == 2 ? 0.0 : position[a] + frame->move[a];
+            position[a] = frame->dimension == 2 && a == 2 ? 0.0 : position[a] + frame->translation[a];
         }
     }
 }

@@ -38,8 +38,8 @@ enum { FINDINGS_MAX = 16, DESCENT_STEPS = 30, BALLS = 40, AT_ONCE = 64 };
 /* A wall or a body that does not give way. */
 typedef struct solid {
     const mor_shape *shape;
-    double turn[9], move[3]; /* of the frame of its shape */
-    mor_bounds box;          /* around it in the run, m */
+    double rotation[9], translation[3]; /* of the frame of its shape */
+    mor_bounds box;                     /* around it in the run, m */
     const char *kind, *name;
     const mor_case_place *place;
     const double *points; /* its particles: shape [n_points, stride], m */
@@ -77,7 +77,7 @@ static double box_distance(const mor_bounds *box, const double *x)
 
 static double solid_distance(const solid *it, const double *x)
 {
-    return mor_simulation_placed_distance(it->shape, it->turn, it->move, x);
+    return mor_simulation_placed_distance(it->shape, it->rotation, it->translation, x);
 }
 
 /* Distance from the nearest of all solids; only: of that one alone, or -1. */
@@ -333,10 +333,10 @@ static void find_box(solid *it)
     mor_bounds own;
     it->shape->operations->bounds(it->shape, &own);
     for (int a = 0; a < 3; ++a) {
-        it->box.minimum[a] = it->move[a];
-        it->box.maximum[a] = it->move[a];
+        it->box.minimum[a] = it->translation[a];
+        it->box.maximum[a] = it->translation[a];
         for (int b = 0; b < 3; ++b) {
-            const double m = it->turn[3 * a + b];
+            const double m = it->rotation[3 * a + b];
             it->box.minimum[a] += m == 0.0 ? 0.0 : fmin(m * own.minimum[b], m * own.maximum[b]);
             it->box.maximum[a] += m == 0.0 ? 0.0 : fmax(m * own.minimum[b], m * own.maximum[b]);
         }
@@ -358,8 +358,8 @@ static void add_walls(gap_scene *s, const mor_simulation *simulation)
                       .stride = MOR_BOUNDARY_RECORD,
                       .is_wall = true,
                       .is_terrain = c->walls[w].outline.kind == MOR_CASE_SHAPE_TERRAIN};
-        memcpy(it->turn, c->turn, sizeof it->turn);
-        memcpy(it->move, c->move, sizeof it->move);
+        memcpy(it->rotation, c->rotation, sizeof it->rotation);
+        memcpy(it->translation, c->translation, sizeof it->translation);
         find_box(it);
     }
 }
@@ -382,7 +382,7 @@ static void add_bodies(gap_scene *s, const mor_simulation *simulation)
                       .points = group->reference + 3 * made->first,
                       .n_points = made->n_particles,
                       .stride = 3};
-        mor_simulation_body_frame(c, body, it->turn, it->move);
+        mor_simulation_body_frame(c, body, it->rotation, it->translation);
         find_box(it);
     }
 }

@@ -39,8 +39,8 @@ static double region_distance(const mor_shape *shape, const double *point)
     if (it->body != NULL) {
         double placed[3];
         mor_simulation_place_point(it->the_case, point, placed);
-        distance = fmax(distance, mor_simulation_placed_distance(it->body->shape, it->body->shape_turn,
-                                                                 it->body->shape_move, placed));
+        distance = fmax(distance, mor_simulation_placed_distance(it->body->shape, it->body->shape_rotation,
+                                                                 it->body->shape_translation, placed));
     }
     return distance;
 }
@@ -271,7 +271,7 @@ static bool is_carried(const mor_simulation *s, const mor_body_group *group, con
         region whole;
         double velocity[3];
         make_region(c, k, &whole);
-        mor_matrix_apply(c->turn, c->soils[k].velocity, velocity);
+        mor_matrix_apply(c->rotation, c->soils[k].velocity, velocity);
         if (memcmp(velocity, body->velocity, sizeof velocity) == 0 &&
             count_inside(group, body, &whole) == body->n_nodes) {
             return true;
