@@ -112,7 +112,7 @@ typedef struct mor_body_request {
     const char *name;        /* zero-terminated */
     const double *positions; /* shape [n_particles, 3], reference configuration, m */
     int64_t n_particles;
-    const mor_shape *shape;      /* one object; borrowed for the life of the group */
+    const mor_shape *shape;      /* borrowed for the life of the group */
     double shape_rotation[9];    /* shape [3,3], 1 */
     double shape_translation[3]; /* m */
     double density;              /* kg/m3 */
@@ -127,8 +127,7 @@ typedef struct mor_body_request {
 
 /** Makes a group: sorts each body's particles into clusters, gives them volume and mass so that each body's add up to
  *  the true ones, sets the motion at the start (velocity + angular velocity x arm), makes surface nodes.
- *  @param context    [in,out]  one object
- *  @param group      [out]     one object; cleared after a failure
+ *  @param group      [out]     cleared after a failure
  *  @param name       [in]      zero-terminated; of the set and the boundary
  *  @param kind       [in]      how the bodies move
  *  @param dimension  [in]      2 or 3
@@ -141,22 +140,16 @@ mor_status mor_body_group_init(mor_context *context, mor_body_group *group, cons
                                int dimension, double spacing, const mor_body_request *requests, int n_bodies,
                                uint64_t field_mask);
 
-/** Frees what the group owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param group   [in,out]  one object */
+/** Frees what the group owns; accepts a zeroed one. */
 void mor_body_group_clear(mor_context *context, mor_body_group *group);
 
 /** Shows the soil where the particles will be in the middle of the coming common step, and remembers where they are
  *  now. Velocities stay those that the last common step ended with (at the start: the initial ones).
- *  @param context [in,out]  one object
- *  @param group   [in,out]  one object
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);
 
 /** After the sub-steps: gives the soil the mean velocities over the common step, Zhang et al. (2024) eq. 60, of bodies
  *  lighter than the soil around them the present velocities, and the largest speed of both.
- *  @param context [in,out]  one object
- *  @param group   [in,out]  one object
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
 
@@ -165,7 +158,7 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
  *  largest. Of an elastic body also the square of half the soil's impedance over its own. A body with a ratio above 1
  *  is light: the soil sees its velocity at the end of a step in place of the mean over the step, and takes steps
  *  shorter by the root of the ratio (core/particle/boundary.h). To be called before the first step.
- *  @param group           [in,out]  one object; made by mor_body_group_init
+ *  @param group           [in,out]  made by mor_body_group_init
  *  @param body            [in]      index of the body
  *  @param density         [in]      of the soil, unit kg/m3
  *  @param sound_speed     [in]      of the soil, unit m/s
@@ -176,13 +169,10 @@ void mor_body_meet_soil(mor_body_group *group, int body, double density, double 
 
 /** Finds an elastic body's motion as a whole from its particles: center, mean velocity, angular velocity (angular
  *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map), rotation angle.
- *  @param context [in,out]  one object
- *  @param group   [in,out]  one object
  *  @param length  [in]      time since the last call, unit s; for the rotation angle */
 void mor_body_group_observe(mor_context *context, mor_body_group *group, double length);
 
 /** Kinetic energy and momenta of one body from its particles.
- *  @param group            [in]   one object
  *  @param body             [in]   index of the body
  *  @param momentum         [out]  shape [3], unit kg m/s (kg/s)
  *  @param angular_momentum [out]  shape [3], about the origin of coordinates, unit kg m2/s (kg m/s)

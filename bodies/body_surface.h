@@ -21,8 +21,7 @@ typedef struct mor_body_support {
 /** Makes the surface nodes of all bodies of a group: fills in n_nodes, node_reference, node_area, node_count, the node
  *  ranges of the bodies and, of an elastic group, node_particles and node_weights. Needs: set, reference, volume,
  *  bodies with shape and placement. mor_body_group_clear frees the arrays.
- *  @param context [in,out]  one object
- *  @param group   [in,out]  one object; without nodes
+ *  @param group   [in,out]  without nodes
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body whose particles do not reach its surface, or, elastic, too few to
  *  carry a node; MOR_ERROR_MEMORY. */
 mor_status mor_body_group_make_nodes(mor_context *context, mor_body_group *group);
@@ -39,7 +38,7 @@ static inline int mor_body_point_crowd(int dimension)
 }
 
 /** Finds the particles of a body nearer to a point than a radius, in ascending order.
- *  @param tree      [in]   one object, of the body's particles, fitted to positions
+ *  @param tree      [in]   of the body's particles, fitted to positions
  *  @param positions [in]   shape [n_particles, 3] of the whole set, unit m
  *  @param first     [in]   index of the body's first particle
  *  @param point     [in]   shape [3], unit m
@@ -67,22 +66,18 @@ bool mor_body_linear_weights(int dimension, const double *positions, const int32
                              double *gradient);
 
 /** The particles that carry a surface node.
- *  @param group [in]  one object
  *  @param node  [in]  index of the node
  *  Returns: a view into the group. */
 mor_body_support mor_body_node_support(const mor_body_group *group, int64_t node);
 
 /** Velocity of a point of a body.
- *  @param group    [in]   one object
  *  @param body     [in]   index of the body
- *  @param support  [in]   one object
  *  @param place    [in]   shape [3]; where the point is, unit m
  *  @param velocity [out]  shape [3], unit m/s */
 void mor_body_point_velocity(const mor_body_group *group, int body, const mor_body_support *support,
                              const double *place, double *velocity);
 
 /** Where a surface node is now.
- *  @param group [in]   one object
  *  @param body  [in]   index of the body
  *  @param node  [in]   index of the node
  *  @param place [out]  shape [3], unit m */
@@ -90,9 +85,7 @@ void mor_body_node_place(const mor_body_group *group, int body, int64_t node, do
 
 /** Adds a force at a point of a body: to contact_force and contact_moment of a rigid one, to contact_force of the
  *  particles of an elastic one.
- *  @param group   [in,out]  one object
  *  @param body    [in]      index of the body
- *  @param support [in]      one object
  *  @param place   [in]      shape [3]; where the point is, unit m
  *  @param force   [in]      shape [3], unit N (N/m in plane strain) */
 void mor_body_point_push(mor_body_group *group, int body, const mor_body_support *support, const double *place,

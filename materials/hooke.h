@@ -48,20 +48,14 @@ extern const mor_schema mor_hooke_parameters[];
 extern const mor_schema mor_hooke_no_state[];
 
 /** Makes the constants of an instance.
- *  @param services [in]      one object
- *  @param instance [in,out]  one object
  *  @param run      [in]      the law's function for the machine it runs on
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance, mor_hooke_run run);
 
-/** The operation destroy.
- *  @param services [in]      one object
- *  @param instance [in,out]  one object */
+/** The operation destroy. */
 void mor_hooke_destroy(const mor_services *services, mor_material_instance *instance);
 
 /** The operations advance_rate and stress_total: the function chosen when the instance was made.
- *  @param instance [in]  one object
- *  @param batch    [in]  one object
  *  Returns: what the law returns. */
 mor_status mor_hooke_run_batch(const mor_material_instance *instance, const mor_batch *batch);
 
@@ -69,8 +63,6 @@ mor_status mor_hooke_run_batch(const mor_material_instance *instance, const mor_
  *  run faster, at sqrt(K/rho0) times sqrt(3(1-nu)/(1+nu)): 1.34 times at nu = 0.25, and 1.73 times at nu = 0. This the
  *  CFL number 0.4 of the source allows for. Below nu = 0, where the ratio grows without bound, the speed is that of
  *  pressure waves over sqrt(3), which at nu = 0 is the same.
- *  @param instance [in]   one object
- *  @param batch    [in]   one object
  *  @param speed    [out]  shape [n]; unit m/s
  *  Returns: MOR_OK. */
 mor_status mor_hooke_wave_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed);

@@ -27,7 +27,7 @@ typedef struct mor_rate_block {
     double nonfinite[MOR_LANES];   /* 0 when all results are finite, else NaN; 1 */
 } mor_rate_block;
 
-/** The end of one block: reads gradient, extra; updates stress, state; writes dissipation. Constants are one object. */
+/** The end of one block: reads gradient, extra; updates stress, state; writes dissipation. */
 typedef void (*mor_rate_law)(const void *constants, mor_rate_block *b);
 
 /** Reads numbers of some lanes.
@@ -47,11 +47,9 @@ static MOR_LANES_INLINE void mor_rate_load_part(const double *from, int64_t n_la
 }
 
 /** Reads a block.
- *  @param batch     [in]   one object
  *  @param first     [in]   first particle
  *  @param n_lanes   [in]   1 to MOR_LANES
- *  @param has_state [in]   whether the law has a state variable
- *  @param b         [out]  one object */
+ *  @param has_state [in]   whether the law has a state variable */
 static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
                                            mor_rate_block *b)
 {
@@ -66,11 +64,9 @@ static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first
 }
 
 /** Writes what a law changed.
- *  @param batch     [in,out]  one object
  *  @param first     [in]      first particle
  *  @param n_lanes   [in]      1 to MOR_LANES
- *  @param has_state [in]      whether the law has a state variable
- *  @param b         [in]      one object */
+ *  @param has_state [in]      whether the law has a state variable */
 static MOR_LANES_INLINE void mor_rate_store(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
                                             const mor_rate_block *b)
 {
@@ -128,7 +124,6 @@ static MOR_LANES_INLINE void mor_rate_write(mor_rate_block *b, int lane, mor_sym
 }
 
 /** Finds the first lane that may not pass, and why.
- *  @param b           [in]   one object
  *  @param n_lanes     [in]   1 to MOR_LANES
  *  @param failed_lane [out]  one number; worthless when all may pass
  *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small; MOR_ERROR_NUMERIC. */
@@ -149,7 +144,7 @@ static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t 
     return MOR_OK;
 }
 
-/** Sets what tells whether the lanes may pass, and tells it; b is one object. Returns: 0 or 1. */
+/** Sets what tells whether the lanes may pass, and tells it. Returns: 0 or 1. */
 static MOR_LANES_INLINE int mor_rate_judge(mor_rate_block *b, int has_state)
 {
     double worst = 0.0;
@@ -167,8 +162,7 @@ static MOR_LANES_INLINE int mor_rate_judge(mor_rate_block *b, int has_state)
 
 /** Runs a law over a batch. The last block runs through the same code with empty lanes: a result must not depend on a
  *  particle's place.
- *  @param constants [in]      one object; the law's
- *  @param batch     [in,out]  one object
+ *  @param constants [in]      the law's
  *  @param law       [in]      the end of one block
  *  @param has_state [in]      whether the law has a state variable, which is then the first one
  *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small; MOR_ERROR_NUMERIC. */

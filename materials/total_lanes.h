@@ -81,8 +81,7 @@ static MOR_LANES_INLINE void mor_total_write(mor_total_block *b, int lane, doubl
 
 /** Reads H of some lanes from deformation gradients.
  *  @param from    [in]   shape [n_lanes,3,3]; unit 1
- *  @param n_lanes [in]   1 to MOR_LANES
- *  @param b       [out]  one object */
+ *  @param n_lanes [in]   1 to MOR_LANES */
 static MOR_LANES_INLINE void mor_total_load(const double *from, int64_t n_lanes, mor_total_block *b)
 {
     for (int64_t lane = 0; lane < n_lanes; ++lane) {
@@ -93,7 +92,6 @@ static MOR_LANES_INLINE void mor_total_load(const double *from, int64_t n_lanes,
 }
 
 /** Writes the stress of some lanes.
- *  @param b       [in]   one object
  *  @param n_lanes [in]   1 to MOR_LANES
  *  @param to      [out]  shape [n_lanes,3,3]; unit Pa */
 static MOR_LANES_INLINE void mor_total_store(const mor_total_block *b, int64_t n_lanes, double *to)
@@ -115,7 +113,6 @@ static inline mor_status mor_total_judge(double j_minus_1, double nonfinite)
 }
 
 /** Finds the first lane that may not pass.
- *  @param b           [in]   one object
  *  @param n_lanes     [in]   1 to MOR_LANES
  *  @param failed_lane [out]  one number; untouched when all may pass
  *  Returns: as mor_total_judge of that lane. */
@@ -131,7 +128,7 @@ static inline mor_status mor_total_find_failure(const mor_total_block *b, int64_
     return MOR_OK;
 }
 
-/** Whether all lanes may pass; b is one object. Returns: 0 or 1. */
+/** Whether all lanes may pass. Returns: 0 or 1. */
 static MOR_LANES_INLINE int mor_total_is_fine(const mor_total_block *b)
 {
     double least = 0.0;
@@ -145,8 +142,6 @@ static MOR_LANES_INLINE int mor_total_is_fine(const mor_total_block *b)
 
 /** Runs a law over a batch. The last block runs through the same code with empty lanes: a result must not depend on a
  *  particle's place.
- *  @param constants [in]      one object
- *  @param batch     [in,out]  one object
  *  @param law       [in]      the stress of one block
  *  Returns: MOR_OK; as mor_total_judge of the first particle that may not pass. */
 static MOR_LANES_INLINE mor_status mor_total_run(const mor_hooke *constants, const mor_batch *batch, mor_total_law law)
@@ -191,8 +186,6 @@ static MOR_LANES_INLINE mor_status mor_total_run(const mor_hooke *constants, con
 }
 
 /** The operation energy of a law.
- *  @param instance [in]   one object
- *  @param batch    [in]   one object
  *  @param stored   [out]  shape [n]; unit J/m3
  *  @param density  [in]   the law's energy density; unit J/m3
  *  Returns: MOR_OK; as mor_total_judge of the first particle that may not pass. */

@@ -79,10 +79,9 @@ typedef struct mor_contact {
 } mor_contact;
 
 /** Makes the contact of some groups and walls.
- *  @param context      [in,out]  one object
- *  @param contact      [out]     one object; cleared after a failure
- *  @param settings     [in]      one object; copied
- *  @param groups       [in]      shape [n_groups] of one object each; borrowed
+ *  @param contact      [out]     cleared after a failure
+ *  @param settings     [in]      copied
+ *  @param groups       [in]      shape [n_groups]; borrowed
  *  @param stepper_bits [in]      shape [n_groups]; the bit of each group's stepper in the schedule
  *  @param n_groups     [in]      number of groups
  *  @param walls        [in]      shape [n_walls]; copied
@@ -92,23 +91,18 @@ mor_status mor_contact_init(mor_context *context, mor_contact *contact, const mo
                             mor_body_group *const *groups, const uint64_t *stepper_bits, int n_groups,
                             const mor_contact_wall *walls, int n_walls);
 
-/** Frees what the contact owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object */
+/** Frees what the contact owns; accepts a zeroed one. */
 void mor_contact_clear(mor_context *context, mor_contact *contact);
 
 /** Fills in the exchange that the schedule runs among followers.
- *  @param contact  [in]   one object; becomes the owner
- *  @param exchange [out]  one object */
+ *  @param contact  [in]   becomes the owner */
 void mor_contact_exchange(mor_contact *contact, mor_exchange *exchange);
 
 /** Sums over the groups what each had in its last sub-step: spring energy, deepest penetration, forces on walls. After
- *  a resume the groups' numbers are there, and these are found from them.
- *  @param contact [in,out]  one object */
+ *  a resume the groups' numbers are there, and these are found from them. */
 void mor_contact_add_sums(mor_contact *contact);
 
 /** Writes the force on a wall in the last sub-step of some steppers, of their bodies alone.
- *  @param contact [in]   one object
  *  @param wall    [in]   index of the wall
  *  @param members [in]   bits of steppers
  *  @param force   [out]  shape [3], unit N (N/m) */
@@ -116,15 +110,13 @@ void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t membe
 
 /** Longest step that the normal springs of a group's bodies allow, unit s; INFINITY when none of its bodies is near
  *  another or a wall. A function of the present state alone. mor_contact_init hangs it into each group.
- *  @param contact [in]  one object, a mor_contact
- *  @param group   [in]  one object */
+ *  @param contact [in]  a mor_contact */
 double mor_contact_longest_step(const void *contact, const mor_body_group *group);
 
 /** The same once bodies touch, unit s: no longer than the step of any one pair of them, or body and wall, in touch,
  *  however far apart they are now; INFINITY without pairs. Bodies that touch several others at once may need shorter
  *  ones. May be hung into a group in place of the above.
- *  @param contact [in]  one object, a mor_contact
- *  @param group   [in]  one object */
+ *  @param contact [in]  a mor_contact */
 double mor_contact_touching_step(const void *contact, const mor_body_group *group);
 
 #endif

@@ -138,7 +138,6 @@ typedef struct mor_contact_work {
 } mor_contact_work;
 
 /** Index of a pair of bodies, first < second; or of a body and wall second - n_bodies.
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 static inline int64_t mor_contact_pair_index(const mor_contact *contact, int first, int second)
@@ -148,7 +147,6 @@ static inline int64_t mor_contact_pair_index(const mor_contact *contact, int fir
 }
 
 /** How easily a body is moved by a force: one over its mass, zero for a held one and for walls; unit 1/kg (m/kg).
- *  @param contact [in]  one object
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 static inline double mor_contact_inverse_mass(const mor_contact *contact, int second)
 {
@@ -161,49 +159,39 @@ static inline double mor_contact_inverse_mass(const mor_contact *contact, int se
 }
 
 /** The larger spacing of a pair, unit m.
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 double mor_contact_spacing(const mor_contact *contact, int first, int second);
 
 /** Whether a pair of rigid bodies, or a rigid body and a wall, touches by Hertz's law; elastic bodies yield by
  *  themselves.
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 bool mor_contact_is_hertzian(const mor_contact *contact, int first, int second);
 
 /** Modulus of a pair of rigid sides, 1 / ((1 - nu1^2)/E1 + (1 - nu2^2)/E2), Johnson (1985) eq. 4.3a; unit Pa.
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 double mor_contact_pair_modulus(const mor_contact *contact, int first, int second);
 
 /** Stiffness of a pair per area. With an elastic side: harmonic mean of contact modulus over spacing; against a wall
  *  the body's own. Rigid: that of the node where the surface is most curved, before the contact is wider than a node.
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall
  *  Returns: unit Pa/m. */
 double mor_contact_area_stiffness(const mor_contact *contact, int first, int second);
 
 /** Stiffness of one node of a pair, unit N/m (N/m2 in plane strain); it depends on nothing that moves.
- *  @param contact [in]  one object
- *  @param near    [in]  one object
  *  @param side    [in]  0: node of the first; 1: of the second
  *  @param node    [in]  index of the node in its group */
 double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near *near, int side, int64_t node);
 
 /** Fills in what the curvature of the other side, at a place on it, does to a touch of rigid sides: curvature, share.
- *  @param contact   [in]      one object
- *  @param near      [in]      one object
- *  @param touch     [in,out]  one object
  *  @param curvature [in]      of the other side there, unit 1/m */
 void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
                       double curvature);
 
 /** Distance of a point from the surface of a shape, that of the whole where parts meet; unit m, negative inside.
- *  @param shape     [in]   one object
  *  @param dimension [in]   2 or 3
  *  @param place     [in]   shape [3]; in the frame of the shape, unit m
  *  @param spacing   [in]   of the body that asks, unit m
@@ -212,7 +200,6 @@ double mor_contact_shape_gap(const mor_shape *shape, int dimension, const double
                              double *normal);
 
 /** Whether a surface has an edge within a reach of windows around a point near it: there its gradient changes.
- *  @param shape     [in]   one object
  *  @param dimension [in]   2 or 3
  *  @param place     [in]   shape [3]; in the frame of the shape, unit m
  *  @param spacing   [in]   of the body that asks, unit m
@@ -222,7 +209,6 @@ bool mor_contact_has_edge(const mor_shape *shape, int dimension, const double *p
                           double *normal);
 
 /** Curvature of a surface at a point near it, mean of the two in space, unit 1/m; positive: convex.
- *  @param shape     [in]  one object
  *  @param dimension [in]  2 or 3
  *  @param place     [in]  shape [3]; in the frame of the shape, unit m
  *  @param gap       [in]  of that point to the surface, unit m
@@ -232,47 +218,38 @@ double mor_contact_curvature(const mor_shape *shape, int dimension, const double
                              const double *normal, double spacing);
 
 /** Gap below which the surface around a node may touch though the node does not, unit m.
- *  @param contact         [in]  one object
- *  @param near            [in]  one object
- *  @param touch           [in]  one object, whose side and node are known
+ *  @param touch           [in]  whose side and node are known
  *  @param other_curvature [in]  of the other surface, unit 1/m */
 double mor_contact_reach(const mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch,
                          double other_curvature);
 
 /** A point of the reference configuration in the frame of the body's shape.
- *  @param body      [in]   one object
  *  @param reference [in]   shape [3], unit m
  *  @param place     [out]  shape [3], unit m */
 void mor_contact_shape_place(const mor_body *body, const double *reference, double *place);
 
-/** Inverts the inertia of a rigid body, for mor_contact_response.
- *  @param c [in,out]  one object */
+/** Inverts the inertia of a rigid body, for mor_contact_response. */
 void mor_contact_measure_inertia(mor_contact_body *c);
 
 /** Counts the pairs of each body that touch.
- *  @param contact [in,out]  one object, whose touches have been looked up */
+ *  @param contact [in,out]  whose touches have been looked up */
 void mor_contact_count_pairs(mor_contact *contact);
 
 /** How fast the motions of two rigid sides would change, over the speed of closing, if each node that touches were
  *  damped by its undamped force times its speed of closing: a bound of the largest eigenvalue, unit N/kg.
- *  @param contact [in]  one object
- *  @param near    [in]  one object
  *  @param begin   [in]  first touch of the pair
  *  @param end     [in]  the one behind its last */
 double mor_contact_response(const mor_contact *contact, const mor_contact_near *near, int64_t begin, int64_t end);
 
 /** Gap of a point to a rigid body or a wall, unit m.
- *  @param contact [in]  one object
- *  @param asking  [in]  one object, the group of the body that asks
+ *  @param asking  [in]  the group of the body that asks
  *  @param other   [in]  index of a rigid body, or n_bodies plus that of a wall
  *  @param point   [in]  shape [3], unit m */
 double mor_contact_gap(const mor_contact *contact, const mor_body_group *asking, int other, const double *point);
 
 /** Follows the surface around a node of a rigid body: fills in depth, mean_depth, mean_square, and moves place and
  *  normal to the center of the pressure. Elastic sides and edges: those of the node.
- *  @param contact [in]      one object
- *  @param near    [in]      one object
- *  @param touch   [in,out]  one object, whose gap, normal and curvature are known */
+ *  @param touch   [in,out]  whose gap, normal and curvature are known */
 void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch);
 
 /** Standard deviation of the window around a node, over the square root of its area. The windows of a square lattice of
@@ -280,15 +257,12 @@ void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near
 #define MOR_CONTACT_DEVIATION 0.45
 
 /** Lists the nodes around each smooth node of the rigid bodies; their curvatures must be known.
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_contact_list_neighbors(mor_context *context, mor_contact *contact);
 
 /** Sum of the windows of all nodes at a place beside a smooth node, each as wide as the place is uncertain: what a node
  *  finds there is divided by it, so that a contact between nodes counts as much as one at a node.
- *  @param contact  [in]  one object
- *  @param owner    [in]  one object, the body of the node
+ *  @param owner    [in]  the body of the node
  *  @param node     [in]  index of the node in its group
  *  @param offset   [in]  shape [3]; from the node, unit m
  *  @param variance [in]  of what the node finds about that place, along one axis, unit m2
@@ -302,69 +276,53 @@ void mor_contact_window_weights(double *weights);
 
 /** Factor on the normal forces of a pair of rigid sides: as the contact widens, each node carries less. Hertz's law as
  *  a function of the energy that its nodes would store without it, docs/theory/contact.md (C3b).
- *  @param contact [in]   one object
- *  @param near    [in]   one object
  *  @param energy  [in]   sum over nodes of half the stiffness times the squared depth, unit J (J/m)
  *  @param stored  [out]  one number; energy with the factor, unit J (J/m)
  *  Returns: unit 1, at most 1. */
 double mor_contact_soften(const mor_contact *contact, const mor_contact_near *near, double energy, double *stored);
 
 /** Stiffness of a pair of rigid sides as it begins to touch, unit N/m (N/m2).
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 double mor_contact_least_stiffness(const mor_contact *contact, int first, int second);
 
 /** Largest stiffness, normal or tangential, of a pair of rigid sides once it has stored an energy, unit N/m (N/m2).
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall
  *  @param energy  [in]  unit J (J/m) */
 double mor_contact_largest_stiffness(const mor_contact *contact, int first, int second, double energy);
 
 /** Frequency of a pair of rigid sides on their normal contact in an impact, unit rad/s.
- *  @param contact [in]  one object
- *  @param near    [in]  one object
  *  @param speed   [in]  of the impact, unit m/s; 0: after a fall over the size of a body or at the reference speed */
 double mor_contact_frequency(const mor_contact *contact, const mor_contact_near *near, double speed);
 
 /** Measures the curvature of all rigid bodies at their nodes; the history and the list of bodies must be there.
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_contact_measure_curvatures(mor_context *context, mor_contact *contact);
 
 /** Finds boxes and travels of the bodies of the members.
- *  @param context [in]      one object
- *  @param contact [in,out]  one object
  *  @param members [in]      bits of steppers */
 void mor_contact_observe(mor_context *context, mor_contact *contact, uint64_t members);
 
 /** Box and largest speed of a body now.
- *  @param body  [in]   one object
  *  @param box   [out]  shape [6]; minimum, maximum; unit m
  *  @param speed [out]  one number, unit m/s */
 void mor_contact_box(const mor_contact_body *body, double *box, double *speed);
 
 /** Lower bound of the gap of a pair, unit m.
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall
  *  @param boxes   [in]  shape [n_bodies, 6]; boxes as mor_contact_box gives them, unit m */
 double mor_contact_apart(const mor_contact *contact, int first, int second, const double *boxes);
 
 /** Brings the lists of near pairs and nodes up to date, and lists the touches to look at.
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object
  *  @param members [in]      bits of steppers
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_contact_search(mor_context *context, mor_contact *contact, uint64_t members);
 
 /** Looks one node up in its partner: fills in gap and, when is_whole and it touches, all else; depth is zero
  *  when it does not.
- *  @param contact   [in]      one object
- *  @param near      [in]      one object
- *  @param touch     [in,out]  one object; near, side and node are set
+ *  @param touch     [in,out]  near, side and node are set
  *  @param is_whole  [in]      also fill in what only touching nodes need
  *  @param particles [out]     shape [MOR_CONTACT_SUPPORT]; of an elastic partner
  *  @param weights   [out]     shape [MOR_CONTACT_SUPPORT], unit 1 */
@@ -374,77 +332,60 @@ void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *nea
 /** Stiffness of a friction spring over that of the normal spring, 1. */
 #define MOR_CONTACT_TANGENTIAL_RATIO 0.8
 
-/** Lists what the state remembers, once after a start or a resume.
- *  @param contact [in,out]  one object */
+/** Lists what the state remembers, once after a start or a resume. */
 void mor_contact_recall(mor_contact *contact);
 
 /** Forgets friction springs and speeds of impact of contacts that ended; those of other members' bodies stay.
- *  @param contact [in,out]  one object
  *  @param members [in]      bits of steppers */
 void mor_contact_forget(mor_contact *contact, uint64_t members);
 
 /** Turns touches into forces, pair by pair; keeps the books.
- *  @param contact [in,out]  one object
  *  @param members [in]      bits of steppers
  *  @param length  [in]      of the sub-step, unit s */
 void mor_contact_act(mor_contact *contact, uint64_t members, double length);
 
-/** Strength of the gravity that acts on a body, unit m/s2.
- *  @param c [in]  one object */
+/** Strength of the gravity that acts on a body, unit m/s2. */
 double mor_contact_gravity(const mor_contact_body *c);
 
 /** Finds boxes and largest speeds of all bodies now.
- *  @param contact [in]   one object; its boxes are written
+ *  @param contact [in]   its boxes are written
  *  @param speeds  [out]  shape [n_bodies], unit m/s */
 void mor_contact_find_boxes(const mor_contact *contact, double *speeds);
 
 /** Depth of a pair that stops a run, unit m.
- *  @param contact [in]  one object
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 double mor_contact_depth_limit(const mor_contact *contact, int first, int second);
 
 /** Keeps the depth that is nearest to its limit.
- *  @param contact [in,out]  one object
- *  @param near    [in]      one object
  *  @param depth   [in]      deepest of the pair, unit m
  *  @param place   [in]      shape [3]; of that touch, unit m */
 void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, double depth, const double *place);
 
 /** Of a wall and those joined to it, the one whose surface is nearest to a place.
- *  @param contact [in]  one object
  *  @param leader  [in]  index of a wall that is joined to no other
  *  @param place   [in]  shape [3]; frame of the run, unit m */
 int mor_contact_find_part(const mor_contact *contact, int leader, const double *place);
 
 /** Keeps how deep one of two sides that no force moves has been driven into the other.
- *  @param contact [in,out]  one object
- *  @param near    [in]      one object
  *  @param begin   [in]      first touch of the pair
  *  @param end     [in]      the one behind its last */
 void mor_contact_note_driven(mor_contact *contact, const mor_contact_near *near, int64_t begin, int64_t end);
 
-/** Keeps the first touch of a wall where that is bent by an edge: walls have no nodes, so those of the body decide.
- *  @param contact [in,out]  one object
- *  @param near    [in]      one object
- *  @param touch   [in]      one object */
+/** Keeps the first touch of a wall where that is bent by an edge: walls have no nodes, so those of the body decide. */
 void mor_contact_note_edge(mor_contact *contact, const mor_contact_near *near, const mor_contact_touch *touch);
 
 /** Looks at the deepest touch of the last evaluation: warns once, docs/theory/contact.md "How deep".
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC, naming both sides, when surfaces lie too deep in one another. */
 mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact);
 
-/** Returns the shape that bodies touch of a wall that is joined to no other: with those that are joined to it.
- *  @param wall [in]  one object */
+/** Returns the shape that bodies touch of a wall that is joined to no other: with those that are joined to it. */
 static inline const mor_shape *mor_contact_wall_shape(const mor_contact_wall *wall)
 {
     return wall->whole != NULL ? wall->whole : wall->shape;
 }
 
 /** Whether two sides may touch: walls that are joined to another one are touched as that one.
- *  @param contact [in]  one object
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 static inline bool mor_contact_is_side(const mor_contact *contact, int second)
 {
@@ -452,15 +393,12 @@ static inline bool mor_contact_is_side(const mor_contact *contact, int second)
 }
 
 /** A point in the frame of a wall's shape.
- *  @param contact [in]   one object
- *  @param wall    [in]   one object
  *  @param point   [in]   shape [3]; frame of the run, unit m
  *  @param place   [out]  shape [3], unit m */
 void mor_contact_wall_place(const mor_contact *contact, const mor_contact_wall *wall, const double *point,
                             double *place);
 
 /** Returns the group of a body or NULL for a wall.
- *  @param contact [in]  one object
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 static inline mor_body_group *mor_contact_group(const mor_contact *contact, int second)
 {

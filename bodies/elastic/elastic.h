@@ -40,11 +40,10 @@ typedef struct mor_elastic {
 } mor_elastic;
 
 /** Makes a group of elastic bodies: neighbors within each body only, correction matrices, deformation gradient I.
- *  @param context   [in,out]  one object
- *  @param elastic   [out]     one object; cleared after a failure
+ *  @param elastic   [out]     cleared after a failure
  *  @param name      [in]      zero-terminated
- *  @param settings  [in]      one object; copied
- *  @param material  [in]      one object; total form; borrowed
+ *  @param settings  [in]      copied
+ *  @param material  [in]      total form; borrowed
  *  @param dimension [in]      2 or 3
  *  @param spacing   [in]      unit m
  *  @param requests  [in]      shape [n_bodies]
@@ -57,28 +56,22 @@ mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const ch
                             const mor_elastic_settings *settings, const mor_material_instance *material, int dimension,
                             double spacing, const mor_body_request *requests, int n_bodies);
 
-/** Frees what the group owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param elastic [in,out]  one object */
+/** Frees what the group owns; accepts a zeroed one. */
 void mor_elastic_clear(mor_context *context, mor_elastic *elastic);
 
 /** To be called when velocities, held particles or the whole state were set from outside (initial motion, resume):
  *  finds the rate of the deformation gradient from the velocities, largest speed, and the motion of each body. Held
  *  particles stop.
- *  @param context [in,out]  one object
- *  @param elastic [in,out]  one object
  *  Returns: MOR_OK; what the material returns. */
 mor_status mor_elastic_prepare(mor_context *context, mor_elastic *elastic);
 
 /** Returns the group as a stepper (a follower).
- *  @param elastic  [in]   one object; becomes the owner
- *  @param stepper  [out]  one object
+ *  @param elastic  [in]   becomes the owner
  *  @param evolving [out]  one number; bits valid at the start of a step */
 void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *evolving);
 
 /** Returns the strain energy of one body, that held by hourglass control included, unit J (J/m); NaN when the material
  *  cannot tell.
- *  @param elastic [in]  one object
  *  @param body    [in]  index of the body, or -1 for all; their sum is kept until a sub-step or mor_elastic_prepare */
 double mor_elastic_energy(const mor_elastic *elastic, int body);
 

@@ -46,8 +46,7 @@ typedef struct mor_rigid {
 } mor_rigid;
 
 /** Makes a group of rigid bodies.
- *  @param context   [in,out]  one object
- *  @param rigid     [out]     one object; cleared after a failure
+ *  @param rigid     [out]     cleared after a failure
  *  @param name      [in]      zero-terminated
  *  @param dimension [in]      2 (turns about z only) or 3
  *  @param spacing   [in]      unit m
@@ -58,24 +57,18 @@ typedef struct mor_rigid {
 mor_status mor_rigid_init(mor_context *context, mor_rigid *rigid, const char *name, int dimension, double spacing,
                           const mor_body_request *requests, const mor_rigid_motion *motions, int n_bodies);
 
-/** Frees what the group owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param rigid   [in,out]  one object */
+/** Frees what the group owns; accepts a zeroed one. */
 void mor_rigid_clear(mor_context *context, mor_rigid *rigid);
 
-/** To be called when states were set from outside (resume): puts particles and bodies where the states say.
- *  @param context [in,out]  one object
- *  @param rigid   [in,out]  one object */
+/** To be called when states were set from outside (resume): puts particles and bodies where the states say. */
 void mor_rigid_prepare(mor_context *context, mor_rigid *rigid);
 
 /** Returns the group as a stepper (a follower).
- *  @param rigid    [in]   one object; becomes the owner
- *  @param stepper  [out]  one object
+ *  @param rigid    [in]   becomes the owner
  *  @param evolving [out]  one number; bits valid at the start of a step */
 void mor_rigid_stepper(mor_rigid *rigid, mor_stepper *stepper, uint64_t *evolving);
 
 /** Kinetic energy and momenta of one body with its true inertia.
- *  @param rigid            [in]   one object
  *  @param body             [in]   index of the body
  *  @param momentum         [out]  shape [3], unit kg m/s (kg/s)
  *  @param angular_momentum [out]  shape [3], about the origin of coordinates, unit kg m2/s (kg m/s)

@@ -30,10 +30,7 @@ struct mor_rigid_work {
 };
 
 /** Finds the constants of a body; held forces are zero.
- *  @param context   [in,out]  one object
- *  @param rigid     [in]      one object
  *  @param body      [in]      index of the body
- *  @param constants [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body without mass or inertia. */
 mor_status mor_rigid_find_constants(mor_context *context, const mor_rigid *rigid, int body,
                                     mor_rigid_constants *constants);
@@ -49,7 +46,6 @@ void mor_rigid_matrix(const double *quaternion, double *rotation);
 void mor_rigid_quaternion(const double *vector, double *quaternion);
 
 /** Angular velocity of a body that has an angular momentum, without the locked axes.
- *  @param constants        [in]   one object
  *  @param quaternion       [in]   shape [4], unit 1
  *  @param angular_momentum [in]   shape [3]; of locked axes without meaning, unit kg m2/s (kg m/s)
  *  @param angular_velocity [out]  shape [3], unit rad/s */
@@ -57,7 +53,6 @@ void mor_rigid_angular_velocity(const mor_rigid_constants *constants, const doub
                                 const double *angular_momentum, double *angular_velocity);
 
 /** Angular momentum of a body that has an angular velocity.
- *  @param constants        [in]   one object
  *  @param quaternion       [in]   shape [4], unit 1
  *  @param angular_velocity [in]   shape [3], unit rad/s
  *  @param angular_momentum [out]  shape [3], unit kg m2/s (kg m/s) */
@@ -65,18 +60,14 @@ void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const doub
                                 const double *angular_velocity, double *angular_momentum);
 
 /** Turns a body on which no moment acts.
- *  @param constants [in]      one object
  *  @param length    [in]      time, unit s
- *  @param state     [in,out]  one object; quaternion and rotation angle */
+ *  @param state     [in,out]  quaternion and rotation angle */
 void mor_rigid_rotate(const mor_rigid_constants *constants, double length, mor_rigid_state *state);
 
-/** Puts bodies and particles where the states say.
- *  @param context [in,out]  one object
- *  @param rigid   [in,out]  one object */
+/** Puts bodies and particles where the states say. */
 void mor_rigid_place(mor_context *context, mor_rigid *rigid);
 
 /** Spring of a body as it is now.
- *  @param rigid     [in]   one object
  *  @param body      [in]   index of the body; it has a spring
  *  @param arm       [out]  shape [3]; from the center to the point, unit m
  *  @param direction [out]  shape [3]; from the anchor to the point, unit vector or zero, unit 1
@@ -84,7 +75,7 @@ void mor_rigid_place(mor_context *context, mor_rigid *rigid);
  *  Returns: how much longer than at rest the spring is, unit m. */
 double mor_rigid_spring(const mor_rigid *rigid, int body, double *arm, double *direction, double *flexion);
 
-/** Stages of a step, one object each; see mor_stage. */
+/** Stages of a step; see mor_stage. */
 mor_status mor_rigid_drift_first(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_rigid_kick(mor_context *context, void *owner, const mor_step *step);
 mor_status mor_rigid_drift_second(mor_context *context, void *owner, const mor_step *step);

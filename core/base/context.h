@@ -49,22 +49,19 @@ typedef struct mor_context {
 } mor_context;
 
 /** Makes the context ready: no error, no sink, one thread, seed 1.
- *  @param context [out]  one object; storage supplied by the caller */
+ *  @param context [out]  storage supplied by the caller */
 void mor_context_init(mor_context *context);
 
-/** Forgets the last error.
- *  @param context [in,out]  one object */
+/** Forgets the last error. */
 void mor_context_clear_error(mor_context *context);
 
 /** Makes an earlier error the last one again: what was done about it may have failed, too.
- *  @param context [in,out]  one object
- *  @param earlier [in]      one object; a copy of the context as it was then */
+ *  @param earlier [in]      a copy of the context as it was then */
 void mor_context_restore_error(mor_context *context, const mor_context *earlier);
 
 /** Records an error and returns its code. Use MOR_FAIL, which fills in the place.
- *  @param context [in,out]  one object
  *  @param status  [in]      the code to record; must not be MOR_OK
- *  @param place   [in]      one object; where the error arose
+ *  @param place   [in]      where the error arose
  *  @param format  [in]      printf format, then its arguments; zero-terminated
  *  Returns: status.
  *  Threads: not inside a parallel loop. */
@@ -72,7 +69,6 @@ mor_status mor_context_fail(mor_context *context, mor_status status, const mor_f
     __attribute__((format(printf, 4, 5)));
 
 /** Tells which particle the error just recorded is about, for whoever shows or keeps it.
- *  @param context  [in,out]  one object
  *  @param status   [in]      code of the error
  *  @param set      [in]      zero-terminated name of the particle's set; copied
  *  @param particle [in]      its number, >= 0
@@ -80,14 +76,12 @@ mor_status mor_context_fail(mor_context *context, mor_status status, const mor_f
 mor_status mor_context_name_particle(mor_context *context, mor_status status, const char *set, int64_t particle);
 
 /** Adds a frame to the call chain of the last error and returns status.
- *  @param context [in,out]  one object
  *  @param status  [in]      the code being passed on
- *  @param place   [in]      one object; where it passes
+ *  @param place   [in]      where it passes
  *  Returns: status, whatever it is. */
 mor_status mor_context_pass(mor_context *context, mor_status status, const mor_frame *place);
 
 /** Sends one line to the log sink.
- *  @param context [in]  one object
  *  @param level   [in]  severity
  *  @param format  [in]  printf format, then its arguments; zero-terminated */
 void mor_context_log(mor_context *context, mor_log_level level, const char *format, ...)

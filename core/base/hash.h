@@ -19,18 +19,15 @@ typedef struct mor_hash {
     uint64_t n_bytes;                             /* bytes so far; n_bytes % 32 of them are pending */
 } mor_hash;
 
-/** Starts a hash of no bytes.
- *  @param hash [out]  one object */
+/** Starts a hash of no bytes. */
 void mor_hash_init(mor_hash *hash);
 
 /** Adds bytes to the hash.
- *  @param hash    [in,out]  one object
  *  @param bytes   [in]      shape [n_bytes]; may be NULL when n_bytes is 0
  *  @param n_bytes [in]      number of bytes */
 void mor_hash_add(mor_hash *hash, const void *bytes, size_t n_bytes);
 
-/** Returns the hash of all bytes added so far; more may be added afterwards.
- *  @param hash [in]  one object */
+/** Returns the hash of all bytes added so far; more may be added afterwards. */
 uint64_t mor_hash_value(const mor_hash *hash);
 
 /** Returns the hash of an array of bytes.
@@ -40,7 +37,6 @@ uint64_t mor_hash_value(const mor_hash *hash);
 uint64_t mor_hash_bytes(const void *bytes, size_t n_bytes);
 
 /** Computes the hash of a file's content.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated path of the file
  *  @param value   [out]     one number; 0 on failure
  *  Returns: MOR_OK; MOR_ERROR_IO when the file cannot be read. */

@@ -12,7 +12,7 @@
 enum { MOR_MEMORY_ALIGNMENT_BYTES = 64 };
 
 /** Allocates n_items * item_bytes zeroed bytes aligned to 64.
- *  @param context    [in,out]  one object; its counters are updated
+ *  @param context    [in,out]  its counters are updated
  *  @param block      [out]     the address of one pointer (cast to void **); receives the memory, NULL when n_items is
  *                              0
  *  @param n_items    [in]      number of items, >= 0
@@ -23,7 +23,7 @@ enum { MOR_MEMORY_ALIGNMENT_BYTES = 64 };
 mor_status mor_memory_new(mor_context *context, void **block, int64_t n_items, size_t item_bytes, const char *label);
 
 /** Frees memory from mor_memory_new and sets the pointer to NULL. NULL is accepted.
- *  @param context [in,out]  one object; its counters are updated
+ *  @param context [in,out]  its counters are updated
  *  @param block   [in,out]  the address of one pointer */
 void mor_memory_free(mor_context *context, void **block);
 

@@ -39,19 +39,16 @@ typedef struct mor_dimension {
 typedef struct mor_units mor_units;
 
 /** Loads the unit tables.
- *  @param context [in,out]  one object
  *  @param units   [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_IO when the tables of UDUNITS-2 cannot be read; MOR_ERROR_MEMORY.
  *  Cost: some milliseconds; allocates. Threads: neither, UDUNITS keeps state of its own. */
 mor_status mor_units_new(mor_context *context, mor_units **units);
 
 /** Frees the tables and sets the pointer to NULL; NULL is accepted.
- *  @param context [in,out]  one object
  *  @param units   [in,out]  the address of one pointer */
 void mor_units_free(mor_context *context, mor_units **units);
 
 /** Reads the leading number of a text: digits, sign, decimal point, exponent; no inf, nan or hexadecimal.
- *  @param units [in]   one object
  *  @param text  [in]   zero-terminated; leading blanks are skipped
  *  @param value [out]  one number; unit 1; +-INFINITY when it is beyond the range of double
  *  Returns: what follows the number and its blanks, inside text; NULL when text does not start with a number.
@@ -59,10 +56,7 @@ void mor_units_free(mor_context *context, mor_units **units);
 const char *mor_units_number(const mor_units *units, const char *text, double *value);
 
 /** Finds the dimension of a unit.
- *  @param context   [in,out]  one object
- *  @param units     [in]      one object
  *  @param unit      [in]      zero-terminated, as "kg/m3"; "1" for none
- *  @param dimension [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when it is no unit.
  *  Threads: neither. */
 mor_status mor_units_dimension(mor_context *context, const mor_units *units, const char *unit,
@@ -70,8 +64,6 @@ mor_status mor_units_dimension(mor_context *context, const mor_units *units, con
 
 /** Converts a text, a number with or without a unit, to a number in the wanted unit. A number without unit is taken to
  *  be in the wanted one.
- *  @param context [in,out]  one object
- *  @param units   [in]      one object
  *  @param text    [in]      zero-terminated, as "5.98 MPa"
  *  @param unit    [in]      zero-terminated; the wanted unit, as "Pa"; "1" for none
  *  @param value   [out]     one number; unit: the wanted one; exact when text uses the same unit
@@ -81,20 +73,16 @@ mor_status mor_units_dimension(mor_context *context, const mor_units *units, con
 mor_status mor_units_convert(mor_context *context, const mor_units *units, const char *text, const char *unit,
                              double *value);
 
-/** Returns whether two dimensions are the same.
- *  @param a [in]  one object
- *  @param b [in]  one object */
+/** Returns whether two dimensions are the same. */
 bool mor_dimension_equal(const mor_dimension *a, const mor_dimension *b);
 
 /** Writes a dimension for people, as "kg m-1 s-2", or "1" for none.
- *  @param dimension  [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_dimension_print(const mor_dimension *dimension, char *text, size_t text_bytes);
 
 /** Returns the power of two that a value of this dimension is multiplied by when lengths, masses and times are
  *  multiplied by 2^length, 2^mass and 2^time; use it with ldexp, which is exact.
- *  @param dimension [in]  one object
  *  @param length    [in]  power of two of lengths
  *  @param mass      [in]  power of two of masses
  *  @param time      [in]  power of two of times */
@@ -102,7 +90,6 @@ int mor_dimension_scale(const mor_dimension *dimension, int length, int mass, in
 
 /** Writes a number so that reading it gives the same bits, with as few digits as that takes and always with a decimal
  *  point or an exponent.
- *  @param units      [in]   one object
  *  @param value      [in]   unit 1; finite
  *  @param text       [out]  shape [text_bytes]; zero-terminated
  *  @param text_bytes [in]   room in text in bytes, at least 32

@@ -25,33 +25,28 @@ typedef struct mor_word_reader {
 } mor_word_reader;
 
 /** Opens a file.
- *  @param context [in,out]  one object; borrowed
+ *  @param context [in,out]  borrowed
  *  @param path    [in]      zero-terminated; borrowed
- *  @param reader  [out]     one object; owned by the caller, who ends it with mor_word_reader_close
+ *  @param reader  [out]     owned by the caller, who ends it with mor_word_reader_close
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_word_reader_open(mor_context *context, const char *path, mor_word_reader *reader);
 
 /** Closes the file.
- *  @param reader [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_IO when the file could not be read to where it was read. */
 mor_status mor_word_reader_close(mor_word_reader *reader);
 
-/** Reads the next word; at the end of the file one of no bytes.
- *  @param reader [in,out]  one object */
+/** Reads the next word; at the end of the file one of no bytes. */
 void mor_word_reader_next(mor_word_reader *reader);
 
-/** Reads the words that are left on the line of the current word, up to the first word of another line.
- *  @param reader [in,out]  one object */
+/** Reads the words that are left on the line of the current word, up to the first word of another line. */
 void mor_word_reader_next_line(mor_word_reader *reader);
 
 /** Fails at the current word.
- *  @param reader [in]  one object
  *  @param why    [in]  zero-terminated; what follows "found '...'": why not, what is allowed, what to do
  *  Returns: MOR_ERROR_IO with path, line, column and the word. */
 mor_status mor_word_reader_refuse(const mor_word_reader *reader, const char *why);
 
 /** Takes the current word as a finite decimal number.
- *  @param reader [in]   one object
  *  @param remedy [in]   zero-terminated; what to do about a word that is none
  *  @param value  [out]  one number, any unit
  *  Returns: MOR_OK; MOR_ERROR_IO. */

@@ -18,7 +18,7 @@ typedef struct mor_domain_frame {
 } mor_domain_frame;
 
 /** Finds where a place lies in a frame.
- *  @param frame [in]   one object; NULL: not turned, not moved
+ *  @param frame [in]   NULL: not turned, not moved
  *  @param place [in]   shape [3], unit m
  *  @param local [out]  shape [3], unit m */
 static inline void mor_domain_localize(const mor_domain_frame *frame, const double *place, double *local)

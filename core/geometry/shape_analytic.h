@@ -16,7 +16,6 @@
  *  Threads: constructors and mor_shape_free: neither; the calls on a finished shape: safe to call concurrently. */
 
 /** Makes a box with faces normal to the axes.
- *  @param context [in,out]  one object
  *  @param minimum [in]      shape [3]; unit m; lowest corner; a component may be -INFINITY
  *  @param maximum [in]      shape [3]; unit m; highest corner; a component may be INFINITY
  *  @param shape   [out]     one pointer; owned by the caller
@@ -26,7 +25,6 @@
 mor_status mor_shape_new_box(mor_context *context, const double *minimum, const double *maximum, mor_shape **shape);
 
 /** Makes a solid cylinder with flat ends: from base to base + height * axis / |axis|.
- *  @param context [in,out]  one object
  *  @param base    [in]      shape [3]; unit m; center of the first end
  *  @param axis    [in]      shape [3]; unit 1; any length but zero
  *  @param radius  [in]      unit m; > 0
@@ -38,7 +36,6 @@ mor_status mor_shape_new_cylinder(mor_context *context, const double *base, cons
                                   double height, mor_shape **shape);
 
 /** Makes a solid cone with a flat base: from the base to the apex at base + height * axis / |axis|.
- *  @param context [in,out]  one object
  *  @param base    [in]      shape [3]; unit m; center of the base
  *  @param axis    [in]      shape [3]; unit 1; from the base to the apex; any length but zero
  *  @param radius  [in]      unit m; of the base; > 0
@@ -50,7 +47,6 @@ mor_status mor_shape_new_cone(mor_context *context, const double *base, const do
                               double height, mor_shape **shape);
 
 /** Makes a ball.
- *  @param context [in,out]  one object
  *  @param center  [in]      shape [3]; unit m
  *  @param radius  [in]      unit m; > 0
  *  @param shape   [out]     one pointer; owned by the caller
@@ -59,7 +55,6 @@ mor_status mor_shape_new_cone(mor_context *context, const double *base, const do
 mor_status mor_shape_new_sphere(mor_context *context, const double *center, double radius, mor_shape **shape);
 
 /** Makes an ellipsoid with its axes along x, y and z. In plane strain give a radius along z that is not the least.
- *  @param context [in,out]  one object
  *  @param center  [in]      shape [3]; unit m
  *  @param radii   [in]      shape [3]; half of its extent along x, y, z, unit m; > 0
  *  @param shape   [out]     one pointer; owned by the caller
@@ -68,7 +63,6 @@ mor_status mor_shape_new_sphere(mor_context *context, const double *center, doub
 mor_status mor_shape_new_ellipsoid(mor_context *context, const double *center, const double *radii, mor_shape **shape);
 
 /** Makes a half-space: everything on the side of the plane opposite to the normal is solid.
- *  @param context [in,out]  one object
  *  @param point   [in]      shape [3]; unit m; any point of the plane
  *  @param normal  [in]      shape [3]; unit 1; points out of the solid; any length but zero
  *  @param shape   [out]     one pointer; owned by the caller
@@ -78,7 +72,6 @@ mor_status mor_shape_new_ellipsoid(mor_context *context, const double *center, c
 mor_status mor_shape_new_half_space(mor_context *context, const double *point, const double *normal, mor_shape **shape);
 
 /** Makes the inside of a simple polygon in the x-y plane, without end in z. It knows its moments in the plane.
- *  @param context  [in,out]  one object
  *  @param points   [in]      shape [n_points,2]; unit m; corners in either orientation, first not repeated; copied
  *  @param n_points [in]      >= 3
  *  @param shape    [out]     one pointer; owned by the caller
@@ -89,7 +82,6 @@ mor_status mor_shape_new_polygon(mor_context *context, const double *points, int
 
 /** Makes the union of shapes. Outside, the distance is exact when those of the parts are; inside, it is a lower bound
  *  of the depth, and zero where two parts only touch: let parts overlap.
- *  @param context [in,out]  one object
  *  @param parts   [in,out]  shape [n_parts]; taken: entries become NULL
  *  @param n_parts [in]      >= 1
  *  @param shape   [out]     one pointer; owned by the caller
@@ -98,7 +90,6 @@ mor_status mor_shape_new_polygon(mor_context *context, const double *points, int
 mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_parts, mor_shape **shape);
 
 /** Makes `from` without `minus`. Inside, the distance is exact when those of the two are; outside, it is a lower bound.
- *  @param context [in,out]  one object
  *  @param from    [in,out]  one pointer; taken: becomes NULL
  *  @param minus   [in,out]  one pointer; taken: becomes NULL
  *  @param shape   [out]     one pointer; owned by the caller
@@ -107,7 +98,6 @@ mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_pa
 mor_status mor_shape_new_difference(mor_context *context, mor_shape **from, mor_shape **minus, mor_shape **shape);
 
 /** Makes the child moved: x -> x + translation.
- *  @param context     [in,out]  one object
  *  @param translation [in]      shape [3]; unit m
  *  @param child       [in,out]  one pointer; taken: becomes NULL
  *  @param shape       [out]     one pointer; owned by the caller
@@ -117,7 +107,6 @@ mor_status mor_shape_new_translate(mor_context *context, const double *translati
                                    mor_shape **shape);
 
 /** Makes the child turned about a line, right-handed. Turns by quarter circles about a coordinate axis are exact.
- *  @param context [in,out]  one object
  *  @param axis    [in]      shape [3]; unit 1; direction of the line; any length but zero
  *  @param angle   [in]      unit rad
  *  @param center  [in]      shape [3]; unit m; a point of the line
@@ -129,7 +118,6 @@ mor_status mor_shape_new_rotate(mor_context *context, const double *axis, double
                                 mor_shape **child, mor_shape **shape);
 
 /** Makes the child placed: x -> rotation * x + translation.
- *  @param context     [in,out]  one object
  *  @param rotation    [in]      shape [3,3]; unit 1; rotation matrix (orthonormal to 1e-9, determinant 1)
  *  @param translation [in]      shape [3]; unit m
  *  @param child       [in,out]  one pointer; taken: becomes NULL
@@ -141,7 +129,6 @@ mor_status mor_shape_new_placed(mor_context *context, const double *rotation, co
                                 mor_shape **child, mor_shape **shape);
 
 /** Makes the child scaled about the origin: x -> factor * x.
- *  @param context [in,out]  one object
  *  @param factor  [in]      unit 1; > 0
  *  @param child   [in,out]  one pointer; taken: becomes NULL
  *  @param shape   [out]     one pointer; owned by the caller
@@ -150,53 +137,45 @@ mor_status mor_shape_new_placed(mor_context *context, const double *rotation, co
 mor_status mor_shape_new_scaled(mor_context *context, double factor, mor_shape **child, mor_shape **shape);
 
 /** Makes a shape that is another one, without owning it: many bodies may share one form.
- *  @param context [in,out]  one object
- *  @param other   [in]      one object; borrowed for the life of the view
+ *  @param other   [in]      borrowed for the life of the view
  *  @param shape   [out]     one pointer; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_view(mor_context *context, const mor_shape *other, mor_shape **shape);
 
 /** Writes the exact moments of the inside where the shape knows them.
- *  @param shape     [in]   one object
  *  @param dimension [in]   2 or 3
- *  @param moments   [out]  one object; without meaning when the shape does not know them
+ *  @param moments   [out]  without meaning when the shape does not know them
  *  Returns: whether it does. Threads: safe to call concurrently. */
 bool mor_shape_moments_known(const mor_shape *shape, int dimension, mor_shape_moments *moments);
 
 /** Returns the signed distance of a point, unit m, negative inside.
- *  @param shape [in]  one object
  *  @param point [in]  shape [3]; unit m
  *  Cost: that of the shape. Threads: safe to call concurrently. */
 double mor_shape_distance(const mor_shape *shape, const double *point);
 
 /** Returns the signed distance of a point as mor_shape_distance, from the surface itself where that one interpolates.
  *  For what is made once, such as nodes on a surface.
- *  @param shape [in]  one object
  *  @param point [in]  shape [3]; unit m
  *  Returns: unit m, negative inside. Cost: of a mesh, a search and some rays. Threads: safe to call concurrently. */
 double mor_shape_exact_distance(const mor_shape *shape, const double *point);
 
 /** Whether the distance of a point inside may be that to a face which parts of the shape share, as in a union, and not
  *  to the surface of the whole. Outside distances never are.
- *  @param shape [in]  one object
  *  Threads: safe to call concurrently. */
 bool mor_shape_has_seams(const mor_shape *shape);
 
 /** How the distance of a point, shape [3], unit m, is asked for: mor_shape_distance or mor_shape_exact_distance.
- *  @param shape [in]  one object
  *  @param point [in]  shape [3]; unit m
  *  Returns: unit m, negative inside. */
 typedef double (*mor_shape_measure)(const mor_shape *shape, const double *point);
 
 /** Writes axis-aligned bounds that hold the inside of the shape.
- *  @param shape  [in]   one object
- *  @param bounds [out]  one object; unit m; infinite where the shape has no end
+ *  @param bounds [out]  unit m; infinite where the shape has no end
  *  Threads: safe to call concurrently. */
 void mor_shape_bounds(const mor_shape *shape, mor_bounds *bounds);
 
 /** Writes the outward unit normal: the gradient of the distance by central differences, brought to length 1.
- *  @param shape  [in]   one object
  *  @param point  [in]   shape [3]; unit m
  *  @param step   [in]   unit m; half the width of the differences; > 0
  *  @param normal [out]  shape [3]; unit 1; zero where the differences vanish (the center of a ball)
@@ -204,7 +183,6 @@ void mor_shape_bounds(const mor_shape *shape, mor_bounds *bounds);
 void mor_shape_normal(const mor_shape *shape, const double *point, double step, double *normal);
 
 /** Moves a point along the normals until it lies at a height over the surface, by a few steps of Newton's method.
- *  @param shape  [in]      one object
  *  @param height [in]      unit m; 0: onto the surface
  *  @param step   [in]      unit m; half the width of the differences that give normals, and how far off it may end; > 0
  *  @param point  [in,out]  shape [3]; unit m
@@ -213,7 +191,6 @@ void mor_shape_normal(const mor_shape *shape, const double *point, double step, 
 bool mor_shape_project(const mor_shape *shape, double height, double step, double *point, double *normal);
 
 /** Writes the normal as mor_shape_normal, from exact distances.
- *  @param shape  [in]   one object
  *  @param point  [in]   shape [3]; unit m
  *  @param step   [in]   unit m; half the width of the differences; > 0
  *  @param normal [out]  shape [3]; unit 1; zero where the differences vanish
@@ -221,7 +198,6 @@ bool mor_shape_project(const mor_shape *shape, double height, double step, doubl
 void mor_shape_exact_normal(const mor_shape *shape, const double *point, double step, double *normal);
 
 /** Frees a shape with its children and sets the pointer to NULL. NULL is accepted.
- *  @param context [in,out]  one object
  *  @param shape   [in,out]  one pointer */
 void mor_shape_free(mor_context *context, mor_shape **shape);
 

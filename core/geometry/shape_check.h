@@ -11,21 +11,18 @@
  *  Checks of numbers that describe places and directions, shared by the shape constructors and the lattice. */
 
 /** Refuses a vector with a component that is not finite.
- *  @param context [in,out]  one object
  *  @param vector  [in]      shape [3]; any unit
  *  @param what    [in]      zero-terminated; names the vector in the message
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_shape_check_vector(mor_context *context, const double *vector, const char *what);
 
 /** Refuses a length that is not finite and above zero.
- *  @param context [in,out]  one object
  *  @param length  [in]      unit m
  *  @param what    [in]      zero-terminated; names the length in the message
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_shape_check_length(mor_context *context, double length, const char *what);
 
 /** Brings a direction to length 1. Components below rounding become zero, so that near-axis directions are exact.
- *  @param context   [in,out]  one object
  *  @param direction [in]      shape [3]; unit 1; any length but zero
  *  @param what      [in]      zero-terminated; names the direction in the message
  *  @param unit      [out]     shape [3]; unit 1; may be direction itself
@@ -33,7 +30,6 @@ mor_status mor_shape_check_length(mor_context *context, double length, const cha
 mor_status mor_shape_check_direction(mor_context *context, const double *direction, const char *what, double *unit);
 
 /** Refuses a matrix that is not a rotation: rows orthonormal to 1e-9, determinant 1.
- *  @param context  [in,out]  one object
  *  @param rotation [in]      shape [3,3]; unit 1
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_shape_check_rotation(mor_context *context, const double *rotation);

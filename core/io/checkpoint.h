@@ -40,9 +40,9 @@ typedef struct mor_checkpoint {
 } mor_checkpoint;
 
 /** Saves the state as checkpoint.h5 of a folder and keeps the one before.
- *  @param context [in,out]  one object; a damaged checkpoint.h5 that is not kept is logged as a warning
+ *  @param context [in,out]  a damaged checkpoint.h5 that is not kept is logged as a warning
  *  @param folder  [in]      zero-terminated path of an existing folder
- *  @param state   [in]      one object; unchanged
+ *  @param state   [in]      unchanged
  *  Returns: MOR_OK; MOR_ERROR_IO, then an intact checkpoint.h5 is still in the folder if there was one;
  *           MOR_ERROR_ARGUMENT for a name that cannot be used; MOR_ERROR_MEMORY.
  *  Cost: writes and reads the state once; allocates. */
@@ -51,9 +51,8 @@ mor_status mor_checkpoint_write(mor_context *context, const char *folder, const 
 /** Restores the state from one file, bit for bit. The sets and values must be those that were saved: same names,
  *  numbers of particles at creation, fields, components, units, kinds and lengths. A set gets the number of particles
  *  that were left when it was saved. Everything is checked before anything changes. The identity is not looked at.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated path of the file
- *  @param state   [in]      one object; the arrays it points to are overwritten
+ *  @param state   [in]      the arrays it points to are overwritten
  *  Gives: set->generation + 1 for each set, since particles may stand in another order.
  *  Returns: MOR_OK; MOR_ERROR_IO when the file is missing or damaged; MOR_ERROR_UNSUPPORTED when it is of another
  *           version; MOR_ERROR_CONFIG when it holds the state of another case; MOR_ERROR_MEMORY.
@@ -62,7 +61,6 @@ mor_status mor_checkpoint_read(mor_context *context, const char *path, const mor
 
 /** Reads the identity that the newest intact checkpoint of a folder was saved with, so that a state can be refused
  *  before anything is made for it.
- *  @param context  [in,out]  one object
  *  @param folder   [in]      zero-terminated path of the folder
  *  @param identity [out]     the address of one pointer; zero-terminated text; owned by the caller, who frees it with
  *                            MOR_FREE; "" when it was saved without one
@@ -72,9 +70,8 @@ mor_status mor_checkpoint_read_identity(mor_context *context, const char *folder
 
 /** Restores the newest intact state of a folder: checkpoint.h5, or checkpoint.previous.h5 when the former is missing or
  *  damaged, which is logged as a warning.
- *  @param context [in,out]  one object
  *  @param folder  [in]      zero-terminated path of the folder
- *  @param state   [in]      one object; the arrays it points to are overwritten
+ *  @param state   [in]      the arrays it points to are overwritten
  *  Gives: as mor_checkpoint_read.
  *  Returns: MOR_OK; MOR_ERROR_IO naming both files when neither can be used; otherwise as mor_checkpoint_read. */
 mor_status mor_checkpoint_read_latest(mor_context *context, const char *folder, const mor_checkpoint *state);

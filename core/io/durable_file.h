@@ -23,25 +23,21 @@ typedef struct mor_durable_file {
 } mor_durable_file;
 
 /** Starts a new content of a file; the file under its final name stays as it is.
- *  @param context [in,out]  one object
- *  @param file    [out]     one object; storage supplied by the caller
+ *  @param file    [out]     storage supplied by the caller
  *  @param path    [in]      zero-terminated final path; copied
  *  Returns: MOR_OK; MOR_ERROR_IO when the temporary file cannot be made. */
 mor_status mor_durable_file_open(mor_context *context, mor_durable_file *file, const char *path);
 
 /** Syncs what was written to the stream and gives it the final name. Errors of earlier writes to the stream are
  *  reported here; then the old file stays and the temporary one is removed.
- *  @param context [in,out]  one object
- *  @param file    [in,out]  one object; closed in any case
+ *  @param file    [in,out]  closed in any case
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_durable_file_commit(mor_context *context, mor_durable_file *file);
 
-/** Gives up the new content. Accepts a file that is already closed.
- *  @param file [in,out]  one object */
+/** Gives up the new content. Accepts a file that is already closed. */
 void mor_durable_file_discard(mor_durable_file *file);
 
 /** Gives a finished and synced file its final name, replacing the file of that name, and syncs the folder.
- *  @param context   [in,out]  one object
  *  @param temporary [in]      zero-terminated path of the finished file, in the same folder as path
  *  @param path      [in]      zero-terminated final path
  *  Returns: MOR_OK; MOR_ERROR_IO. */
@@ -49,20 +45,17 @@ mor_status mor_durable_file_replace(mor_context *context, const char *temporary,
 
 /** Keeps a file under a second name, replacing the file of that name; the first name stays valid throughout where the
  *  file system has hard links, else the file is renamed.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated path of the file
  *  @param second  [in]      zero-terminated second path, in the same folder
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_durable_file_keep(mor_context *context, const char *path, const char *second);
 
 /** Makes a folder unless it exists; its parent must exist.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated path of the folder
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_durable_file_make_folder(mor_context *context, const char *path);
 
 /** Puts a folder and a name together: folder/name.
- *  @param context [in,out]  one object
  *  @param path    [out]     shape [MOR_PATH_BYTES]; zero-terminated
  *  @param folder  [in]      zero-terminated; "" for none
  *  @param name    [in]      zero-terminated
@@ -70,7 +63,6 @@ mor_status mor_durable_file_make_folder(mor_context *context, const char *path);
 mor_status mor_durable_file_join(mor_context *context, char *path, const char *folder, const char *name);
 
 /** Names the temporary file that stands for a path until it is finished: <path>.tmp.
- *  @param context   [in,out]  one object
  *  @param temporary [out]     shape [MOR_PATH_BYTES]; zero-terminated
  *  @param path      [in]      zero-terminated
  *  Returns: MOR_OK; MOR_ERROR_IO when the path is too long. */

@@ -37,7 +37,6 @@ typedef struct mor_hdf5_shape {
 typedef struct mor_hdf5_file mor_hdf5_file;
 
 /** Starts a new file in memory.
- *  @param context [in,out]  one object
  *  @param file    [out]     the address of one pointer; NULL on failure
  *  @param path    [in]      zero-terminated; a temporary name, see mor_durable_file_temporary; copied
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY.
@@ -46,7 +45,6 @@ mor_status mor_hdf5_file_create(mor_context *context, mor_hdf5_file **file, cons
 
 /** Finishes a new file: seals it, writes it and syncs it to the disk, replacing one of that name. On failure there is
  *  no file of that name.
- *  @param context [in,out]  one object
  *  @param file    [in,out]  the address of one pointer; set to NULL in any case
  *  @param what    [in]      zero-terminated word without spaces: what the file holds
  *  @param version [in]      number of the layout
@@ -54,12 +52,10 @@ mor_status mor_hdf5_file_create(mor_context *context, mor_hdf5_file **file, cons
 mor_status mor_hdf5_file_seal(mor_context *context, mor_hdf5_file **file, const char *what, int version);
 
 /** Closes a file; a new one that was not sealed leaves nothing. Accepts NULL.
- *  @param context [in,out]  one object
  *  @param file    [in,out]  the address of one pointer; set to NULL */
 void mor_hdf5_file_discard(mor_context *context, mor_hdf5_file **file);
 
 /** Checks a file against its seal and opens it for reading.
- *  @param context [in,out]  one object
  *  @param file    [out]     the address of one pointer; NULL on failure
  *  @param path    [in]      zero-terminated; copied
  *  @param what    [in]      zero-terminated; what the file must hold
@@ -71,15 +67,11 @@ mor_status mor_hdf5_file_open(mor_context *context, mor_hdf5_file **file, const 
                               int version, mor_seal_check check);
 
 /** Makes a group; its parent must exist. Members are listed in the order in which they were made.
- *  @param context [in,out]  one object
- *  @param file    [in,out]  one object
  *  @param name    [in]      zero-terminated absolute path in the file
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_hdf5_file_make_group(mor_context *context, mor_hdf5_file *file, const char *name);
 
 /** Makes a link to a group of another file, which need not exist yet.
- *  @param context [in,out]  one object
- *  @param file    [in,out]  one object
  *  @param name    [in]      zero-terminated absolute path of the link
  *  @param target  [in]      zero-terminated path of the other file, relative to the folder of this one
  *  @param group   [in]      zero-terminated absolute path in the other file
@@ -88,49 +80,36 @@ mor_status mor_hdf5_file_link(mor_context *context, mor_hdf5_file *file, const c
                               const char *group);
 
 /** Writes a whole array, little-endian, contiguous. Bit patterns are kept unless the kind is MOR_HDF5_FLOAT.
- *  @param context [in,out]  one object
- *  @param file    [in,out]  one object
  *  @param name    [in]      zero-terminated absolute path; its group must exist, the array must not
- *  @param shape   [in]      one object
  *  @param data    [in]      shape [n_rows, n_columns] of int64_t, uint64_t, double or char as shape->kind says
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_hdf5_file_write(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
                                const void *data);
 
 /** Tells type and shape of an array.
- *  @param context [in,out]  one object
- *  @param file    [in]      one object
  *  @param name    [in]      zero-terminated absolute path
- *  @param shape   [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_IO when there is no array of that name or it is of a type not listed here. */
 mor_status mor_hdf5_file_shape(mor_context *context, mor_hdf5_file *file, const char *name, mor_hdf5_shape *shape);
 
 /** Reads a whole array.
- *  @param context [in,out]  one object
- *  @param file    [in]      one object
  *  @param name    [in]      zero-terminated absolute path
- *  @param shape   [in]      one object; must be that of the array in the file
+ *  @param shape   [in]      must be that of the array in the file
  *  @param data    [out]     shape [n_rows, n_columns] of int64_t, uint64_t, double or char as shape->kind says
  *  Returns: MOR_OK; MOR_ERROR_IO, also when the shape differs. */
 mor_status mor_hdf5_file_read(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
                               void *data);
 
 /** Tells whether something of that name exists; the groups above it must exist.
- *  @param file [in]  one object
  *  @param name [in]  zero-terminated absolute path */
 bool mor_hdf5_file_has(mor_hdf5_file *file, const char *name);
 
 /** Counts the members of a group.
- *  @param context   [in,out]  one object
- *  @param file      [in]      one object
  *  @param group     [in]      zero-terminated absolute path
  *  @param n_members [out]     one number
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_hdf5_file_count(mor_context *context, mor_hdf5_file *file, const char *group, int64_t *n_members);
 
 /** Names one member of a group.
- *  @param context [in,out]  one object
- *  @param file    [in]      one object
  *  @param group   [in]      zero-terminated absolute path
  *  @param index   [in]      0 <= index < number of members, in the order of making
  *  @param name    [out]     shape [n_bytes]; zero-terminated
@@ -140,8 +119,6 @@ mor_status mor_hdf5_file_member(mor_context *context, mor_hdf5_file *file, const
                                 size_t n_bytes);
 
 /** Writes a text attribute.
- *  @param context   [in,out]  one object
- *  @param file      [in,out]  one object
  *  @param object    [in]      zero-terminated absolute path of a group or an array
  *  @param attribute [in]      zero-terminated name
  *  @param text      [in]      zero-terminated UTF-8
@@ -150,8 +127,6 @@ mor_status mor_hdf5_file_set_text(mor_context *context, mor_hdf5_file *file, con
                                   const char *text);
 
 /** Reads a text attribute.
- *  @param context   [in,out]  one object
- *  @param file      [in]      one object
  *  @param object    [in]      zero-terminated absolute path of a group or an array
  *  @param attribute [in]      zero-terminated name
  *  @param text      [out]     shape [n_bytes]; zero-terminated
@@ -161,8 +136,6 @@ mor_status mor_hdf5_file_get_text(mor_context *context, mor_hdf5_file *file, con
                                   char *text, size_t n_bytes);
 
 /** Writes a number attribute.
- *  @param context   [in,out]  one object
- *  @param file      [in,out]  one object
  *  @param object    [in]      zero-terminated absolute path of a group or an array
  *  @param attribute [in]      zero-terminated name
  *  @param kind      [in]      MOR_HDF5_INT64, MOR_HDF5_UINT64 or MOR_HDF5_DOUBLE
@@ -172,8 +145,6 @@ mor_status mor_hdf5_file_set_number(mor_context *context, mor_hdf5_file *file, c
                                     const char *attribute, mor_hdf5_kind kind, const void *value);
 
 /** Reads a number attribute.
- *  @param context   [in,out]  one object
- *  @param file      [in]      one object
  *  @param object    [in]      zero-terminated absolute path of a group or an array
  *  @param attribute [in]      zero-terminated name
  *  @param kind      [in]      the kind it was written with

@@ -26,7 +26,6 @@ typedef enum mor_seal_check {
 } mor_seal_check;
 
 /** Seals the content of a file, writes it and syncs it to the disk. On failure there is no file of that name.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated; a temporary name, see mor_durable_file_temporary
  *  @param what    [in]      zero-terminated word of letters and hyphens, shorter than MOR_SEAL_WHAT_BYTES
  *  @param version [in]      number of the layout, > 0
@@ -37,14 +36,12 @@ mor_status mor_seal_write(mor_context *context, const char *path, const char *wh
                           size_t n_bytes);
 
 /** Checks a file against its seal.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  @param what    [in]      zero-terminated; what the file must hold
  *  @param version [in]      number of the only layout that is understood
  *  @param check   [in]      how much to check
  *  Returns: MOR_OK; MOR_ERROR_IO when the file cannot be read, is damaged or holds something else;
  *           MOR_ERROR_UNSUPPORTED when its seal is intact and names another version. */
-mor_status mor_seal_verify(mor_context *context, const char *path, const char *what, int version,
-                           mor_seal_check check);
+mor_status mor_seal_verify(mor_context *context, const char *path, const char *what, int version, mor_seal_check check);
 
 #endif

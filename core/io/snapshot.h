@@ -54,7 +54,7 @@ typedef struct mor_snapshot_set {
 /** One snapshot. Owner: the caller, who ends it with mor_snapshot_close. */
 typedef struct mor_snapshot {
     int64_t step;
-    double time; /* s */
+    double time;                        /* s */
     char note[MOR_SNAPSHOT_UNIT_BYTES]; /* what sets it apart from others, such as "run stopped"; "": nothing */
     int n_sets;
     mor_snapshot_set *sets; /* shape [n_sets]; owned by the snapshot */
@@ -63,9 +63,9 @@ typedef struct mor_snapshot {
 
 /** All snapshots of a run. Owner: the caller, who ends it with mor_snapshot_list_clear. */
 typedef struct mor_snapshot_list {
-    int64_t n;          /* number of snapshots */
+    int64_t n;           /* number of snapshots */
     mor_snapshot *items; /* shape [n]; descriptions without open files, by rising step */
-    int64_t capacity;   /* room in items */
+    int64_t capacity;    /* room in items */
 } mor_snapshot_list;
 
 /** One fact about where the results come from: program version, commit, seed, hash of the case, command, ... */
@@ -85,15 +85,14 @@ typedef struct mor_snapshot_options {
 typedef struct mor_snapshot_writer {
     char folder[MOR_PATH_BYTES]; /* the run's folder */
     mor_snapshot_options options;
-    const char *note;            /* zero-terminated; of the snapshots added from now on; borrowed; NULL: none */
-    mor_snapshot_list list;      /* the snapshots on the disk */
+    const char *note;       /* zero-terminated; of the snapshots added from now on; borrowed; NULL: none */
+    mor_snapshot_list list; /* the snapshots on the disk */
 } mor_snapshot_writer;
 
 /** Makes a writer ready. Snapshots later than last_step are deleted, earlier ones stay and belong to the series.
- *  @param context   [in,out]  one object
- *  @param writer    [out]     one object; storage supplied by the caller; empty on failure
+ *  @param writer    [out]     storage supplied by the caller; empty on failure
  *  @param folder    [in]      zero-terminated path of the run's folder, which must exist; copied
- *  @param options   [in]      one object; copied, what it points to is borrowed
+ *  @param options   [in]      copied, what it points to is borrowed
  *  @param last_step [in]      step of the state the run goes on from; -1 for a new run, which deletes all
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. A damaged snapshot is left where it is, left out of the series
  *           and logged as a warning.
@@ -103,8 +102,6 @@ mor_status mor_snapshot_writer_init(mor_context *context, mor_snapshot_writer *w
 
 /** Adds a snapshot: the ids and all fields with MOR_FIELD_OUTPUT of the sets, in current particle order. On return it
  *  is on the disk and in both index files.
- *  @param context [in,out]  one object
- *  @param writer  [in,out]  one object
  *  @param sets    [in]      shape [n_sets]; names unique
  *  @param n_sets  [in]      number of sets
  *  @param step    [in]      number of the step, above that of the last snapshot
@@ -112,30 +109,24 @@ mor_status mor_snapshot_writer_init(mor_context *context, mor_snapshot_writer *w
  *  Returns: MOR_OK; MOR_ERROR_IO, the earlier snapshots are intact; MOR_ERROR_ARGUMENT for a step out of order or a
  *           name that cannot be used; MOR_ERROR_MEMORY.
  *  Cost: writes and reads the fields once; allocates. */
-mor_status mor_snapshot_writer_add(mor_context *context, mor_snapshot_writer *writer, mor_set *const *sets,
-                                   int n_sets, int64_t step, double time);
+mor_status mor_snapshot_writer_add(mor_context *context, mor_snapshot_writer *writer, mor_set *const *sets, int n_sets,
+                                   int64_t step, double time);
 
-/** Frees what the writer owns; accepts a zeroed writer. The files are finished already.
- *  @param context [in,out]  one object
- *  @param writer  [in,out]  one object */
+/** Frees what the writer owns; accepts a zeroed writer. The files are finished already. */
 void mor_snapshot_writer_clear(mor_context *context, mor_snapshot_writer *writer);
 
 /** Lists the snapshots of a run's folder with their sets and fields. Damaged ones are left out and logged as warnings.
- *  @param context [in,out]  one object
- *  @param list    [out]     one object; storage supplied by the caller; empty on failure
+ *  @param list    [out]     storage supplied by the caller; empty on failure
  *  @param folder  [in]      zero-terminated path of the run's folder
  *  Returns: MOR_OK, also when there are none; MOR_ERROR_IO; MOR_ERROR_MEMORY.
  *  Cost: opens every snapshot; allocates. */
 mor_status mor_snapshot_list_init(mor_context *context, mor_snapshot_list *list, const char *folder);
 
-/** Frees a list; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param list    [in,out]  one object */
+/** Frees a list; accepts a zeroed one. */
 void mor_snapshot_list_clear(mor_context *context, mor_snapshot_list *list);
 
 /** Opens one snapshot for reading after checking every byte of it.
- *  @param context  [in,out]  one object
- *  @param snapshot [out]     one object; storage supplied by the caller; empty on failure
+ *  @param snapshot [out]     storage supplied by the caller; empty on failure
  *  @param folder   [in]      zero-terminated path of the run's folder
  *  @param step     [in]      step of the snapshot
  *  Returns: MOR_OK; MOR_ERROR_IO when it is missing or damaged; MOR_ERROR_UNSUPPORTED for another version of the
@@ -143,37 +134,31 @@ void mor_snapshot_list_clear(mor_context *context, mor_snapshot_list *list);
  *  Cost: reads the file once; allocates. */
 mor_status mor_snapshot_open(mor_context *context, mor_snapshot *snapshot, const char *folder, int64_t step);
 
-/** Closes a snapshot; accepts a zeroed or closed one.
- *  @param context  [in,out]  one object
- *  @param snapshot [in,out]  one object */
+/** Closes a snapshot; accepts a zeroed or closed one. */
 void mor_snapshot_close(mor_context *context, mor_snapshot *snapshot);
 
 /** Returns a set of a snapshot by name, or NULL.
- *  @param snapshot [in]  one object
  *  @param name     [in]  zero-terminated
  *  Returns: a view into the snapshot, valid until it is closed. */
 const mor_snapshot_set *mor_snapshot_find_set(const mor_snapshot *snapshot, const char *name);
 
 /** Returns a field of a set of a snapshot by name, or NULL.
- *  @param set  [in]  one object
  *  @param name [in]  zero-terminated
  *  Returns: a view into the snapshot, valid until it is closed. */
 const mor_snapshot_field *mor_snapshot_find_field(const mor_snapshot_set *set, const char *name);
 
 /** Reads one field.
- *  @param context  [in,out]  one object
- *  @param snapshot [in]      one object, open
- *  @param set      [in]      one object; a set of this snapshot
- *  @param field    [in]      one object; a field of that set
+ *  @param snapshot [in]      open
+ *  @param set      [in]      a set of this snapshot
+ *  @param field    [in]      a field of that set
  *  @param values   [out]     shape [n_particles, n_components] of the set and the field; unit: field->unit
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_snapshot_read_field(mor_context *context, const mor_snapshot *snapshot, const mor_snapshot_set *set,
                                    const mor_snapshot_field *field, double *values);
 
 /** Reads the particle numbers of a set.
- *  @param context  [in,out]  one object
- *  @param snapshot [in]      one object, open
- *  @param set      [in]      one object; a set of this snapshot
+ *  @param snapshot [in]      open
+ *  @param set      [in]      a set of this snapshot
  *  @param ids      [out]     shape [n_particles]
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_snapshot_read_ids(mor_context *context, const mor_snapshot *snapshot, const mor_snapshot_set *set,

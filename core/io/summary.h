@@ -49,7 +49,7 @@ typedef struct mor_summary_result {
     const char *probe;                        /* zero-terminated, unique */
     double value;                             /* the last, in unit */
     const char *unit;                         /* zero-terminated; "1" for dimensionless */
-    const mor_summary_statistics *statistics; /* one object; NULL: not known */
+    const mor_summary_statistics *statistics; /* NULL: not known */
     const char *remark;                       /* what to know to trust it, zero-terminated; NULL: nothing */
 } mor_summary_result;
 
@@ -104,22 +104,18 @@ typedef struct mor_summary {
 } mor_summary;
 
 /** Replaces the summary at a path, durably.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
- *  @param summary [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY; MOR_ERROR_ARGUMENT when a name is empty or taken twice, a text is
  *           NULL, or an expectation has no result, another measured number than its result, or passes without a finite
  *           one. */
 mor_status mor_summary_write(mor_context *context, const char *path, const mor_summary *summary);
 
 /** Checks that a file is a complete summary: all members above, of the right types, and nothing that contradicts them.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  Returns: MOR_OK; MOR_ERROR_IO naming the member that is wrong, or the line where the file is not JSON. */
 mor_status mor_summary_check(mor_context *context, const char *path);
 
 /** Reads one result from a summary after checking the file.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  @param probe   [in]      zero-terminated name of the probe
  *  @param value   [out]     one number, in the unit written beside it; NaN where the file has null
@@ -130,17 +126,15 @@ mor_status mor_summary_read_result(mor_context *context, const char *path, const
                                    size_t n_bytes);
 
 /** Tells whether a summary is of a run that failed, after checking the file.
- *  @param context   [in,out]  one object
  *  @param path      [in]      zero-terminated
  *  @param is_failed [out]     one flag
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_summary_read_status(mor_context *context, const char *path, bool *is_failed);
 
 /** Reads what a probe did over time from a summary after checking the file.
- *  @param context    [in,out]  one object
  *  @param path       [in]      zero-terminated
  *  @param probe      [in]      zero-terminated name of the probe
- *  @param statistics [out]     one object; NaN where the file has null; impulse_unit NULL
+ *  @param statistics [out]     NaN where the file has null; impulse_unit NULL
  *  @param remark     [out]     shape [n_bytes]; zero-terminated; "": none; cut off where there is no room
  *  @param n_bytes    [in]      room for the remark
  *  Returns: MOR_OK; MOR_ERROR_IO, also when there is no such probe or it has no statistics. */
@@ -148,7 +142,6 @@ mor_status mor_summary_read_statistics(mor_context *context, const char *path, c
                                        mor_summary_statistics *statistics, char *remark, size_t n_bytes);
 
 /** Reads the speed from a summary after checking the file.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  @param speed   [out]     one number, particle-steps per second, 1/s; NaN where the file has null or it fails
  *  Returns: MOR_OK; MOR_ERROR_IO. */

@@ -9,18 +9,14 @@
  *  Whether a summary that is to be written agrees with itself. For the writer of summaries alone. */
 
 /** Checks a summary before it is written.
- *  @param context [in,out]  one object
- *  @param summary [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT as mor_summary_write. */
 mor_status mor_summary_judge(mor_context *context, const mor_summary *summary);
 
 /** Returns the result of a probe, or NULL.
- *  @param summary [in]  one object
  *  @param probe   [in]  zero-terminated */
 const mor_summary_result *mor_summary_find_result(const mor_summary *summary, const char *probe);
 
 /** Returns the unit of a statistic of a result, zero-terminated.
- *  @param result    [in]  one object
  *  @param statistic [in]  zero-terminated */
 const char *mor_summary_find_unit(const mor_summary_result *result, const char *statistic);
 

@@ -40,8 +40,7 @@ typedef struct mor_table_data {
 } mor_table_data;
 
 /** Starts a new table, replacing a file of that name.
- *  @param context   [in,out]  one object
- *  @param table     [out]     one object; storage supplied by the caller; closed on failure
+ *  @param table     [out]     storage supplied by the caller; closed on failure
  *  @param path      [in]      zero-terminated; copied
  *  @param columns   [in]      shape [n_columns]; the first is the time
  *  @param n_columns [in]      number of columns, >= 1
@@ -52,8 +51,7 @@ mor_status mor_table_create(mor_context *context, mor_table *table, const char *
 /** Goes on with a table: rows later than a time are cut off, and so is a last line without its end, which a killed
  *  program leaves. A missing or empty file is started anew and logged as a warning. A file with some of the columns is
  *  written anew, whole, with empty cells in the columns that it did not have.
- *  @param context   [in,out]  one object
- *  @param table     [out]     one object; storage supplied by the caller; closed on failure
+ *  @param table     [out]     storage supplied by the caller; closed on failure
  *  @param path      [in]      zero-terminated; copied
  *  @param columns   [in]      shape [n_columns]; those of the file must be among them
  *  @param n_columns [in]      number of columns, >= 1
@@ -64,36 +62,27 @@ mor_status mor_table_resume(mor_context *context, mor_table *table, const char *
                             int n_columns, double last_time);
 
 /** Adds a row and hands it to the operating system, so that a killed program loses nothing.
- *  @param context [in,out]  one object
- *  @param table   [in,out]  one object
  *  @param values  [in]      shape [n_columns]; unit of each column as declared; values[0] finite, s, never falling
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_ARGUMENT for a time that is not finite or falls. */
 mor_status mor_table_append(mor_context *context, mor_table *table, const double *values);
 
 /** Waits until all rows are on the disk. Call it before a checkpoint is written, so that rows up to a checkpoint
  *  outlive a power failure.
- *  @param context [in,out]  one object
- *  @param table   [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_table_sync(mor_context *context, mor_table *table);
 
 /** Closes the table; accepts a zeroed or closed one.
- *  @param context [in,out]  one object
- *  @param table   [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_IO when the last rows cannot be written. */
 mor_status mor_table_close(mor_context *context, mor_table *table);
 
 /** Reads a table of any columns; a last line without its end is left out.
- *  @param context [in,out]  one object
- *  @param data    [out]     one object; storage supplied by the caller; empty on failure
+ *  @param data    [out]     storage supplied by the caller; empty on failure
  *  @param path    [in]      zero-terminated
  *  Returns: MOR_OK; MOR_ERROR_IO, also for a damaged row, naming its line; MOR_ERROR_MEMORY.
  *  Cost: reads the file twice; allocates. */
 mor_status mor_table_data_read(mor_context *context, mor_table_data *data, const char *path);
 
-/** Frees what was read; accepts a zeroed object.
- *  @param context [in,out]  one object
- *  @param data    [in,out]  one object */
+/** Frees what was read; accepts a zeroed object. */
 void mor_table_data_clear(mor_context *context, mor_table_data *data);
 
 #endif

@@ -17,9 +17,8 @@
  *  they are drawn only through a glyph filter. */
 
 /** Replaces the description of a series.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated path of the description, in the run's folder
- *  @param list    [in]      one object; the series. A set without particles or without the field "position" is left out
+ *  @param list    [in]      the series. A set without particles or without the field "position" is left out
  *  Returns: MOR_OK; MOR_ERROR_IO, then the old description stays. */
 mor_status mor_xdmf_write(mor_context *context, const char *path, const mor_snapshot_list *list);
 

@@ -16,7 +16,6 @@
 enum { MOR_CHECKED_CHUNK = 32 };
 
 /** Wraps an instance.
- *  @param context       [in,out]  one object
  *  @param inner         [in,out]  the address of one pointer; taken: set to NULL and owned by the wrapper, also freed
  *                                 with it; left to the caller on failure
  *  @param checks_splits [in]      non-zero: run each chunk again in two parts, which must give the same bits
@@ -28,7 +27,6 @@ mor_status mor_checked_create(mor_context *context, mor_material_instance **inne
                               mor_material_instance **checked);
 
 /** Returns whether an instance was made by mor_checked_create and has seen a breach, and describes the first one.
- *  @param instance   [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated; empty when there was none
  *  @param text_bytes [in]   room in text in bytes, > 0
  *  Returns: 1 after a breach, 0 otherwise.

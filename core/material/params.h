@@ -49,7 +49,6 @@ void mor_params_defaults(const mor_schema *schema, double *values);
 
 /** Checks that a schema itself makes sense: unique lower-case keys, units, texts, default within the range, allowed
  *  kinds, component counts, at most a stated number of entries and values.
- *  @param context [in,out]  one object
  *  @param schema  [in]      table ended by key NULL
  *  @param owner   [in]      zero-terminated; named in messages
  *  @param n_max   [in]      largest allowed number of entries and of values
@@ -57,7 +56,6 @@ void mor_params_defaults(const mor_schema *schema, double *values);
 mor_status mor_params_verify_schema(mor_context *context, const mor_schema *schema, const char *owner, int n_max);
 
 /** Checks values against a schema: finite, within the range, whole where the kind says so.
- *  @param context [in,out]  one object
  *  @param schema  [in]      table ended by key NULL
  *  @param owner   [in]      zero-terminated; named in messages
  *  @param values  [in]      shape [mor_params_count]; units of the schema
@@ -65,7 +63,6 @@ mor_status mor_params_verify_schema(mor_context *context, const mor_schema *sche
 mor_status mor_params_check(mor_context *context, const mor_schema *schema, const char *owner, const double *values);
 
 /** Writes the allowed range of an entry for people, as "> 0 Pa" or "in (-1, 0.5)"; of an angle in degrees and radians.
- *  @param entry      [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_params_range(const mor_schema *entry, char *text, size_t text_bytes);

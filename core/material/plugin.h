@@ -17,7 +17,6 @@ enum { MOR_PLUGIN_MATERIALS_MAX = 256 };
 typedef struct mor_plugin mor_plugin;
 
 /** Loads a shared object and verifies every model in it.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated; the file, absolute or from the working folder
  *  @param plugin  [out]     one pointer; owned by the caller; NULL on failure
  *  Returns: MOR_OK; MOR_ERROR_IO when there is no such file; MOR_ERROR_PLUGIN saying what is wrong with it;
@@ -26,27 +25,21 @@ typedef struct mor_plugin mor_plugin;
 mor_status mor_plugin_load(mor_context *context, const char *path, mor_plugin **plugin);
 
 /** Adds all models of a plug-in to a registry, or none of them.
- *  @param context  [in,out]  one object
- *  @param plugin   [in]      one object; must outlive the registry
- *  @param registry [in,out]  one object
+ *  @param plugin   [in]      must outlive the registry
  *  Returns: MOR_OK; MOR_ERROR_PLUGIN when a name is taken; MOR_ERROR_MEMORY. */
 mor_status mor_plugin_register(mor_context *context, const mor_plugin *plugin, mor_registry *registry);
 
-/** Number of models.
- *  @param plugin [in]  one object */
+/** Number of models. */
 int mor_plugin_count(const mor_plugin *plugin);
 
 /** Returns a model by place; NULL outside 0 .. count - 1.
- *  @param plugin [in]  one object
  *  @param index  [in]  0 <= index < mor_plugin_count */
 const mor_material *mor_plugin_get(const mor_plugin *plugin, int index);
 
-/** Returns the absolute path of the file, zero-terminated, owned by the plug-in; for the provenance of a run.
- *  @param plugin [in]  one object */
+/** Returns the absolute path of the file, zero-terminated, owned by the plug-in; for the provenance of a run. */
 const char *mor_plugin_path(const mor_plugin *plugin);
 
 /** Unloads the object and sets the pointer to NULL; NULL is accepted. Descriptors from it are gone afterwards.
- *  @param context [in,out]  one object
  *  @param plugin  [in,out]  the address of one pointer */
 void mor_plugin_unload(mor_context *context, mor_plugin **plugin);
 

@@ -12,40 +12,31 @@
 typedef struct mor_registry mor_registry;
 
 /** Makes an empty registry.
- *  @param context  [in,out]  one object
  *  @param registry [out]     one pointer; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_MEMORY.
  *  Cost: allocates. */
 mor_status mor_registry_new(mor_context *context, mor_registry **registry);
 
 /** Frees a registry and sets the pointer to NULL; NULL is accepted. Descriptors are borrowed and stay.
- *  @param context  [in,out]  one object
  *  @param registry [in,out]  the address of one pointer */
 void mor_registry_free(mor_context *context, mor_registry **registry);
 
 /** Adds a model after mor_material_verify. Adding the same descriptor again changes nothing.
- *  @param context  [in,out]  one object
- *  @param registry [in,out]  one object
- *  @param material [in]      one object; borrowed, must outlive the registry
+ *  @param material [in]      borrowed, must outlive the registry
  *  Returns: MOR_OK; MOR_ERROR_PLUGIN when the descriptor is wrong or another model has the name; MOR_ERROR_MEMORY. */
 mor_status mor_registry_add(mor_context *context, mor_registry *registry, const mor_material *material);
 
 /** Adds all models of a list, in its order.
- *  @param context  [in,out]  one object
- *  @param registry [in,out]  one object
- *  @param list     [in]      one object; borrowed, outlives the registry
+ *  @param list     [in]      borrowed, outlives the registry
  *  Returns: as mor_registry_add; models before the one refused stay. */
 mor_status mor_registry_add_list(mor_context *context, mor_registry *registry, const mor_plugin_list *list);
 
 /** Returns the model of that name, or NULL.
- *  @param registry [in]  one object
  *  @param name     [in]  zero-terminated
  *  Threads: safe to call concurrently. */
 const mor_material *mor_registry_find(const mor_registry *registry, const char *name);
 
 /** As mor_registry_find, but a miss is an error that names the nearest model and lists all.
- *  @param context  [in,out]  one object
- *  @param registry [in]      one object
  *  @param name     [in]      zero-terminated
  *  @param material [out]     one pointer; borrowed; NULL on failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
@@ -53,17 +44,14 @@ mor_status mor_registry_require(mor_context *context, const mor_registry *regist
                                 const mor_material **material);
 
 /** Returns the name nearest to a misspelled one, or NULL when none is near.
- *  @param registry [in]  one object
  *  @param name     [in]  zero-terminated
  *  Returns: a string owned by the descriptor. */
 const char *mor_registry_nearest(const mor_registry *registry, const char *name);
 
-/** Number of models.
- *  @param registry [in]  one object */
+/** Number of models. */
 int mor_registry_count(const mor_registry *registry);
 
 /** Returns a model by place, in order of registration; NULL outside 0 .. count - 1.
- *  @param registry [in]  one object
  *  @param index    [in]  0 <= index < mor_registry_count */
 const mor_material *mor_registry_get(const mor_registry *registry, int index);
 

@@ -39,7 +39,7 @@ typedef struct mor_relation {
 /** Returns the short list of a cluster, shape [near_counts[cluster]], with room for all of its list, which it follows.
  *  The build copies the list. Who finds entries out of reach of all eight may leave them out, and set the count, for
  *  those who come later and see the particles at the same places.
- *  @param relation [in]  one object, built
+ *  @param relation [in]  built
  *  @param cluster  [in]  0 .. n_clusters - 1 */
 static inline int32_t *mor_relation_near(const mor_relation *relation, int64_t cluster)
 {
@@ -47,31 +47,26 @@ static inline int32_t *mor_relation_near(const mor_relation *relation, int64_t c
 }
 
 /** Makes an empty relation for a number of source clusters.
- *  @param context       [in,out]  one object; the number of threads is taken now
- *  @param relation      [out]     one object
+ *  @param context       [in,out]  the number of threads is taken now
  *  @param configuration [in]      current or reference
  *  @param n_clusters    [in]      clusters of the source set
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
                              int64_t n_clusters);
 
-/** Frees what the relation owns; accepts a zeroed one.
- *  @param context  [in,out]  one object
- *  @param relation [in,out]  one object */
+/** Frees what the relation owns; accepts a zeroed one. */
 void mor_relation_clear(mor_context *context, mor_relation *relation);
 
 /** Points in cluster order, as the build reads them. */
 typedef struct mor_relation_points {
-    const mor_tree *tree;  /* one object, fitted to the points */
+    const mor_tree *tree;  /* fitted to the points */
     const double *records; /* shape [n_points padded to 8, stride]; x, y, z first, unit m */
     int stride;            /* doubles per record */
 } mor_relation_points;
 
 /** Builds the lists; a reference relation that has been built is left as it is.
- *  @param context  [in,out]  one object
- *  @param relation [in,out]  one object
- *  @param source   [in]      one object; who looks
- *  @param target   [in]      one object; who is seen; may be the same as source (a particle then lists itself too)
+ *  @param source   [in]      who looks
+ *  @param target   [in]      who is seen; may be the same as source (a particle then lists itself too)
  *  @param reach    [in]      kernel support plus skin, unit m
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: O(n log n); allocates only when the buffers are too small. */
 mor_status mor_relation_build(mor_context *context, mor_relation *relation, const mor_relation_points *source,

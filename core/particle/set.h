@@ -28,8 +28,7 @@ typedef struct mor_set {
 } mor_set;
 
 /** Makes a set with the given built-in fields.
- *  @param context     [in,out]  one object
- *  @param set         [out]     one object; storage supplied by the caller
+ *  @param set         [out]     storage supplied by the caller
  *  @param name        [in]      zero-terminated; copied
  *  @param n_particles [in]      number of particles, >= 0; ids become 0 .. n_particles - 1
  *  @param field_mask  [in]      bit (1 << mor_field_id) set for each built-in field to have
@@ -37,22 +36,16 @@ typedef struct mor_set {
  *  Cost: allocates. */
 mor_status mor_set_init(mor_context *context, mor_set *set, const char *name, int64_t n_particles, uint64_t field_mask);
 
-/** Frees everything the set owns; accepts a zeroed or half-made set.
- *  @param context [in,out]  one object
- *  @param set     [in,out]  one object */
+/** Frees everything the set owns; accepts a zeroed or half-made set. */
 void mor_set_clear(mor_context *context, mor_set *set);
 
 /** Adds a field declared by a material or a body; its values are zero.
- *  @param context [in,out]  one object
- *  @param set     [in,out]  one object
- *  @param info    [in]      one object; copied
+ *  @param info    [in]      copied
  *  @param index   [out]     one number; the index of the field in set->data
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when the name is taken or the table is full; MOR_ERROR_MEMORY. */
 mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field_info *info, int *index);
 
 /** Adds the state of a material as fields that evolve, are written by the stage "stress" and come out.
- *  @param context [in,out]  one object
- *  @param set     [in,out]  one object
  *  @param state   [in]      shape [n_state]
  *  @param n_state [in]      number of variables
  *  @param fields  [out]     shape [n_state]; indices of the fields in set->data
@@ -60,26 +53,22 @@ mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field
 mor_status mor_set_add_state(mor_context *context, mor_set *set, const mor_schema *state, int n_state, int *fields);
 
 /** Returns the index of a field by name, or -1.
- *  @param set  [in]  one object
  *  @param name [in]  zero-terminated */
 int mor_set_find_field(const mor_set *set, const char *name);
 
 /** Reorders the particles: new place i holds what was at order[i]. Scratch fields are left as they are.
- *  @param set     [in,out]  one object
  *  @param order   [in]      shape [n_particles]; a permutation of 0 .. n_particles - 1
  *  @param scratch [in,out]  shape [9 * n_particles]; overwritten; holds values of every field in turn, any unit
  *  Gives: generation + 1. Cost: O(n), allocates nothing. */
 void mor_set_permute(mor_set *set, const int32_t *order, double *scratch);
 
 /** Removes particles; the others keep their order and their ids. All fields follow, scratch included.
- *  @param set       [in,out]  one object
  *  @param removed   [in]      shape [n_removed]; indices of particles, rising
  *  @param n_removed [in]      number of particles to remove
  *  Gives: generation + 1. Cost: O(n), allocates nothing. */
 void mor_set_remove(mor_set *set, const int32_t *removed, int64_t n_removed);
 
 /** Returns a 64-bit hash of all evolving fields, bit patterns in particle-id order.
- *  @param set [in]  one object
  *  Returns: the same value for the same state in any particle order and for any number of threads. */
 uint64_t mor_set_checksum(const mor_set *set);
 

@@ -25,21 +25,16 @@ typedef struct mor_tree {
 } mor_tree;
 
 /** Makes a tree for a number of points.
- *  @param context  [in,out]  one object
- *  @param tree     [out]     one object
  *  @param n_points [in]      number of points, >= 0
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_tree_init(mor_context *context, mor_tree *tree, int64_t n_points);
 
 /** Makes a tree smaller, or as large again as it was made.
- *  @param tree     [in,out]  one object
  *  @param n_points [in]      number of points, >= 0; at most those it was made for
  *  Gives: boxes are to be fitted anew. */
 void mor_tree_resize(mor_tree *tree, int64_t n_points);
 
-/** Frees what the tree owns; accepts a zeroed tree.
- *  @param context [in,out]  one object
- *  @param tree    [in,out]  one object */
+/** Frees what the tree owns; accepts a zeroed tree. */
 void mor_tree_clear(mor_context *context, mor_tree *tree);
 
 /** Finds an order in which every eight consecutive points form a compact cluster. Equal coordinates are told apart by
@@ -52,7 +47,6 @@ void mor_tree_clear(mor_context *context, mor_tree *tree);
 void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order);
 
 /** Fits the boxes to the points, which must lie in tree order.
- *  @param tree   [in,out]  one object
  *  @param points [in]      shape [n_points, stride]; unit m
  *  @param stride [in]      doubles per record, >= 3 */
 void mor_tree_fit(mor_tree *tree, const double *points, int stride);

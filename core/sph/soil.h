@@ -77,7 +77,7 @@ typedef struct mor_soil {
     double *spin_stress;     /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
     double *block_values;    /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
     int32_t *order;          /* shape [n_particles]; scratch of the sort */
-    mor_soil_energy *energy; /* one object, the audit; NULL: none */
+    mor_soil_energy *energy; /* the audit; NULL: none */
     mor_tree tree;
     mor_relation inner;
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];
@@ -100,76 +100,60 @@ typedef struct mor_soil {
 
 /** Makes a soil from particles whose position, velocity, mass, density, stress are then set by the caller through
  *  soil->set, before mor_soil_prepare.
- *  @param context     [in,out]  one object
- *  @param soil        [out]     one object
  *  @param name        [in]      zero-terminated
- *  @param settings    [in]      one object; copied
- *  @param material    [in]      one object; rate form; borrowed
+ *  @param settings    [in]      copied
+ *  @param material    [in]      rate form; borrowed
  *  @param n_particles [in]      number of particles, >= 1
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
 mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name, const mor_soil_settings *settings,
                          const mor_material_instance *material, int64_t n_particles);
 
-/** Frees what the soil owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object */
+/** Frees what the soil owns; accepts a zeroed one. */
 void mor_soil_clear(mor_context *context, mor_soil *soil);
 
 /** Adds a wall.
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object
- *  @param request [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
 
 /** Lets the soil see a boundary that someone else moves; core/particle/boundary.h says what is read and written when.
- *  @param context  [in,out]  one object
- *  @param soil     [in,out]  one object
- *  @param boundary [in,out]  one object; borrowed, outlives the soil's steps; its points are in place
+ *  @param boundary [in,out]  borrowed, outlives the soil's steps; its points are in place
  *  @param stress   [in]      stress that a soil particle sees in it
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many, or for patches that overlap or leave gaps;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_boundary *boundary, mor_wall_stress stress);
 
 /** Sets the barrier between the soil and a boundary, which is off at first.
- *  @param context  [in,out]  one object
- *  @param soil     [in,out]  one object; before its first step
- *  @param boundary [in]      one object; added before
- *  @param barrier  [in]      one object; copied
+ *  @param soil     [in,out]  before its first step
+ *  @param boundary [in]      added before
+ *  @param barrier  [in]      copied
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a stiffness or radius out of range, or a boundary that was not added. */
 mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_boundary *boundary,
                                 const mor_soil_barrier *barrier);
 
 /** Initializes the material's state for the present density and stress (a resume restores it instead).
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object
  *  Returns: MOR_OK; what the material returns. */
 mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
 
 /** Sorts the particles into clusters. To be called once when positions have been set, not after a resume.
- *  @param soil [in,out]  one object
  *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
 void mor_soil_sort(mor_soil *soil);
 
 /** Makes everything follow the number of particles of the set, which a restored state may have changed.
- *  @param soil [in,out]  one object; set.n_particles is at most set.n_created
+ *  @param soil [in,out]  set.n_particles is at most set.n_created
  *  Gives: the lists are rebuilt in the next step. */
 void mor_soil_fit(mor_soil *soil);
 
 /** Tells the energy of what has left the domain, each particle as it was when it left: kinetic, potential, elastic.
- *  @param soil     [in]   one object
  *  @param datum    [in]   shape [3]; potential energy counts from here, unit m
  *  @param energies [out]  shape [3], unit J (J/m in plane strain) */
 void mor_soil_outflow_energies(const mor_soil *soil, const double *datum, double *energies);
 
 /** Returns the soil as a stepper: its stages and step limit.
- *  @param soil     [in]   one object; becomes the owner
- *  @param stepper  [out]  one object
+ *  @param soil     [in]   becomes the owner
  *  @param evolving [out]  one number; bits valid at the start of a step */
 void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving);
 
 /** Returns the bytes held for fine particles alone, lists included, walls not, per particle.
- *  @param soil [in]  one object
  *  Returns: bytes per particle, 1. */
 double mor_soil_bytes_per_particle(const mor_soil *soil);
 

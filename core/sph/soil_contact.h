@@ -46,7 +46,7 @@ typedef struct mor_soil_barrier {
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_points;
-    mor_boundary *boundary; /* one object; a wall's own, otherwise borrowed */
+    mor_boundary *boundary; /* a wall's own, otherwise borrowed */
     bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
     double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
     double *built;          /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
@@ -77,18 +77,13 @@ typedef struct mor_soil_contact {
 } mor_soil_contact;
 
 /** Makes a wall. Sorts its points into clusters.
- *  @param context         [in,out]  one object
- *  @param contact         [out]     one object
- *  @param request         [in]      one object
  *  @param n_soil_clusters [in]      clusters of the soil set
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request,
                                  int64_t n_soil_clusters);
 
 /** Makes the relation of the soil to a boundary that someone else moves.
- *  @param context         [in,out]  one object
- *  @param contact         [out]     one object
- *  @param boundary        [in,out]  one object; borrowed
+ *  @param boundary        [in,out]  borrowed
  *  @param stress          [in]      stress that a particle sees in it
  *  @param dimension       [in]      2 or 3
  *  @param n_soil_clusters [in]      clusters of the soil set
@@ -97,49 +92,37 @@ mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact
 mor_status mor_soil_contact_borrow(mor_context *context, mor_soil_contact *contact, mor_boundary *boundary,
                                    mor_wall_stress stress, int dimension, int64_t n_soil_clusters);
 
-/** Frees what the contact owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object */
+/** Frees what the contact owns; accepts a zeroed one. */
 void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact);
 
 /** Puts the points of a moving wall where they are after a total displacement, whatever the path there.
- *  @param contact      [in,out]  one object; made with a velocity that is not zero
+ *  @param contact      [in,out]  made with a velocity that is not zero
  *  @param displacement [in]      shape [3], since the start, unit m */
 void mor_soil_contact_place(mor_soil_contact *contact, const double *displacement);
 
 /** Rebuilds the lists of points that soil clusters see, cuts them into slots and makes room for their sums.
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object
- *  @param soil    [in]      one object; the soil's records and fitted tree
+ *  @param soil    [in]      the soil's records and fitted tree
  *  @param reach   [in]      kernel support plus skin, unit m
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more slots than ever before. */
 mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
                                   double reach);
 
 /** Returns how far any point of the boundary has moved since the lists were built, unit m; not a number when a
- *  position is none.
- *  @param context [in]      one object
- *  @param contact [in,out]  one object */
+ *  position is none. */
 double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact);
 
-/** Returns the largest speed of a point, unit m/s.
- *  @param contact [in]  one object */
+/** Returns the largest speed of a point, unit m/s. */
 double mor_soil_contact_speed(const mor_soil_contact *contact);
 
 /** Sums kernel values over the boundary, slot by slot, and finds its velocity as the particles see it.
- *  @param context   [in,out]  one object
- *  @param contact   [in,out]  one object
- *  @param table     [in]      one object; pair routines
- *  @param constants [in]      one object
+ *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; the soil's, units of MOR_RECORD_... */
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                           const mor_pair_constants *constants, const double *records);
 
 /** Finds the velocity of the boundary anew, as the particles see it; to be called when its owner has changed it.
- *  @param context   [in,out]  one object
- *  @param contact   [in,out]  one object; lists must be current
- *  @param table     [in]      one object; pair routines
- *  @param constants [in]      one object
+ *  @param contact   [in,out]  lists must be current
+ *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
 void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                              const mor_pair_constants *constants, const double *records);
@@ -148,18 +131,15 @@ void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, co
  *  A wall that holds a particle's own stress everywhere hides how stress varies, and the particle gets only the part of
  *  that variation that soil neighbors carry: about half of it, right at the wall. Continuing the soil's own variation
  *  into the wall gives the other part.
- *  @param context   [in,out]  one object
- *  @param contact   [in,out]  one object; sums must be current
- *  @param table     [in]      one object; pair routines
- *  @param constants [in]      one object
+ *  @param contact   [in,out]  sums must be current
+ *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
- *  @param inner     [in]      one object; soil -> soil, current */
+ *  @param inner     [in]      soil -> soil, current */
 void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                                const mor_pair_constants *constants, const double *records, const mor_relation *inner);
 
 /** Adds the boundary's part of the acceleration and sets stick, and force and moment of the patches.
- *  @param context      [in,out]  one object
- *  @param contact      [in,out]  one object; sums must be current
+ *  @param contact      [in,out]  sums must be current
  *  @param dissipation  [in]      on which sign of the closing speed the limiter acts
  *  @param limiter_rate [in]      eta / c0, unit s/m
  *  @param records      [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
@@ -170,18 +150,15 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
 
 /** Hands out the force of the push to the points of a borrowed boundary, so that force and moment of each patch are
  *  those of the push to rounding. Does nothing for a wall.
- *  @param context     [in,out]  one object
- *  @param contact     [in,out]  one object; the push must be current
- *  @param table       [in]      one object; pair routines
- *  @param constants   [in]      one object
+ *  @param contact     [in,out]  the push must be current
+ *  @param table       [in]      pair routines
  *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles [in]      number of soil particles */
 void mor_soil_contact_share(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                             const mor_pair_constants *constants, const double *records, int64_t n_particles);
 
 /** Adds the wall's part of the velocity gradient and of the density rate.
- *  @param context           [in,out]  one object
- *  @param contact           [in,out]  one object; sums and stick must be current
+ *  @param contact           [in,out]  sums and stick must be current
  *  @param records           [in]      shape [n_particles padded to 8, 16]; with the new velocities, units of
  *                                      MOR_RECORD_...
  *  @param n_particles       [in]      number of soil particles
@@ -191,9 +168,8 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
                                    int64_t n_particles, double *velocity_gradient, double *density_rate);
 
 /** Switches the barrier of a contact on or off.
- *  @param context [in,out]  one object
- *  @param contact [in,out]  one object; before the first step
- *  @param barrier [in]      one object; copied
+ *  @param contact [in,out]  before the first step
+ *  @param barrier [in]      copied
  *  @param support [in]      support of the kernel, unit m
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a stiffness or radius out of range. */
 mor_status mor_soil_contact_set_barrier(mor_context *context, mor_soil_contact *contact,
@@ -201,12 +177,10 @@ mor_status mor_soil_contact_set_barrier(mor_context *context, mor_soil_contact *
 
 /** Returns the barrier's force between a particle and a point, Jiang et al. (2022) eq. 23, unit N (N/m); zero beyond
  *  the radius, infinite at distance zero.
- *  @param barrier  [in]  one object
  *  @param distance [in]  unit m, >= 0 */
 double mor_soil_barrier_force(const mor_soil_barrier *barrier, double distance);
 
 /** Returns how fast that force grows as the distance shrinks, Jiang et al. (2022) eq. 25, unit N/m (N/m2).
- *  @param barrier  [in]  one object
  *  @param distance [in]  unit m, >= 0 */
 double mor_soil_barrier_slope(const mor_soil_barrier *barrier, double distance);
 

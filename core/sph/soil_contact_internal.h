@@ -24,16 +24,12 @@ static inline const double *mor_soil_contact_velocity(const mor_soil_contact *co
 }
 
 /** Finds the barrier's force on each particle and the longest step it allows.
- *  @param context     [in,out]  one object
- *  @param contact     [in,out]  one object
  *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles [in]      number of soil particles */
 void mor_soil_contact_repel(mor_context *context, mor_soil_contact *contact, const double *records,
                             int64_t n_particles);
 
 /** Adds the barrier's force on the points of one slot to theirs, pair by pair.
- *  @param contact     [in]      one object
- *  @param slot        [in]      one object
  *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles [in]      number of soil particles
  *  @param force       [in,out]  shape [n_points, 3], unit N (N/m) */

@@ -56,18 +56,15 @@ typedef struct mor_soil_energy {
 } mor_soil_energy;
 
 /** Switches the audit of a soil on.
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object; before its first step
+ *  @param soil    [in,out]  before its first step
  *  Returns: MOR_OK, also when it is on; MOR_ERROR_MEMORY. Cost: allocates 120 bytes per particle; a few percent of a
  *  run. */
 mor_status mor_soil_watch_energy(mor_context *context, struct mor_soil *soil);
 
-/** Lets an audit begin anew, with all integrals zero; does nothing without one.
- *  @param soil [in,out]  one object */
+/** Lets an audit begin anew, with all integrals zero; does nothing without one. */
 void mor_soil_restart_energy(struct mor_soil *soil);
 
 /** Returns what a part has taken since the start, up to now, unit J (J/m in plane strain); zero without an audit.
- *  @param soil [in]  one object
  *  @param part [in]  which */
 double mor_soil_energy_taken(const struct mor_soil *soil, mor_soil_energy_part part);
 

@@ -31,9 +31,7 @@ mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_st
 mor_status mor_soil_remove_outflow(mor_context *context, void *owner, const mor_step *step);
 
 /** Looks for particles outside the domain, with a position that is not a number, or without density.
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object; is told whether particles are to be removed
- *  @param step    [in]      one object
+ *  @param soil    [in,out]  is told whether particles are to be removed
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC naming the first particle that stops the run. */
 mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, const mor_step *step);
 
@@ -46,7 +44,7 @@ static inline int mor_soil_contact_count(const mor_soil *soil)
     return soil->n_walls + soil->n_boundaries;
 }
 
-/** The walls in their order, then the boundaries; one object, owned by the soil. */
+/** The walls in their order, then the boundaries; owned by the soil. */
 static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
 {
     return index < soil->n_walls ? &soil->walls[index] : &soil->boundaries[index - soil->n_walls];
@@ -56,9 +54,6 @@ static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil);
 
 /** Runs a pair loop over all clusters.
- *  @param context   [in,out]  one object
- *  @param constants [in]      one object
- *  @param arrays    [in]      one object
  *  @param loop      [in]      which */
 void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
                         mor_pair_loop loop);
@@ -67,18 +62,14 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
 typedef void (*mor_soil_energy_block)(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums);
 
 /** Adds the powers of all particles, block by block, to those of the present sample of the audit.
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object; with an audit
- *  @param block   [in]      finds those of a block
- *  @param step    [in]      one object */
+ *  @param soil    [in,out]  with an audit
+ *  @param block   [in]      finds those of a block */
 void mor_soil_energy_add(mor_context *context, mor_soil *soil, mor_soil_energy_block block, const mor_step *step);
 
 /** Whether there is an audit and a step is one of its samples. */
 bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step);
 
-/** Frees the audit of a soil; accepts a soil without.
- *  @param context [in,out]  one object
- *  @param soil    [in,out]  one object */
+/** Frees the audit of a soil; accepts a soil without. */
 void mor_soil_clear_energy(mor_context *context, mor_soil *soil);
 
 /** Returns stress : velocity gradient, unit W/m3.

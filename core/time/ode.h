@@ -25,7 +25,7 @@ typedef enum mor_ode_method {
  *  @param t      [in]      time; unit s
  *  @param y      [in]      shape [n]; units: the caller's
  *  @param y_rate [out]     shape [n], dy/dt; units: of y per second
- *  @param user   [in,out]  one object; what the caller passed to mor_ode_solve
+ *  @param user   [in,out]  what the caller passed to mor_ode_solve
  *  Returns: MOR_OK; a recoverable code when f is not defined at y (a shorter step is tried); a fatal one to give up. */
 typedef mor_status (*mor_ode_rate)(double t, const double *y, double *y_rate, void *user);
 
@@ -46,20 +46,18 @@ typedef struct mor_ode_report {
 } mor_ode_report;
 
 /** Makes an integrator.
- *  @param context  [in,out]  one object
- *  @param settings [in]      one object
  *  @param ode      [out]     one pointer; owned by the caller; NULL on failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT naming the setting, its value and its range; MOR_ERROR_MEMORY.
  *  Cost: allocates. Threads: not concurrently with the same context. */
 mor_status mor_ode_new(mor_context *context, const mor_ode_settings *settings, mor_ode **ode);
 
 /** Integrates from t_start to t_end; f is never called outside of them.
- *  @param ode    [in,out]  one object; one thread at a time
+ *  @param ode    [in,out]  one thread at a time
  *  @param rate   [in]      one function
- *  @param user   [in,out]  one object, handed to rate; may be NULL
+ *  @param user   [in,out]  handed to rate; may be NULL
  *  @param span   [in]      shape [2], t_start and t_end, t_end >= t_start; unit s
  *  @param y      [in,out]  shape [n]; units: the caller's; start values, then end values; untouched on failure
- *  @param report [out]     one object; NULL: not asked
+ *  @param report [out]     NULL: not asked
  *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP when f stayed undefined or not finite; MOR_NOT_CONVERGED when the tolerances
  *  could not be met within n_steps_max steps; the fatal code of rate; MOR_ERROR_ARGUMENT for a missing pointer, a
  *  reversed span or values that are not finite; MOR_ERROR_INTERNAL. The reason is in mor_ode_reason.
@@ -67,12 +65,10 @@ mor_status mor_ode_new(mor_context *context, const mor_ode_settings *settings, m
 mor_status mor_ode_solve(mor_ode *ode, mor_ode_rate rate, void *user, const double *span, double *y,
                          mor_ode_report *report);
 
-/** Returns why the last solve failed, zero-terminated, owned by the integrator; empty after a success.
- *  @param ode [in]  one object */
+/** Returns why the last solve failed, zero-terminated, owned by the integrator; empty after a success. */
 const char *mor_ode_reason(const mor_ode *ode);
 
 /** Frees an integrator and sets the pointer to NULL; NULL is accepted.
- *  @param context [in,out]  one object
  *  @param ode     [in,out]  the address of one pointer */
 void mor_ode_free(mor_context *context, mor_ode **ode);
 

@@ -42,53 +42,40 @@ typedef struct mor_schedule {
 } mor_schedule;
 
 /** Sets the clock to zero.
- *  @param context  [in,out]  one object
- *  @param schedule [out]     one object
  *  @param end      [in]      simulated time, > 0 and finite, unit s
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_schedule_init(mor_context *context, mor_schedule *schedule, double end);
 
 /** Sets another end; the tick stays, so that every time of the run so far stays exact. A run that began with the longer
  *  end has the same ticks when both ends lie between the same two powers of two of a second.
- *  @param context  [in,out]  one object
- *  @param schedule [in,out]  one object
  *  @param end      [in]      simulated time, > 0, unit s; at most 2048 times the end that the tick was made for
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when the end is too far for the tick. */
 mor_status mor_schedule_set_end(mor_context *context, mor_schedule *schedule, double end);
 
 /** Adds a stepper after checking its stages.
- *  @param context  [in,out]  one object
- *  @param schedule [in,out]  one object
- *  @param stepper  [in]      one object; copied
+ *  @param stepper  [in]      copied
  *  @param evolving [in]      bits valid at the start of a step, see mor_stage_verify
  *  Returns: MOR_OK; MOR_ERROR_INTERNAL; MOR_ERROR_ARGUMENT when the table is full. */
 mor_status mor_schedule_add(mor_context *context, mor_schedule *schedule, const mor_stepper *stepper,
                             uint64_t evolving);
 
 /** Finds the lengths that the next step would have without taking it: fills proposals, limits and substeps.
- *  @param context  [in,out]  one object
- *  @param schedule [in,out]  one object
  *  @param length   [out]     one number; length of the common step, unit s
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC when the step collapses. */
 mor_status mor_schedule_preview(mor_context *context, mor_schedule *schedule, double *length);
 
-/** Returns the most sub-steps that any stepper took in the last common step, 1 when there was none.
- *  @param schedule [in]  one object */
+/** Returns the most sub-steps that any stepper took in the last common step, 1 when there was none. */
 int mor_schedule_rate_ratio(const mor_schedule *schedule);
 
 /** Returns the number of whole ticks nearest to a time, unit s.
- *  @param schedule [in]  one object
  *  @param time     [in]  time, unit s */
 int64_t mor_schedule_ticks(const mor_schedule *schedule, double time);
 
-/** Returns the present time, unit s.
- *  @param schedule [in]  one object */
+/** Returns the present time, unit s. */
 double mor_schedule_time(const mor_schedule *schedule);
 
 /** Takes one common step, not beyond a given tick. Two steps of equal length are taken where one and a crumb would be
  *  needed.
- *  @param context  [in,out]  one object
- *  @param schedule [in,out]  one object
  *  @param until    [in]      tick not to be passed, > now
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC when the step collapses, naming what limits it; what a stage returns. */
 mor_status mor_schedule_step(mor_context *context, mor_schedule *schedule, int64_t until);

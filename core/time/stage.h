@@ -47,7 +47,6 @@ typedef struct mor_stage {
 
 /** Checks the declarations of a step: whatever a stage reads or accumulates into must evolve (carry over from the step
  *  before) or have been written earlier in the step.
- *  @param context  [in,out]  one object
  *  @param stages   [in]      shape [n_stages]; in order of execution
  *  @param n_stages [in]      number of stages
  *  @param evolving [in]      bits that hold valid data when the step begins

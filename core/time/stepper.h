@@ -17,9 +17,9 @@ typedef struct mor_stepper_operations {
     /** Writes the longest stable step, one number, unit s (INFINITY: any), and a static word for what limits it. */
     mor_status (*propose)(mor_context *context, void *owner, double *step_length, const char **limit);
     /** Of a follower, NULL: nothing to do. Called once before the leaders' first stages of a common step: the follower
-     *  shows the leaders where it will be in the middle of the step, one object. */
+     *  shows the leaders where it will be in the middle of the step. */
     mor_status (*begin)(mor_context *context, void *owner, const mor_step *step);
-    /** Of a follower, NULL: nothing to do. Called once after the sub-steps of a common step, one object. */
+    /** Of a follower, NULL: nothing to do. Called once after the sub-steps of a common step. */
     mor_status (*finish)(mor_context *context, void *owner, const mor_step *step);
 } mor_stepper_operations;
 
@@ -42,7 +42,7 @@ typedef struct mor_exchange {
     /** For each of the n_steppers steppers writes into partners, shape [n_steppers], the bits of the steppers it may
      *  touch within a common step of the given length [s]. Those take their sub-steps together. */
     mor_status (*find_partners)(mor_context *context, void *owner, double length, uint64_t *partners, int n_steppers);
-    /** Lets the steppers of a set of bits act on one another; one object for the sub-step. */
+    /** Lets the steppers of a set of bits act on one another. */
     mor_status (*run)(mor_context *context, void *owner, uint64_t members, const mor_step *step);
 } mor_exchange;
 

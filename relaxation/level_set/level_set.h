@@ -20,9 +20,8 @@ typedef struct mor_level_set_request {
 } mor_level_set_request;
 
 /** Makes the level set of a mesh, as a shape that knows its exact moments (those of the mesh).
- *  @param context [in,out]  one object
- *  @param mesh    [in]      one object; closed and oriented; not kept
- *  @param request [in]      one object; dimension 3
+ *  @param mesh    [in]      closed and oriented; not kept
+ *  @param request [in]      dimension 3
  *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong request or a grid of more than 5e8 nodes, with what to do;
  *  MOR_ERROR_MEMORY.
@@ -31,16 +30,14 @@ mor_status mor_shape_new_mesh(mor_context *context, const mor_mesh *mesh, const 
                               mor_shape **shape);
 
 /** Makes the level set of any bounded shape. It knows the moments when the source does.
- *  @param context [in,out]  one object
- *  @param source  [in]      one object; not kept; in two dimensions asked at z = 0
- *  @param request [in]      one object
+ *  @param source  [in]      not kept; in two dimensions asked at z = 0
  *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: as mor_shape_new_mesh; MOR_ERROR_ARGUMENT also for a shape without end. */
 mor_status mor_shape_new_level_set(mor_context *context, const mor_shape *source, const mor_level_set_request *request,
                                    mor_shape **shape);
 
 /** Outward unit normal and mean curvature of the level set through a point, from the interpolated field.
- *  @param shape     [in]   one object; made by one of the two constructors above
+ *  @param shape     [in]   made by one of the two constructors above
  *  @param point     [in]   shape [3]; unit m; within the band
  *  @param normal    [out]  shape [3]; unit 1; zero where the field is flat, as beyond the band
  *  @param curvature [out]  one number; divergence of the normal, unit 1/m: 2/R for a ball, 1/R for a disc; may be NULL

@@ -30,9 +30,7 @@ typedef struct mor_level_set_source {
 
 /** Fills the values of a grid whose other members are set. Whole blocks of nodes far from the surface are not measured
  *  one by one. Where the source has no sign, nodes between which there is no room for a surface get theirs together.
- *  @param context [in,out]  one object
- *  @param grid    [in,out]  one object; values allocated here, owned by the caller also after a failure
- *  @param source  [in]      one object
+ *  @param grid    [in,out]  values allocated here, owned by the caller also after a failure
  *  Returns: MOR_OK; MOR_ERROR_MEMORY.
  *  Threads: uses the context's; the result does not depend on them. */
 mor_status mor_level_set_fill(mor_context *context, mor_level_set_grid *grid, const mor_level_set_source *source);

@@ -47,10 +47,10 @@ typedef enum mor_mesh_size {
  *  around all are equal. Refused is also a mesh so far from the origin, by 167 diagonals and more, that single
  *  precision, in which Assimp holds corners, rounds them by more than 1e-5 of it. Assimp runs in a child process, which
  *  may break down or hang over a damaged file.
- *  @param context [in,out]  one object; what was mended is logged as a warning
+ *  @param context [in,out]  what was mended is logged as a warning
  *  @param path    [in]      zero-terminated; the kind is told by the ending .stl, .obj, .ply, .gltf or .glb
- *  @param mesh    [out]     one object; empty after a failure
- *  @param report  [out]     one object; filled in as far as it got, also after a failure; may be NULL
+ *  @param mesh    [out]     empty after a failure
+ *  @param report  [out]     filled in as far as it got, also after a failure; may be NULL
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that cannot be read or is no mesh; MOR_ERROR_ARGUMENT for a mesh without
  *  an inside, with what was found, where, and what to do; MOR_ERROR_MEMORY.
  *  Cost: O(n log n) for triangles of ordinary form; two seconds of processor time for a million triangles. Where
@@ -60,60 +60,49 @@ mor_status mor_mesh_read(mor_context *context, const char *path, mor_mesh *mesh,
 
 /** Computes the hash of the content of a mesh: of its file; of a glTF file that keeps buffers in files of their own, of
  *  the hashes of all of them, so that a change of any is noticed. Textures and materials do not count.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  @param hash    [out]     one number
  *  Returns: MOR_OK; MOR_ERROR_IO when one of the files cannot be read; MOR_ERROR_MEMORY. */
 mor_status mor_mesh_hash(mor_context *context, const char *path, uint64_t *hash);
 
 /** Makes a mesh from arrays, at any distance from the origin, and checks and mends it as mor_mesh_read does.
- *  @param context     [in,out]  one object
  *  @param vertices    [in]      shape [n_vertices, 3]; unit m; copied
  *  @param n_vertices  [in]      number of vertices
  *  @param triangles   [in]      shape [n_triangles, 3]; indices of vertices; copied
  *  @param n_triangles [in]      number of triangles
  *  @param name        [in]      zero-terminated; for messages
- *  @param mesh        [out]     one object; empty after a failure
- *  @param report      [out]     one object; may be NULL
+ *  @param mesh        [out]     empty after a failure
+ *  @param report      [out]     may be NULL
  *  Returns: as mor_mesh_read. */
 mor_status mor_mesh_init(mor_context *context, const double *vertices, int64_t n_vertices, const int32_t *triangles,
                          int64_t n_triangles, const char *name, mor_mesh *mesh, mor_mesh_report *report);
 
-/** Frees what the mesh owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param mesh    [in,out]  one object */
+/** Frees what the mesh owns; accepts a zeroed one. */
 void mor_mesh_clear(mor_context *context, mor_mesh *mesh);
 
 /** Writes a report in words, one finding per line.
- *  @param report [in]   one object
  *  @param text   [out]  shape [room]; zero-terminated
  *  @param room   [in]   bytes */
 void mor_mesh_report_print(const mor_mesh_report *report, char *text, size_t room);
 
 /** Exact volume, center and inertia of the inside, by the divergence theorem over the triangles.
- *  @param mesh    [in]   one object; closed and oriented
- *  @param moments [out]  one object */
+ *  @param mesh    [in]   closed and oriented */
 void mor_mesh_moments(const mor_mesh *mesh, mor_shape_moments *moments);
 
-/** Area of the surface, unit m2.
- *  @param mesh [in]  one object */
+/** Area of the surface, unit m2. */
 double mor_mesh_area(const mor_mesh *mesh);
 
 /** Box around the vertices.
- *  @param mesh   [in]   one object
- *  @param bounds [out]  one object; unit m */
+ *  @param bounds [out]  unit m */
 void mor_mesh_bounds(const mor_mesh *mesh, mor_bounds *bounds);
 
 /** Scales a mesh about the origin.
- *  @param context [in,out]  one object
- *  @param mesh    [in,out]  one object
  *  @param size    [in]      what `value` means
  *  @param value   [in]      unit 1, m or m3; > 0
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a value that is not finite and above zero. */
 mor_status mor_mesh_scale(mor_context *context, mor_mesh *mesh, mor_mesh_size size, double value);
 
-/** Moves a mesh so that the center of its volume is the origin.
- *  @param mesh [in,out]  one object */
+/** Moves a mesh so that the center of its volume is the origin. */
 void mor_mesh_center(mor_mesh *mesh);
 
 #endif

@@ -13,8 +13,7 @@
 typedef struct mor_mesh_distance mor_mesh_distance;
 
 /** Makes the search structure of a mesh.
- *  @param context  [in,out]  one object
- *  @param mesh     [in]      one object; copied
+ *  @param mesh     [in]      copied
  *  @param distance [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a mesh without triangles or with corners that are not finite;
  *  MOR_ERROR_MEMORY; MOR_ERROR_INTERNAL when Embree refuses.
@@ -22,12 +21,10 @@ typedef struct mor_mesh_distance mor_mesh_distance;
 mor_status mor_mesh_distance_new(mor_context *context, const mor_mesh *mesh, mor_mesh_distance **distance);
 
 /** Frees it and sets the pointer to NULL. NULL is accepted.
- *  @param context  [in,out]  one object
  *  @param distance [in,out]  one pointer */
 void mor_mesh_distance_free(mor_context *context, mor_mesh_distance **distance);
 
 /** Distance to the nearest triangle, without sign, searched up to a limit.
- *  @param distance [in]   one object
  *  @param point    [in]   shape [3]; unit m
  *  @param limit    [in]   unit m; INFINITY: none
  *  @param nearest  [out]  shape [3]; unit m; the nearest point of the surface; may be NULL; untouched beyond the limit
@@ -36,7 +33,6 @@ double mor_mesh_distance_find(const mor_mesh_distance *distance, const double *p
 
 /** Whether a point is inside: several rays in fixed directions vote by the triangles they cross, so that a ray along an
  *  edge, or a slit in the mesh, is outvoted.
- *  @param distance [in]  one object
  *  @param point    [in]  shape [3]; unit m
  *  Threads: safe to call concurrently. */
 bool mor_mesh_distance_is_inside(const mor_mesh_distance *distance, const double *point);

@@ -10,9 +10,8 @@
 
 /** Puts the size of a mesh in front of a refusal of its level set, when it was taken as it is and is so large that its
  *  unit is the likely reason.
- *  @param context [in,out]  one object; holds the refusal
+ *  @param context [in,out]  holds the refusal
  *  @param status  [in]      what the level set returned
- *  @param mesh    [in]      one object
  *  @param meters  [in]      one length of the mesh in meters, 1
  *  @param spacing [in]      distance of particles, m
  *  @param advice  [in]      zero-terminated; how a size is given

@@ -20,29 +20,24 @@ typedef struct mor_outline {
 } mor_outline;
 
 /** Reads an outline. Corners nearer together than 1e-9 of its size become one.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
- *  @param outline [out]     one object; empty after a failure
+ *  @param outline [out]     empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that cannot be read or a line that is no corner, with file and line;
  *  MOR_ERROR_ARGUMENT for fewer than 3 corners, more than MOR_OUTLINE_CORNERS_MAX, edges that cross (with their lines),
  *  no area; MOR_ERROR_MEMORY. */
 mor_status mor_outline_read(mor_context *context, const char *path, mor_outline *outline);
 
 /** Makes an outline from corners in either orientation; checked as by mor_outline_read.
- *  @param context  [in,out]  one object
  *  @param points   [in]      shape [n_points, 2]; unit m; copied
  *  @param n_points [in]      number of corners
- *  @param outline  [out]     one object; empty after a failure
+ *  @param outline  [out]     empty after a failure
  *  Returns: as mor_outline_read. */
 mor_status mor_outline_init(mor_context *context, const double *points, int n_points, mor_outline *outline);
 
-/** Frees what the outline owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param outline [in,out]  one object */
+/** Frees what the outline owns; accepts a zeroed one. */
 void mor_outline_clear(mor_context *context, mor_outline *outline);
 
 /** Moves the center of the area to the origin and scales the outline to an equivalent diameter D = 2 sqrt(A / pi).
- *  @param outline  [in,out]  one object
  *  @param diameter [in]      unit m; NaN: as it is */
 void mor_outline_normalize(mor_outline *outline, double diameter);
 

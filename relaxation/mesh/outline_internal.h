@@ -17,8 +17,7 @@ typedef struct mor_outline_corners {
 } mor_outline_corners;
 
 /** Merges corners that are one, refuses what is no outline, and brings the rest into counterclockwise order.
- *  @param context [in,out]  one object
- *  @param corners [in,out]  one object; n_points may become smaller
+ *  @param corners [in,out]  n_points may become smaller
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_outline_check(mor_context *context, mor_outline_corners *corners);
 

@@ -14,7 +14,7 @@ enum { MOR_PACK_SIZES_MAX = 64 };
 /** What to place. Made ready by mor_pack_request_init. Everything pointed to is borrowed during the call. */
 typedef struct mor_pack_request {
     int dimension;                 /* 2 (in x-y) or 3 */
-    const mor_shape *region;       /* one object; bounded */
+    const mor_shape *region;       /* bounded */
     double region_volume;          /* m3 (m2); NaN: by integration */
     const mor_shape *const *forms; /* shape [n_forms]; each with its center of volume at the origin, of diameter 1 m,
                                     * that is of volume pi/6 m3 (area pi/4 m2) */
@@ -55,24 +55,19 @@ typedef struct mor_pack_result {
     double smallest_gap;                /* between any two rocks, by the exact check, m; INFINITY for one rock */
 } mor_pack_result;
 
-/** Sets what is not written to: no gap, no margin, no obstacle, 20000 tries, seed 1.
- *  @param request [out]  one object */
+/** Sets what is not written to: no gap, no margin, no obstacle, 20000 tries, seed 1. */
 void mor_pack_request_init(mor_pack_request *request);
 
 /** Places rocks. The number and the sizes are drawn first, so that the content and the curve come out as near as whole
  *  rocks allow; the last rock of a size class is the one that comes nearest. When a rock finds no place the rest of its
  *  volume is tried with smaller ones of the curve; what is missing at the end is told by n_given_up and content, and
  *  logged as a warning with what to do.
- *  @param context [in,out]  one object
- *  @param request [in]      one object
- *  @param result  [out]     one object; empty after a failure
+ *  @param result  [out]     empty after a failure
  *  Returns: MOR_OK, also when the content was not reached; MOR_ERROR_ARGUMENT for a wrong request; MOR_ERROR_MEMORY.
  *  Threads: the result does not depend on them. */
 mor_status mor_pack(mor_context *context, const mor_pack_request *request, mor_pack_result *result);
 
-/** Frees the rocks; accepts an empty result.
- *  @param context [in,out]  one object
- *  @param result  [in,out]  one object */
+/** Frees the rocks; accepts an empty result. */
 void mor_pack_clear(mor_context *context, mor_pack_result *result);
 
 #endif

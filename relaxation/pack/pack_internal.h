@@ -13,7 +13,7 @@ enum { MOR_PACK_BLOCK = 32 };
 
 /** A form with points on its surface, in its own frame, of diameter 1 m. */
 typedef struct mor_pack_form {
-    const mor_shape *shape; /* one object; borrowed */
+    const mor_shape *shape; /* borrowed */
     double *points;         /* shape [n_points, 3], unit m */
     int64_t n_points;
     double *blocks; /* shape [n_blocks, 4]; center and radius of a ball around MOR_PACK_BLOCK points in a row, m */
@@ -40,7 +40,7 @@ typedef struct mor_pack_contact {
 /** A packing at work. Rocks are listed in square cells by their centers. */
 typedef struct mor_pack_state {
     mor_context *context;
-    const mor_pack_request *request; /* one object; borrowed */
+    const mor_pack_request *request; /* borrowed */
     mor_pack_form *forms;            /* shape [request->n_forms] */
     mor_pack_item *items;            /* shape [n_items_max]; the first n_items are placed */
     int n_items, n_items_max;
@@ -56,60 +56,47 @@ typedef struct mor_pack_state {
 } mor_pack_state;
 
 /** Finds points on the surface of a form: its crossings with a grid of cells no larger than `spacing`.
- *  @param context   [in,out]  one object
- *  @param shape     [in]      one object; borrowed for the life of the form
+ *  @param shape     [in]      borrowed for the life of the form
  *  @param dimension [in]      2 or 3
  *  @param spacing   [in]      unit m; in the frame of the form
- *  @param form      [out]     one object; its points and blocks are owned by the caller, also after a failure
+ *  @param form      [out]     its points and blocks are owned by the caller, also after a failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a form without a surface, or not of the right size or center where it knows
  *  them, and for a spacing too fine; MOR_ERROR_MEMORY. */
 mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, int dimension, double spacing,
                                 mor_pack_form *form);
 
-/** Brings the quaternion of an item to length 1 and writes its matrix.
- *  @param item [in,out]  one object */
+/** Brings the quaternion of an item to length 1 and writes its matrix. */
 void mor_pack_item_rotate(mor_pack_item *item);
 
 /** Looks for points of one rock that are nearer to another one than contact->gap.
- *  @param state   [in]      one object
- *  @param owner   [in]      one object; the rock with the points
- *  @param other   [in]      one object
+ *  @param owner   [in]      the rock with the points
  *  @param enough  [in]      unit m; stops at the first point nearer than this; -INFINITY: finds the nearest
- *  @param contact [in,out]  one object; gap: in: the largest that matters; the rest is written where one is found
+ *  @param contact [in,out]  gap: in: the largest that matters; the rest is written where one is found
  *  Returns: whether one was found. */
 bool mor_pack_probe(const mor_pack_state *state, const mor_pack_item *owner, const mor_pack_item *other, double enough,
                     mor_pack_contact *contact);
 
 /** Looks for the point of a rock that is least inside a shape, or least outside one.
- *  @param state   [in]      one object
- *  @param owner   [in]      one object
- *  @param shape   [in]      one object
  *  @param sign    [in]      unit 1; 1: the rock belongs outside of the shape, -1: inside
  *  @param enough  [in]      unit m; as in mor_pack_probe
- *  @param contact [in,out]  one object; as in mor_pack_probe
+ *  @param contact [in,out]  as in mor_pack_probe
  *  Returns: whether one was found. */
 bool mor_pack_probe_shape(const mor_pack_state *state, const mor_pack_item *owner, const mor_shape *shape, double sign,
                           double enough, mor_pack_contact *contact);
 
 /** Whether nothing of a rock, its inside included, comes nearer to the obstacle than the gap; decided to half of the
- *  resolution, on the safe side.
- *  @param state [in]  one object
- *  @param item  [in]  one object */
+ *  resolution, on the safe side. */
 bool mor_pack_clears_obstacle(const mor_pack_state *state, const mor_pack_item *item);
 
-/** Lists the placed rocks in cells anew.
- *  @param state [in,out]  one object */
+/** Lists the placed rocks in cells anew. */
 void mor_pack_list(mor_pack_state *state);
 
 /** Lists one more rock, which comes after all that are listed.
- *  @param state [in,out]  one object
  *  @param index [in]      of the rock */
 void mor_pack_list_item(mor_pack_state *state, int index);
 
 /** Calls visit for each listed rock that may come nearer to an item than a distance, in a fixed order, until it returns
  *  false.
- *  @param state  [in]      one object
- *  @param item   [in]      one object
  *  @param within [in]      unit m; the distance
  *  @param visit  [in]      gets user, the state, the item and the index of the rock
  *  @param user   [in,out]  passed on; may be NULL
@@ -119,24 +106,22 @@ bool mor_pack_visit(const mor_pack_state *state, const mor_pack_item *item, doub
                     void *user);
 
 /** Places a new rock at random where it is free.
- *  @param state    [in]      one object
  *  @param n_before [in]      rocks tried before this one, which tells its random numbers
  *  @param n_tries  [in]      places to draw
- *  @param item     [in,out]  one object; diameter: in; the rest: out
+ *  @param item     [in,out]  diameter: in; the rest: out
  *  Returns: whether a place was found. */
 bool mor_pack_drop(const mor_pack_state *state, int n_before, int n_tries, mor_pack_item *item);
 
 /** Puts a new rock where there is most room and lets it and its neighbors push each other apart until all are free.
- *  @param state    [in,out]  one object; the item is added to the placed ones, or nothing changes
+ *  @param state    [in,out]  the item is added to the placed ones, or nothing changes
  *  @param n_before [in]      as in mor_pack_drop
- *  @param item     [in]      one object; its diameter matters
+ *  @param item     [in]      its diameter matters
  *  Returns: whether it was placed. */
 bool mor_pack_press(mor_pack_state *state, int n_before, const mor_pack_item *item);
 
 /** Draws a place, a turn and a form for a rock.
- *  @param state [in]      one object
  *  @param id    [in]      which draw
- *  @param item  [in,out]  one object; diameter: in; the rest: out */
+ *  @param item  [in,out]  diameter: in; the rest: out */
 void mor_pack_draw(const mor_pack_state *state, uint64_t id, mor_pack_item *item);
 
 /** Number of a draw: the rock's and the try's.

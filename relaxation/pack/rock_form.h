@@ -20,23 +20,18 @@ typedef struct mor_rock_form {
     uint64_t seed;     /* which rock of this form */
 } mor_rock_form;
 
-/** A common rock: elongation 0.75, flatness 0.75, angularity 0.5, roughness 0.2, diameter 1 m, seed 1.
- *  @param form [out]  one object */
+/** A common rock: elongation 0.75, flatness 0.75, angularity 0.5, roughness 0.2, diameter 1 m, seed 1. */
 void mor_rock_form_init(mor_rock_form *form);
 
 /** Draws an outline whose area and center are exact: that of the diameter, and the origin.
- *  @param context  [in,out]  one object
- *  @param form     [in]      one object
  *  @param n_points [in]      corners; 16 to 4096
- *  @param outline  [out]     one object; owned by the caller
+ *  @param outline  [out]     owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT naming the number that is out of range; MOR_ERROR_MEMORY. */
 mor_status mor_rock_outline(mor_context *context, const mor_rock_form *form, int n_points, mor_outline *outline);
 
 /** Draws a closed mesh whose volume and center are exact.
- *  @param context     [in,out]  one object
- *  @param form        [in]      one object
  *  @param subdivision [in]      of an icosahedron: 20 * 4^subdivision triangles; 2 to 6
- *  @param mesh        [out]     one object; owned by the caller
+ *  @param mesh        [out]     owned by the caller
  *  Returns: as mor_rock_outline. */
 mor_status mor_rock_mesh(mor_context *context, const mor_rock_form *form, int subdivision, mor_mesh *mesh);
 

@@ -18,7 +18,7 @@
  *
  *  Made ready by mor_lattice_request_init. Everything pointed to is borrowed during the call. */
 typedef struct mor_lattice_request {
-    const mor_shape *shape;           /* one object; the solid to fill */
+    const mor_shape *shape;           /* the solid to fill */
     const mor_shape *const *excluded; /* shape [n_excluded]; nodes inside any of these are left out; NULL for none */
     int n_excluded;                   /* number of excluded shapes, >= 0 */
     int dimension;                    /* 2 (in x-y) or 3 */
@@ -40,15 +40,12 @@ typedef struct mor_lattice_points {
 } mor_lattice_points;
 
 /** Sets what is not written to: no excluded shapes, whole depth, no domain limit, no jitter, seed 1, no placement,
- *  lattice corner at the origin, three dimensions. Shape and spacing are left to the caller.
- *  @param request [out]  one object */
+ *  lattice corner at the origin, three dimensions. Shape and spacing are left to the caller. */
 void mor_lattice_request_init(mor_lattice_request *request);
 
 /** Finds the lattice nodes inside a shape. The order is that of (k, j, i): z outermost, x fastest. Nodes are counted
  *  before memory is asked for; stretches of a row that the distance proves to be in or out are not tested one by one.
- *  @param context [in,out]  one object
- *  @param request [in]      one object
- *  @param points  [out]     one object; owned by the caller; may come out empty
+ *  @param points  [out]     owned by the caller; may come out empty
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong request, an unbounded region, a 2D shape that does not reach
  *  z = 0, or more than 2^31 - 64 points; MOR_ERROR_MEMORY, also for more than n_points_most. On failure points is
  *  empty.
@@ -59,9 +56,8 @@ mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *req
  *  the share that is inside, so that points stand for the true volume up to the true surface wherever it lies on the
  *  lattice. A cell that lies inside as a whole becomes its node. Which nodes are kept for the depth and the domain is
  *  decided as by mor_lattice_fill; of a shape whose faces lie on the faces of cells both give the same.
- *  @param context [in,out]  one object
- *  @param request [in]      one object; without jitter
- *  @param points  [out]     one object; owned by the caller; may come out empty
+ *  @param request [in]      without jitter
+ *  @param points  [out]     owned by the caller; may come out empty
  *  @param shares  [out]     the address of one array [n_points], above 0 to 1, 1; from MOR_NEW; owned by the caller;
  *                           NULL after a failure
  *  Returns: as mor_lattice_fill; MOR_ERROR_ARGUMENT for a request with jitter.
@@ -69,9 +65,7 @@ mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *req
 mor_status mor_lattice_fill_cells(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points,
                                   double **shares);
 
-/** Frees points and sets them empty. Empty points are accepted.
- *  @param context [in,out]  one object
- *  @param points  [in,out]  one object */
+/** Frees points and sets them empty. Empty points are accepted. */
 void mor_lattice_clear(mor_context *context, mor_lattice_points *points);
 
 #endif

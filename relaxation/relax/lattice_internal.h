@@ -21,29 +21,22 @@ typedef struct mor_lattice_box {
 int64_t mor_lattice_limit(void);
 
 /** Checks a request and finds the nodes to visit.
- *  @param context [in,out]  one object
- *  @param request [in]      one object
  *  @param margin  [in]      nodes to visit beyond the bounds of the shape, on each side
- *  @param box     [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_lattice_find_box(mor_context *context, const mor_lattice_request *request, int margin,
                                 mor_lattice_box *box);
 
 /** Refuses more points than there is room for.
- *  @param context [in,out]  one object
- *  @param request [in]      one object
  *  @param count   [in]      number of points
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_lattice_check_room(mor_context *context, const mor_lattice_request *request, int64_t count);
 
 /** Finds the place of a node in the scene frame.
- *  @param request [in]   one object
  *  @param index   [in]   shape [3]
  *  @param node    [out]  shape [3], unit m */
 void mor_lattice_place_node(const mor_lattice_request *request, const int64_t *index, double *node);
 
 /** Maps a place of the scene frame as finished points are.
- *  @param request  [in]   one object
  *  @param place    [in]   shape [3], unit m
  *  @param position [out]  shape [3], unit m */
 void mor_lattice_map(const mor_lattice_request *request, const double *place, double *position);

@@ -13,7 +13,7 @@
 
 /** What to fill and when to stop. Made ready by mor_relax_request_init. */
 typedef struct mor_relax_request {
-    const mor_shape *shape;  /* one object; bounded; borrowed during the call */
+    const mor_shape *shape;  /* bounded; borrowed during the call */
     int dimension;           /* 2 (in x-y, z = 0) or 3 */
     double spacing;          /* of the particles, unit m; > 0 */
     double volume;           /* of the shape, m3 (m2); NaN: that of the shape's moments, else by integration */
@@ -44,32 +44,25 @@ typedef struct mor_relax_quality {
     double surface_deviation; /* standard deviation of that depth over the spacing, 1 */
 } mor_relax_quality;
 
-/** Sets what is not written to.
- *  @param request [out]  one object */
+/** Sets what is not written to. */
 void mor_relax_request_init(mor_relax_request *request);
 
 /** Fills and relaxes. The number of particles is the shape's volume over spacing^dimension, rounded.
- *  @param context [in,out]  one object
- *  @param request [in]      one object
- *  @param points  [out]     one object; empty after a failure
+ *  @param points  [out]     empty after a failure
  *  Returns: MOR_OK, also when it did not converge (is_converged tells, and a warning is logged); MOR_ERROR_ARGUMENT for
  *  a wrong request, a shape without end, one thinner than four spacings everywhere or one too large for the grids of
  *  the method (bounds of 2^31 spacings^dimension); MOR_ERROR_MEMORY.
  *  Threads: uses the context's; the result does not depend on them. */
 mor_status mor_relax(mor_context *context, const mor_relax_request *request, mor_relax_points *points);
 
-/** Frees the points and sets them empty; accepts empty ones.
- *  @param context [in,out]  one object
- *  @param points  [in,out]  one object */
+/** Frees the points and sets them empty; accepts empty ones. */
 void mor_relax_clear(mor_context *context, mor_relax_points *points);
 
 /** Measures a set of particles.
- *  @param context   [in,out]  one object
- *  @param request   [in]      one object; shape, dimension and spacing are used
+ *  @param request   [in]      shape, dimension and spacing are used
  *  @param positions [in]      shape [n_points, 3]; unit m
  *  @param n_points  [in]      number of particles
  *  @param volume    [in]      of each particle, m3 (m2)
- *  @param quality   [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong shape, dimension or spacing, or a position that is not finite;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_relax_measure(mor_context *context, const mor_relax_request *request, const double *positions,
@@ -77,7 +70,6 @@ mor_status mor_relax_measure(mor_context *context, const mor_relax_request *requ
 
 /** Stands for all that decides the result of mor_relax, the shape by its distances at the nodes of a grid: equal
  *  requests have equal hashes, also in different runs. For a cache.
- *  @param request [in]   one object
  *  @param hash    [out]  one number
  *  Threads: neither. */
 void mor_relax_request_hash(const mor_relax_request *request, uint64_t *hash);

@@ -35,7 +35,7 @@ enum { MOR_RELAX_LANES = 8 };
 
 /** How the inside measures places. */
 typedef struct mor_relax_frame {
-    const mor_shape *shape; /* one object; borrowed */
+    const mor_shape *shape; /* borrowed */
     int dimension;          /* 2 or 3 */
     double spacing;         /* m */
     double middle[3];       /* of the bounds, m; z = 0 in 2D */
@@ -68,14 +68,10 @@ typedef struct mor_relax_neighbors {
 } mor_relax_neighbors;
 
 /** Reads the bounds. Returns MOR_OK, or MOR_ERROR_ARGUMENT for a wrong request, a shape without end, or one whose
- *  bounds hold 2^31 spacings^dimension or more.
- *  @param context [in,out]  one object
- *  @param request [in]      one object
- *  @param frame   [out]     one object */
+ *  bounds hold 2^31 spacings^dimension or more. */
 mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *request, mor_relax_frame *frame);
 
 /** Writes the place in the shape's own frame.
- *  @param frame [in]   one object
  *  @param place [in]   shape [3]; unit spacing
  *  @param point [out]  shape [3]; unit m */
 static inline void mor_relax_frame_point(const mor_relax_frame *frame, const double *place, double *point)
@@ -86,27 +82,22 @@ static inline void mor_relax_frame_point(const mor_relax_frame *frame, const dou
 }
 
 /** Returns the depth under the surface, unit spacing; negative outside.
- *  @param frame [in]  one object
  *  @param place [in]  shape [3]; unit spacing */
 double mor_relax_frame_depth(const mor_relax_frame *frame, const double *place);
 
 /** Moves a place that is shallower than the outer layer along the normal towards it; keeps the deepest place found.
- *  @param frame  [in]      one object
  *  @param place  [in,out]  shape [3]; unit spacing
  *  @param n_most [in]      most moves
  *  Returns: the depth of the place now, unit spacing; may still be below that of the layer. */
 double mor_relax_frame_sink(const mor_relax_frame *frame, double *place, int n_most);
 
 /** Returns whether a ball (disc) of a radius fits into the shape; its distances may be lower bounds deep inside.
- *  @param frame  [in]   one object
  *  @param radius [in]   unit spacing
  *  @param depth  [out]  one number; the largest depth found, unit spacing */
 bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *depth);
 
 /** Writes n starting places: those of a lattice that lie deepest, each moved by a jitter and sunk to the outer layer.
  *  One that sinks to within half a spacing of another is taken only when nothing else is left.
- *  @param context [in,out]  one object
- *  @param frame   [in]      one object
  *  @param seed    [in]      of the jitter
  *  @param n       [in]      number of places
  *  @param places  [out]     shape [n, 3]; unit spacing
@@ -114,41 +105,31 @@ bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *
 mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, uint64_t seed, int64_t n, double *places);
 
 /** Tabulates the push of the outside.
- *  @param context [in,out]  one object
- *  @param frame   [in]      one object
- *  @param wall    [out]     one object; owned by the caller; empty after a failure
+ *  @param wall    [out]     owned by the caller; empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a shape too large for the grid; MOR_ERROR_MEMORY. */
 mor_status mor_relax_wall_init(mor_context *context, const mor_relax_frame *frame, mor_relax_wall *wall);
 
 /** Writes the push of the outside on a place inside.
- *  @param wall  [in]   one object
  *  @param place [in]   shape [3]; unit spacing
  *  @param push  [out]  shape [3]; unit 1/spacing */
 void mor_relax_wall_push(const mor_relax_wall *wall, const double *place, double *push);
 
-/** Frees the table; accepts an empty one.
- *  @param context [in,out]  one object
- *  @param wall    [in,out]  one object */
+/** Frees the table; accepts an empty one. */
 void mor_relax_wall_clear(mor_context *context, mor_relax_wall *wall);
 
 /** Makes room for the rows of n particles.
- *  @param context   [in,out]  one object
  *  @param n         [in]      particles
  *  @param radius    [in]      of the rows, spacings
- *  @param neighbors [out]     one object; to be cleared also after a failure
+ *  @param neighbors [out]     to be cleared also after a failure
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_relax_neighbors_init(mor_context *context, int64_t n, double radius, mor_relax_neighbors *neighbors);
 
 /** Finds the rows anew. Their order is fixed: by cell, then by number.
- *  @param context   [in,out]  one object
- *  @param neighbors [in,out]  one object
  *  @param x         [in]      shape [3, n]; unit spacing; first all x, then all y, then all z
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_relax_neighbors_find(mor_context *context, mor_relax_neighbors *neighbors, const double *x);
 
-/** Frees the rows; accepts empty ones.
- *  @param context   [in,out]  one object
- *  @param neighbors [in,out]  one object */
+/** Frees the rows; accepts empty ones. */
 void mor_relax_neighbors_clear(mor_context *context, mor_relax_neighbors *neighbors);
 
 #endif

@@ -36,42 +36,34 @@ typedef struct mor_terrain_request {
     bool fills_no_data;     /* whether holes without data are filled from their rims; else they are refused */
 } mor_terrain_request;
 
-/** Sets what is not written to.
- *  @param request [out]  one object */
+/** Sets what is not written to. */
 void mor_terrain_request_init(mor_terrain_request *request);
 
 /** Reads a raster.
- *  @param context [in,out]  one object; what was assumed or filled is logged
- *  @param request [in]      one object
- *  @param terrain [out]     one object; empty after a failure
+ *  @param context [in,out]  what was assumed or filled is logged
+ *  @param terrain [out]     empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that is no raster; MOR_ERROR_ARGUMENT for a raster that is rotated, in
  *  degrees or feet, has fewer than 2 x 2 nodes in the crop, lacks data, or has a .prj beside it that cannot be
  *  understood, with what to do; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain);
 
-/** Frees what the terrain owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param terrain [in,out]  one object */
+/** Frees what the terrain owns; accepts a zeroed one. */
 void mor_terrain_clear(mor_context *context, mor_terrain *terrain);
 
 /** Continues the ground to cover a rectangle: whole cells are added beyond its edges, at the height of the nearest
  *  place of the edge. Heights over the raster keep their values.
- *  @param context [in,out]  one object
- *  @param terrain [in,out]  one object; unchanged after a failure
+ *  @param terrain [in,out]  unchanged after a failure
  *  @param minimum [in]      shape [2], unit m; of the rectangle
  *  @param maximum [in]      shape [2], unit m
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when that makes too many nodes; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_extend(mor_context *context, mor_terrain *terrain, const double *minimum, const double *maximum);
 
 /** Finds how far the raster reaches, without what was added.
- *  @param terrain [in]   one object
  *  @param minimum [out]  shape [2], unit m
  *  @param maximum [out]  shape [2], unit m */
 void mor_terrain_reach(const mor_terrain *terrain, double *minimum, double *maximum);
 
 /** Refuses a point beside the raster.
- *  @param context [in,out]  one object
- *  @param terrain [in]      one object
  *  @param name    [in]      zero-terminated; what such points are, for the message
  *  @param index   [in]      of the point in its list; the message counts from 1
  *  @param point   [in]      shape [2], unit m; seen from above
@@ -80,22 +72,19 @@ mor_status mor_terrain_check_point(mor_context *context, const mor_terrain *terr
                                    const double *point);
 
 /** Height of the surface, unit m. Beyond the edge the height of the nearest place of the edge.
- *  @param terrain [in]  one object
  *  @param x       [in]  unit m
  *  @param y       [in]  unit m
  *  Threads: safe to call concurrently. */
 double mor_terrain_height(const mor_terrain *terrain, double x, double y);
 
 /** Finds the range of the heights, unit m. Nodes without data do not count; without any the range is empty.
- *  @param terrain [in]   one object
  *  @param lowest  [out]  one number, unit m
  *  @param highest [out]  one number, unit m */
 void mor_terrain_range(const mor_terrain *terrain, double *lowest, double *highest);
 
 /** Makes the ground as a shape: solid below the surface, down to `thickness` under its lowest point, with vertical
  *  sides at the raster's edge. Distances are exact within `reach` of the surface, beyond it a lower bound.
- *  @param context   [in,out]  one object
- *  @param terrain   [in]      one object; copied
+ *  @param terrain   [in]      copied
  *  @param thickness [in]      unit m; > 0
  *  @param reach     [in]      unit m; > 0; a few spacings
  *  @param shape     [out]     one pointer; owned by the caller; NULL after a failure
@@ -106,8 +95,7 @@ mor_status mor_shape_new_terrain(mor_context *context, const mor_terrain *terrai
 /** Makes a layer on the ground as a shape: between the surface and `thickness` (measured vertically) above it, inside a
  *  polygon seen from above. The rim may be sloped: within `rim` of the polygon's edge the thickness falls to zero.
  *  Distances are those of the parts the layer is cut from: exact near its two faces, a lower bound near rims and edges.
- *  @param context   [in,out]  one object
- *  @param terrain   [in]      one object; copied
+ *  @param terrain   [in]      copied
  *  @param points    [in]      shape [n_points, 2]; unit m; corners seen from above, either orientation, over the raster
  *  @param n_points  [in]      >= 3
  *  @param thickness [in]      unit m; > 0
@@ -121,12 +109,10 @@ mor_status mor_shape_new_release(mor_context *context, const mor_terrain *terrai
 /** Wall particles that follow the surface: a column under each point of a square lattice in x and y, in layers of one
  *  spacing, the first half a spacing under the surface, as deep as `layers` spacings measured across the surface. Each
  *  particle stands for spacing^3, so the ground's volume, and with it the place of the surface, is kept on any slope.
- *  @param context  [in,out]  one object
- *  @param terrain  [in]      one object
  *  @param spacing  [in]      unit m; > 0
  *  @param origin   [in]      shape [2]; a corner of a lattice cell, unit m
  *  @param layers   [in]      spacings; >= 1
- *  @param bounds   [in]      one object; columns outside its x and y, or beside the raster, are left out, unit m
+ *  @param bounds   [in]      columns outside its x and y, or beside the raster, are left out, unit m
  *  @param points   [out]     the address of one array [n_points, 3], unit m; from MOR_NEW; owned by the caller
  *  @param n_points [out]     one number
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
@@ -136,8 +122,7 @@ mor_status mor_terrain_fill(mor_context *context, const mor_terrain *terrain, do
 /** Soil particles of a release that follow the surface: columns over the same square lattice, the first layer half a
  *  spacing above the surface, as many layers as the thickness holds at that place. With mor_terrain_fill below, the two
  *  mirror each other at the surface on any slope.
- *  @param context  [in,out]  one object
- *  @param release  [in]      one object, from mor_shape_new_release
+ *  @param release  [in]      from mor_shape_new_release
  *  @param spacing  [in]      unit m; > 0
  *  @param origin   [in]      shape [2]; a corner of a lattice cell, unit m
  *  @param points   [out]     the address of one array [n_points, 3], unit m; from MOR_NEW; owned by the caller
@@ -147,13 +132,11 @@ mor_status mor_terrain_fill_release(mor_context *context, const mor_shape *relea
                                     const double *origin, double **points, int64_t *n_points);
 
 /** Finds the volume of a release from its thickness over a grid of columns.
- *  @param shape  [in]   one object
  *  @param volume [out]  one number, unit m3; 0 for any other shape
  *  Returns: whether the shape is a release. Accuracy: 1e-3 relative or better. Cost: milliseconds. */
 bool mor_terrain_release_volume(const mor_shape *shape, double *volume);
 
 /** The terrain that a ground or a release follows; NULL for any other shape.
- *  @param shape [in]  one object
  *  Returns: borrowed, for the life of the shape. Threads: safe to call concurrently. */
 const mor_terrain *mor_terrain_view(const mor_shape *shape);
 

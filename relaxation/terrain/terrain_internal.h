@@ -17,65 +17,55 @@ typedef struct mor_terrain_surface {
 } mor_terrain_surface;
 
 /** Checks that a terrain has nodes, cells and finite heights.
- *  @param context [in,out]  one object
- *  @param terrain [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_terrain_check(mor_context *context, const mor_terrain *terrain);
 
 /** Highest coordinate of the nodes along an axis, unit m.
- *  @param terrain [in]  one object
  *  @param axis    [in]  0 or 1 */
 double mor_terrain_end(const mor_terrain *terrain, int axis);
 
 /** Writes the two triangles of a square of nodes.
- *  @param terrain   [in]   one object
  *  @param column    [in]   of the lower left node
  *  @param row       [in]   of the lower left node
  *  @param triangles [out]  shape [2, 3, 3]; unit m; corners, counterclockwise seen from above */
 void mor_terrain_triangles(const mor_terrain *terrain, int column, int row, double triangles[2][3][3]);
 
 /** Distance of a point from the triangles of the surface, unit m: exact up to `reach`, some larger number beyond.
- *  @param terrain [in]  one object
  *  @param point   [in]  shape [3]; unit m
  *  @param reach   [in]  unit m
  *  Threads: safe to call concurrently. */
 double mor_terrain_distance(const mor_terrain *terrain, const double *point, double reach);
 
 /** Copies a terrain and finds its range and steepest slope.
- *  @param context [in,out]  one object
- *  @param terrain [in]      one object
  *  @param reach   [in]      unit m; > 0
- *  @param surface [out]     one object; owned by the caller, who ends it with mor_terrain_clear on its terrain
+ *  @param surface [out]     owned by the caller, who ends it with mor_terrain_clear on its terrain
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *terrain, double reach,
                                     mor_terrain_surface *surface);
 
 /** Distance from the surface, unit m, positive above it: exact within reach, beyond it a lower bound of the magnitude.
- *  @param surface [in]  one object
  *  @param point   [in]  shape [3]; unit m
  *  Threads: safe to call concurrently. */
 double mor_terrain_surface_signed(const mor_terrain_surface *surface, const double *point);
 
 /** The surface and the layer of a release shape, or NULL for another shape.
- *  @param shape [in]  one object
  *  Returns: borrowed, for the life of the shape. */
 const mor_terrain_surface *mor_terrain_release_surface(const mor_shape *shape);
 
 /** Thickness of a release layer at a place, unit m; zero outside its polygon.
- *  @param shape [in]  one object, a release shape
+ *  @param shape [in]  a release shape
  *  @param x     [in]  unit m
  *  @param y     [in]  unit m */
 double mor_terrain_release_thickness(const mor_shape *shape, double x, double y);
 
 /** Fills nodes without data: heights inside a hole solve Laplace's equation between its rims.
- *  @param context [in,out]  one object; what was filled is logged
- *  @param terrain [in,out]  one object; at least one node has data
+ *  @param context [in,out]  what was filled is logged
+ *  @param terrain [in,out]  at least one node has data
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain);
 
 /** Replaces the nodes by those of a square grid from the first node on, by bilinear interpolation.
- *  @param context [in,out]  one object
- *  @param terrain [in,out]  one object; unchanged after a failure
+ *  @param terrain [in,out]  unchanged after a failure
  *  @param cell    [in]      unit m; > 0
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when fewer than 2 x 2 nodes are left, or too many; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_resample(mor_context *context, mor_terrain *terrain, double cell);
@@ -90,7 +80,6 @@ typedef enum mor_terrain_format {
 
 /** Checks a raster of text word by word: each key of the header is known and given once, each value is a number of its
  *  range, and as many numbers follow as the header promises.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  @param format  [in]      not binary
  *  @param n       [in]      shape [2]; columns and rows as they were read otherwise
@@ -107,16 +96,14 @@ typedef struct mor_terrain_prj {
 } mor_terrain_prj;
 
 /** Finds the .prj beside a raster and takes it apart; a mark of the byte order is skipped.
- *  @param context [in,out]  one object
  *  @param raster  [in]      zero-terminated; path
- *  @param prj     [out]     one object; ended with mor_terrain_prj_clear, also after a failure
+ *  @param prj     [out]     ended with mor_terrain_prj_clear, also after a failure
  *  Returns: MOR_OK, also without one; MOR_ERROR_ARGUMENT for one that is too long, or whose Zunits are not meters;
  *  MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_prj_load(mor_context *context, const char *raster, mor_terrain_prj *prj);
 
 /** Frees what was loaded.
- *  @param context [in,out]  one object
- *  @param prj     [in,out]  one object; becomes zeroed */
+ *  @param prj     [in,out]  becomes zeroed */
 void mor_terrain_prj_clear(mor_context *context, mor_terrain_prj *prj);
 
 /** Whether a file beside a raster may change what is read. Copies of lower resolution do not, nor does an .aux.xml of

@@ -65,9 +65,7 @@ static inline double bench_print_speed(int n_threads, double n_particle_steps, d
     return millions / median;
 }
 
-/** Tells how a row compares with the reference, and keeps it for the table and the reference file.
- *  @param it     [in,out]  one object
- *  @param result [in]      one object */
+/** Tells how a row compares with the reference, and keeps it for the table and the reference file. */
 static inline void bench_report(bench *it, const bench_result *result)
 {
     const bench_result *reference = it->has_reference ? bench_find(&it->reference, result->name) : NULL;
@@ -151,7 +149,6 @@ static inline bool bench_is_wanted(const bench *it, const char *name)
 /** Times the rows that the command line asks for; to be returned by main.
  *  @param argc    [in]  number of words
  *  @param argv    [in]  shape [argc], each zero-terminated
- *  @param program [in]  one object
  *  Returns: the exit code: 0; 1 when the reference file could not be written; 2 when the options are wrong. */
 static inline int bench_main(int argc, char **argv, const bench_program *program)
 {

@@ -100,8 +100,8 @@ static inline mor_status meter_run_exchange(mor_context *context, void *owner, u
 }
 
 /** Puts clocks into a schedule.
- *  @param it       [out]     one object; outlives the schedule's steps
- *  @param schedule [in,out]  one object; its steppers have at most METER_STAGES_MAX stages */
+ *  @param it       [out]     outlives the schedule's steps
+ *  @param schedule [in,out]  its steppers have at most METER_STAGES_MAX stages */
 static inline void meter_attach(meter *it, mor_schedule *schedule)
 {
     memset(it, 0, sizeof *it);
@@ -128,8 +128,7 @@ static inline void meter_attach(meter *it, mor_schedule *schedule)
     }
 }
 
-/** Sets all clocks to zero.
- *  @param it [in,out]  one object */
+/** Sets all clocks to zero. */
 static inline void meter_reset(meter *it)
 {
     for (int s = 0; s < it->n_steppers; ++s) {
@@ -140,8 +139,7 @@ static inline void meter_reset(meter *it)
     it->exchange_seconds = 0.0;
 }
 
-/** Returns the time spent in all stages of a stepper and in finding its step, unit s.
- *  @param it [in]  one object */
+/** Returns the time spent in all stages of a stepper and in finding its step, unit s. */
 static inline double meter_stepper_seconds(const meter_stepper *it)
 {
     double sum = it->limit_seconds;

@@ -39,7 +39,6 @@ typedef struct bench_table {
 } bench_table;
 
 /** Finds a row by its name, zero-terminated; NULL when there is none.
- *  @param table [in]  one object
  *  @param name  [in]  zero-terminated */
 static inline bench_result *bench_find(bench_table *table, const char *name)
 {
@@ -52,7 +51,6 @@ static inline bench_result *bench_find(bench_table *table, const char *name)
 }
 
 /** Writes bytes per particle, kappa and I_CE as text, "-" for what is not known.
- *  @param result [in]   one object
  *  @param cells  [out]  shape [3], each zero-terminated */
 static inline void bench_print_cells(const bench_result *result, char (*cells)[BENCH_CELL])
 {
@@ -112,7 +110,7 @@ static inline const char *bench_read_row(char *line, bench_table *table)
 
 /** Reads the reference file; what is wrong with it is told on the error output, with file and line.
  *  @param path  [in]   zero-terminated
- *  @param table [out]  one object; empty after a failure
+ *  @param table [out]  empty after a failure
  *  Returns: whether the file is there and in order. */
 static inline bool bench_reference_read(const char *path, bench_table *table)
 {
@@ -215,7 +213,6 @@ static inline void bench_print_rows(FILE *file, const char *machine, const bench
 /** Writes rows into the reference file, in place of rows of the same name, beside the others; the file is never half
  *  written. What goes wrong is told on the error output.
  *  @param path     [in]  zero-terminated
- *  @param measured [in]  one object
  *  Returns: whether the file was written. */
 static inline bool bench_reference_write(const char *path, const bench_table *measured)
 {

@@ -22,7 +22,6 @@ typedef struct full_disk {
 } full_disk;
 
 /** Ends all files of this process after so many bytes: writing more fails with EFBIG.
- *  @param disk    [out]  one object
  *  @param n_bytes [in]   number of bytes */
 static inline void full_disk_begin(full_disk *disk, rlim_t n_bytes)
 {
@@ -31,8 +30,7 @@ static inline void full_disk_begin(full_disk *disk, rlim_t n_bytes)
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &(struct rlimit){n_bytes, disk->before.rlim_max}), 0);
 }
 
-/** Gives the room back. To be called before anything is asserted, or the report of the test may be cut.
- *  @param disk [in]  one object */
+/** Gives the room back. To be called before anything is asserted, or the report of the test may be cut. */
 static inline void full_disk_end(const full_disk *disk)
 {
     setrlimit(RLIMIT_FSIZE, &disk->before);

@@ -1,7 +1,7 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
 """Reads the public headers: those of the library, without *_internal.h. Refuses a function without a docstring, a
-pointer without a shape, a double without a unit, a status without a list of what is returned. Struct members are held
+pointer to numbers without a shape, a double without a unit, a status without a list of what is returned. Struct members are held
 to the same rule by their comments."""
 
 import re
@@ -31,9 +31,15 @@ class Parameter:
         self.name = words[-1] if len(words) > 1 else ""
         self.type = " ".join(words[:-1]) if len(words) > 1 else " ".join(words)
         self.is_pointer = "*" in text
+        self.stars = text.count("*")
         self.is_array = array
         self.is_opaque = self.is_pointer and self.type in ("void", "FILE") and text.count("*") == 1
         self.is_number = re.fullmatch(r"double|float|int|u?int\d+_t|size_t|bool|unsigned( char)?|char", self.type)
+
+    @property
+    def is_object(self):
+        """One object: its type says all that there is to say."""
+        return not self.is_number and not self.is_array and self.stars == 1
 
     @property
     def is_real(self):
@@ -79,12 +85,12 @@ def parameter_texts(docstring):
     return texts
 
 
-def check_parameter(parameter, text, is_listed):
+def check_parameter(parameter, text):
     if parameter.is_opaque:
         return None
     if parameter.is_pointer or parameter.is_array:
-        if not is_listed and not parameter.is_number:
-            return None  # prose about an object needs no "one object"
+        if parameter.is_object:
+            return None
         if not SHAPE.search(text):
             return "no shape; say shape [n,3], one object, zero-terminated, or the like"
     if parameter.is_real and not UNIT.search(text):
@@ -106,10 +112,10 @@ def check_function(head, docstring):
     listed = parameter_texts(docstring)
     for parameter in parameters:
         if listed and parameter.name not in listed:
-            if not parameter.is_opaque:
+            if not parameter.is_opaque and not parameter.is_object:
                 yield f"{name}: parameter {parameter.name} is not described"
             continue
-        problem = check_parameter(parameter, listed.get(parameter.name, docstring), bool(listed))
+        problem = check_parameter(parameter, listed.get(parameter.name, docstring))
         if problem:
             yield f"{name}: parameter {parameter.name} has {problem}"
     if re.fullmatch(r"(const )?(double|float)", result) and not UNIT.search(docstring):

@@ -281,7 +281,7 @@ class Docstrings(Sample):
     def test_good_forms_pass(self):
         for body in (
                 "/** Sets n. */\nvoid mor_f(int n);\n",
-                "/** @param a [in]  one object\n *  @param x [in]  shape [n,3]; unit m/s2\n *  Returns: MOR_OK. */\n"
+                "/** @param x [in]  shape [n,3]; unit m/s2\n *  Returns: MOR_OK. */\n"
                 "mor_status mor_f(const mor_a *a, const double *x);\n",
                 "/** Length of a vector, shape [3]; unit: that of the vector. */\n"
                 "static inline double mor_f(const double *a)\n{\n    return a[0];\n}\n",
@@ -300,7 +300,7 @@ class Docstrings(Sample):
                 ("/** @param x [in]  unit m */\nvoid mor_f(const double *x);\n", "parameter x has no shape"),
                 ("/** @param x [in]  shape [n] */\nvoid mor_f(const double *x);\n", "parameter x has no unit"),
                 ("/** @param x [in]  how long it takes */\nvoid mor_f(double x);\n", "parameter x has no unit"),
-                ("/** @param a [in]  the thing */\nvoid mor_f(const mor_a *a);\n", "parameter a has no shape"),
+                ("/** @param a [out]  the thing */\nvoid mor_f(mor_a **a);\n", "parameter a has no shape"),
                 ("/** @param n [in]  a count */\nvoid mor_f(int n, int m);\n", "parameter m is not described"),
                 ("/** @param n [in]  a count */\nmor_status mor_f(int n);\n", "no 'Returns:'"),
                 ("/** Returns how much. */\ndouble mor_f(void);\n", "what it returns has no unit"),

@@ -18,15 +18,12 @@ typedef struct mor_log_owner {
 } mor_log_owner;
 
 /** Puts a text in front of all log lines until mor_log_owner_end.
- *  @param owner   [out]     one object
- *  @param context [in,out]  one object
  *  @param format  [in]      printf format, then its arguments; zero-terminated */
 void mor_log_owner_begin(mor_log_owner *owner, mor_context *context, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /** Gives the context its sink back.
- *  @param owner   [in]      one object, begun
- *  @param context [in,out]  one object */
+ *  @param owner   [in]      begun */
 void mor_log_owner_end(const mor_log_owner *owner, mor_context *context);
 
 #endif

@@ -26,31 +26,25 @@ typedef struct mor_rock_list {
 } mor_rock_list;
 
 /** Reads a table from its text.
- *  @param context   [in,out]  one object
- *  @param units     [in]      one object
  *  @param name      [in]      zero-terminated; the file's name, for messages
  *  @param text      [in]      shape [n_bytes]; any bytes
  *  @param n_bytes   [in]      length of text, >= 0
  *  @param dimension [in]      2 or 3
- *  @param list      [out]     one object; empty after a failure
+ *  @param list      [out]     empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with a message "name:line:column: found ...; allowed: ...; do ..."; the column
  *  counts bytes from 1; MOR_ERROR_MEMORY. */
 mor_status mor_rock_list_parse(mor_context *context, const mor_units *units, const char *name, const char *text,
                                int64_t n_bytes, int dimension, mor_rock_list *list);
 
 /** Reads a table from a file.
- *  @param context   [in,out]  one object
- *  @param units     [in]      one object
  *  @param path      [in]      zero-terminated
  *  @param dimension [in]      2 or 3
- *  @param list      [out]     one object; empty after a failure
+ *  @param list      [out]     empty after a failure
  *  Returns: as mor_rock_list_parse; MOR_ERROR_CONFIG, too, for a file that cannot be read. */
 mor_status mor_rock_list_read(mor_context *context, const mor_units *units, const char *path, int dimension,
                               mor_rock_list *list);
 
-/** Frees the rows; accepts an empty list.
- *  @param context [in,out]  one object
- *  @param list    [in,out]  one object */
+/** Frees the rows; accepts an empty list. */
 void mor_rock_list_clear(mor_context *context, mor_rock_list *list);
 
 #endif

@@ -44,12 +44,11 @@ typedef struct mor_command {
 /** Takes a command line apart and does what it says.
  *  @param argc [in]      number of words, >= 1
  *  @param argv [in]      shape [argc] of zero-terminated words
- *  @param stop [in,out]  one object that a signal handler shares
+ *  @param stop [in,out]  that a signal handler shares
  *  Returns: the exit code. */
 int mor_command_main(int argc, char **argv, mor_stop *stop);
 
 /** The commands. Each prints results to command->output and returns a status.
- *  @param command   [in,out]  one object
  *  @param exit_code [in,out]  one number; MOR_EXIT_OK on entry */
 mor_status mor_command_run(mor_command *command, int *exit_code);
 mor_status mor_command_check(mor_command *command, int *exit_code);
@@ -67,8 +66,6 @@ const char *mor_command_list_word(int index);
 
 /** Prints sizes, clocks, expected time, warnings and stages of a simulation; takes a few steps, so the simulation is
  *  worthless afterwards.
- *  @param command    [in,out]  one object
- *  @param simulation [in,out]  one object
  *  Returns: MOR_OK; what a step returns. */
 mor_status mor_command_print_explanation(mor_command *command, mor_simulation *simulation);
 

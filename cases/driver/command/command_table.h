@@ -69,7 +69,6 @@ typedef struct mor_command_info {
 extern const mor_command_info mor_commands[];
 
 /** Whether a command takes an option.
- *  @param info [in]  one object
  *  @param kind [in]  which option */
 bool mor_command_takes(const mor_command_info *info, mor_command_option_kind kind);
 
@@ -78,8 +77,7 @@ bool mor_command_takes(const mor_command_info *info, mor_command_option_kind kin
 void mor_command_print_usage(FILE *out);
 
 /** Prints the help of one command: usage, options with defaults, examples, exit codes.
- *  @param out  [in,out]  one open file
- *  @param info [in]      one object */
+ *  @param out  [in,out]  one open file */
 void mor_command_print_help(FILE *out, const mor_command_info *info);
 
 /** Prints the manual page, moraine.1, in the language of man(7).

@@ -27,14 +27,12 @@ enum { MOR_PICTURE_COLOR_NAMES_BYTES = 128 };
 mor_picture_color mor_picture_color_find(const char *name);
 
 /** Value of a particle, in the unit of the color.
- *  @param color        [in]  one object
  *  @param field        [in]  shape [n_components]; in the unit of the field
  *  @param n_components [in]  1, or 3 for the length of a vector; what the field has, for a derived color
  *  @param up           [in]  shape [3], 1, unit vector against gravity */
 double mor_picture_color_value(const mor_picture_color *color, const double *field, int n_components, const double *up);
 
 /** Tells whether a field of so many components can be shown by this color.
- *  @param color        [in]  one object
  *  @param n_components [in]  of the field */
 bool mor_picture_color_fits(const mor_picture_color *color, int n_components);
 

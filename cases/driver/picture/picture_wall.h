@@ -11,7 +11,7 @@
  *  and containers, of which only what lies around the particles is of interest. It does not draw. */
 
 /** Widens a box until it holds particles.
- *  @param bounds   [in,out]  one object, m
+ *  @param bounds   [in,out]  m
  *  @param position [in]      shape [n,3], m
  *  @param n        [in]      number of particles, >= 0
  *  @param half     [in]      half the particle spacing, m */
@@ -19,18 +19,16 @@ void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t 
 
 /** Tells whether a wall is a structure: it stands still, has an end in all directions, does not reach beyond what moves
  *  on all sides as seen from above, and leaves what moves at least a quarter of the picture.
- *  @param the_case [in]  one object
  *  @param wall     [in]  index of the wall
- *  @param points   [in]  one object; the wall's particles, in the placed frame
- *  @param moving   [in]  one object, m; box around all that moves, in the placed frame
+ *  @param points   [in]  the wall's particles, in the placed frame
+ *  @param moving   [in]  m; box around all that moves, in the placed frame
  *  @param up       [in]  shape [3], 1, unit vector against gravity */
 bool mor_picture_wall_is_structure(const mor_case *the_case, int wall, const mor_lattice_points *points,
                                    const mor_bounds *moving, const double *up);
 
 /** Tells whether a wall hides more than a quarter of the places in a box from a viewer far away.
- *  @param the_case [in]  one object
  *  @param wall     [in]  index of a wall with an end in all directions
- *  @param moving   [in]  one object, m; the box, in the placed frame
+ *  @param moving   [in]  m; the box, in the placed frame
  *  @param toward   [in]  shape [3], 1, unit vector from the scene to the viewer
  *  Cost: some thousand distances from the shape. */
 bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds *moving, const double *toward);

@@ -22,8 +22,6 @@ typedef enum mor_pictures_choice {
 
 /** Checks before a run that its pictures can be colored as the case asks: by a field of the soil, or of some group of
  *  bodies where there is no soil.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  @param sets     [in]      shape [n_sets]; what goes into the snapshots: "soil" and the groups of bodies
  *  @param n_sets   [in]      number of sets
  *  Returns: MOR_OK; MOR_ERROR_CONFIG naming the color and what is allowed. */
@@ -31,8 +29,7 @@ mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, mo
 
 /** Draws images/<snapshot>_<color>.png for snapshots, all with the same camera, and images/energy.png and
  *  images/<probe unit>.png charts of the series.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object; the case of the run
+ *  @param the_case [in]      the case of the run
  *  @param folder   [in]      zero-terminated; the run's folder
  *  @param choice   [in]      which snapshots
  *  @param output   [in,out]  one open stream; the path of each picture is printed to it
@@ -41,8 +38,7 @@ mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, c
                                mor_pictures_choice choice, FILE *output);
 
 /** Draws the last snapshot of a folder, colored as one likes.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object; the case of the snapshots
+ *  @param the_case [in]      the case of the snapshots
  *  @param folder   [in]      zero-terminated; holds the snapshots
  *  @param color    [in]      zero-terminated; as output.color
  *  @param when     [in]      zero-terminated; stands in front of the time, as "settled for"

@@ -11,19 +11,14 @@
  *  What was asked for and what was reached when rocks were packed: as a table, in the log, as a chart. */
 
 /** Prints a table of all rocks of a case; nothing when it has none.
- *  @param the_case [in]      one object
  *  @param output   [in,out]  one open stream */
 void mor_rocks_report_print(const mor_case *the_case, FILE *output);
 
-/** Sends the same lines to the log.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object */
+/** Sends the same lines to the log. */
 void mor_rocks_report_log(mor_context *context, const mor_case *the_case);
 
 /** Draws images/rocks_<name>.png in a run's folder for every item that has several sizes: the curve of sizes asked for
  *  and the rocks placed, each at the middle of its share.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  @param folder   [in]      zero-terminated; the run's folder
  *  @param output   [in,out]  one open stream; the path of each chart is printed to it; NULL: not printed
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */

@@ -24,8 +24,6 @@ typedef struct mor_probe_statistics {
 } mor_probe_statistics;
 
 /** Evaluates one probe of the case on the state as it is.
- *  @param context    [in,out]  one object
- *  @param simulation [in]      one object
  *  @param probe      [in]      index of the probe in the case
  *  @param value      [out]     one number, in the unit of mor_probe_unit; NaN where there is nothing to measure
  *  Returns: MOR_OK; what the measurement returns. */
@@ -34,49 +32,39 @@ mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simula
 /** Measures the probes whose turn it is and keeps their statistics. To be called after each step. Forces and what is of
  *  single bodies are measured in each step. What looks at all particles is, too, as long as that takes no more than
  *  about 2 % of a step; else at an interval, which the statistics tell.
- *  @param context    [in,out]  one object
- *  @param simulation [in,out]  one object
  *  Returns: MOR_OK; what a measurement returns. */
 mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation);
 
 /** Returns a probe as mor_probe_follow measured it after the last step, without measuring again; also after a resume.
- *  @param context    [in,out]  one object
- *  @param simulation [in,out]  one object; statistics go on when the probe is measured now
+ *  @param simulation [in,out]  statistics go on when the probe is measured now
  *  @param probe      [in]      index of the probe in the case
  *  @param value      [out]     one number, in the unit of mor_probe_unit; measured now when it was not then
  *  Returns: MOR_OK; what the measurement returns. */
 mor_status mor_probe_value(mor_context *context, mor_simulation *simulation, int probe, double *value);
 
 /** Returns a probe as it was measured last, in the unit of mor_probe_unit; NaN when it never was.
- *  @param simulation [in]  one object
  *  @param probe      [in]  index of the probe in the case */
 double mor_probe_last(const mor_simulation *simulation, int probe);
 
 /** Writes what a probe did up to now.
- *  @param simulation [in]   one object
- *  @param probe      [in]   index of the probe in the case
- *  @param statistics [out]  one object */
+ *  @param probe      [in]   index of the probe in the case */
 void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_probe_statistics *statistics);
 
 /** Returns what a reader must know to trust the numbers of a probe, a static sentence without its stop; NULL: nothing.
  *  It stands as a footnote under tables and charts and as `remark` in the summary.
- *  @param simulation [in]  one object
  *  @param probe      [in]  index of the probe in the case */
 const char *mor_probe_remark(const mor_simulation *simulation, int probe);
 
 /** The most energy that has changed hands since the start, as a probe of type energy_balance followed it.
- *  @param simulation [in]  one object
  *  @param probe      [in]  index of such a probe in the case
  *  Returns: unit J (J/m in plane strain). */
 double mor_probe_energy_moved(const mor_simulation *simulation, int probe);
 
-/** Work to lift all soil and bodies by a spacing, unit J (J/m in plane strain).
- *  @param simulation [in]  one object */
+/** Work to lift all soil and bodies by a spacing, unit J (J/m in plane strain). */
 double mor_probe_lift_energy(const mor_simulation *simulation);
 
 /** Error of the energy of bodies without soil: what they have now, more than at the start less what contact and
  *  damping took and what drives them gave.
- *  @param simulation [in]   one object
  *  @param share      [out]  one number; the error over the energy that changed hands, or that of the start, or the work
  *                           to lift all bodies by a spacing, whichever is most; unit 1. Zero with soil, moving walls, a
  *                           ramp of gravity, numerics.damping or dampers, which this audit does not follow
@@ -84,8 +72,6 @@ double mor_probe_lift_energy(const mor_simulation *simulation);
 double mor_probe_bodies_error(const mor_simulation *simulation, double *share);
 
 /** Measures how far densities of the soil are from the reference density, whether or not a probe does.
- *  @param context    [in,out]  one object
- *  @param simulation [in]      one object
  *  @param percent    [in]      percentile; unit 1; 0 to 100
  *  @param value      [out]     one number, |density / reference - 1|; unit 1; 0 without soil
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
@@ -93,12 +79,10 @@ mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *s
                                    double *value);
 
 /** Returns the SI unit of a probe of the case, a static string.
- *  @param the_case [in]  one object
  *  @param probe    [in]  index of the probe */
 const char *mor_probe_unit(const mor_case *the_case, int probe);
 
 /** Returns the SI unit of the impulse of a probe, a static string; NULL when it is no force.
- *  @param the_case [in]  one object
  *  @param probe    [in]  index of the probe */
 const char *mor_probe_impulse_unit(const mor_case *the_case, int probe);
 

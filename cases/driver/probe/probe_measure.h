@@ -78,42 +78,30 @@ extern const mor_probe_measure mor_probe_body_measures[];
 extern const mor_probe_measure mor_probe_energy_measures[];
 
 /** Makes the scratch of a simulation's probes.
- *  @param context    [in,out]  one object
- *  @param simulation [in]      one object
  *  @param scan       [out]     one pointer; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_probe_scan_new(mor_context *context, const mor_simulation *simulation, mor_probe_scan **scan);
 
 /** Frees a scratch; accepts NULL.
- *  @param context [in,out]  one object
  *  @param scan    [in,out]  one pointer; NULL afterwards */
 void mor_probe_scan_free(mor_context *context, mor_probe_scan **scan);
 
-/** Forgets what was found for the measurement before.
- *  @param scan [in,out]  one object */
+/** Forgets what was found for the measurement before. */
 void mor_probe_scan_begin(mor_probe_scan *scan);
 
 /** Prepares the measurement of a probe.
- *  @param simulation [in]   one object
- *  @param probe      [in]   index of the probe in the case
- *  @param view       [out]  one object */
+ *  @param probe      [in]   index of the probe in the case */
 void mor_probe_view_set(const mor_simulation *simulation, int probe, mor_probe_view *view);
 
 /** Measures a probe; what was found since mor_probe_scan_begin is not found again.
- *  @param context [in,out]  one object
- *  @param view    [in]      one object
  *  @param value   [out]     one number, in the unit of the probe; NaN where there is nothing to measure
  *  Returns: MOR_OK; what the measurement returns, with the place of the probe. */
 mor_status mor_probe_view_measure(mor_context *context, const mor_probe_view *view, double *value);
 
-/** Returns kinetic, potential and elastic energy of soil and bodies, shape [3], unit J (J/m in plane strain).
- *  @param context [in]  one object
- *  @param view    [in]  one object */
+/** Returns kinetic, potential and elastic energy of soil and bodies, shape [3], unit J (J/m in plane strain). */
 const double *mor_probe_energies(const mor_context *context, const mor_probe_view *view);
 
-/** Returns their sum, unit J (J/m in plane strain).
- *  @param context [in]  one object
- *  @param view    [in]  one object */
+/** Returns their sum, unit J (J/m in plane strain). */
 double mor_probe_total_energy(const mor_context *context, const mor_probe_view *view);
 
 #endif

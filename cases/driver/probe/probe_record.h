@@ -41,14 +41,13 @@ void mor_probe_record_clear(double *record);
 /** Adds the value of something that has one at each instant, as a position. Between two measurements it is taken to
  *  change in proportion to time.
  *  @param record [in,out]  shape [MOR_PROBE_RECORD_NUMBERS]
- *  @param window [in]      one object
  *  @param time   [in]      of the measurement, not before the last one, unit s
  *  @param value  [in]      any unit */
 void mor_probe_record_add_instant(double *record, const mor_probe_window *window, double time, double value);
 
 /** Adds the value of something that holds over a step, as a force. Its time is the end of the step.
  *  @param record [in,out]  shape [MOR_PROBE_RECORD_NUMBERS]
- *  @param window [in]      one object; the step counts with the part of it that lies inside
+ *  @param window [in]      the step counts with the part of it that lies inside
  *  @param begin  [in]      of the step, unit s
  *  @param end    [in]      of the step, unit s
  *  @param value  [in]      any unit */
@@ -56,7 +55,6 @@ void mor_probe_record_add_step(double *record, const mor_probe_window *window, d
 
 /** Does of the above what belongs to one measurement: counts it, and adds its time to the span.
  *  @param record    [in,out]  shape [MOR_PROBE_RECORD_NUMBERS]
- *  @param window    [in]      one object
  *  @param begin     [in]      of the step, unit s
  *  @param end       [in]      of the step, unit s
  *  @param is_finite [in]      whether there was something to measure */
@@ -64,7 +62,6 @@ void mor_probe_record_count(double *record, const mor_probe_window *window, doub
 
 /** Does of the above what belongs to extremes, for a value that is known at more times than are counted.
  *  @param record [in,out]  shape [MOR_PROBE_RECORD_NUMBERS]
- *  @param window [in]      one object
  *  @param begin  [in]      of the part of a step, unit s
  *  @param end    [in]      likewise, unit s
  *  @param value  [in]      any unit */
@@ -72,7 +69,6 @@ void mor_probe_record_compare(double *record, const mor_probe_window *window, do
 
 /** Does of the above what belongs to the integral.
  *  @param record [in,out]  shape [MOR_PROBE_RECORD_NUMBERS]
- *  @param window [in]      one object
  *  @param begin  [in]      of the part of a step, unit s
  *  @param end    [in]      likewise, unit s
  *  @param value  [in]      any unit */

@@ -36,28 +36,24 @@ typedef struct mor_probe_track {
 } mor_probe_track;
 
 /** Prepares to follow the probes of a simulation that is built but for this: fills in simulation->probes.
- *  @param context    [in,out]  one object
- *  @param simulation [in,out]  one object; becomes the owner
+ *  @param simulation [in,out]  becomes the owner
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_probe_track_new(mor_context *context, struct mor_simulation *simulation);
 
 /** Frees a track and sets the pointer to NULL; NULL is accepted.
- *  @param context [in,out]  one object
  *  @param track   [in,out]  the address of one pointer */
 void mor_probe_track_free(mor_context *context, mor_probe_track **track);
 
 /** Forgets everything and measures the state at time zero. To be called once before the first step, not after a resume.
- *  @param context [in,out]  one object
- *  @param track   [in,out]  one object
  *  Returns: MOR_OK; what a measurement returns. */
 mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track);
 
 /** After a resume: probes that were not there before begin now.
- *  @param track [in,out]  one object, as the checkpoint left it */
+ *  @param track [in,out]  as the checkpoint left it */
 void mor_probe_track_resume(mor_probe_track *track);
 
 /** Lists what a checkpoint saves.
- *  @param track  [in,out]  one object; the values point into it
+ *  @param track  [in,out]  the values point into it
  *  @param values [out]     shape [MOR_PROBE_TRACK_VALUES] */
 void mor_probe_track_state(mor_probe_track *track, mor_checkpoint_value *values);
 

@@ -37,11 +37,9 @@ typedef struct mor_run_outcome {
 } mor_run_outcome;
 
 /** Runs a case.
- *  @param context  [in,out]  one object; its log sink is replaced during the call by log.txt of the folder, errors and
+ *  @param context  [in,out]  its log sink is replaced during the call by log.txt of the folder, errors and
  *                            warnings still reach the sink that was installed
- *  @param options  [in]      one object
- *  @param registry [in]      one object; the material models
- *  @param outcome  [out]     one object
+ *  @param registry [in]      the material models
  *  Returns: MOR_OK, also when stopped or when an expectation was missed; MOR_ERROR_CONFIG for bad input;
  *  MOR_ERROR_NUMERIC when a guard stopped it (the last good checkpoint is kept); MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run(mor_context *context, const mor_run_options *options, const mor_registry *registry,

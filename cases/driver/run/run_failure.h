@@ -14,9 +14,9 @@ enum { MOR_RUN_KEEP_INTERVAL = 64 /* steps from one state kept in memory to the 
 
 /** Goes back to the last finished step, adds its row and a snapshot, prints the table, writes summary.json and the
  *  pictures.
- *  @param context [in,out]  one object; holds the error that stopped the run, and does so again on return; what cannot
+ *  @param context [in,out]  holds the error that stopped the run, and does so again on return; what cannot
  *                           be written is logged as a warning
- *  @param files   [in,out]  one object; started, with a state kept
+ *  @param files   [in,out]  started, with a state kept
  *  @param retake  [in]      takes one step of the run, without files; number of the next snapshot in and out
  *  Returns: the status of the error that stopped the run. */
 mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files,

@@ -58,54 +58,44 @@ typedef struct mor_run_files {
 } mor_run_files;
 
 /** Begins to collect what is logged, for the log of a folder that is not there yet.
- *  @param context [in,out]  one object; gets files as its sink
- *  @param files   [out]     one object; to be closed, after a failure, too
+ *  @param context [in,out]  gets files as its sink
+ *  @param files   [out]     to be closed, after a failure, too
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_listen(mor_context *context, mor_run_files *files);
 
 /** Makes the folder and opens its log, which begins with what was collected.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object, listening
- *  @param options [in]      one object; borrowed
+ *  @param files   [in,out]  listening
+ *  @param options [in]      borrowed
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_CONFIG when a new run would overwrite an old one. */
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options);
 
 /** Prints the case. Of a new run it becomes case.resolved.cfg; on a resume it is compared with the case that the
  *  newest checkpoint carries, or, before the first checkpoint, with case.resolved.cfg: what a resume may not change
  *  (cases/driver/case/schema/case_compare.h) must be the same, the content of files included.
- *  @param context  [in,out]  one object
- *  @param files    [in,out]  one object
- *  @param registry [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_CONFIG naming the first difference; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry);
 
 /** Writes case.resolved.cfg of a run that goes on, where it is missing or no longer tells the case.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object; with the case
+ *  @param files   [in,out]  with the case
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_run_files_renew_case(mor_context *context, mor_run_files *files);
 
 /** Whether a folder has a file.
- *  @param context [in,out]  one object
  *  @param folder  [in]      zero-terminated
  *  @param name    [in]      zero-terminated */
 bool mor_run_files_has(mor_context *context, const char *folder, const char *name);
 
 /** Opens snapshots and series, for a new run or behind the restored state.
- *  @param context   [in,out]  one object
- *  @param files     [in,out]  one object
  *  @param is_resume [in]      whether the state was restored from a checkpoint
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool is_resume);
 
 /** Makes a folder and the folders it lies in.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for a path that is too long or cannot be made. */
 mor_status mor_run_files_make_folders(mor_context *context, const char *path);
 
 /** Refuses a folder that holds a run.
- *  @param context [in,out]  one object
  *  @param folder  [in]      zero-terminated
  *  @param advice  [in]      zero-terminated; what to do
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
@@ -113,60 +103,45 @@ mor_status mor_run_files_refuse_run(mor_context *context, const char *folder, co
 
 /** Takes away a folder that was made by mor_run_files_open, with its log and the case, so that a case that is refused
  *  leaves no results behind. A folder that was there before, or holds anything else, stays, as do folders above it.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object; still to be closed */
+ *  @param files   [in,out]  still to be closed */
 void mor_run_files_discard(mor_context *context, mor_run_files *files);
 
-/** Closes everything and gives the context its sink back; accepts a zeroed object.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object */
+/** Closes everything and gives the context its sink back; accepts a zeroed object. */
 void mor_run_files_close(mor_context *context, mor_run_files *files);
 
 /** Adds a row to the series.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_IO; what a probe returns. */
 mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files);
 
 /** Adds a snapshot.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files);
 
 /** Writes the checkpoint.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files);
 
 /** Keeps the present state in memory, in place of the one kept before.
- *  @param context       [in,out]  one object
- *  @param files         [in,out]  one object; started
+ *  @param files         [in,out]  started
  *  @param next_snapshot [in]      number of the next snapshot
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: copies the evolving fields; allocates the first time. */
 mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_t next_snapshot);
 
 /** Goes back to the state kept in memory.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object; with a state kept
+ *  @param files   [in,out]  with a state kept
  *  Returns: MOR_OK; what a material returns. */
 mor_status mor_run_files_recall(mor_context *context, mor_run_files *files);
 
 /** Restores the newest good checkpoint of the folder.
- *  @param context     [in,out]  one object
- *  @param files       [in,out]  one object
  *  @param is_restored [out]     one flag; false when the folder has no checkpoint yet
  *  Returns: MOR_OK; MOR_ERROR_IO naming the damaged files; MOR_ERROR_CONFIG for the state of another case. */
 mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored);
 
 /** Evaluates all probes and expectations, prints the table, writes summary.json. Of a run that failed no expectation is
  *  reached, and a probe that cannot be evaluated is not a number.
- *  @param context                   [in,out]  one object
- *  @param files                     [in,out]  one object
  *  @param particle_steps_per_second [in]      speed of the time loop, unit 1/s; NaN: no step was taken, the
  *                                             speed in a summary that is there already is kept
- *  @param failure                   [in]      one object; NULL: the run reached its end
+ *  @param failure                   [in]      NULL: the run reached its end
  *  @param n_missed                  [out]     one number; expectations missed
  *  Returns: MOR_OK; MOR_ERROR_IO; what a probe returns. */
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,

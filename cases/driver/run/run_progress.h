@@ -24,17 +24,14 @@ typedef struct mor_run_progress {
 } mor_run_progress;
 
 /** Whether it is time for another line, which then begins to wait anew.
- *  @param progress [in,out]  one object
  *  @param now      [in]      of the clock, s */
 bool mor_run_progress_is_due(mor_run_progress *progress, double now);
 
 /** Writes a line.
- *  @param progress [in,out]  one object
  *  @param line     [in]      zero-terminated, without an end of line; at most MOR_RUN_PROGRESS_BYTES - 1 letters */
 void mor_run_progress_show(mor_run_progress *progress, const char *line);
 
-/** Takes the line off the terminal.
- *  @param progress [in,out]  one object */
+/** Takes the line off the terminal. */
 void mor_run_progress_end(mor_run_progress *progress);
 
 #endif

@@ -11,8 +11,7 @@
 /** Settles as mor_simulation_settle. Soil that does not come to rest is kept as a snapshot in the folder `settling` of
  *  the run and drawn by its speed and its plastic strain, images/settling-velocity.png and
  *  images/settling-plastic-strain.png.
- *  @param context [in,out]  one object
- *  @param files   [in,out]  one object, open
+ *  @param files   [in,out]  open
  *  Returns: as mor_simulation_settle; the message then tells of the pictures. */
 mor_status mor_run_settle(mor_context *context, mor_run_files *files);
 

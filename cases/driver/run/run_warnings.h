@@ -21,18 +21,16 @@ typedef struct mor_run_warnings {
 } mor_run_warnings;
 
 /** Adds a text unless it is there already. The last place says that log.txt has more.
- *  @param warnings [in,out]  one object
  *  @param text     [in]      zero-terminated
  *  Returns: whether the text was new and had room. */
 bool mor_run_warnings_add(mor_run_warnings *warnings, const char *text);
 
 /** Adds the warnings that a log of an earlier part of the run tells, but for those of its end.
- *  @param warnings [in,out]  one object
  *  @param path     [in]      zero-terminated; of the log; one that is missing tells none */
 void mor_run_warnings_load(mor_run_warnings *warnings, const char *path);
 
 /** Frees the texts.
- *  @param warnings [in,out]  one object; becomes zeroed */
+ *  @param warnings [in,out]  becomes zeroed */
 void mor_run_warnings_clear(mor_run_warnings *warnings);
 
 #endif

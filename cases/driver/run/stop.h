@@ -25,14 +25,14 @@ typedef struct mor_stop {
 } mor_stop;
 
 /** Whether a run is to stop.
- *  @param stop [in]  one object; NULL: never */
+ *  @param stop [in]  NULL: never */
 static inline bool mor_stop_is_requested(const mor_stop *stop)
 {
     return stop != NULL && stop->is_requested != 0;
 }
 
 /** Says what the program is at.
- *  @param stop  [in,out]  one object; NULL: nobody asks
+ *  @param stop  [in,out]  NULL: nobody asks
  *  @param phase [in]      one of the words above */
 static inline void mor_stop_enter(mor_stop *stop, int phase)
 {

@@ -34,29 +34,25 @@ typedef struct mor_simulation {
 } mor_simulation;
 
 /** Maps a point, or a direction, of the case into the placed frame.
- *  @param the_case [in]   one object
  *  @param point    [in]   shape [3], unit m
  *  @param placed   [out]  shape [3], unit m; may not alias point */
 void mor_simulation_place_point(const mor_case *the_case, const double *point, double *placed);
 
 /** Maps a point of the placed frame back into that of the case.
- *  @param the_case [in]   one object
  *  @param placed   [in]   shape [3], unit m
  *  @param point    [out]  shape [3], unit m */
 void mor_simulation_take_point_back(const mor_case *the_case, const double *placed, double *point);
 
 /** Finds the direction against gravity in the placed frame; without gravity y (2D) or z (3D) of the case, turned.
- *  @param the_case [in]   one object
  *  @param up       [out]  shape [3]; unit vector, 1 */
 void mor_simulation_find_up(const mor_case *the_case, double *up);
 
 /** Lateral over vertical stress at rest of a region, 1: the one given, else 1 - sin(friction angle), else 1.
- *  @param material [in]  one object; the model
- *  @param soil     [in]  one object */
+ *  @param material [in]  the model */
 double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil);
 
 /** Value of a parameter of a soil by name.
- *  @param material   [in]  one object; the model
+ *  @param material   [in]  the model
  *  @param parameters [in]  shape of the model's parameters, in its order; SI
  *  @param key        [in]  zero-terminated
  *  @param fallback   [in]  unit of the parameter; returned where the model has none of that name
@@ -64,19 +60,16 @@ double mor_simulation_lateral_ratio(const mor_material *material, const mor_case
 double mor_simulation_parameter(const mor_material *material, const double *parameters, const char *key,
                                 double fallback);
 
-/** Number of particles, soil and rocks.
- *  @param simulation [in]  one object */
+/** Number of particles, soil and rocks. */
 int64_t mor_simulation_particles(const mor_simulation *simulation);
 
-/** Number of particles that speeds are counted in: those that take the common step, the soil's where there is soil.
- *  @param simulation [in]  one object */
+/** Number of particles that speeds are counted in: those that take the common step, the soil's where there is soil. */
 static inline int64_t mor_simulation_counted_particles(const mor_simulation *simulation)
 {
     return simulation->has_soil ? simulation->soil.set.n_particles : mor_simulation_particles(simulation);
 }
 
 /** What speeds are counted in, in words: it says so where rocks are left out.
- *  @param simulation [in]  one object
  *  Returns: a static text. */
 static inline const char *mor_simulation_counted_unit(const mor_simulation *simulation)
 {
@@ -84,27 +77,23 @@ static inline const char *mor_simulation_counted_unit(const mor_simulation *simu
 }
 
 /** All particle sets: the soil, the groups of bodies, what their contact remembers.
- *  @param simulation  [in]   one object
  *  @param sets        [out]  shape [MOR_BODY_GROUPS_MAX + 2]; borrowed
  *  @param has_history [in]   whether the contact's memory is wanted, which has no places
  *  Returns: their number. */
 int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **sets);
 
-/** The total energy at time zero, unit J (J/m in 2D).
- *  @param simulation [in]  one object */
+/** The total energy at time zero, unit J (J/m in 2D). */
 static inline double mor_simulation_initial_energy(const mor_simulation *simulation)
 {
     return simulation->initial_energies[0] + simulation->initial_energies[1] + simulation->initial_energies[2];
 }
 
 /** Kinetic, potential and elastic energy of soil and rocks now; potential energy counts from the placed origin.
- *  @param simulation [in]   one object
  *  @param n_threads  [in]   that share the work; 0: one
  *  @param energies   [out]  shape [3], unit J (J/m in 2D) */
 void mor_simulation_energies(const mor_simulation *simulation, int n_threads, double *energies);
 
-/** Returns their sum, unit J (J/m in 2D).
- *  @param simulation [in]  one object */
+/** Returns their sum, unit J (J/m in 2D). */
 double mor_simulation_energy(const mor_simulation *simulation);
 
 #endif

@@ -53,68 +53,51 @@ typedef struct mor_simulation_frame {
 
 /** Builds the bodies and their contact: fills the shapes with particles, checks that nothing overlaps and that all of
  *  it lies in the domain, sets the motion at the start.
- *  @param context   [in,out]  one object
- *  @param bodies    [out]     one object; storage supplied by the caller; cleared by the caller also after a failure
- *  @param the_case  [in]      one object; borrowed
- *  @param registry  [in]      one object
- *  @param frame     [in]      one object
+ *  @param bodies    [out]     storage supplied by the caller; cleared by the caller also after a failure
+ *  @param the_case  [in]      borrowed
  *  @param first_bit [in]      number of the stepper that the first group becomes
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
                                       const mor_registry *registry, const mor_simulation_frame *frame, int first_bit);
 
-/** Frees what the bodies own; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param bodies  [in,out]  one object */
+/** Frees what the bodies own; accepts a zeroed one. */
 void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bodies);
 
 /** Adds the bodies to the schedule and shows them to the soil.
- *  @param context  [in,out]  one object
- *  @param bodies   [in,out]  one object
- *  @param the_case [in]      one object
- *  @param soil     [in,out]  one object; NULL: there is no soil
- *  @param schedule [in,out]  one object
+ *  @param soil     [in,out]  NULL: there is no soil
  *  Returns: MOR_OK; what the parts return. */
 mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
                                       mor_soil *soil, mor_schedule *schedule);
 
 /** The frame of a body: X = rotation * x + translation.
- *  @param the_case    [in]   one object
- *  @param body        [in]   one object
  *  @param rotation    [out]  shape [3,3], unit 1
  *  @param translation [out]  shape [3], unit m */
 void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *body, double *rotation,
                                double *translation);
 
 /** Writes a box around a body at its place in the run, a little wider.
- *  @param the_case [in]   one object
- *  @param body     [in]   one object
- *  @param box      [out]  one object; unit m */
+ *  @param box      [out]  unit m */
 void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body, mor_bounds *box);
 
 /** Whether a point lies in a box; if not, it lies not in its body either.
- *  @param box   [in]  one object, from mor_simulation_body_box
+ *  @param box   [in]  from mor_simulation_body_box
  *  @param point [in]  shape [3], unit m */
 bool mor_simulation_body_may_hold(const mor_bounds *box, const double *point);
 
 /** Signed distance of a point of the run to a shape given in a frame of its own, X = rotation * x + translation; unit m.
- *  @param shape       [in]  one object
  *  @param rotation    [in]  shape [3,3], rotation matrix, unit 1
  *  @param translation [in]  shape [3], unit m
  *  @param point       [in]  shape [3], unit m */
 double mor_simulation_placed_distance(const mor_shape *shape, const double *rotation, const double *translation,
                                       const double *point);
 
-/** Work to lift all bodies by a spacing of their own: less moves nothing that is resolved; unit J (J/m).
- *  @param bodies [in]  one object */
+/** Work to lift all bodies by a spacing of their own: less moves nothing that is resolved; unit J (J/m). */
 double mor_simulation_bodies_lift(const mor_simulation_bodies *bodies);
 
-/** Energy that contact and viscous damping took from all bodies since the start, unit J (J/m).
- *  @param bodies [in]  one object */
+/** Energy that contact and viscous damping took from all bodies since the start, unit J (J/m). */
 double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies);
 
 /** Energies of all bodies, unit J (J/m).
- *  @param bodies    [in]   one object
  *  @param datum     [in]   shape [3]; potential energy counts from here, unit m
  *  @param kinetic   [out]  one number, unit J
  *  @param potential [out]  one number; of weight and springs to fixed points, unit J
@@ -123,7 +106,6 @@ void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const dou
                                   double *potential, double *elastic);
 
 /** Linear momentum of all bodies, and angular momentum about a point.
- *  @param bodies           [in]   one object
  *  @param point            [in]   shape [3], unit m
  *  @param momentum         [out]  shape [3], unit kg m/s (kg/s)
  *  @param angular_momentum [out]  shape [3], unit kg m2/s (kg m/s) */
@@ -131,26 +113,19 @@ void mor_simulation_bodies_momentum(const mor_simulation_bodies *bodies, const d
                                     double *angular_momentum);
 
 /** How far the lowest surface node of a body lies below a level, unit m; negative above it.
- *  @param body  [in]  one object
  *  @param up    [in]  shape [3], unit vector, unit 1
  *  @param level [in]  along up over the origin of coordinates, unit m */
 double mor_simulation_body_depth(const mor_simulation_body *body, const double *up, double level);
 
-/** Numbers that `packed` holds.
- *  @param bodies [in]  one object */
+/** Numbers that `packed` holds. */
 int64_t mor_simulation_bodies_packed(const mor_simulation_bodies *bodies);
 
 /** Collects what a checkpoint saves of the bodies into `packed`, or puts it back and makes everything else follow.
- *  @param context  [in,out]  one object
- *  @param bodies   [in,out]  one object
  *  @param is_saved [in]      true: before saving; false: after restoring
  *  Returns: MOR_OK; what a material returns. */
 mor_status mor_simulation_bodies_pack(mor_context *context, mor_simulation_bodies *bodies, bool is_saved);
 
 /** Brings all bodies to rest and sets the damping of their motion, or gives them their motion at the start.
- *  @param context  [in,out]  one object
- *  @param bodies   [in,out]  one object
- *  @param the_case [in]      one object
  *  @param damping  [in]      unit 1/s; while the soil settles; 0: the start of the run
  *  Returns: MOR_OK; what a material returns. */
 mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,

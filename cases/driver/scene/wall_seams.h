@@ -13,8 +13,6 @@
 
 /** Joins walls that make up one face together, form no inner corner, move alike, yield alike and have no contact law of
  *  their own.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  @param walls    [in,out]  shape [n_walls] as of the case: joined_to and whole are set
  *  @param wholes   [out]     shape [n_walls]; unions, the caller's to free; NULL where a wall is joined to no other
  *  Returns: MOR_OK; MOR_ERROR_MEMORY.  Cost: some hundred thousand distances per pair of walls that come near. */
@@ -22,8 +20,6 @@ mor_status mor_wall_seams_join(mor_context *context, const mor_case *the_case, m
                                mor_shape **wholes);
 
 /** Warns of each pair of walls that make up one face together but are not joined, where there are bodies to touch it.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  Cost: some hundred thousand distances per pair of walls that come near. */
 void mor_wall_seams_warn(mor_context *context, const mor_case *the_case);
 

@@ -45,7 +45,6 @@ struct mor_case_node {
 };
 
 /** Parses the text of a case file.
- *  @param context [in,out]  one object
  *  @param name    [in]      zero-terminated; the file's name, for messages; copied
  *  @param text    [in]      shape [n_bytes]; need not be zero-terminated; a byte order mark is skipped
  *  @param n_bytes [in]      length of text, >= 0
@@ -57,7 +56,6 @@ mor_status mor_case_file_parse(mor_context *context, const char *name, const cha
                                mor_case_file **file);
 
 /** Reads and parses a case file.
- *  @param context [in,out]  one object
  *  @param path    [in]      zero-terminated
  *  @param file    [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: as mor_case_file_parse; MOR_ERROR_CONFIG also when path is missing, unreadable or not a regular file. */
@@ -66,48 +64,39 @@ mor_status mor_case_file_load(mor_context *context, const char *path, mor_case_f
 /** Writes one setting over those of the file, as the command line does: "numerics.courant=0.2",
  *  "soil[0].material.friction_angle=30 deg", "gravity[2]=0". Groups on the way are made when missing. The value is read
  *  as in the file; what is no value there becomes a text.
- *  @param context [in,out]  one object
- *  @param file    [in,out]  one object
  *  @param setting [in]      zero-terminated "key=value"; copied
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. After a failure the tree may hold groups made on the way. */
 mor_status mor_case_file_set(mor_context *context, mor_case_file *file, const char *setting);
 
 /** Frees the tree and sets the pointer to NULL; NULL is accepted.
- *  @param context [in,out]  one object
  *  @param file    [in,out]  the address of one pointer */
 void mor_case_file_free(mor_context *context, mor_case_file **file);
 
-/** Returns the root group; it lives as long as the file.
- *  @param file [in]  one object */
+/** Returns the root group; it lives as long as the file. */
 const mor_case_node *mor_case_file_root(const mor_case_file *file);
 
 /** Returns the member of a group, or NULL.
- *  @param group [in]  one object; NULL and nodes that are no group have no members
+ *  @param group [in]  NULL and nodes that are no group have no members
  *  @param name  [in]  zero-terminated */
 const mor_case_node *mor_case_node_find(const mor_case_node *group, const char *name);
 
 /** Writes what a setting holds, for people: "5 kg", 0.4, true, "a list of 3", "a group".
- *  @param node       [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_case_node_print(const mor_case_node *node, char *text, size_t text_bytes);
 
 /** Writes where in the tree a setting is: "soil[0].material.density"; "the file" for the root.
- *  @param node       [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_case_node_path(const mor_case_node *node, char *text, size_t text_bytes);
 
 /** Writes where a setting was written: "case.cfg:12" or "--set 'spacing=5 mm'".
- *  @param node       [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_case_node_place(const mor_case_node *node, char *text, size_t text_bytes);
 
 /** Records an error about a setting, its place in front. Use MOR_CASE_NODE_FAIL.
- *  @param context [in,out]  one object
- *  @param node    [in]      one object
- *  @param place   [in]      one object; where in the program the error arose
+ *  @param place   [in]      where in the program the error arose
  *  @param format  [in]      printf format, then its arguments; zero-terminated
  *  Returns: MOR_ERROR_CONFIG. */
 mor_status mor_case_node_fail(mor_context *context, const mor_case_node *node, const mor_frame *place,

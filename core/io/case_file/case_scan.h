@@ -18,7 +18,6 @@ enum {
 };
 
 /** Checks size, bytes, brackets, strings, comments, @include and number literals.
- *  @param context [in,out]  one object
  *  @param name    [in]      zero-terminated; the file's name, for messages
  *  @param text    [in]      shape [n_bytes]; need not be zero-terminated
  *  @param n_bytes [in]      length of text, >= 0

@@ -32,12 +32,11 @@ typedef struct mor_conformance_report {
 } mor_conformance_report;
 
 /** Tries all laws on a model.
- *  @param context    [in,out]  one object; its seed decides the random input; left without an error on MOR_OK
- *  @param material   [in]      one object
+ *  @param context    [in,out]  its seed decides the random input; left without an error on MOR_OK
  *  @param parameters [in]      shape [n_values] in schema order, units of the schema; NULL: several sets are drawn from
  *                              the ranges of the schema
  *  @param density    [in]      > 0; unit kg/m3
- *  @param report     [out]     one object; complete even when laws failed
+ *  @param report     [out]     complete even when laws failed
  *  Returns: MOR_OK when the laws could be tried, whatever the verdicts; MOR_ERROR_ARGUMENT when no instance can be made
  *  of the given (or of any drawn) parameters; MOR_ERROR_PLUGIN when the descriptor itself is refused; MOR_ERROR_MEMORY.
  *  Cost: well under a second for a closed-form law; allocates. Threads: not concurrently with the same context. */
@@ -45,7 +44,6 @@ mor_status mor_conformance_run(mor_context *context, const mor_material *materia
                                double density, mor_conformance_report *report);
 
 /** Writes one row as a line for people: verdict, law, figure, tolerance and its reason, note.
- *  @param row        [in]   one object
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0; 1024 always suffices */
 void mor_conformance_format(const mor_conformance_row *row, char *text, size_t text_bytes);

@@ -60,14 +60,12 @@ extern const mor_bench_entry mor_bench_total_laws[];
 extern const mor_bench_entry mor_bench_common_laws[];
 
 /** Fills start with states reached by random paths and with a motion for one more step.
- *  @param bench [in,out]  one object
  *  Returns: MOR_OK; the status of init_state or of the step that stopped. */
 mor_status mor_bench_prepare(mor_bench *bench);
 
 /** Evaluates a range of particles: advance_rate or stress_total.
- *  @param bench    [in]      one object
- *  @param instance [in]      one object; bench->instance or a relative of it
- *  @param arrays   [in,out]  one object; out, state_out and dissipation of the range are written
+ *  @param instance [in]      bench->instance or a relative of it
+ *  @param arrays   [in,out]  out, state_out and dissipation of the range are written
  *  @param first    [in]      first particle
  *  @param n        [in]      number of particles
  *  Returns: MOR_OK; the status of the operation. */
@@ -75,8 +73,6 @@ mor_status mor_bench_evaluate(const mor_bench *bench, const mor_material_instanc
                               int64_t first, int64_t n);
 
 /** As mor_bench_evaluate over all particles with the bench's instance, then makes the end the next start.
- *  @param bench  [in,out]  one object
- *  @param arrays [in,out]  one object
  *  Returns: MOR_OK; the status of the operation, the start is then untouched. */
 mor_status mor_bench_step(mor_bench *bench, mor_bench_arrays *arrays);
 

@@ -157,19 +157,16 @@ struct mor_material_instance {
     const double *parameters;           /* shape [n_values], schema order, checked; owned; units: of the schema */
     int n_values;                       /* numbers in parameters */
     int n_state;                        /* entries of the state schema */
-    void *data;                         /* one object of the model's own; made by create, freed by destroy */
+    void *data;                         /* the model's own; made by create, freed by destroy */
 };
 
 /** Checks that a descriptor keeps the contract: ABI, size, strings, schemas, required operations, capability bits.
- *  @param context  [in,out]  one object
- *  @param material [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_PLUGIN saying what is wrong with which model. */
 mor_status mor_material_verify(mor_context *context, const mor_material *material);
 
 /** Makes an instance: verifies the descriptor, checks the parameters against the schema, fills in default operations,
  *  calls the model's create.
- *  @param context    [in,out]  one object
- *  @param material   [in]      one object; borrowed, must outlive the instance
+ *  @param material   [in]      borrowed, must outlive the instance
  *  @param density    [in]      reference density, > 0 and finite; unit kg/m3
  *  @param parameters [in]      shape [n_values] in schema order (mor_params_count); units of the schema; a choice is
  *                              the index of its word; copied
@@ -180,20 +177,16 @@ mor_status mor_material_create(mor_context *context, const mor_material *materia
                                const double *parameters, mor_material_instance **instance);
 
 /** Frees an instance and sets the pointer to NULL; NULL is accepted.
- *  @param context  [in,out]  one object
  *  @param instance [in,out]  the address of one pointer */
 void mor_material_destroy(mor_context *context, mor_material_instance **instance);
 
 /** Writes the text printed into output files: model, version, source, every parameter with unit.
- *  @param context    [in,out]  one object
- *  @param instance   [in]      one object
  *  @param text       [out]     shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]      room in text in bytes, > 0; MOR_MATERIAL_TEXT_BYTES always suffices */
 void mor_material_describe(mor_context *context, const mor_material_instance *instance, char *text, size_t text_bytes);
 
 /** Fills in the services record that materials get from this host.
- *  @param context  [in]   one object; borrowed by the record
- *  @param services [out]  one object */
+ *  @param context  [in]   borrowed by the record */
 void mor_services_init(mor_context *context, mor_services *services);
 
 #endif

@@ -18,7 +18,7 @@
  *  Threads: safe to call concurrently with a context each. */
 
 /** Writes the terms of particles first to first + n - 1, in any one unit.
- *  job: one object; terms: shape [n]; at most 1024 at a time. */
+ *  terms: shape [n]; at most 1024 at a time. */
 typedef void (*mor_sum_fill)(const void *job, int64_t first, int64_t n, double *terms);
 
 /** The particles measured. Everything is borrowed. */
@@ -105,7 +105,6 @@ typedef struct mor_measure_stress {
 
 /** Finds a weighted percentile. Each value stands at the middle of its weight in the sorted row; between values the
  *  result is linear; before the first and after the last middle it is the smallest and the largest value.
- *  @param context  [in,out]  one object
  *  @param values   [in]      shape [n_values]; any unit
  *  @param weights  [in]      shape [n_values]; any unit, >= 0, not all 0; values of weight 0 are left out; NULL: all 1
  *  @param n_values [in]      >= 1
@@ -118,9 +117,6 @@ mor_status mor_measure_percentile(mor_context *context, const double *values, co
                                   double percent, double *result);
 
 /** Finds the run-out that holds a share of the mass: the percentile of the distance, plus half a spacing.
- *  @param context [in,out]  one object
- *  @param points  [in]      one object
- *  @param frame   [in]      one object
  *  @param percent [in]      unit 1; 0 to 100
  *  @param run_out [out]     one number; unit m
  *  Returns: as mor_measure_percentile. Cost: O(n) where all particles have one mass, else O(n log n); allocates nothing
@@ -129,8 +125,6 @@ mor_status mor_measure_run_out(mor_context *context, const mor_measure_points *p
                                double percent, double *run_out);
 
 /** Finds the height over a point: the mass percentile along up, plus half a spacing. 100 gives the highest particle.
- *  @param context [in,out]  one object
- *  @param points  [in]      one object
  *  @param origin  [in]      shape [3]; unit m
  *  @param up      [in]      shape [3]; unit vector, 1
  *  @param percent [in]      unit 1; 0 to 100
@@ -141,8 +135,6 @@ mor_status mor_measure_height(mor_context *context, const mor_measure_points *po
                               const double *up, double percent, double *height);
 
 /** Finds a percentile of the speed, weighted by mass.
- *  @param context  [in,out]  one object
- *  @param points   [in]      one object
  *  @param velocity [in]      shape [n_points,3]; unit m/s
  *  @param percent  [in]      unit 1; 0 to 100
  *  @param speed    [out]     one number; unit m/s
@@ -152,10 +144,8 @@ mor_status mor_measure_speed(mor_context *context, const mor_measure_points *poi
                              double percent, double *speed);
 
 /** Finds a percentile of values, one for each particle, that are made one by one. All particles count alike.
- *  @param context [in,out]  one object
- *  @param points  [in]      one object
  *  @param fill    [in]      writes the values of particles first to first + n - 1, shape [n]; any unit
- *  @param job     [in]      one object; first argument of fill
+ *  @param job     [in]      first argument of fill
  *  @param percent [in]      unit 1; 0 to 100
  *  @param result  [out]     one number; unit of the values
  *  Returns: as mor_measure_percentile. Cost: O(n), allocates nothing where points bring an order. */
@@ -163,13 +153,11 @@ mor_status mor_measure_share(mor_context *context, const mor_measure_points *poi
                              double percent, double *result);
 
 /** Makes the profile of a deposit.
- *  @param context   [in,out]  one object
- *  @param points    [in]      one object
- *  @param frame     [in]      one object; direction, when used, lies across up
+ *  @param frame     [in]      direction, when used, lies across up
  *  @param bin_width [in]      unit m; > 0; as a rule the spacing
  *  @param breadth   [in]      unit m; width of the deposit across up and direction, used in 3D along a direction only;
  *                             0: from the outermost particles, plus one spacing
- *  @param profile   [out]     one object; owned by the caller
+ *  @param profile   [out]     owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong argument or too many bins; MOR_ERROR_NUMERIC for positions that are
  *  not finite; MOR_ERROR_MEMORY. On failure profile is empty.
  *  Cost: O(n + bins), allocates. */
@@ -178,31 +166,23 @@ mor_status mor_measure_profile_new(mor_context *context, const mor_measure_point
                                    mor_measure_profile *profile);
 
 /** Makes the profile anew in the memory of an earlier one; otherwise as mor_measure_profile_new.
- *  @param context   [in,out]  one object
- *  @param points    [in]      one object
- *  @param frame     [in]      one object
  *  @param bin_width [in]      unit m; > 0
  *  @param breadth   [in]      unit m
- *  @param profile   [in,out]  one object; zeroed at first; owned by the caller, after a failure, too
+ *  @param profile   [in,out]  zeroed at first; owned by the caller, after a failure, too
  *  Returns: as mor_measure_profile_new.
  *  Cost: O(n + bins), allocates when there are more bins than there is room for. */
 mor_status mor_measure_profile_fill(mor_context *context, const mor_measure_points *points,
                                     const mor_measure_frame *frame, double bin_width, double breadth,
                                     mor_measure_profile *profile);
 
-/** Frees what a profile owns; an empty profile is accepted.
- *  @param context [in,out]  one object
- *  @param profile [in,out]  one object */
+/** Frees what a profile owns; an empty profile is accepted. */
 void mor_measure_profile_clear(mor_context *context, mor_measure_profile *profile);
 
 /** Finds where a deposit ends by a thickness threshold, and what lies beyond. A threshold of half a spacing suits an
  *  axisymmetric deposit; in 2D take one that does not shrink with the spacing, such as 5 % of the initial height.
- *  @param context   [in,out]  one object
- *  @param points    [in]      one object; the same as the profile was made from
- *  @param frame     [in]      one object; likewise
- *  @param profile   [in]      one object
+ *  @param points    [in]      the same as the profile was made from
+ *  @param frame     [in]      likewise
  *  @param threshold [in]      unit m; > 0
- *  @param front     [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT.
  *  Cost: O(n + bins). */
 mor_status mor_measure_find_front(mor_context *context, const mor_measure_points *points,
@@ -211,49 +191,37 @@ mor_status mor_measure_find_front(mor_context *context, const mor_measure_points
 
 /** Finds the angle of repose: that of the least-squares line through (center, top) of the bins beyond the highest one
  *  whose tops lie between two shares of the largest top.
- *  @param context [in,out]  one object
- *  @param profile [in]      one object
  *  @param low     [in]      unit 1; lower share, as a rule 0.2
  *  @param high    [in]      unit 1; upper share, as a rule 0.8
- *  @param repose  [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT unless 0 <= low < high <= 1.
  *  Cost: O(bins). */
 mor_status mor_measure_find_repose(mor_context *context, const mor_measure_profile *profile, double low, double high,
                                    mor_measure_repose *repose);
 
 /** Compares the stress in a column at rest with the weight above.
- *  @param context [in,out]  one object
- *  @param points  [in]      one object
  *  @param stress  [in]      shape [n_points,6]; unit Pa; tension positive, order (xx, yy, zz, xy, yz, zx)
- *  @param column  [in]      one object
- *  @param result  [out]     one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong argument, or particles at fewer than two heights in the column.
  *  Cost: O(n). */
 mor_status mor_measure_column_stress(mor_context *context, const mor_measure_points *points, const double *stress,
                                      const mor_measure_column *column, mor_measure_stress *result);
 
-/** Returns the total mass, unit kg (2D: kg/m).
- *  @param points [in]  one object */
+/** Returns the total mass, unit kg (2D: kg/m). */
 double mor_measure_mass(const mor_measure_points *points);
 
 /** Writes the center of mass.
- *  @param points [in]   one object
  *  @param center [out]  shape [3]; unit m */
 void mor_measure_center_of_mass(const mor_measure_points *points, double *center);
 
 /** Writes the linear momentum.
- *  @param points   [in]   one object
  *  @param velocity [in]   shape [n_points,3]; unit m/s
  *  @param momentum [out]  shape [3]; unit kg m/s (2D: kg/s) */
 void mor_measure_momentum(const mor_measure_points *points, const double *velocity, double *momentum);
 
 /** Returns the kinetic energy, the sum of mass * speed^2 / 2, unit J (2D: J/m).
- *  @param points   [in]  one object
  *  @param velocity [in]  shape [n_points,3]; unit m/s */
 double mor_measure_kinetic_energy(const mor_measure_points *points, const double *velocity);
 
 /** Returns the potential energy, the sum of -mass * gravity . (position - datum), unit J (2D: J/m).
- *  @param points  [in]  one object
  *  @param gravity [in]  shape [3]; unit m/s2
  *  @param datum   [in]  shape [3]; unit m; a place of zero potential */
 double mor_measure_potential_energy(const mor_measure_points *points, const double *gravity, const double *datum);

@@ -23,20 +23,15 @@ typedef struct mor_measure_order {
 } mor_measure_order;
 
 /** Makes room for a number of values.
- *  @param context [in,out]  one object
- *  @param order   [in,out]  one object
  *  @param n       [in]      number of values
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Allocates when n has grown. */
 mor_status mor_measure_order_reserve(mor_context *context, mor_measure_order *order, int64_t n);
 
-/** Frees what is owned; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param order   [in,out]  one object */
+/** Frees what is owned; accepts a zeroed one. */
 void mor_measure_order_clear(mor_context *context, mor_measure_order *order);
 
 /** Finds the percentile of values of equal weight as mor_measure_percentile does.
- *  @param context [in,out]  one object
- *  @param order   [in,out]  one object; the first n values are filled in
+ *  @param order   [in,out]  the first n values are filled in
  *  @param n       [in]      number of values, >= 1
  *  @param percent [in]      unit 1; 0 to 100
  *  @param result  [out]     one number; unit of the values

@@ -16,7 +16,6 @@ typedef struct mor_sum {
 } mor_sum;
 
 /** Adds a term; term in the unit of the sum, 1 for numbers.
- *  @param sum  [in,out]  one object
  *  @param term [in]      unit 1 or that of the sum */
 static inline void mor_sum_add(mor_sum *sum, double term)
 {
@@ -47,19 +46,18 @@ mor_measure_team mor_measure_team_for(int64_t n, int n_threads);
  *  @param n         [in]  particles
  *  @param n_threads [in]  threads there are; 0: one
  *  @param fill      [in]  the terms
- *  @param job       [in]  one object; first argument of fill */
+ *  @param job       [in]  first argument of fill */
 double mor_sum_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job);
 
 /** Writes the terms of all particles.
  *  @param n         [in]   particles
  *  @param n_threads [in]   threads there are; 0: one
  *  @param fill      [in]   the terms
- *  @param job       [in]   one object; first argument of fill
+ *  @param job       [in]   first argument of fill
  *  @param values    [out]  shape [n]; any unit */
 void mor_fill_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job, double *values);
 
 /** Returns the volume of a particle, unit m3 (2D: m2).
- *  @param points [in]  one object
  *  @param i      [in]  index of the particle */
 static inline double mor_measure_volume(const mor_measure_points *points, int64_t i)
 {
@@ -68,37 +66,28 @@ static inline double mor_measure_volume(const mor_measure_points *points, int64_
 }
 
 /** Refuses points without particles, spacing or a dimension.
- *  @param context [in,out]  one object
- *  @param points  [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_measure_check_points(mor_context *context, const mor_measure_points *points);
 
 /** Writes the run-out distances of all particles.
- *  @param points    [in]   one object
- *  @param frame     [in]   one object
  *  @param distances [out]  shape [n_points]; unit m */
 void mor_measure_distances(const mor_measure_points *points, const mor_measure_frame *frame, double *distances);
 
 /** Refuses a vector whose length is not 1 to within 1e-9.
- *  @param context [in,out]  one object
  *  @param vector  [in]      shape [3]; unit 1
  *  @param what    [in]      zero-terminated; names the vector in the message
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_measure_check_unit(mor_context *context, const double *vector, const char *what);
 
 /** Refuses a frame whose vectors are not of length 1.
- *  @param context [in,out]  one object
- *  @param frame   [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
 mor_status mor_measure_check_frame(mor_context *context, const mor_measure_frame *frame);
 
 /** Returns the height of a place over the frame's origin, unit m.
- *  @param frame    [in]  one object
  *  @param position [in]  shape [3]; unit m */
 double mor_measure_frame_height(const mor_measure_frame *frame, const double *position);
 
 /** Returns the run-out distance of a place, unit m.
- *  @param frame    [in]  one object
  *  @param position [in]  shape [3]; unit m */
 double mor_measure_frame_distance(const mor_measure_frame *frame, const double *position);
 

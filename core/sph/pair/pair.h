@@ -57,7 +57,7 @@ typedef struct mor_pair_constants {
 typedef struct mor_pair_arrays {
     int64_t n_particles;
     const double *records;           /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    const mor_relation *inner;       /* one object, current; momentum shortens its lists for the others */
+    const mor_relation *inner;       /* current; momentum shortens its lists for the others */
     const double *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
     double *acceleration;            /* shape [n, 3], m/s2 */
     double *stress_diffusion;        /* shape [n, 6], Pa/s; NULL without */
@@ -87,7 +87,7 @@ typedef struct mor_pair_kernel_job {
     const double *source;         /* shape [n padded to 8, 16]; records of who gathers, units of MOR_RECORD_... */
     const double *target;         /* shape [n_target, target_stride]; x, y, z, volume first; unit m, volume m3 (m2) */
     int target_stride;            /* doubles per target record */
-    const mor_relation *relation; /* one object: source -> target; its clusters are the range when slots is NULL */
+    const mor_relation *relation; /* source -> target; its clusters are the range when slots is NULL */
     double *sums;                 /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range; units of the enum */
     const mor_pair_slot *slots;   /* shape [n_slots]; the range when not NULL */
 } mor_pair_kernel_job;
@@ -106,7 +106,7 @@ typedef void (*mor_pair_kernel_loop)(const mor_pair_constants *constants, const 
 /** The stress divergence by soil neighbors, along and across a wall apart, for the particles that see it. */
 typedef struct mor_pair_tangent_job {
     const double *records;      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    const mor_relation *inner;  /* one object, current, with short lists */
+    const mor_relation *inner;  /* current, with short lists */
     const mor_pair_slot *slots; /* shape [n_slots]; who sees what of the boundary */
     const double *sums;         /* shape [n_slots * 8, MOR_KERNEL_SUMS]; over the slots; units of the enum */
     double *out;                /* shape [n_slots * 8, 2, 3], Pa/m; along, then across the boundary */

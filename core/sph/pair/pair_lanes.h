@@ -124,7 +124,7 @@ typedef struct frame {
     double tiny;           /* m2; added to squared distances so that nothing divides by zero; vanishes beside h^2 */
 } frame;
 
-/** Returns where the cluster is whose first record is given, shape [8, stride], unit m; constants: one object. */
+/** Returns where the cluster is whose first record is given, shape [8, stride], unit m. */
 INLINE frame frame_of(const mor_pair_constants *constants, const double *records, int stride)
 {
     const double h = constants->smoothing_length;
@@ -153,7 +153,7 @@ typedef struct geometry {
     vec k;         /* (1 - q/2)^3 V, m3 (m2) */
 } geometry;
 
-/** Returns the vector from a target, shape [3], unit m, to the particles of a frame, one object. */
+/** Returns the vector from a target, shape [3], unit m, to the particles of a frame. */
 INLINE void separate(vec *r, const frame *f, const double *target, const int dimension)
 {
     r[0] = f->x[0] - target[0];
@@ -169,7 +169,7 @@ INLINE vec squared(const vec *r, const frame *f, const int dimension)
     return sum + f->tiny;
 }
 
-/** Returns the separation from a target, shape [3], unit m, as seen from a frame, one object. */
+/** Returns the separation from a target, shape [3], unit m, as seen from a frame. */
 INLINE pair pair_of(const frame *f, const double *target, const int dimension)
 {
     pair p;
@@ -180,7 +180,7 @@ INLINE pair pair_of(const frame *f, const double *target, const int dimension)
     return p;
 }
 
-/** Finds the geometry of n targets, shape [n], and the lanes of a frame, one object; records: shape [n_records,
+/** Finds the geometry of n targets, shape [n], and the lanes of a frame; records: shape [n_records,
  *  MOR_RECORD_SIZE], units of MOR_RECORD_.... */
 INLINE void find_geometry(geometry *g, const double *records, const int32_t *targets, int n, const frame *f,
                           const int dimension)
@@ -207,23 +207,23 @@ INLINE void ask_for(const void *memory, int64_t size_bytes, const int writes)
     }
 }
 
-/** Returns the inner product of a vector, by components, with the separation, one object; unit: its own times m. */
+/** Returns the inner product of a vector, by components, with the separation; unit: its own times m. */
 INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
 {
     const vec sum = multiply_add(a, p->r[0], b * p->r[1]);
     return dimension == 3 ? multiply_add(c, p->r[2], sum) : sum;
 }
 
-/** Finds kernel sums over a range of a job, one object; constants: one object. See mor_pair_table. */
+/** Finds kernel sums over a range of a job. See mor_pair_table. */
 void MOR_JOIN(mor_pair_kernel_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
                                          int64_t last);
-/** Finds the stress divergence over a range of a job, one object; constants: one object. See mor_pair_table. */
+/** Finds the stress divergence over a range of a job. See mor_pair_table. */
 void MOR_JOIN(mor_pair_tangent_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
                                           int64_t last);
-/** Finds the mean velocities over a range of a job, one object; constants: one object. See mor_pair_table. */
+/** Finds the mean velocities over a range of a job. See mor_pair_table. */
 void MOR_JOIN(mor_pair_mean_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first,
                                        int64_t last);
-/** Finds the forces on points over a range of a job, one object; constants: one object. See mor_pair_table. */
+/** Finds the forces on points over a range of a job. See mor_pair_table. */
 void MOR_JOIN(mor_pair_share_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
                                         int64_t last);
 

@@ -17,7 +17,7 @@ typedef struct mor_case_input {
 } mor_case_input;
 
 /** Lists the files that the shapes of a case were made from, each once.
- *  @param the_case [in]   one object, from mor_case_read
+ *  @param the_case [in]   from mor_case_read
  *  @param inputs   [out]  shape [room]
  *  @param room     [in]   most files listed
  *  Returns: the number of files. */

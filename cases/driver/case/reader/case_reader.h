@@ -26,9 +26,6 @@ typedef struct mor_case_reader {
 } mor_case_reader;
 
 /** Reads the numbers of a real, vector, whole number, boolean or choice: unit, range and size checked, scaled.
- *  @param reader      [in]   one object
- *  @param node        [in]   one object
- *  @param schema      [in]   one object
  *  @param keeps_scale [in]   whether the scale of the case leaves it alone
  *  @param values      [out]  shape [schema->n_components]; unit: of the schema; a vector of two has z = 0
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_INTERNAL for a schema without sense. */
@@ -36,7 +33,6 @@ mor_status mor_case_reader_numbers(const mor_case_reader *reader, const mor_case
                                    bool keeps_scale, double *values);
 
 /** Multiplies values by the scale of the case, exactly.
- *  @param reader [in]      one object
  *  @param unit   [in]      zero-terminated; unit of the values
  *  @param values [in,out]  shape [n]; unit: as given
  *  @param n      [in]      number of values
@@ -45,18 +41,15 @@ mor_status mor_case_reader_numbers(const mor_case_reader *reader, const mor_case
 mor_status mor_case_reader_scale(const mor_case_reader *reader, const char *unit, double *values, int n, int sign);
 
 /** Reads all keys of a group into a record and fills in the constant defaults.
- *  @param reader [in]      one object
- *  @param node   [in]      one object; NULL: a group that was not written
- *  @param group  [in]      one object; its keys
- *  @param record [in,out]  one object of the struct that the group's offsets refer to
+ *  @param node   [in]      NULL: a group that was not written
+ *  @param group  [in]      its keys
+ *  @param record [in,out]  of the struct that the group's offsets refer to
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_group(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
                                  void *record);
 
 /** Refuses names that a group does not have.
- *  @param reader [in]  one object
- *  @param node   [in]  one object; NULL is accepted
- *  @param group  [in]  one object
+ *  @param node   [in]  NULL is accepted
  *  @param extra  [in]  zero-terminated name allowed besides; NULL: none
  *  @param more   [in]  table ended by key NULL of keys allowed besides; NULL: none
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with the nearest name. */
@@ -64,8 +57,6 @@ mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_n
                                  const char *extra, const mor_schema *more);
 
 /** Finds a member that must exist and be of a kind.
- *  @param reader [in]   one object
- *  @param group  [in]   one object
  *  @param name   [in]   zero-terminated
  *  @param kind   [in]   the kind it must be of
  *  @param child  [out]  one pointer; borrowed
@@ -74,8 +65,6 @@ mor_status mor_case_reader_member(const mor_case_reader *reader, const mor_case_
                                   mor_case_node_kind kind, const mor_case_node **child);
 
 /** Finds a list of groups; checks that it is not empty nor too long and holds groups only.
- *  @param reader [in]   one object
- *  @param root   [in]   one object
  *  @param name   [in]   zero-terminated
  *  @param n_max  [in]   most entries
  *  @param list   [out]  one pointer; borrowed; NULL when it was not written
@@ -84,8 +73,7 @@ mor_status mor_case_reader_list(const mor_case_reader *reader, const mor_case_no
                                 const mor_case_node **list);
 
 /** Refuses a word that is none of a list, proposing the nearest.
- *  @param reader  [in]  one object
- *  @param node    [in]  one object; holds the word
+ *  @param node    [in]  holds the word
  *  @param what    [in]  zero-terminated; what the words are: "type of shape"
  *  @param words   [in]  shape [n_words] of zero-terminated strings
  *  @param n_words [in]  number of words
@@ -93,21 +81,16 @@ mor_status mor_case_reader_list(const mor_case_reader *reader, const mor_case_no
 mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_node *node, const char *what,
                                   const char *const *words, int n_words);
 
-/** Notes where a setting was written.
- *  @param node  [in]   one object
- *  @param place [out]  one object */
+/** Notes where a setting was written. */
 void mor_case_reader_place(const mor_case_node *node, mor_case_place *place);
 
 /** Whether a key was written.
- *  @param group   [in]  one object
  *  @param written [in]  the group's mask
  *  @param name    [in]  zero-terminated; a key of the group */
 bool mor_case_reader_has(const mor_case_group *group, uint64_t written, const char *name);
 
 /** Reads a shape and builds it.
- *  @param reader  [in]   one object
- *  @param node    [in]   one object
- *  @param outline [out]  one object; zeroed before; owned by the case; mor_case_shape_clear frees it, after a
+ *  @param outline [out]  zeroed before; owned by the case; mor_case_shape_clear frees it, after a
  *                        failure, too
  *  @param shape   [out]  one pointer; owned by the case; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
@@ -115,17 +98,15 @@ mor_status mor_case_reader_shape(const mor_case_reader *reader, const mor_case_n
                                  mor_shape **shape);
 
 /** Builds a terrain, a release or posts: reads the raster they lie on.
- *  @param reader  [in]      one object
- *  @param node    [in]      one object; the shape's group
- *  @param outline [in,out]  one object; its keys and points are read; file and thickness are completed
+ *  @param node    [in]      the shape's group
+ *  @param outline [in,out]  its keys and points are read; file and thickness are completed
  *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
                                   mor_shape **shape);
 
 /** Finds a file by its path from the folder of the case file.
- *  @param reader [in]      one object
- *  @param node   [in]      one object; the group that names the file
+ *  @param node   [in]      the group that names the file
  *  @param what   [in]      zero-terminated; what the file is, for messages: "a mesh"
  *  @param file   [in,out]  shape [MOR_CASE_TEXT_BYTES]; zero-terminated; becomes absolute, so that a copy of the case
  *                          elsewhere finds it
@@ -135,9 +116,8 @@ mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_
                                   char *file, uint64_t *hash);
 
 /** Builds a mesh, an outline or a rock: reads its file or draws it.
- *  @param reader  [in]      one object
- *  @param node    [in]      one object; the shape's group
- *  @param outline [in,out]  one object; its keys are read; file is completed
+ *  @param node    [in]      the shape's group
+ *  @param outline [in,out]  its keys are read; file is completed
  *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
@@ -145,8 +125,8 @@ mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_no
 
 /** Where the group material of a soil or a body goes. */
 typedef struct mor_case_material_slot {
-    const mor_case_group *group; /* one object; its keys are model and density */
-    void *record;                /* one object of the struct that the group's offsets refer to */
+    const mor_case_group *group; /* its keys are model and density */
+    void *record;                /* of the struct that the group's offsets refer to */
     mor_material_form form;      /* of the models allowed */
     const char *bare_word;       /* zero-terminated; a model that has no parameters and no code; NULL: none */
     const double *density;       /* one number, member of the record, unit kg/m3 */
@@ -156,16 +136,13 @@ typedef struct mor_case_material_slot {
 } mor_case_material_slot;
 
 /** Reads the group material and asks the model whether it agrees.
- *  @param reader [in]  one object
- *  @param owner  [in]  one object; the soil or body
- *  @param slot   [in]  one object
+ *  @param owner  [in]  the soil or body
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_PLUGIN for a model of too many parameters; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
                                     const mor_case_material_slot *slot);
 
 /** Refuses a vector that leaves the plane in plane strain.
- *  @param reader [in]  one object
- *  @param group  [in]  one object; the vector's group
+ *  @param group  [in]  the vector's group
  *  @param name   [in]  zero-terminated; the vector's key
  *  @param vector [in]  shape [3]; any unit
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
@@ -173,8 +150,7 @@ mor_status mor_case_reader_in_plane(const mor_case_reader *reader, const mor_cas
                                     const double *vector);
 
 /** Refuses an axis or a rate of turn that is not normal to the plane in plane strain.
- *  @param reader [in]  one object
- *  @param group  [in]  one object; the vector's group
+ *  @param group  [in]  the vector's group
  *  @param name   [in]  zero-terminated; the vector's key
  *  @param vector [in]  shape [3]; any unit
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
@@ -182,88 +158,69 @@ mor_status mor_case_reader_out_of_plane(const mor_case_reader *reader, const mor
                                         const double *vector);
 
 /** Refuses a name that is taken.
- *  @param reader [in]  one object
- *  @param group  [in]  one object; has the name again
+ *  @param group  [in]  has the name again
  *  @param name   [in]  zero-terminated
- *  @param first  [in]  one object; where the name was taken
+ *  @param first  [in]  where the name was taken
  *  Returns: MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_refuse_duplicate(const mor_case_reader *reader, const mor_case_node *group, const char *name,
                                             const mor_case_place *first);
 
 /** Refuses Coulomb friction without friction_coefficient, and that key with any other friction.
- *  @param reader   [in]  one object
- *  @param node     [in]  one object; a wall or a body
+ *  @param node     [in]  a wall or a body
  *  @param friction [in]  what it was read to be
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_case_node *node,
                                     mor_case_friction friction);
 
 /** Reads the list bodies and the group contact.
- *  @param reader   [in]      one object
- *  @param root     [in]      one object
- *  @param the_case [in,out]  one object; walls are known
+ *  @param the_case [in,out]  walls are known
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_bodies(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
 /** Reads the model, the density and the parameters of a body, and checks what depends on them.
- *  @param reader [in]      one object
- *  @param node   [in]      one object; the body's group
- *  @param body   [in,out]  one object; its own keys are read
+ *  @param node   [in]      the body's group
+ *  @param body   [in,out]  its own keys are read
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_body_material(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body);
 
 /** Refuses the name of a body that a wall or a body before it has.
- *  @param reader   [in]  one object
- *  @param node     [in]  one object; the body's group
- *  @param the_case [in]  one object
- *  @param body     [in]  one object; of the case's bodies
+ *  @param node     [in]  the body's group
+ *  @param body     [in]  of the case's bodies
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_body_name(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
                                      const mor_case_body *body);
 
 /** Reads the list rocks, packs them, and adds them to the bodies of the case.
- *  @param reader   [in]      one object
- *  @param root     [in]      one object
- *  @param the_case [in,out]  one object; walls and the list bodies are known
+ *  @param the_case [in,out]  walls and the list bodies are known
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
 /** Frees what an item of the list rocks owns.
- *  @param context [in,out]  one object
- *  @param rocks   [in,out]  one object, read or zeroed */
+ *  @param rocks   [in,out]  read or zeroed */
 void mor_case_rocks_clear(mor_context *context, mor_case_rocks *rocks);
 
 /** Reads the lists soil, walls and bodies, and the group contact.
- *  @param reader   [in]      one object
- *  @param root     [in]      one object
- *  @param the_case [in,out]  one object
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
 /** Refuses settings that leave nothing of one another, and warns of those that have no effect in their company.
- *  @param reader   [in]  one object
- *  @param root     [in]  one object
- *  @param the_case [in]  one object; read whole, but for probes and expectations
+ *  @param the_case [in]  read whole, but for probes and expectations
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);
 
 /** Reads the lists probes and expect.
- *  @param reader   [in]      one object
- *  @param root     [in]      one object
- *  @param the_case [in,out]  one object; walls and bodies are known
+ *  @param the_case [in,out]  walls and bodies are known
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
 /** Places a body that is to have a height over the ground: changes its position along gravity alone.
- *  @param reader   [in]      one object
- *  @param the_case [in]      one object; its walls, soil, domain and gravity are read
- *  @param body     [in,out]  one object, whole
+ *  @param the_case [in]      its walls, soil, domain and gravity are read
+ *  @param body     [in,out]  whole
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when there is no ground below it; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_height(const mor_case_reader *reader, const mor_case *the_case, mor_case_body *body);
 
 /** Frees what an outline owns, children included.
- *  @param context [in,out]  one object
- *  @param outline [in,out]  one object, read or zeroed */
+ *  @param outline [in,out]  read or zeroed */
 void mor_case_shape_clear(mor_context *context, mor_case_shape *outline);
 
 #endif

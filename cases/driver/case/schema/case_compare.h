@@ -24,8 +24,7 @@ typedef struct mor_case_difference {
 
 /** Finds the first difference that keeps a run from going on.
  *  @param given      [in]   zero-terminated text of the case to go on with
- *  @param saved      [in]   zero-terminated text of the case the run was started with
- *  @param difference [out]  one object */
+ *  @param saved      [in]   zero-terminated text of the case the run was started with */
 void mor_case_compare(const char *given, const char *saved, mor_case_difference *difference);
 
 /** Whether the domains of two cases differ.

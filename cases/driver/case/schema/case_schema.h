@@ -157,17 +157,14 @@ extern const char *const mor_case_probe_key_names[];
 const mor_case_probe_type *mor_case_probe_type_find(const char *name);
 
 /** Returns the MOR_CASE_PROBE_ bits of the keys a type cannot do without: in plane strain the axis of a turn is known.
- *  @param type      [in]  one object
  *  @param dimension [in]  2 or 3 */
 unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension);
 
 /** Returns the SI unit of a probe's value.
- *  @param type      [in]  one object
  *  @param dimension [in]  2 or 3 */
 const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension);
 
 /** Returns the SI unit of the impulse of a probe, or NULL when it is no force.
- *  @param type      [in]  one object
  *  @param dimension [in]  2 or 3 */
 const char *mor_case_probe_impulse_unit(const mor_case_probe_type *type, int dimension);
 
@@ -175,17 +172,15 @@ const char *mor_case_probe_impulse_unit(const mor_case_probe_type *type, int dim
 extern const char mor_case_statistic_words[];
 
 /** Returns the SI unit of a statistic of a probe; NULL for the impulse of what is no force.
- *  @param type      [in]  one object
  *  @param statistic [in]  which
  *  @param dimension [in]  2 or 3 */
 const char *mor_case_statistic_unit(const mor_case_probe_type *type, mor_case_statistic statistic, int dimension);
 
-/** Whether a body is rigid.
- *  @param body [in]  one object */
+/** Whether a body is rigid. */
 bool mor_case_body_is_rigid(const mor_case_body *body);
 
 /** Tells what a key or a group of a body needs to have an effect.
- *  @param body [in]  one object; model and motion are known
+ *  @param body [in]  model and motion are known
  *  @param name [in]  zero-terminated; of a key or a part of mor_case_body_group
  *  Returns: NULL when it has an effect on this body, else words that say with what it would. */
 const char *mor_case_body_condition(const mor_case_body *body, const char *name);
@@ -198,24 +193,23 @@ const char *mor_case_start_condition(mor_case_motion motion, const char *name);
 
 /** Largest of the speeds at the start of bodies, walls and soil and of a fall through the domain; where there is none,
  *  what crosses the domain before the end.
- *  @param the_case [in]  one object, whole
+ *  @param the_case [in]  whole
  *  Returns: unit m/s; > 0. */
 double mor_case_largest_speed(const mor_case *the_case);
 
 /** Largest of the speeds at the start of bodies and walls.
- *  @param the_case [in]  one object, whole
+ *  @param the_case [in]  whole
  *  Returns: unit m/s. */
 double mor_case_start_speed(const mor_case *the_case);
 
 /** Young's modulus of a body's surface in contact: the one given, else that of a rigid body in which sound travels at
  *  1000 m/s. It depends on the body alone.
- *  @param the_case [in]  one object; its units
- *  @param body     [in]  one object; of the case
+ *  @param the_case [in]  its units
+ *  @param body     [in]  of the case
  *  Returns: unit Pa; > 0. */
 double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body);
 
 /** Schema of a key with the unit it has in this dimension.
- *  @param key       [in]  one object
  *  @param dimension [in]  2 or 3 */
 mor_schema mor_case_key_schema(const mor_case_key *key, int dimension);
 
@@ -225,8 +219,7 @@ mor_schema mor_case_key_schema(const mor_case_key *key, int dimension);
 int mor_case_key_find(const mor_case_key *keys, const char *name);
 
 /** Prints the reference of case files in Markdown: every key of every group and every model.
- *  @param context  [in,out]  one object
- *  @param registry [in]      one object; the models to list
+ *  @param registry [in]      the models to list
  *  @param stream   [in,out]  one open stream
  *  Returns: MOR_OK; MOR_ERROR_IO when the stream refuses. */
 mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, FILE *stream);

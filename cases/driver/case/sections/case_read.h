@@ -26,12 +26,11 @@ typedef struct mor_case_text {
 
 /** Reads a case file, applies settings of the command line over it, checks everything that one case alone can tell,
  *  fills in the defaults, applies the scale, and builds the shapes.
- *  @param context    [in,out]  one object
  *  @param path       [in]      zero-terminated
  *  @param settings   [in]      shape [n_settings] of zero-terminated "key=value"; NULL when there are none
  *  @param n_settings [in]      number of settings, >= 0
- *  @param registry   [in]      one object; the material models
- *  @param out_case   [out]     one object; clear it with mor_case_clear; cleared after a failure
+ *  @param registry   [in]      the material models
+ *  @param out_case   [out]     clear it with mor_case_clear; cleared after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with a message "file:line: found ...; allowed ...; do ..."; MOR_ERROR_IO when the
  *  unit tables are missing; MOR_ERROR_MEMORY.
  *  Cost: some milliseconds; allocates. Threads: neither. */
@@ -39,15 +38,12 @@ mor_status mor_case_read(mor_context *context, const char *path, const char *con
                          const mor_registry *registry, mor_case *out_case);
 
 /** As mor_case_read, from memory.
- *  @param context  [in,out]  one object
- *  @param text     [in]      one object
- *  @param out_case [out]     one object; clear it with mor_case_clear; cleared after a failure
+ *  @param out_case [out]     clear it with mor_case_clear; cleared after a failure
  *  Returns: as mor_case_read. */
 mor_status mor_case_read_text(mor_context *context, const mor_case_text *text, mor_case *out_case);
 
 /** Frees what a case owns and zeroes it.
- *  @param context  [in,out]  one object
- *  @param the_case [in,out]  one object, read or zeroed */
+ *  @param the_case [in,out]  read or zeroed */
 void mor_case_clear(mor_context *context, mor_case *the_case);
 
 #endif

@@ -23,9 +23,7 @@ typedef struct mor_case_writer {
 typedef enum mor_case_presence { MOR_CASE_WRITE, MOR_CASE_OMIT, MOR_CASE_MENTION } mor_case_presence;
 typedef mor_case_presence (*mor_case_judge)(const mor_case_key *key, const void *record);
 
-/** Judges that a key is written.
- *  @param key    [in]  one object
- *  @param record [in]  one object */
+/** Judges that a key is written. */
 mor_case_presence mor_case_judge_always(const mor_case_key *key, const void *record);
 
 /** Prints a text in quotes.
@@ -41,8 +39,6 @@ void mor_case_writer_text(const char *text, char *out, size_t out_bytes);
 void mor_case_writer_whole(int64_t value, char *out, size_t out_bytes);
 
 /** Prints numbers of any kind, with their unit and before the scale.
- *  @param w           [in]   one object
- *  @param schema      [in]   one object
  *  @param keeps_scale [in]   whether the scale of the case leaves them alone
  *  @param given       [in]   shape [n]; unit: of the schema
  *  @param n           [in]   number of numbers
@@ -53,9 +49,7 @@ mor_status mor_case_writer_numbers(const mor_case_writer *w, const mor_schema *s
                                    const double *given, int n, char *out, size_t out_bytes);
 
 /** Prints the value of a key.
- *  @param w         [in]   one object
- *  @param key       [in]   one object
- *  @param member    [in]   one object; the member of the record that the key fills
+ *  @param member    [in]   the member of the record that the key fills
  *  @param out       [out]  shape [out_bytes]; zero-terminated
  *  @param out_bytes [in]   room in out in bytes
  *  Returns: as mor_case_writer_numbers. */
@@ -63,27 +57,22 @@ mor_status mor_case_writer_member(const mor_case_writer *w, const mor_case_key *
                                   size_t out_bytes);
 
 /** Writes a line "key = value;".
- *  @param w          [in]  one object
  *  @param key        [in]  zero-terminated
  *  @param value      [in]  zero-terminated
  *  @param is_default [in]  whether the case file did not give it */
 void mor_case_writer_line(const mor_case_writer *w, const char *key, const char *value, bool is_default);
 
 /** Opens a group or a list.
- *  @param w       [in,out]  one object
  *  @param name    [in]      zero-terminated; "": an entry of a list
  *  @param bracket [in]      zero-terminated */
 void mor_case_writer_open(mor_case_writer *w, const char *name, const char *bracket);
 
 /** Closes a group or a list.
- *  @param w       [in,out]  one object
  *  @param bracket [in]      zero-terminated */
 void mor_case_writer_close(mor_case_writer *w, const char *bracket);
 
 /** Writes the keys of a group.
- *  @param w      [in]  one object
- *  @param group  [in]  one object
- *  @param record [in]  one object of the struct that the group's offsets refer to
+ *  @param record [in]  of the struct that the group's offsets refer to
  *  @param judge  [in]  tells which keys are written
  *  Returns: as mor_case_writer_numbers. */
 mor_status mor_case_writer_keys(const mor_case_writer *w, const mor_case_group *group, const void *record,

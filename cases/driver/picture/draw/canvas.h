@@ -39,7 +39,6 @@ typedef struct mor_canvas_pen {
 } mor_canvas_pen;
 
 /** Checks the size someone wishes a picture to have.
- *  @param context [in,out]  one object
  *  @param width   [in]      pixels; 0: no wish
  *  @param height  [in]      pixels; 0: no wish
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT outside MOR_CANVAS_SIZE_MIN to MOR_CANVAS_SIZE_MAX. */
@@ -53,7 +52,6 @@ mor_status mor_canvas_check_size(mor_context *context, int width, int height);
 void mor_canvas_complete_size(int width, int height, int *n_columns, int *n_rows);
 
 /** Makes a white image.
- *  @param context [in,out]  one object
  *  @param canvas  [out]     the address of one pointer; NULL on failure
  *  @param width   [in]      pixels, 1 to MOR_CANVAS_SIZE_MAX
  *  @param height  [in]      pixels, 1 to MOR_CANVAS_SIZE_MAX
@@ -62,12 +60,10 @@ void mor_canvas_complete_size(int width, int height, int *n_columns, int *n_rows
 mor_status mor_canvas_new(mor_context *context, mor_canvas **canvas, int width, int height);
 
 /** Frees the image and sets the pointer to NULL. NULL is accepted.
- *  @param context [in,out]  one object
  *  @param canvas  [in,out]  the address of one pointer */
 void mor_canvas_free(mor_context *context, mor_canvas **canvas);
 
 /** Copies finished pixels into the image; what lies outside is dropped.
- *  @param canvas [in,out]  one object
  *  @param left   [in]      first column
  *  @param top    [in]      first row
  *  @param size   [in]      shape [2]; columns and rows of the block
@@ -75,55 +71,40 @@ void mor_canvas_free(mor_context *context, mor_canvas **canvas);
 void mor_canvas_paste(mor_canvas *canvas, int left, int top, const int *size, const uint8_t *rgb);
 
 /** Draws a chain of straight lines, or fills the area it encloses when the pen has width 0.
- *  @param canvas   [in,out]  one object
  *  @param points   [in]      shape [n_points,2], unit px
- *  @param n_points [in]      >= 2
- *  @param pen      [in]      one object */
+ *  @param n_points [in]      >= 2 */
 void mor_canvas_line(mor_canvas *canvas, const double *points, int64_t n_points, const mor_canvas_pen *pen);
 
 /** Draws the outline of a rectangle, or fills it when the pen has width 0.
- *  @param canvas    [in,out]  one object
- *  @param rectangle [in]      shape [4]; left, top, width, height, unit px
- *  @param pen       [in]      one object */
+ *  @param rectangle [in]      shape [4]; left, top, width, height, unit px */
 void mor_canvas_rectangle(mor_canvas *canvas, const double *rectangle, const mor_canvas_pen *pen);
 
 /** Draws a circle, or fills it when the pen has width 0.
- *  @param canvas [in,out]  one object
  *  @param center [in]      shape [2], unit px
- *  @param radius [in]      unit px, > 0
- *  @param pen    [in]      one object */
+ *  @param radius [in]      unit px, > 0 */
 void mor_canvas_circle(mor_canvas *canvas, const double *center, double radius, const mor_canvas_pen *pen);
 
 /** Sets a line of text.
- *  @param canvas [in,out]  one object
  *  @param place  [in]      shape [2], unit px; where the anchor goes
- *  @param text   [in]      zero-terminated UTF-8; NULL or empty draws nothing
- *  @param font   [in]      one object */
+ *  @param text   [in]      zero-terminated UTF-8; NULL or empty draws nothing */
 void mor_canvas_text(mor_canvas *canvas, const double *place, const char *text, const mor_canvas_font *font);
 
 /** Measures a line of text without its limit.
- *  @param canvas [in]  one object
  *  @param text   [in]  zero-terminated UTF-8
- *  @param font   [in]  one object
  *  Returns: the width in px. */
 double mor_canvas_text_width(mor_canvas *canvas, const char *text, const mor_canvas_font *font);
 
 /** Reads one pixel.
- *  @param canvas [in]   one object
  *  @param column [in]   0 <= column < width
  *  @param row    [in]   0 <= row < height
  *  @param rgb    [out]  shape [3]; screen values, 0 to 255 */
 void mor_canvas_pixel(const mor_canvas *canvas, int column, int row, uint8_t *rgb);
 
 /** Reports what Cairo has found wrong since the canvas was made.
- *  @param context [in,out]  one object
- *  @param canvas  [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for text that is not UTF-8; MOR_ERROR_MEMORY; MOR_ERROR_INTERNAL. */
 mor_status mor_canvas_check(mor_context *context, const mor_canvas *canvas);
 
 /** Writes the image as PNG; no time stamp or other varying data goes into the file.
- *  @param context [in,out]  one object
- *  @param canvas  [in]      one object
  *  @param path    [in]      zero-terminated; an existing file is replaced
  *  Returns: MOR_OK; MOR_ERROR_IO with the path and the system's reason; what mor_canvas_check returns. */
 mor_status mor_canvas_write(mor_context *context, const mor_canvas *canvas, const char *path);

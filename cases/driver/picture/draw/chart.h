@@ -40,8 +40,6 @@ typedef struct mor_chart {
 } mor_chart;
 
 /** Draws the chart.
- *  @param context [in,out]  one object
- *  @param chart   [in]      one object
  *  @param canvas  [out]     the address of one pointer; NULL on failure; the caller frees it with mor_canvas_free
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there is nothing to draw or a number is not finite, with series, point and
  *  value found; MOR_ERROR_MEMORY; what mor_canvas_new returns.

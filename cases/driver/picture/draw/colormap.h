@@ -18,12 +18,10 @@ typedef struct mor_colormap {
 } mor_colormap;
 
 /** Fills the map.
- *  Theory: Oklab, Ottosson (2020).
- *  @param map [out]  one object */
+ *  Theory: Oklab, Ottosson (2020). */
 void mor_colormap_init(mor_colormap *map);
 
 /** Looks up a color by linear interpolation.
- *  @param map      [in]   one object
  *  @param fraction [in]   place in the map, 1; values outside [0, 1] give the end colors
  *  @param linear   [out]  shape [3]; linear sRGB, 1 */
 void mor_colormap_at(const mor_colormap *map, double fraction, double *linear);

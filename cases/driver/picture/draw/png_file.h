@@ -12,7 +12,6 @@
  *  goes into the file. */
 
 /** Writes an image.
- *  @param context      [in,out]  one object
  *  @param stream       [in,out]  one open file; a write that fails is left to its error flag
  *  @param path         [in]      zero-terminated; for messages
  *  @param size         [in]      shape [2]; columns and rows, >= 1

@@ -31,7 +31,7 @@ typedef struct mor_camera_extent {
 } mor_camera_extent;
 
 /** Turns the camera.
- *  @param camera [out]  one object; the axes are written
+ *  @param camera [out]  the axes are written
  *  @param view   [in]   shape [3], 1, any length; from the scene to the viewer; zero: azimuth -60 degrees from the
  *                       first axis of mor_camera_horizon and 25 degrees above the horizon
  *  @param up     [in]   shape [3], 1, any length > 0; what is up in the picture; another axis is taken when parallel to
@@ -44,37 +44,35 @@ void mor_camera_orient(mor_camera *camera, const double *view, const double *up)
  *  @param second [out]  shape [3], 1 */
 void mor_camera_horizon(const double *up, double *first, double *second);
 
-/** Makes an extent that holds nothing.
- *  @param extent [out]  one object */
+/** Makes an extent that holds nothing. */
 void mor_camera_extent_init(mor_camera_extent *extent);
 
 /** Grows an extent until it holds a sphere.
- *  @param camera [in]      one object, oriented
- *  @param extent [in,out]  one object
+ *  @param camera [in]      oriented
  *  @param point  [in]      shape [3], m; center of the sphere
  *  @param radius [in]      unit m, >= 0 */
 void mor_camera_extent_add(const mor_camera *camera, mor_camera_extent *extent, const double *point, double radius);
 
 /** Sets center, pixel and scale so that the extent fills the rectangle as far as its proportions allow.
- *  @param camera    [in,out]  one object, oriented
- *  @param extent    [in]      one object; not empty, of positive size along right or up
- *  @param rectangle [in]      one object; of positive size */
+ *  @param camera    [in,out]  oriented
+ *  @param extent    [in]      not empty, of positive size along right or up
+ *  @param rectangle [in]      of positive size */
 void mor_camera_fit(mor_camera *camera, const mor_camera_extent *extent, const mor_camera_rectangle *rectangle);
 
 /** Turns a scene point into view space.
- *  @param camera [in]   one object, fitted
+ *  @param camera [in]   fitted
  *  @param point  [in]   shape [3], m
  *  @param view   [out]  shape [3], px; not aliased with point */
 void mor_camera_to_view(const mor_camera *camera, const double *point, double *view);
 
 /** Turns a scene direction into view space; length is kept.
- *  @param camera    [in]   one object, oriented
+ *  @param camera    [in]   oriented
  *  @param direction [in]   shape [3], any unit
  *  @param view      [out]  shape [3], same unit; not aliased with direction */
 void mor_camera_rotate(const mor_camera *camera, const double *direction, double *view);
 
 /** Chooses the longest scale bar of 1, 2 or 5 times a power of ten that fits.
- *  @param camera   [in]   one object, fitted
+ *  @param camera   [in]   fitted
  *  @param limit    [in]   longest allowed bar, unit px, > 0
  *  @param n_pixels [out]  one number, px; n_pixels = length * camera->scale exactly
  *  Returns: the length in m. */

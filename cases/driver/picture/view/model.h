@@ -47,44 +47,35 @@ typedef struct mor_model {
 } mor_model;
 
 /** Radius a particle is drawn with, in m: its own times the picture's swelling.
- *  @param picture [in]  one object
- *  @param group   [in]  one object, of the picture
+ *  @param group   [in]  of the picture
  *  @param i       [in]  0 <= i < n_particles */
 double mor_model_radius(const mor_picture *picture, const mor_picture_group *group, int64_t i);
 
 /** Checks a picture.
- *  @param context [in,out]  one object
- *  @param picture [in]      one object
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT as mor_picture_draw. */
 mor_status mor_model_check(mor_context *context, const mor_picture *picture);
 
 /** Orients the camera and finds range and extent; allocates only for a moment.
- *  @param context [in,out]  one object
- *  @param picture [in]      one object, checked
- *  @param model   [out]     one object; everything but layers, ground and box is set, the camera is not yet fitted
+ *  @param picture [in]      checked
+ *  @param model   [out]     everything but layers, ground and box is set, the camera is not yet fitted
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when the scene is tiny beside its distance from the origin; MOR_ERROR_MEMORY. */
 mor_status mor_model_survey(mor_context *context, const mor_picture *picture, mor_model *model);
 
 /** Makes the spheres, their colors, the ray-tracing scenes and the ground.
- *  @param context [in,out]  one object
- *  @param picture [in]      one object, checked
- *  @param map     [in]      one object
- *  @param model   [in,out]  one object, surveyed, its camera fitted; clear it afterwards even on failure
+ *  @param picture [in]      checked
+ *  @param model   [in,out]  surveyed, its camera fitted; clear it afterwards even on failure
  *  Returns: MOR_OK; MOR_ERROR_MEMORY; what mor_scene_new returns. */
 mor_status mor_model_build(mor_context *context, const mor_picture *picture, const mor_colormap *map, mor_model *model);
 
 /** Color that stands for a group in picture and legend.
- *  @param group  [in]   one object
  *  @param screen [out]  shape [3]; screen values, 1 */
 void mor_model_group_color(const mor_picture_group *group, double *screen);
 
-/** Frees what the model owns.
- *  @param context [in,out]  one object
- *  @param model   [in,out]  one object */
+/** Frees what the model owns. */
 void mor_model_clear(mor_context *context, mor_model *model);
 
 /** Finds the plane along the upper side of a flat group.
- *  @param group  [in]   one object; of at least one particle
+ *  @param group  [in]   of at least one particle
  *  @param up     [in]   shape [3], 1, unit vector
  *  @param normal [out]  shape [3], 1, unit vector with normal . up >= 0; up itself when the particles lie on a line
  *  Returns: the largest value of normal . x + radius, in m. */

@@ -72,13 +72,11 @@ typedef struct mor_picture {
     bool hides_ground; /* no ground plane; otherwise one lies under the particles even without a group */
 } mor_picture;
 
-/** Makes a box that holds nothing, to start a frame from.
- *  @param bounds [out]  one object */
+/** Makes a box that holds nothing, to start a frame from. */
 void mor_picture_bounds_init(mor_bounds *bounds);
 
 /** Draws the picture.
- *  @param context [in,out]  one object; n_threads threads are used, and their number does not change the picture
- *  @param picture [in]      one object
+ *  @param context [in,out]  n_threads threads are used, and their number does not change the picture
  *  @param canvas  [out]     the address of one pointer; NULL on failure; the caller frees it with mor_canvas_free
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there is no particle to show, a number is not finite, a radius is not
  *  positive, a range or frame is empty or a size is out of range, with group, particle and value found;
@@ -87,15 +85,11 @@ void mor_picture_bounds_init(mor_bounds *bounds);
 mor_status mor_picture_draw(mor_context *context, const mor_picture *picture, mor_canvas **canvas);
 
 /** Draws the picture and writes it as PNG.
- *  @param context [in,out]  one object
- *  @param picture [in]      one object
  *  @param path    [in]      zero-terminated; an existing file is replaced
  *  Returns: as mor_picture_draw and mor_canvas_write. */
 mor_status mor_picture_write(mor_context *context, const mor_picture *picture, const char *path);
 
 /** Draws a chart of curves and writes it as PNG.
- *  @param context [in,out]  one object
- *  @param chart   [in]      one object
  *  @param path    [in]      zero-terminated; an existing file is replaced
  *  Returns: as mor_chart_draw and mor_canvas_write. */
 mor_status mor_picture_chart(mor_context *context, const mor_chart *chart, const char *path);

@@ -22,7 +22,6 @@ typedef struct mor_scene_ray {
 } mor_scene_ray;
 
 /** Builds the scene.
- *  @param context   [in,out]  one object
  *  @param scene     [out]     the address of one pointer; NULL on failure
  *  @param spheres   [in]      shape [n_spheres,4]; center and radius in one length unit, radius > 0; borrowed until the
  *                             scene is freed; aligned to 16 bytes
@@ -33,21 +32,16 @@ typedef struct mor_scene_ray {
 mor_status mor_scene_new(mor_context *context, mor_scene **scene, const float *spheres, int64_t n_spheres);
 
 /** Frees the scene and sets the pointer to NULL. NULL is accepted.
- *  @param context [in,out]  one object
  *  @param scene   [in,out]  the address of one pointer */
 void mor_scene_free(mor_context *context, mor_scene **scene);
 
 /** Finds the first sphere a ray enters.
- *  @param scene    [in]   one object
- *  @param ray      [in]   one object
  *  @param distance [out]  one number; along the ray, in the unit of the spheres; untouched when nothing is hit
  *  Returns: the index of the sphere, or -1.
  *  Threads: safe to call concurrently. */
 int64_t mor_scene_first(const mor_scene *scene, const mor_scene_ray *ray, double *distance);
 
 /** Tells whether anything stands in the way of a ray.
- *  @param scene [in]  one object
- *  @param ray   [in]  one object
  *  Threads: safe to call concurrently. */
 bool mor_scene_is_blocked(const mor_scene *scene, const mor_scene_ray *ray);
 

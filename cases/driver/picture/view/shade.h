@@ -52,8 +52,6 @@ typedef struct mor_shade {
 } mor_shade;
 
 /** Computes the pixels.
- *  @param context [in,out]  one object
- *  @param shade   [in]      one object
  *  @param rgb     [out]     shape [rows, columns, 3]; screen values
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for sample counts out of range.
  *  Cost: about n_samples^2 * (2 + n_ambient) rays for each pixel with an edge in it, 2 + n_ambient for each other one

@@ -50,64 +50,45 @@ typedef struct mor_shade_surface {
     double rim;         /* 1; of a disc in plane pictures */
 } mor_shade_surface;
 
-/** Prepares directions.
- *  @param shade [in]   one object
- *  @param frame [out]  one object */
+/** Prepares directions. */
 void mor_shade_frame_init(const mor_shade *shade, mor_shade_frame *frame);
 
 /** Finds the first sphere of a layer under a picture point.
- *  @param frame [in]   one object
- *  @param layer [in]   one object
  *  @param xy    [in]   shape [2], px
- *  @param found [out]  one object; untouched when there is none
+ *  @param found [out]  untouched when there is none
  *  Returns: the index of the sphere, or -1. */
 int64_t mor_shade_find_sphere(const mor_shade_frame *frame, const mor_shade_layer *layer, const double *xy,
                               mor_shade_surface *found);
 
 /** The place of a known sphere under a picture point, or at its rim beside it.
- *  @param layer [in]   one object
  *  @param i     [in]   index of the sphere
- *  @param xy    [in]   shape [2], px
- *  @param found [out]  one object */
+ *  @param xy    [in]   shape [2], px */
 void mor_shade_touch_sphere(const mor_shade_layer *layer, int64_t i, const double *xy, mor_shade_surface *found);
 
 /** Finds the ground under a picture point.
- *  @param ground [in]   one object
  *  @param xy     [in]   shape [2], px
- *  @param found  [out]  one object; untouched outside the patch
+ *  @param found  [out]  untouched outside the patch
  *  Returns: its opacity, 1; 0 outside the patch. */
 double mor_shade_find_ground(const mor_shade_ground *ground, const double *xy, mor_shade_surface *found);
 
-/** Light on a sphere, 1; not of plane pictures. Sends the rays of one sample.
- *  @param frame   [in]  one object
- *  @param surface [in]  one object
- *  @param probe   [in]  one object */
+/** Light on a sphere, 1; not of plane pictures. Sends the rays of one sample. */
 double mor_shade_light_sphere(const mor_shade_frame *frame, const mor_shade_surface *surface,
                               const mor_shade_probe *probe);
 
 /** Tells whether nothing stands in the way of the light on the ground; may miss some places.
- *  @param frame   [in]  one object
- *  @param surface [in]  one object
  *  Returns: true where the light is frame->open_light. */
 bool mor_shade_is_open(const mor_shade_frame *frame, const mor_shade_surface *surface);
 
-/** Light on the ground, 1, likewise.
- *  @param frame   [in]  one object
- *  @param surface [in]  one object
- *  @param probe   [in]  one object */
+/** Light on the ground, 1, likewise. */
 double mor_shade_light_ground(const mor_shade_frame *frame, const mor_shade_surface *surface,
                               const mor_shade_probe *probe);
 
 /** Color of a sphere in a light.
- *  @param shade   [in]   one object
- *  @param surface [in]   one object
  *  @param light   [in]   1; not read in plane pictures
  *  @param color   [out]  shape [3], 1; linear sRGB */
 void mor_shade_color_sphere(const mor_shade *shade, const mor_shade_surface *surface, double light, double *color);
 
 /** Color of the ground in a light, with its grid.
- *  @param ground  [in]   one object
- *  @param surface [in]   one object
  *  @param light   [in]   1
  *  @param color   [out]  shape [3], 1; linear sRGB */
 void mor_shade_color_ground(const mor_shade_ground *ground, const mor_shade_surface *surface, double light,

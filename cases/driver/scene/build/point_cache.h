@@ -29,21 +29,15 @@ typedef struct mor_point_cache {
 } mor_point_cache;
 
 /** Makes the cache ready. Touches no file.
- *  @param cache  [out]  one object
  *  @param folder [in]   zero-terminated; "": none; NULL: $MORAINE_CACHE, which may be empty, else
  *                       $XDG_CACHE_HOME/moraine, else $HOME/.cache/moraine */
 void mor_point_cache_init(mor_point_cache *cache, const char *folder);
 
-/** Frees what is kept for the run; accepts a zeroed cache.
- *  @param context [in,out]  one object
- *  @param cache   [in,out]  one object */
+/** Frees what is kept for the run; accepts a zeroed cache. */
 void mor_point_cache_clear(mor_context *context, mor_point_cache *cache);
 
 /** Takes the particles from the run or from a file, else relaxes and keeps them. What happened is logged.
- *  @param context [in,out]  one object
- *  @param cache   [in,out]  one object
- *  @param request [in]      one object
- *  @param points  [out]     one object; borrowed from the cache, valid until it is cleared; not to be cleared
+ *  @param points  [out]     borrowed from the cache, valid until it is cleared; not to be cleared
  *  Returns: MOR_OK, also when no file could be read or written; what mor_relax returns; MOR_ERROR_MEMORY. */
 mor_status mor_point_cache_relax(mor_context *context, mor_point_cache *cache, const mor_relax_request *request,
                                  mor_relax_points *points);

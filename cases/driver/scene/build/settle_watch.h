@@ -47,37 +47,27 @@ typedef struct mor_settle_judgment {
 } mor_settle_judgment;
 
 /** Begins to watch.
- *  @param context [in,out]  one object
- *  @param watch   [out]     one object
- *  @param set     [in]      one object; the soil's particles, with ids from 0 to their number - 1
+ *  @param set     [in]      the soil's particles, with ids from 0 to their number - 1
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_set *set);
 
-/** Frees what a watch owns; accepts a zeroed one.
- *  @param context [in,out]  one object
- *  @param watch   [in,out]  one object */
+/** Frees what a watch owns; accepts a zeroed one. */
 void mor_settle_watch_clear(mor_context *context, mor_settle_watch *watch);
 
 /** Looks at the soil.
- *  @param context [in,out]  one object
- *  @param watch   [in,out]  one object
- *  @param set     [in]      one object; the same particles in any order
+ *  @param set     [in]      the same particles in any order
  *  @param time    [in]      since the start of settling, s; rising
  *  @param speed   [in]      99 % of the particles are slower, m/s
  *  Returns: MOR_OK; MOR_ERROR_MEMORY; MOR_ERROR_NUMERIC. */
 mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set, double time,
                                 double speed);
 
-/** Keeps a sample, or leaves it out where samples are thinned.
- *  @param watch  [in,out]  one object
- *  @param sample [in]      one object */
+/** Keeps a sample, or leaves it out where samples are thinned. */
 void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sample);
 
 /** Judges from the course so far.
- *  @param watch    [in]   one object
  *  @param limit    [in]   speed below which soil is at rest, m/s; > 0
- *  @param spacing  [in]   of particles, m
- *  @param judgment [out]  one object */
+ *  @param spacing  [in]   of particles, m */
 void mor_settle_watch_judge(const mor_settle_watch *watch, double limit, double spacing, mor_settle_judgment *judgment);
 
 #endif

@@ -14,17 +14,14 @@
 
 /** Builds a simulation: checks that soil and walls do not overlap, fills the shapes with particles, sets the initial
  *  stress. Settling, when asked for, is the caller's (mor_simulation_settle).
- *  @param context    [in,out]  one object
- *  @param simulation [out]     one object; storage supplied by the caller; cleared after a failure
- *  @param the_case   [in]      one object; borrowed
- *  @param registry   [in]      one object; the material models
+ *  @param simulation [out]     storage supplied by the caller; cleared after a failure
+ *  @param the_case   [in]      borrowed
+ *  @param registry   [in]      the material models
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line when the scene cannot be built; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation, const mor_case *the_case,
                                const mor_registry *registry);
 
-/** Frees what the simulation owns; accepts a zeroed one.
- *  @param context    [in,out]  one object
- *  @param simulation [in,out]  one object */
+/** Frees what the simulation owns; accepts a zeroed one. */
 void mor_simulation_clear(mor_context *context, mor_simulation *simulation);
 
 /** How far settling is. */
@@ -47,9 +44,8 @@ typedef struct mor_settle_observer {
 /** Lets the soil come to rest under damping when a region asks for a settled initial stress, then sets velocities, the
  *  clock and the material's state back, and records the initial energy. To be called once before the first step, also
  *  when nothing settles; not after a resume.
- *  @param context    [in,out]  one object; logs "converged" or "timed out" with the speed reached
- *  @param simulation [in,out]  one object
- *  @param observer   [in]      one object; NULL: none
+ *  @param context    [in,out]  logs "converged" or "timed out" with the speed reached
+ *  @param observer   [in]      NULL: none
  *  Returns: MOR_OK, also when stopped; MOR_NOT_CONVERGED when the soil does not come to rest in the time given,
  *  with the
  *  speed reached; what a step returns. */
@@ -57,8 +53,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
 
 /** Sets the surface height, the depth of the soil and the initial stress of all regions: vertical stress from the
  *  weight of the soil straight above, of whatever region, lateral stress by the region's ratio.
- *  @param context    [in,out]  one object
- *  @param simulation [in,out]  one object; particles in the order of the regions
+ *  @param simulation [in,out]  particles in the order of the regions
  *  @param regions    [in]      shape [regions of the case]; their points
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for soil above its surface_level; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
@@ -67,11 +62,9 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
 /** Fills one wall of a case with particles, in the placed frame. They stand for the true volume of the wall up to its
  *  true surface: cells of the lattice that the surface cuts have the share inside; ground has whole ones that follow
  *  it.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  @param wall     [in]      index of the wall; earlier walls are left out
  *  @param layers   [in]      layers of particles below its surface, >= 1; a simulation has MOR_CASE_WALL_LAYERS
- *  @param points   [out]     one object; owned by the caller
+ *  @param points   [out]     owned by the caller
  *  @param shares   [out]     the address of one array [n_points], above 0 to 1, 1; NULL: all whole; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when the wall holds no particle; as mor_lattice_fill_cells. */
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,

@@ -11,30 +11,24 @@
  *  (simulation.c). */
 
 /** Fills a wall whose shape is a terrain, in the placed frame. Places inside earlier walls are left out.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  @param wall     [in]      index of the wall
  *  @param layers   [in]      layers of particles, >= 1
- *  @param points   [out]     one object; owned by the caller; may come out empty
+ *  @param points   [out]     owned by the caller; may come out empty
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_fill_terrain(mor_context *context, const mor_case *the_case, int wall, int layers,
                                        mor_lattice_points *points);
 
 /** Fills a soil region whose shape is a release, in the placed frame, with the jitter of the case.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  @param soil     [in]      index of the region
- *  @param points   [out]     one object; owned by the caller; may come out empty
+ *  @param points   [out]     owned by the caller; may come out empty
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_fill_release(mor_context *context, const mor_case *the_case, int soil,
                                        mor_lattice_points *points);
 
 /** Light of wall particles of a terrain: that of the surface at their place under a sun in the north-west, dimmed along
  *  contour lines, 1 for a level place between them.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  @param wall     [in]      index of a wall whose shape is a terrain
- *  @param points   [in]      one object; in the placed frame
+ *  @param points   [in]      in the placed frame
  *  @param light    [out]     the address of one array [n_points], 1; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_light_terrain(mor_context *context, const mor_case *the_case, int wall,

@@ -10,8 +10,8 @@
  *  the soil on their two sides apart. Theory: docs/theory/walls.md, Narrow gaps. */
 
 /** Looks for narrow gaps and thin walls as a case begins; terrain is compared with what stands on it, not with itself.
- *  @param context    [in,out]  one object; gaps below four spacings and walls below three are logged as warnings
- *  @param simulation [in]      one object, built; without soil nothing is looked for
+ *  @param context    [in,out]  gaps below four spacings and walls below three are logged as warnings
+ *  @param simulation [in]      built; without soil nothing is looked for
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line for a gap below two spacings, unless the case allows it, and
  *  for a wall below one; MOR_ERROR_MEMORY. Threads: parallel inside. */
 mor_status mor_narrow_gaps_check(mor_context *context, const mor_simulation *simulation);

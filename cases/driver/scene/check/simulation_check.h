@@ -11,8 +11,8 @@
 
 /** Refuses a scene whose settings make it void or endless: damping under which nothing moves, more steps than can be
  *  taken, speeds beyond that of sound, walls outside the domain.
- *  @param context    [in,out]  one object; warns of runs that take days
- *  @param simulation [in,out]  one object, built; first_step is set
+ *  @param context    [in,out]  warns of runs that take days
+ *  @param simulation [in,out]  built; first_step is set
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; what a stepper returns. */
 mor_status mor_simulation_check(mor_context *context, mor_simulation *simulation);
 

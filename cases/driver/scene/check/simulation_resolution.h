@@ -10,8 +10,7 @@
  *  particles across bodies that meet soil. */
 
 /** Finds the volume of a soil region inside the domain, without the bodies in it.
- *  @param context    [in,out]  one object
- *  @param simulation [in]      one object, as it begins
+ *  @param simulation [in]      as it begins
  *  @param soil       [in]      number of the region in the case
  *  @param volume     [out]     one number, unit m3 (m2)
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a region without end; MOR_ERROR_MEMORY.
@@ -27,8 +26,7 @@ double mor_simulation_depth_error(double n);
 
 /** Logs a warning for each soil region whose particles weigh more than 1 % more or less than its shape, with what would
  *  fit, and one for bodies that are too coarse for the soil they move through.
- *  @param context    [in,out]  one object
- *  @param simulation [in]      one object, as it begins
+ *  @param simulation [in]      as it begins
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_simulation *simulation);
 

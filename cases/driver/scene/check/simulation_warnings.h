@@ -9,14 +9,13 @@
  *  What a scene that can be computed will not do as its author wants. `check`, `explain` and `run` tell the same. */
 
 /** Logs each warning about a scene with MOR_LOG_WARNING.
- *  @param context    [in,out]  one object
- *  @param simulation [in]      one object, as it begins
+ *  @param simulation [in]      as it begins
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: some distances per particle of soil. */
 mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simulation);
 
 /** Prints each warning about a scene as a line "warning: ..." instead.
- *  @param context    [in,out]  one object; its sink is put back
- *  @param simulation [in]      one object, as it begins
+ *  @param context    [in,out]  its sink is put back
+ *  @param simulation [in]      as it begins
  *  @param stream     [in,out]  one open stream
  *  Returns: as mor_simulation_warn. */
 mor_status mor_simulation_print_warnings(mor_context *context, const mor_simulation *simulation, FILE *stream);

@@ -13,8 +13,6 @@
 /** Warns of each wall that is found thinner than one and a half spacings in the domain, where there are bodies to
  *  touch it. Looks through the wall at random places of its faces, parts and cuts included; walls behind it count. A
  *  part that is small beside the whole wall may be missed.
- *  @param context  [in,out]  one object
- *  @param the_case [in]      one object
  *  Cost: some hundred thousand distances per wall. */
 void mor_wall_thickness_warn(mor_context *context, const mor_case *the_case);
 
