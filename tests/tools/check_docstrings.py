@@ -1,8 +1,8 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
 """Reads the public headers: those of the library, without *_internal.h. Refuses a function without a docstring, a
-pointer to numbers without a shape, a double without a unit, a status without a list of what is returned. Struct members are held
-to the same rule by their comments."""
+pointer to numbers without a shape, a double without a unit, a status without a list of what is returned. Struct members
+are held to the same rule by their comments."""
 
 import re
 import sys

@@ -84,7 +84,7 @@ void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body
  *  @param point [in]  shape [3], unit m */
 bool mor_simulation_body_may_hold(const mor_bounds *box, const double *point);
 
-/** Signed distance of a point of the run to a shape given in a frame of its own, X = rotation * x + translation; unit m.
+/** Signed distance of a point of the run to a shape given in a frame of its own, rotation * x + translation; unit m.
  *  @param rotation    [in]  shape [3,3], rotation matrix, unit 1
  *  @param translation [in]  shape [3], unit m
  *  @param point       [in]  shape [3], unit m */
