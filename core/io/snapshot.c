@@ -89,8 +89,7 @@ static mor_status write_field(mor_context *context, mor_hdf5_file *file, const m
     MOR_CHECK(context, strcmp(info->name, "id") != 0, MOR_ERROR_ARGUMENT,
               "set '%s' has a field named 'id', which is the name of the particle numbers; rename the field",
               set->name);
-    MOR_CHECK(context,
-              strlen(info->unit) < MOR_SNAPSHOT_UNIT_BYTES && strlen(info->text) < MOR_SNAPSHOT_TEXT_BYTES,
+    MOR_CHECK(context, strlen(info->unit) < MOR_SNAPSHOT_UNIT_BYTES && strlen(info->text) < MOR_SNAPSHOT_TEXT_BYTES,
               MOR_ERROR_ARGUMENT, "field '%s' has a unit of %zu bytes and a text of %zu; at most %d and %d are allowed",
               info->name, strlen(info->unit), strlen(info->text), MOR_SNAPSHOT_UNIT_BYTES - 1,
               MOR_SNAPSHOT_TEXT_BYTES - 1);
@@ -101,17 +100,15 @@ static mor_status write_field(mor_context *context, mor_hdf5_file *file, const m
     return MOR_OK;
 }
 
-static mor_status write_set(mor_context *context, mor_hdf5_file *file, const mor_set *set, int64_t step,
-                            bool is_single)
+static mor_status write_set(mor_context *context, mor_hdf5_file *file, const mor_set *set, int64_t step, bool is_single)
 {
     char name[NAME_BYTES];
     MOR_TRY(context, check_name(context, "set", set->name));
     MOR_TRY(context, join_name(context, name, step, set->name, NULL));
     MOR_TRY(context, mor_hdf5_file_make_group(context, file, name));
-    MOR_TRY(context,
-            mor_hdf5_file_set_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
-    const mor_field_info id_info = {.name = "id", .n_components = 1, .unit = "1",
-                                    .text = "number given to the particle when it was made"};
+    MOR_TRY(context, mor_hdf5_file_set_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
+    const mor_field_info id_info = {
+        .name = "id", .n_components = 1, .unit = "1", .text = "number given to the particle when it was made"};
     const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, set->n_particles, 1};
     MOR_TRY(context, join_name(context, name, step, set->name, "id"));
     MOR_TRY(context, write_array(context, file, name, &id_info, &id_shape, set->id));
@@ -127,8 +124,8 @@ static mor_status write_provenance(mor_context *context, mor_hdf5_file *file, co
 {
     MOR_TRY(context, mor_hdf5_file_make_group(context, file, "/provenance"));
     for (int k = 0; k < options->n_facts; ++k) {
-        MOR_TRY(context, mor_hdf5_file_set_text(context, file, "/provenance", options->facts[k].key,
-                                                options->facts[k].value));
+        MOR_TRY(context,
+                mor_hdf5_file_set_text(context, file, "/provenance", options->facts[k].key, options->facts[k].value));
     }
     return MOR_OK;
 }
@@ -181,10 +178,8 @@ static mor_status read_field_description(mor_context *context, const mor_snapsho
     mor_hdf5_shape shape;
     MOR_TRY(context, join_name(context, name, snapshot->step, set->name, field->name));
     MOR_TRY(context, mor_hdf5_file_shape(context, snapshot->file, name, &shape));
-    MOR_TRY(context,
-            mor_hdf5_file_get_text(context, snapshot->file, name, "unit", field->unit, sizeof field->unit));
-    MOR_TRY(context,
-            mor_hdf5_file_get_text(context, snapshot->file, name, "text", field->text, sizeof field->text));
+    MOR_TRY(context, mor_hdf5_file_get_text(context, snapshot->file, name, "unit", field->unit, sizeof field->unit));
+    MOR_TRY(context, mor_hdf5_file_get_text(context, snapshot->file, name, "text", field->text, sizeof field->text));
     MOR_CHECK(context, shape.n_rows == set->n_particles, MOR_ERROR_IO,
               "snapshot of step %lld: '%s' has %lld rows for %lld particles", (long long)snapshot->step, name,
               (long long)shape.n_rows, (long long)set->n_particles);
@@ -198,8 +193,8 @@ static mor_status read_set_description(mor_context *context, mor_snapshot *snaps
     char name[NAME_BYTES];
     int64_t n_arrays = 0;
     MOR_TRY(context, join_name(context, name, snapshot->step, set->name, NULL));
-    MOR_TRY(context, mor_hdf5_file_get_number(context, snapshot->file, name, "n_particles", MOR_HDF5_INT64,
-                                              &set->n_particles));
+    MOR_TRY(context,
+            mor_hdf5_file_get_number(context, snapshot->file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
     MOR_TRY(context, mor_hdf5_file_count(context, snapshot->file, name, &n_arrays));
     MOR_CHECK(context, n_arrays >= 1 && n_arrays <= MOR_FIELDS_MAX + 1, MOR_ERROR_IO,
               "snapshot of step %lld: set '%s' has %lld arrays, 1 to %d are allowed", (long long)snapshot->step,
@@ -223,8 +218,7 @@ static mor_status read_description(mor_context *context, mor_snapshot *snapshot)
     int64_t n_sets = 0;
     MOR_TRY(context, join_name(context, name, snapshot->step, NULL, NULL));
     MOR_TRY(context, mor_hdf5_file_get_number(context, snapshot->file, name, "step", MOR_HDF5_INT64, &step));
-    MOR_TRY(context,
-            mor_hdf5_file_get_number(context, snapshot->file, name, "time", MOR_HDF5_DOUBLE, &snapshot->time));
+    MOR_TRY(context, mor_hdf5_file_get_number(context, snapshot->file, name, "time", MOR_HDF5_DOUBLE, &snapshot->time));
     const mor_status noted =
         mor_hdf5_file_get_text(context, snapshot->file, name, "note", snapshot->note, sizeof snapshot->note);
     if (noted != MOR_OK) {
@@ -234,8 +228,8 @@ static mor_status read_description(mor_context *context, mor_snapshot *snapshot)
     MOR_CHECK(context, step == snapshot->step, MOR_ERROR_IO, "the snapshot named step %lld says that it is step %lld",
               (long long)snapshot->step, (long long)step);
     MOR_TRY(context, mor_hdf5_file_count(context, snapshot->file, name, &n_sets));
-    MOR_CHECK(context, n_sets <= INT32_MAX, MOR_ERROR_IO, "snapshot of step %lld has %lld sets",
-              (long long)step, (long long)n_sets);
+    MOR_CHECK(context, n_sets <= INT32_MAX, MOR_ERROR_IO, "snapshot of step %lld has %lld sets", (long long)step,
+              (long long)n_sets);
     MOR_TRY(context, MOR_NEW(context, &snapshot->sets, n_sets, "sets of a snapshot"));
     snapshot->n_sets = (int)n_sets;
     for (int set = 0; set < snapshot->n_sets; ++set) {
@@ -253,8 +247,7 @@ static mor_status open_snapshot(mor_context *context, mor_snapshot *snapshot, co
     snapshot->step = step;
     char path[MOR_PATH_BYTES];
     MOR_TRY(context, join_path(context, path, folder, step));
-    MOR_TRY(context,
-            mor_hdf5_file_open(context, &snapshot->file, path, SNAPSHOT_WHAT, MOR_SNAPSHOT_VERSION, check));
+    MOR_TRY(context, mor_hdf5_file_open(context, &snapshot->file, path, SNAPSHOT_WHAT, MOR_SNAPSHOT_VERSION, check));
     const mor_status status = read_description(context, snapshot);
     if (status != MOR_OK) {
         mor_snapshot_close(context, snapshot);
@@ -277,26 +270,6 @@ void mor_snapshot_close(mor_context *context, mor_snapshot *snapshot)
     }
     MOR_FREE(context, &snapshot->sets);
     memset(snapshot, 0, sizeof *snapshot);
-}
-
-const mor_snapshot_set *mor_snapshot_find_set(const mor_snapshot *snapshot, const char *name)
-{
-    for (int set = 0; set < snapshot->n_sets; ++set) {
-        if (strcmp(snapshot->sets[set].name, name) == 0) {
-            return &snapshot->sets[set];
-        }
-    }
-    return NULL;
-}
-
-const mor_snapshot_field *mor_snapshot_find_field(const mor_snapshot_set *set, const char *name)
-{
-    for (int field = 0; field < set->n_fields; ++field) {
-        if (strcmp(set->fields[field].name, name) == 0) {
-            return &set->fields[field];
-        }
-    }
-    return NULL;
 }
 
 mor_status mor_snapshot_read_field(mor_context *context, const mor_snapshot *snapshot, const mor_snapshot_set *set,
@@ -552,8 +525,8 @@ mor_status mor_snapshot_writer_init(mor_context *context, mor_snapshot_writer *w
     return MOR_OK;
 }
 
-mor_status mor_snapshot_writer_add(mor_context *context, mor_snapshot_writer *writer, mor_set *const *sets,
-                                   int n_sets, int64_t step, double time)
+mor_status mor_snapshot_writer_add(mor_context *context, mor_snapshot_writer *writer, mor_set *const *sets, int n_sets,
+                                   int64_t step, double time)
 {
     mor_snapshot_list *list = &writer->list;
     const int64_t last_step = list->n > 0 ? list->items[list->n - 1].step : -1;

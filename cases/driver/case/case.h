@@ -386,4 +386,12 @@ typedef struct mor_case {
     mor_case_output output;
 } mor_case;
 
+/** Frees what a case owns and zeroes it.
+ *  @param the_case [in,out]  read or zeroed */
+void mor_case_clear(mor_context *context, mor_case *the_case);
+
+/** Frees what an outline owns, children included.
+ *  @param outline [in,out]  read or zeroed */
+void mor_case_shape_clear(mor_context *context, mor_case_shape *outline);
+
 #endif

@@ -21,17 +21,6 @@ static const mor_schema corner_schema = {.key = "points",
 
 /* ---- Outline ----------------------------------------------------------------------------------------------------- */
 
-void mor_case_shape_clear(mor_context *context, mor_case_shape *outline)
-{
-    for (int k = 0; k < outline->n_children; ++k) {
-        mor_case_shape_clear(context, &outline->children[k]);
-    }
-    MOR_FREE(context, &outline->children);
-    MOR_FREE(context, &outline->points);
-    outline->n_children = 0;
-    outline->n_points = 0;
-}
-
 static mor_status read_kind(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape_kind *kind)
 {
     if (node->kind != MOR_CASE_NODE_GROUP) {
@@ -263,7 +252,7 @@ static mor_status build_from_parts(const mor_case_reader *reader, const mor_case
     }
     if (outline->kind == MOR_CASE_SHAPE_TERRAIN || outline->kind == MOR_CASE_SHAPE_RELEASE ||
         outline->kind == MOR_CASE_SHAPE_POSTS) {
-        MOR_TRY(reader->context, mor_case_reader_ground(reader, node, outline, shape));
+        MOR_TRY(reader->context, mor_case_reader_ground(reader, node, mor_case_reader_shape, outline, shape));
         return MOR_OK;
     }
     if (outline->kind == MOR_CASE_SHAPE_MESH || outline->kind == MOR_CASE_SHAPE_OUTLINE ||

@@ -158,8 +158,8 @@ static mor_status find_ground(const mor_case_reader *reader, const mor_case_node
 }
 
 /* The terrain of the ground, owned by the shape that comes with it. */
-static mor_status open_ground(const mor_case_reader *reader, const mor_case_node *node, const mor_case_shape *outline,
-                              mor_shape **shape)
+static mor_status open_ground(const mor_case_reader *reader, const mor_case_node *node,
+                              mor_case_shape_reader read_shape, const mor_case_shape *outline, mor_shape **shape)
 {
     const mor_case_node *ground = NULL;
     mor_case_shape copy = {0};
@@ -168,7 +168,7 @@ static mor_status open_ground(const mor_case_reader *reader, const mor_case_node
     /* What is said about the raster is said once, when the wall itself is read. */
     const mor_log_sink sink = reader->context->log_sink;
     reader->context->log_sink = NULL;
-    const mor_status status = mor_case_reader_shape(reader, ground, &copy, shape);
+    const mor_status status = read_shape(reader, ground, &copy, shape);
     reader->context->log_sink = sink;
     mor_case_shape_clear(reader->context, &copy);
     MOR_TRY(reader->context, status);
@@ -227,7 +227,7 @@ static mor_status build_posts(const mor_case_reader *reader, const mor_case_shap
 }
 
 static mor_status build_on_ground(const mor_case_reader *reader, const mor_case_node *node,
-                                  const mor_case_shape *outline, mor_shape **shape)
+                                  mor_case_shape_reader read_shape, const mor_case_shape *outline, mor_shape **shape)
 {
     const mor_case_ground *it = &outline->ground;
     if (outline->kind == MOR_CASE_SHAPE_POSTS && isnan(it->height) == isnan(it->top)) {
@@ -236,7 +236,7 @@ static mor_status build_on_ground(const mor_case_reader *reader, const mor_case_
                                   isnan(it->top) ? "add one" : "remove one");
     }
     mor_shape *ground = NULL;
-    MOR_TRY(reader->context, open_ground(reader, node, outline, &ground));
+    MOR_TRY(reader->context, open_ground(reader, node, read_shape, outline, &ground));
     const mor_terrain *terrain = mor_terrain_view(ground);
     const mor_status status =
         outline->kind == MOR_CASE_SHAPE_RELEASE
@@ -247,8 +247,8 @@ static mor_status build_on_ground(const mor_case_reader *reader, const mor_case_
     return status;
 }
 
-mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
-                                  mor_shape **shape)
+mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_node *node,
+                                  mor_case_shape_reader read_shape, mor_case_shape *outline, mor_shape **shape)
 {
     *shape = NULL;
     if (reader->dimension == 2) {
@@ -256,8 +256,9 @@ mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_
                                   "found a shape of the ground in plane strain; allowed: with dimension = 3; give the "
                                   "profile as a polygon");
     }
-    const mor_status status = outline->kind == MOR_CASE_SHAPE_TERRAIN ? build_terrain(reader, node, outline, shape)
-                                                                      : build_on_ground(reader, node, outline, shape);
+    const mor_status status = outline->kind == MOR_CASE_SHAPE_TERRAIN
+                                  ? build_terrain(reader, node, outline, shape)
+                                  : build_on_ground(reader, node, read_shape, outline, shape);
     if (status != MOR_ERROR_ARGUMENT) {
         return status == MOR_OK ? MOR_OK : mor_context_pass(reader->context, status, MOR_HERE);
     }

@@ -97,13 +97,18 @@ bool mor_case_reader_has(const mor_case_group *group, uint64_t written, const ch
 mor_status mor_case_reader_shape(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
                                  mor_shape **shape);
 
+/** What reads a shape, as mor_case_reader_shape does. */
+typedef mor_status (*mor_case_shape_reader)(const mor_case_reader *reader, const mor_case_node *node,
+                                            mor_case_shape *outline, mor_shape **shape);
+
 /** Builds a terrain, a release or posts: reads the raster they lie on.
  *  @param node    [in]      the shape's group
+ *  @param read_shape [in]   reads the wall that is the ground
  *  @param outline [in,out]  its keys and points are read; file and thickness are completed
  *  @param shape   [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
-mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
-                                  mor_shape **shape);
+mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_node *node,
+                                  mor_case_shape_reader read_shape, mor_case_shape *outline, mor_shape **shape);
 
 /** Finds a file by its path from the folder of the case file.
  *  @param node   [in]      the group that names the file
@@ -183,6 +188,11 @@ mor_status mor_case_reader_bodies(const mor_case_reader *reader, const mor_case_
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_body_material(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body);
 
+/** Reads one item of the list bodies, but for its height over the ground.
+ *  @param body   [out]  zeroed before; counted as one of the case's, which frees it
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_body(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body);
+
 /** Refuses the name of a body that a wall or a body before it has.
  *  @param node     [in]  the body's group
  *  @param body     [in]  of the case's bodies
@@ -194,10 +204,6 @@ mor_status mor_case_reader_body_name(const mor_case_reader *reader, const mor_ca
  *  @param the_case [in,out]  walls and the list bodies are known
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
-
-/** Frees what an item of the list rocks owns.
- *  @param rocks   [in,out]  read or zeroed */
-void mor_case_rocks_clear(mor_context *context, mor_case_rocks *rocks);
 
 /** Reads the lists soil, walls and bodies, and the group contact.
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
@@ -218,9 +224,5 @@ mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case
  *  @param body     [in,out]  whole
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when there is no ground below it; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_height(const mor_case_reader *reader, const mor_case *the_case, mor_case_body *body);
-
-/** Frees what an outline owns, children included.
- *  @param outline [in,out]  read or zeroed */
-void mor_case_shape_clear(mor_context *context, mor_case_shape *outline);
 
 #endif

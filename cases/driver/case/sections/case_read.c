@@ -183,30 +183,6 @@ static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, 
 
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
-void mor_case_clear(mor_context *context, mor_case *the_case)
-{
-    for (int k = 0; k < the_case->n_soils; ++k) {
-        mor_shape_free(context, &the_case->soils[k].shape);
-        mor_case_shape_clear(context, &the_case->soils[k].outline);
-    }
-    for (int k = 0; k < the_case->n_walls; ++k) {
-        mor_shape_free(context, &the_case->walls[k].shape);
-        mor_case_shape_clear(context, &the_case->walls[k].outline);
-    }
-    for (int k = 0; k < the_case->n_bodies; ++k) {
-        mor_case_body *body = &the_case->bodies[k];
-        mor_shape_free(context, &body->shape);
-        mor_shape_free(context, &body->clamp);
-        mor_case_shape_clear(context, &body->outline);
-        mor_case_shape_clear(context, &body->clamp_outline);
-    }
-    MOR_FREE(context, &the_case->bodies);
-    for (int k = 0; k < the_case->n_rocks; ++k) {
-        mor_case_rocks_clear(context, &the_case->rocks[k]); /* after the bodies, which view their shapes */
-    }
-    memset(the_case, 0, sizeof *the_case);
-}
-
 static mor_status read_file(mor_context *context, mor_case_file *file, const mor_case_text *text, mor_case *out_case)
 {
     for (int k = 0; k < text->n_settings; ++k) {

@@ -42,8 +42,4 @@ mor_status mor_case_read(mor_context *context, const char *path, const char *con
  *  Returns: as mor_case_read. */
 mor_status mor_case_read_text(mor_context *context, const mor_case_text *text, mor_case *out_case);
 
-/** Frees what a case owns and zeroes it.
- *  @param the_case [in,out]  read or zeroed */
-void mor_case_clear(mor_context *context, mor_case *the_case);
-
 #endif

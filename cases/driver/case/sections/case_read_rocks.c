@@ -397,18 +397,6 @@ static mor_status add_list(const mor_case_reader *reader, const mor_case_node *n
 
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
-void mor_case_rocks_clear(mor_context *context, mor_case_rocks *rocks)
-{
-    mor_shape_free(context, &rocks->region);
-    mor_case_shape_clear(context, &rocks->region_outline);
-    for (int k = 0; k < rocks->n_shapes; ++k) {
-        mor_shape_free(context, &rocks->shapes[k]);
-    }
-    for (int k = 0; k < rocks->n_forms; ++k) {
-        mor_case_shape_clear(context, &rocks->forms[k]);
-    }
-}
-
 mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)
 {
     const mor_case_node *list = NULL;

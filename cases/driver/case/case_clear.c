@@ -1,0 +1,56 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* What a case owns, and its end. */
+#include "cases/driver/case/case.h"
+
+#include "core/base/memory.h"
+#include "core/geometry/shape_analytic.h"
+
+#include <string.h>
+
+void mor_case_shape_clear(mor_context *context, mor_case_shape *outline)
+{
+    for (int k = 0; k < outline->n_children; ++k) {
+        mor_case_shape_clear(context, &outline->children[k]);
+    }
+    MOR_FREE(context, &outline->children);
+    MOR_FREE(context, &outline->points);
+    outline->n_children = 0;
+    outline->n_points = 0;
+}
+
+static void clear_rocks(mor_context *context, mor_case_rocks *rocks)
+{
+    mor_shape_free(context, &rocks->region);
+    mor_case_shape_clear(context, &rocks->region_outline);
+    for (int k = 0; k < rocks->n_shapes; ++k) {
+        mor_shape_free(context, &rocks->shapes[k]);
+    }
+    for (int k = 0; k < rocks->n_forms; ++k) {
+        mor_case_shape_clear(context, &rocks->forms[k]);
+    }
+}
+
+void mor_case_clear(mor_context *context, mor_case *the_case)
+{
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        mor_shape_free(context, &the_case->soils[k].shape);
+        mor_case_shape_clear(context, &the_case->soils[k].outline);
+    }
+    for (int k = 0; k < the_case->n_walls; ++k) {
+        mor_shape_free(context, &the_case->walls[k].shape);
+        mor_case_shape_clear(context, &the_case->walls[k].outline);
+    }
+    for (int k = 0; k < the_case->n_bodies; ++k) {
+        mor_case_body *body = &the_case->bodies[k];
+        mor_shape_free(context, &body->shape);
+        mor_shape_free(context, &body->clamp);
+        mor_case_shape_clear(context, &body->outline);
+        mor_case_shape_clear(context, &body->clamp_outline);
+    }
+    MOR_FREE(context, &the_case->bodies);
+    for (int k = 0; k < the_case->n_rocks; ++k) {
+        clear_rocks(context, &the_case->rocks[k]); /* after the bodies, which view their shapes */
+    }
+    memset(the_case, 0, sizeof *the_case);
+}
