@@ -9,24 +9,6 @@ import sys
 
 import source
 
-ROOM = re.compile(r"^mor_add_room\(([^)]*)\)", re.MULTILINE)
-SECTIONS = ("DEPENDS", "DOORS", "EXCLUDE", "FUSED")
-
-
-def read_rooms(root):
-    """Folder -> folders whose headers it may include, from the calls of mor_add_room in CMakeLists.txt."""
-    rooms = {}
-    for match in ROOM.finditer(source.read_text(root, "CMakeLists.txt")):
-        words = match.group(1).split()
-        rooms[words[0]] = []
-        section = None
-        for word in words[1:]:
-            section = word if word in SECTIONS else section
-            if section == "DEPENDS" and word != section:
-                rooms[words[0]].append(word)
-    return rooms
-
-
 # Outside header (pattern) -> the files that may include it.
 DOORS = {
     r"hdf5\.h|H5\w+\.h": ("core/io/hdf5_file.c",),
@@ -120,7 +102,7 @@ def find_cycle(graph):
 def check(root):
     files = source.list_files(root, (".c", ".h", ".def"))
     known = set(files)
-    rooms = read_rooms(root)
+    rooms = source.read_rooms(root)
     problems = []
     graph = {}
     for path in files:

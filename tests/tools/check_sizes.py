@@ -1,18 +1,19 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
-"""Refuses functions over 120 lines, files over 600 lines and macros over 60 lines; notes functions over 60 lines."""
+"""Refuses functions and macros over 60 lines, files over 600 lines and rooms over 4000 lines."""
 
+import posixpath
 import sys
 
 import source
 
-FUNCTION_LINES = 120
-FUNCTION_LINES_NOTED = 60
+FUNCTION_LINES = 60
 MACRO_LINES = 60
 FILE_LINES = 600
+ROOM_LINES = 4000
 
 
-def check_functions(path, text, problems, notes):
+def check_functions(path, text, problems):
     try:
         functions = source.find_functions(text)
     except source.Unbalanced as unbalanced:
@@ -21,11 +22,8 @@ def check_functions(path, text, problems, notes):
         return
     for name, first, last in functions:
         lines = last - first + 1
-        message = f"{path}:{first}: {name} has {lines} lines"
         if lines > FUNCTION_LINES:
-            problems.append(f"{message}, {FUNCTION_LINES} are allowed; split it")
-        elif lines > FUNCTION_LINES_NOTED:
-            notes.append(f"{message}; {FUNCTION_LINES_NOTED} are the aim")
+            problems.append(f"{path}:{first}: {name} has {lines} lines, {FUNCTION_LINES} are allowed; split it")
 
 
 def check_macros(path, text, problems):
@@ -37,19 +35,23 @@ def check_macros(path, text, problems):
 
 
 def check(root):
-    problems, notes = [], []
+    problems = []
+    rooms = dict.fromkeys(source.read_rooms(root), 0)
     for path in source.list_files(root, (".c", ".h", ".py", ".sh", "CMakeLists.txt")):
         text = source.read_text(root, path)
         lines = text.count("\n")
         if lines > FILE_LINES:
             problems.append(f"{path}: has {lines} lines, {FILE_LINES} are allowed; split it by topic")
         if path.endswith((".c", ".h")):
-            check_functions(path, text, problems, notes)
+            check_functions(path, text, problems)
             check_macros(path, text, problems)
-    return problems, notes
+            if posixpath.dirname(path) in rooms:
+                rooms[posixpath.dirname(path)] += lines
+    problems.extend(f"{room}: has {lines} lines of source, {ROOM_LINES} are allowed; make two rooms of it"
+                    for room, lines in rooms.items() if lines > ROOM_LINES)
+    return problems
 
 
 if __name__ == "__main__":
-    found, noted = check(source.parse_root().root)
-    sys.exit(source.report("Functions and files that are too long", found,
-                           "Small functions on one screen are the house rule.", noted))
+    sys.exit(source.report("Functions, files and rooms that are too long", check(source.parse_root().root),
+                           "Small functions on one screen, and rooms that can be learned in an afternoon."))

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import unittest
 
+import check_calls
 import check_docstrings
 import check_headers
 import check_includes
@@ -189,33 +190,32 @@ class Sizes(Sample):
         self.write("core/base/long.c", f"{TAG}static int\nmor_long(int a)\n{{\n{body}    return a;\n}}\n")
 
     def test_good_source_passes(self):
-        self.assertEqual(check_sizes.check(self.root), ([], []))
-
-    def test_long_function_is_noted(self):
-        self.write_function(61)
-        problems, notes = check_sizes.check(self.root)
-        self.expect(problems)
-        self.expect(notes, "core/base/long.c:3: mor_long has 61 lines")
+        self.expect(check_sizes.check(self.root))
 
     def test_function_of_the_largest_size_passes(self):
-        self.write_function(120)
-        self.expect(check_sizes.check(self.root)[0])
+        self.write_function(60)
+        self.expect(check_sizes.check(self.root))
 
     def test_longer_function_is_refused(self):
-        self.write_function(121)
-        self.expect(check_sizes.check(self.root)[0], "mor_long has 121 lines, 120 are allowed")
+        self.write_function(61)
+        self.expect(check_sizes.check(self.root), "core/base/long.c:3: mor_long has 61 lines, 60 are allowed")
+
+    def test_large_room_is_refused(self):
+        for k in range(7):
+            self.write(f"core/particle/part_{k}.c", TAG + "int a;\n" * 590)
+        self.expect(check_sizes.check(self.root), "core/particle: has 4152 lines of source, 4000 are allowed")
 
     def test_long_file_is_refused(self):
         self.write("core/base/long.c", TAG + "int a;\n" * 599)
-        self.expect(check_sizes.check(self.root)[0], "has 601 lines, 600 are allowed")
+        self.expect(check_sizes.check(self.root), "has 601 lines, 600 are allowed")
 
     def test_long_macro_is_refused(self):
         self.write("core/base/long.c", TAG + "#define LONG \\\n" + "    a += 1; \\\n" * 60 + "\n")
-        self.expect(check_sizes.check(self.root)[0], "a macro has 62 lines")
+        self.expect(check_sizes.check(self.root), "a macro has 62 lines")
 
     def test_unbalanced_braces_are_refused(self):
         self.write("core/base/odd.c", TAG + "#ifdef A\nint f(void) {\n#else\nint g(void) {\n#endif\n}\n")
-        self.expect(check_sizes.check(self.root)[0], "braces do not balance")
+        self.expect(check_sizes.check(self.root), "braces do not balance")
 
     def test_every_function_is_found(self):
         text = """struct a { int b; };
@@ -312,6 +312,29 @@ class Docstrings(Sample):
                  "f has no docstring")):
             with self.subTest(body):
                 self.expect(self.check_text(body), fragment)
+
+
+class Calls(Sample):
+    def build(self, library, **files):
+        for name, code in files.items():
+            self.write(f"{name}.c", code)
+            place = os.path.join(self.root, name)
+            subprocess.run([COMPILER, "-O1", "-c", f"{place}.c", "-o", f"{place}.c.o"], check=True)
+            subprocess.run(["ar", "rcs", os.path.join(self.root, library), f"{place}.c.o"], check=True)
+
+    def test_files_in_order_pass(self):
+        self.build("libmor_core_base.a", low="int low(void) { return 1; }\n",
+                   high="int low(void);\nint high(void) { return low(); }\n")
+        self.expect(check_calls.check(self.root))
+
+    def test_circle_is_refused(self):
+        self.build("libmor_core_base.a", one="int two(void);\nint one(int n) { return n > 0 ? two() : 0; }\n",
+                   two="int three(void);\nint two(void) { return three(); }\n")
+        self.build("libmor_bodies.a", three="int one(int n);\nint three(void) { return one(0); }\n")
+        self.expect(check_calls.check(self.root), "call circle", "mor_bodies:three calls one of mor_core_base:one")
+
+    def test_empty_build_is_refused(self):
+        self.expect(check_calls.check(self.root), "build first")
 
 
 class Text(Sample):

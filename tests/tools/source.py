@@ -28,6 +28,24 @@ def read_text(root, path):
         return file.read()
 
 
+ROOM = re.compile(r"^mor_add_room\(([^)]*)\)", re.MULTILINE)
+SECTIONS = ("DEPENDS", "DOORS", "EXCLUDE", "FUSED")
+
+
+def read_rooms(root):
+    """Folder -> folders whose headers it may include, from the calls of mor_add_room in CMakeLists.txt."""
+    rooms = {}
+    for match in ROOM.finditer(read_text(root, "CMakeLists.txt")):
+        words = match.group(1).split()
+        rooms[words[0]] = []
+        section = None
+        for word in words[1:]:
+            section = word if word in SECTIONS else section
+            if section == "DEPENDS" and word != section:
+                rooms[words[0]].append(word)
+    return rooms
+
+
 def keep_lines(match):
     """Blanks a piece of text but keeps its line breaks, so that line numbers stay true."""
     return re.sub(r"[^\n]", " ", match.group(0))

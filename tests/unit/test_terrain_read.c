@@ -178,69 +178,69 @@ typedef struct bad_text {
 
 #define GRASS(columns, rows) "north: 4\nsouth: 0\neast: 4\nwest: 0\nrows: " rows "\ncols: " columns "\n"
 
+static const bad_text bad_rasters[] = {
+    {"", MOR_ERROR_IO, "empty"},
+    {"\x93 not a raster at all", MOR_ERROR_IO, "gdal_translate"},
+    {HEADER("3", "3"), MOR_ERROR_IO, "gdal_translate"},
+    {HEADER("3", "3") "1 2 3\n4 5 6\n7 8\n", MOR_ERROR_IO, "8 numbers"},
+    {HEADER("2", "3") "1 2 3\n4 5 6\n7 8 9\n", MOR_ERROR_IO, "9 numbers"},
+    {HEADER("2147483647", "2147483647") "1 2 3\n", MOR_ERROR_IO, "gdal_translate"},
+    {HEADER("60000", "60000") "1 2 3\n", MOR_ERROR_IO, "3 numbers follow"},
+    {HEADER("-3", "3") "1 2 3\n", MOR_ERROR_IO, "gdal_translate"},
+    {HEADER("4", "1") "1 2 3 4\n", MOR_ERROR_ARGUMENT, "two or more"},
+    {HEADER("2", "2") "NODATA_value 7\n7 7 7 7\n", MOR_ERROR_ARGUMENT, "none of the 4 nodes"},
+    {HEADER("2", "2") "1 nan\n1 1\n", MOR_ERROR_ARGUMENT, "1 of 4 nodes"},
+    {HEADER("2", "2") "1 1\n1 -99999\n", MOR_ERROR_ARGUMENT, "a_nodata"},
+    {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2\n3 4\n", MOR_ERROR_IO, "line 5, column 10"},
+    /* a word that is no number is none, wherever it stands; GDAL takes most of these for 0 */
+    {HEADER("3", "2") "1 2 3\n4 abc 6\n", MOR_ERROR_IO, "line 7, column 3: found 'abc'"},
+    {HEADER("3", "2") "1 2 3\n4 5 #N/A\n", MOR_ERROR_IO, "line 7, column 5: found '#N/A'"},
+    {HEADER("3", "2") "1 2 3\n 4\t5 1.5m\n", MOR_ERROR_IO, "line 7, column 6: found '1.5m'"},
+    {HEADER("3", "2") "abc 2 3\n4 5 6\n", MOR_ERROR_IO, "line 6, column 1: found 'abc'"},
+    {HEADER("3", "2") "1 2 3\n4 - 6\n", MOR_ERROR_IO, "found '-'"},
+    {HEADER("3", "2") "1 2 3\n4 1,5 6\n", MOR_ERROR_IO, "numbers with a point"},
+    {HEADER("3", "2") "1 2 3\n4 0x10 6\n", MOR_ERROR_IO, "'0x10', which is no number"},
+    {HEADER("3", "2") "1 2 3\n4 1e 6\n", MOR_ERROR_IO, "'1e', which is no number"},
+    {HEADER("3", "2") "1 2 3\n4 1e999 6\n", MOR_ERROR_IO, "'1e999', which is beyond the range"},
+    {HEADER("3", "2") "1 2 3\n4 inf 6\n", MOR_ERROR_IO, "'inf', which is no number"},
+    {HEADER("3", "2") "1 2 3\n4 -1.#IND 6\n", MOR_ERROR_IO, "'-1.#IND', which is no number"},
+    {HEADER("3", "2") "1 2 3\n4 5 6\nend\n", MOR_ERROR_IO, "line 8, column 1: found 'end'"},
+    {HEADER("3", "2") "1 2 3 4\n4 5 6\n", MOR_ERROR_IO, "7 numbers follow"},
+    /* exchanged sizes give as many numbers */
+    {HEADER("3", "2") "1 2\n3 4\n5 6\n", MOR_ERROR_IO, "exchange"},
+    {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nncols 3\n1 2\n3 4\n", MOR_ERROR_IO,
+     "line 6, column 1: found 'ncols', which says again"},
+    {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndy 1\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "says again"},
+    {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2\n3 4\n", MOR_ERROR_IO, "above zero"},
+    {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1m\n1 2\n3 4\n", MOR_ERROR_IO, "found '1m'"},
+    {"ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "whole numbers"},
+    /* GDAL puts these at the origin */
+    {"ncols 2\nnrows 2\nxllcorner 9\nyllcenter 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "a center along"},
+    {"ncols 2\nnrows 2\nxllcorner 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "no line 'yllcorner'"},
+    {"ncols 2\nnrows 2\nxllcorner 9\nylcorner 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "found 'ylcorner'"},
+    {HEADER("2", "2") "NODATA_value none\n1 2\n3 4\n", MOR_ERROR_IO, "found 'none'"},
+    {GRASS("2", "2") "1 2\n3 x4\n", MOR_ERROR_IO, "line 8, column 3: found 'x4'"},
+    {GRASS("2", "2") "multiplier: 10\n1 2\n3 4\n", MOR_ERROR_IO, "found 'multiplier:'"},
+    {GRASS("2", "2") "1 2\n3 4 5\n", MOR_ERROR_IO, "5 numbers follow"},
+    {GRASS("2", "2") "1 2\n3 *\n", MOR_ERROR_IO, "line 8, column 3: found '*'"}, /* read as 0 without a word */
+    {GRASS("2", "2") "null: 9\n1 2\n3 9\n", MOR_ERROR_ARGUMENT, "the first at (3, 1) m (row 2, column 2 of the file)"},
+    {"DSAA\n2 2\n0 1\n0 1\n1 4\n1 2\n3 4x\n", MOR_ERROR_IO, "line 7, column 3: found '4x'"},
+    {"DSAA\n2 2\n0 1\n0 1\n1 4\n1 2\n3 4 5\n", MOR_ERROR_IO, "5 numbers follow"},
+};
+
 static void bad_rasters_are_refused_with_the_reason(void **state)
 {
     (void)state;
-    static const bad_text all[] = {
-        {"", MOR_ERROR_IO, "empty"},
-        {"\x93 not a raster at all", MOR_ERROR_IO, "gdal_translate"},
-        {HEADER("3", "3"), MOR_ERROR_IO, "gdal_translate"},
-        {HEADER("3", "3") "1 2 3\n4 5 6\n7 8\n", MOR_ERROR_IO, "8 numbers"},
-        {HEADER("2", "3") "1 2 3\n4 5 6\n7 8 9\n", MOR_ERROR_IO, "9 numbers"},
-        {HEADER("2147483647", "2147483647") "1 2 3\n", MOR_ERROR_IO, "gdal_translate"},
-        {HEADER("60000", "60000") "1 2 3\n", MOR_ERROR_IO, "3 numbers follow"},
-        {HEADER("-3", "3") "1 2 3\n", MOR_ERROR_IO, "gdal_translate"},
-        {HEADER("4", "1") "1 2 3 4\n", MOR_ERROR_ARGUMENT, "two or more"},
-        {HEADER("2", "2") "NODATA_value 7\n7 7 7 7\n", MOR_ERROR_ARGUMENT, "none of the 4 nodes"},
-        {HEADER("2", "2") "1 nan\n1 1\n", MOR_ERROR_ARGUMENT, "1 of 4 nodes"},
-        {HEADER("2", "2") "1 1\n1 -99999\n", MOR_ERROR_ARGUMENT, "a_nodata"},
-        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2\n3 4\n", MOR_ERROR_IO, "line 5, column 10"},
-        /* a word that is no number is none, wherever it stands; GDAL takes most of these for 0 */
-        {HEADER("3", "2") "1 2 3\n4 abc 6\n", MOR_ERROR_IO, "line 7, column 3: found 'abc'"},
-        {HEADER("3", "2") "1 2 3\n4 5 #N/A\n", MOR_ERROR_IO, "line 7, column 5: found '#N/A'"},
-        {HEADER("3", "2") "1 2 3\n 4\t5 1.5m\n", MOR_ERROR_IO, "line 7, column 6: found '1.5m'"},
-        {HEADER("3", "2") "abc 2 3\n4 5 6\n", MOR_ERROR_IO, "line 6, column 1: found 'abc'"},
-        {HEADER("3", "2") "1 2 3\n4 - 6\n", MOR_ERROR_IO, "found '-'"},
-        {HEADER("3", "2") "1 2 3\n4 1,5 6\n", MOR_ERROR_IO, "numbers with a point"},
-        {HEADER("3", "2") "1 2 3\n4 0x10 6\n", MOR_ERROR_IO, "'0x10', which is no number"},
-        {HEADER("3", "2") "1 2 3\n4 1e 6\n", MOR_ERROR_IO, "'1e', which is no number"},
-        {HEADER("3", "2") "1 2 3\n4 1e999 6\n", MOR_ERROR_IO, "'1e999', which is beyond the range"},
-        {HEADER("3", "2") "1 2 3\n4 inf 6\n", MOR_ERROR_IO, "'inf', which is no number"},
-        {HEADER("3", "2") "1 2 3\n4 -1.#IND 6\n", MOR_ERROR_IO, "'-1.#IND', which is no number"},
-        {HEADER("3", "2") "1 2 3\n4 5 6\nend\n", MOR_ERROR_IO, "line 8, column 1: found 'end'"},
-        {HEADER("3", "2") "1 2 3 4\n4 5 6\n", MOR_ERROR_IO, "7 numbers follow"},
-        /* exchanged sizes give as many numbers */
-        {HEADER("3", "2") "1 2\n3 4\n5 6\n", MOR_ERROR_IO, "exchange"},
-        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nncols 3\n1 2\n3 4\n", MOR_ERROR_IO,
-         "line 6, column 1: found 'ncols', which says again"},
-        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndy 1\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "says again"},
-        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2\n3 4\n", MOR_ERROR_IO, "above zero"},
-        {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1m\n1 2\n3 4\n", MOR_ERROR_IO, "found '1m'"},
-        {"ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "whole numbers"},
-        /* GDAL puts these at the origin */
-        {"ncols 2\nnrows 2\nxllcorner 9\nyllcenter 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "a center along"},
-        {"ncols 2\nnrows 2\nxllcorner 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "no line 'yllcorner'"},
-        {"ncols 2\nnrows 2\nxllcorner 9\nylcorner 9\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "found 'ylcorner'"},
-        {HEADER("2", "2") "NODATA_value none\n1 2\n3 4\n", MOR_ERROR_IO, "found 'none'"},
-        {GRASS("2", "2") "1 2\n3 x4\n", MOR_ERROR_IO, "line 8, column 3: found 'x4'"},
-        {GRASS("2", "2") "multiplier: 10\n1 2\n3 4\n", MOR_ERROR_IO, "found 'multiplier:'"},
-        {GRASS("2", "2") "1 2\n3 4 5\n", MOR_ERROR_IO, "5 numbers follow"},
-        {GRASS("2", "2") "1 2\n3 *\n", MOR_ERROR_IO, "line 8, column 3: found '*'"}, /* read as 0 without a word */
-        {GRASS("2", "2") "null: 9\n1 2\n3 9\n", MOR_ERROR_ARGUMENT,
-         "the first at (3, 1) m (row 2, column 2 of the file)"},
-        {"DSAA\n2 2\n0 1\n0 1\n1 4\n1 2\n3 4x\n", MOR_ERROR_IO, "line 7, column 3: found '4x'"},
-        {"DSAA\n2 2\n0 1\n0 1\n1 4\n1 2\n3 4 5\n", MOR_ERROR_IO, "5 numbers follow"},
-    };
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
+    for (size_t k = 0; k < sizeof bad_rasters / sizeof *bad_rasters; ++k) {
         mor_context context;
         mor_context_init(&context);
         mor_terrain terrain;
-        const mor_status status = read_text(&context, all[k].text, &terrain);
-        if (status != all[k].status || strstr(context.message, all[k].word) == NULL) {
+        const mor_status status = read_text(&context, bad_rasters[k].text, &terrain);
+        if (status != bad_rasters[k].status || strstr(context.message, bad_rasters[k].word) == NULL) {
             print_message("raster %d: %d, %s\n", (int)k, status, context.message);
         }
-        assert_int_equal(status, all[k].status);
-        assert_non_null(strstr(context.message, all[k].word));
+        assert_int_equal(status, bad_rasters[k].status);
+        assert_non_null(strstr(context.message, bad_rasters[k].word));
         assert_null(terrain.heights);
         assert_int_equal(context.memory_bytes, 0);
     }
