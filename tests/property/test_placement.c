@@ -75,7 +75,7 @@ static void collapse_reaches_as_far_elsewhere(void **state)
 {
     static const char *const coarse[] = {"spacing=12.5 mm", NULL};
     static const char *const elsewhere[] = {"placement.axis=(1, 2, 3)", "placement.angle=30 deg",
-                                            "placement.move=(1000, -500, 200)", NULL};
+                                            "placement.translation=(1000, -500, 200)", NULL};
     const scene_request request = {MOR_SOURCE_DIR "/cases/column-3d/case.cfg",
                                    (const char *const *[]){coarse, elsewhere}, 1, 1};
     scene_request turned = request;

@@ -4,7 +4,7 @@
 #include "tests/common/program.h"
 
 #define COLUMN MOR_SOURCE_DIR "/cases/column-at-rest/case.cfg"
-#define MOVED "--set", "placement.angle=30 deg", "--set", "placement.move=(\"0.3 m\", \"0.2 m\", \"0 m\")"
+#define MOVED "--set", "placement.angle=30 deg", "--set", "placement.translation=(\"0.3 m\", \"0.2 m\", \"0 m\")"
 
 enum { ARGUMENTS = 12 };
 

@@ -83,8 +83,8 @@ static void expect_stop(const char *what, const char *const *settings)
 }
 
 static const char *const as_it_stands[] = {NULL};
-static const char *const placed[] = {"placement.axis=(0, 0, 1)", "placement.angle='45 deg'", "placement.move=(3, 1, 0)",
-                                     NULL};
+static const char *const placed[] = {"placement.axis=(0, 0, 1)", "placement.angle='45 deg'",
+                                     "placement.translation=(3, 1, 0)", NULL};
 static const char *const tilted[] = {"placement.axis=(1, 2, 2)", "placement.angle='40 deg'", NULL};
 
 static void soil_stops_at_the_edge(void **state)

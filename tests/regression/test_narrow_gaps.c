@@ -47,7 +47,7 @@ static const gap_case cases[] = {
                                                                      "2") " ); numerics = { narrow_gaps = 'allow'; };",
      NULL, "is closed to soil"},
     {"walls = ( " FLOOR ", " BOX("a", "0.5", "0", "1", "2") ", " BOX(
-         "b", "1.15", "0", "2", "2") " ); placement = { axis = (0, 0, 1); angle = '33 deg'; move = (1, 2); };",
+         "b", "1.15", "0", "2", "2") " ); placement = { axis = (0, 0, 1); angle = '33 deg'; translation = (1, 2); };",
      "(1.5 spacings) between wall 'a' and wall 'b' at (1.0", NULL},
     /* under a gate; between discs; past corners; in one wall */
     {"walls = ( " FLOOR ", " BOX("gate", "0.5", "0.15", "1", "2") " );", "between wall 'floor' and wall 'gate'", NULL},

@@ -71,4 +71,4 @@ def check(build):
 if __name__ == "__main__":
     options = source.parse_root([("build", "folder of an optimized build")])
     sys.exit(source.report("Call circles", check(options.build),
-                           "Move the function to the lower file, or hand the upper one's function down as an argument."))
+                           "Move the function to the lower file, or hand the upper one's down as an argument."))

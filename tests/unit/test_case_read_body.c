@@ -8,7 +8,7 @@
 static const char rocks_text[] =
     "dimension = 3; spacing = \"5 mm\"; end = \"0.5 s\"; gravity = (0, 0, \"-9.81 m/s2\");\n"
     "domain = { min = (-1, -1, 0); max = (1, 1, 2); };\n"
-    "placement = { axis = (1, 0, 0); angle = \"30 deg\"; move = (0, 0.5, 0); };\n"
+    "placement = { axis = (1, 0, 0); angle = \"30 deg\"; translation = (0, 0.5, 0); };\n"
     "soil = ( { name = \"bed\"; shape = { type = \"box\"; min = (-0.5, -0.5, 0); max = (0.5, 0.5, 0.2); };\n"
     "  material = { model = \"drucker_prager\"; density = 1500; youngs_modulus = 1e6; poissons_ratio = 0.2;\n"
     "    friction_angle = 0.5; }; } );\n"
@@ -31,7 +31,7 @@ static const char rocks_text[] =
     "    material = { model = \"saint_venant_kirchhoff\"; density = 1100; youngs_modulus = 17e6; poissons_ratio = "
     "0.45; "
     "};\n"
-    "    clamp = { type = \"translate\"; move = (0, 0, 1);\n"
+    "    clamp = { type = \"translate\"; translation = (0, 0, 1);\n"
     "      shape = { type = \"box\"; min = (-1, -1, -1); max = (0.1, 2, 2); }; };\n"
     "    start = { type = \"twist\"; axis = (2, 0, 0); origin = (0, 0.5, 0.5); length = 6; rate = \"105 rad/s\"; }; "
     "},\n"

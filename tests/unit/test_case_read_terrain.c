@@ -134,7 +134,7 @@ static void particles_follow_the_ground(void **state)
 {
     case_reading *f = *state;
     char text[TEXT_BYTES];
-    static const char *const placed[] = {"placement.axis=(1, 2, 2)", "placement.angle=0.7", "placement.move=(3, 0, -2)",
+    static const char *const placed[] = {"placement.axis=(1, 2, 2)", "placement.angle=0.7", "placement.translation=(3, 0, -2)",
                                          NULL};
     case_reading_read(f, make_scene(text), NULL, &f->first);
     check_particles(f);
@@ -205,7 +205,7 @@ static void wrong_terrain_is_refused_with_its_place(void **state)
     static const char nested[] =
         "dimension = 3; spacing = 1; end = 1; gravity = (0, 0, -9.81); domain = { min = (6, 0, -5); max = (30, 20, "
         "30); "
-        "};\nwalls = ( { name = \"hill\"; shape = { type = \"translate\"; move = (0, 0, 1);\n"
+        "};\nwalls = ( { name = \"hill\"; shape = { type = \"translate\"; translation = (0, 0, 1);\n"
         "shape = { type = \"terrain\"; file = \"%s\"; offset = (100, 200, 10); }; }; } );\n"
         "bodies = ( { name = \"ball\"; shape = { type = \"sphere\"; center = (0, 0, 0); radius = 3; };\n"
         "  position = (9, 9, 20); material = { model = \"rigid\"; density = 2000; }; } );";

@@ -28,7 +28,7 @@ static const char with_rock[] =
 static const char *const as_it_is[] = {NULL};
 static const char *const weightless[] = {"gravity=(0, 0, 0)", NULL};
 static const char *const placed[] = {"placement.axis=(0, 0, 1)", "placement.angle='30 deg'",
-                                     "placement.move=(0.3, -0.2, 0)", NULL};
+                                     "placement.translation=(0.3, -0.2, 0)", NULL};
 
 static scene *make(const char *text, const char *const *first, const char *const *second)
 {

@@ -69,13 +69,23 @@ static bool is_among(const char *word, const char *const *words, int n_words)
     return false;
 }
 
+static bool is_former(const char *word, const mor_case_group *group)
+{
+    for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
+        if (key->former != NULL && strcmp(key->former, word) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
                                  const char *extra, const mor_schema *more)
 {
     const char *names[NAMES_MAX];
     const int n_names = collect_names(group, extra, more, names);
     for (const mor_case_node *child = node == NULL ? NULL : node->first_child; child != NULL; child = child->next) {
-        if (is_among(child->name, names, n_names)) {
+        if (is_among(child->name, names, n_names) || is_former(child->name, group)) {
             continue;
         }
         char path[MOR_CASE_NODE_TEXT_BYTES];

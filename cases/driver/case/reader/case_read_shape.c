@@ -141,7 +141,7 @@ static mor_status check_shape_plane(const mor_case_reader *reader, const mor_cas
     case MOR_CASE_SHAPE_HALF_SPACE:
         return mor_case_reader_in_plane(reader, node, "normal", outline->second);
     case MOR_CASE_SHAPE_TRANSLATE:
-        return mor_case_reader_in_plane(reader, node, "move", outline->first);
+        return mor_case_reader_in_plane(reader, node, "translation", outline->first);
     case MOR_CASE_SHAPE_ROTATE:
         return mor_case_reader_out_of_plane(reader, node, "axis", outline->second);
     case MOR_CASE_SHAPE_CYLINDER:

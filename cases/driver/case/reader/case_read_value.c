@@ -340,6 +340,32 @@ static mor_status store_default(const mor_case_reader *reader, const mor_case_ke
     return MOR_OK;
 }
 
+/* The node of a key, also under the name that the key had in earlier versions. A setting of the command line stands
+ * above the case file, whichever of the two names it uses. */
+static mor_status find_key(const mor_case_reader *reader, const mor_case_node *node, const mor_case_key *key,
+                           const mor_case_node **found)
+{
+    *found = mor_case_node_find(node, key->schema.key);
+    const mor_case_node *former = key->former == NULL ? NULL : mor_case_node_find(node, key->former);
+    if (former == NULL) {
+        return MOR_OK;
+    }
+    char place[MOR_CASE_PLACE_BYTES];
+    mor_case_node_place(former, place, sizeof place);
+    mor_context_log(reader->context, MOR_LOG_WARNING,
+                    "%s: '%s' is named '%s' now; the old name still works in this version; rename it", place,
+                    key->former, key->schema.key);
+    const bool is_former_set = former->line == 0;
+    if (*found != NULL && ((*found)->line == 0) == is_former_set) {
+        return MOR_CASE_NODE_FAIL(reader->context, former,
+                                  "found both '%s' and '%s', its name now; allowed: one; "
+                                  "remove '%s'",
+                                  key->former, key->schema.key, key->former);
+    }
+    *found = *found == NULL || is_former_set ? former : *found;
+    return MOR_OK;
+}
+
 mor_status mor_case_reader_group(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
                                  void *record)
 {
@@ -347,7 +373,8 @@ mor_status mor_case_reader_group(const mor_case_reader *reader, const mor_case_n
     for (int k = 0; group->keys[k].schema.key != NULL; ++k) {
         const mor_case_key *key = &group->keys[k];
         void *member = (char *)record + key->offset;
-        const mor_case_node *child = mor_case_node_find(node, key->schema.key);
+        const mor_case_node *child = NULL;
+        MOR_TRY(reader->context, find_key(reader, node, key, &child));
         if (child != NULL) {
             MOR_TRY(reader->context, read_key(reader, child, key, member));
             written |= (uint64_t)1 << k;

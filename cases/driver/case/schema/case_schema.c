@@ -34,7 +34,7 @@ static const mor_case_key root_keys[] = {
 static const mor_case_part root_parts[] = {
     {"domain", true, "group", "box that particles may not leave"},
     {"lattice", false, "group", "lattice that regions are filled from"},
-    {"placement", false, "group", "turn and move of the whole scene, gravity included"},
+    {"placement", false, "group", "rotation and translation of the whole scene, gravity included"},
     {"scale", false, "group", "change of units of the whole case, to check that results do not depend on them"},
     {"soil", false, "list of groups", "soil regions; a case has soil, or bodies, or both"},
     {"walls", false, "list of groups", "solid walls"},
@@ -68,17 +68,18 @@ static const mor_case_key lattice_keys[] = {
     END};
 
 static const mor_case_key placement_keys[] = {
-    {{"axis", VECTOR, "1", DEFAULT(NAN), ANY, NULL, "axis of the turn, through the origin"},
+    {{"axis", VECTOR, "1", DEFAULT(NAN), ANY, NULL, "axis of the rotation, through the origin"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, placement_axis),
      .computed = "(0, 0, 1)",
      .is_direction = true},
-    {{"angle", SCALAR, "rad", DEFAULT(0.0), ANY, NULL, "angle of the turn, right-handed"},
+    {{"angle", SCALAR, "rad", DEFAULT(0.0), ANY, NULL, "angle of the rotation, right-handed"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, placement_angle)},
-    {{"move", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "move after the turn"},
+    {{"translation", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "translation after the rotation"},
      MOR_CASE_STORE_REALS,
-     AT(mor_case, translation)},
+     AT(mor_case, translation),
+     .former = "move"},
     END};
 
 static const mor_case_key scale_keys[] = {
@@ -250,7 +251,8 @@ static const mor_case_key output_keys[] = {
 const mor_case_group mor_case_settings_groups[] = {
     {"domain", "Box that particles may not leave", domain_keys, NULL, offsetof(mor_case, written_domain)},
     {"lattice", "Lattice that regions are filled from", lattice_keys, NULL, offsetof(mor_case, written_lattice)},
-    {"placement", "Turn and move of the whole scene", placement_keys, NULL, offsetof(mor_case, written_placement)},
+    {"placement", "Rotation and translation of the whole scene", placement_keys, NULL,
+     offsetof(mor_case, written_placement)},
     {"scale", "Change of units", scale_keys, NULL, offsetof(mor_case, written_scale)},
     {"numerics", "Settings of the method", numerics_keys, NULL, offsetof(mor_case, written_numerics)},
     {"output", "What the run writes", output_keys, NULL, offsetof(mor_case, written_output)},
@@ -365,7 +367,7 @@ static const mor_case_key sphere_keys[] = {{{"center", VECTOR, "m", REQUIRED, AN
                                            END};
 static const mor_case_key ellipsoid_keys[] = {
     {{"center", VECTOR, "m", REQUIRED, ANY, NULL, "center"}, SHAPE(first)},
-    {{"radii", VECTOR, "m", REQUIRED, NOT_NEGATIVE, NULL, "half of its extent along x, y and z; turn it by rotate"},
+    {{"radii", VECTOR, "m", REQUIRED, NOT_NEGATIVE, NULL, "half of its extent along x, y and z; rotate turns it"},
      SHAPE(second)},
     END};
 static const mor_case_key half_space_keys[] = {
@@ -373,7 +375,8 @@ static const mor_case_key half_space_keys[] = {
     {{"normal", VECTOR, "1", REQUIRED, ANY, NULL, "direction out of the solid"}, SHAPE(second), .is_direction = true},
     END};
 static const mor_case_key no_keys[] = {END};
-static const mor_case_key translate_keys[] = {{{"move", VECTOR, "m", REQUIRED, ANY, NULL, "move"}, SHAPE(first)}, END};
+static const mor_case_key translate_keys[] = {
+    {{"translation", VECTOR, "m", REQUIRED, ANY, NULL, "translation"}, SHAPE(first), .former = "move"}, END};
 static const mor_case_key rotate_keys[] = {
     {{"axis", VECTOR, "1", DEFAULT(NAN), ANY, NULL, "direction of the axis"},
      SHAPE(second),

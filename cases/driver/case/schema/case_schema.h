@@ -36,6 +36,7 @@ typedef struct mor_case_key {
     bool is_direction;      /* a vector whose length means nothing, and which may not be zero */
     bool keeps_scale;       /* not simulated time, so that the scale of the case does not touch it */
     bool shares_member;     /* another key fills the same member: left alone when this one is not written */
+    const char *former;     /* name in earlier versions, which works with a warning; NULL: none */
     const char *unit_plane; /* in plane strain, per meter of thickness; NULL: the same as in space */
 } mor_case_key;
 

@@ -118,7 +118,7 @@ static mor_status check_plane(const mor_case_reader *reader, const mor_case_node
         return MOR_CASE_NODE_FAIL(
             reader->context, mor_case_node_find(root, "placement"),
             "found a placement that leaves "
-            "the plane; allowed in plane strain: axis (0, 0, 1) and a move in x and y; correct it");
+            "the plane; allowed in plane strain: axis (0, 0, 1) and a translation in x and y; correct it");
     }
     return MOR_OK;
 }

@@ -110,10 +110,10 @@ mor_status mor_case_reader_in_plane(const mor_case_reader *reader, const mor_cas
                                     const double *vector)
 {
     const mor_case_node *node = mor_case_node_find(group, name);
-    if (reader->dimension == 3 || node == NULL || vector[2] == 0.0) {
+    if (reader->dimension == 3 || vector[2] == 0.0) {
         return MOR_OK;
     }
-    return MOR_CASE_NODE_FAIL(reader->context, node,
+    return MOR_CASE_NODE_FAIL(reader->context, node == NULL ? group : node, /* written under its former name */
                               "found %s with a component along z in plane strain; allowed: x and y; "
                               "set it to zero",
                               name);
