@@ -15,6 +15,7 @@ import check_docstrings
 import check_headers
 import check_includes
 import check_reference
+import check_rooms_drawing
 import check_sizes
 import check_symbols
 import check_tests
@@ -335,6 +336,23 @@ class Calls(Sample):
 
     def test_empty_build_is_refused(self):
         self.expect(check_calls.check(self.root), "build first")
+
+
+class RoomsDrawing(Sample):
+    def test_a_drawing_of_these_rooms_passes(self):
+        drawing = check_rooms_drawing.draw(source.read_rooms(self.root))
+        self.write(check_rooms_drawing.DRAWING, drawing)
+        self.expect(check_rooms_drawing.check(self.root))
+        for room in source.read_rooms(self.root):
+            self.assertIn(f">{room.removeprefix('cases/driver/')}</text>", drawing)
+
+    def test_a_room_that_is_not_drawn_is_told(self):
+        self.write(check_rooms_drawing.DRAWING, check_rooms_drawing.draw({"core/base": []}))
+        self.expect(check_rooms_drawing.check(self.root), "shows other rooms")
+
+    def test_implied_arrows_are_left_out(self):
+        rooms = {"core/a": [], "core/b": ["core/a"], "core/c": ["core/a", "core/b"]}
+        self.assertEqual(check_rooms_drawing.reduce(rooms), {"core/a": [], "core/b": ["core/a"], "core/c": ["core/b"]})
 
 
 class Text(Sample):

@@ -134,8 +134,8 @@ static void particles_follow_the_ground(void **state)
 {
     case_reading *f = *state;
     char text[TEXT_BYTES];
-    static const char *const placed[] = {"placement.axis=(1, 2, 2)", "placement.angle=0.7", "placement.translation=(3, 0, -2)",
-                                         NULL};
+    static const char *const placed[] = {"placement.axis=(1, 2, 2)", "placement.angle=0.7",
+                                         "placement.translation=(3, 0, -2)", NULL};
     case_reading_read(f, make_scene(text), NULL, &f->first);
     check_particles(f);
     case_reading_read(f, text, placed, &f->first);
