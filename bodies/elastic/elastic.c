@@ -36,18 +36,18 @@ static const uint64_t evolving_fields =
 
 enum { BATCH = 64 };
 
-static mor_status check_settings(mor_context *context, const char *name, const mor_elastic_settings *settings,
-                                 const mor_material_instance *material)
+static mor_status check_scheme(mor_context *context, const char *name, const mor_scheme *scheme,
+                               const mor_material_instance *material)
 {
     MOR_CHECK(context, material->material->form == MOR_MATERIAL_TOTAL, MOR_ERROR_ARGUMENT,
               "material '%s' of group '%s' is of the rate form; an elastic body needs one of the total form",
               material->material->name, name);
-    MOR_CHECK(context, settings->smoothing_ratio > 0.5 && settings->courant > 0.0, MOR_ERROR_ARGUMENT,
+    MOR_CHECK(context, scheme->body_smoothing_ratio > 0.5 && scheme->body_courant > 0.0, MOR_ERROR_ARGUMENT,
               "group '%s' has smoothing ratio %g and Courant number %g; more than 0.5 and 0 are needed", name,
-              settings->smoothing_ratio, settings->courant);
-    MOR_CHECK(context, settings->damping_factor >= 0.0 && settings->hourglass >= 0.0, MOR_ERROR_ARGUMENT,
+              scheme->body_smoothing_ratio, scheme->body_courant);
+    MOR_CHECK(context, scheme->body_damping >= 0.0 && scheme->hourglass >= 0.0, MOR_ERROR_ARGUMENT,
               "group '%s' has damping factor %g and hourglass control %g; neither may be negative", name,
-              settings->damping_factor, settings->hourglass);
+              scheme->body_damping, scheme->hourglass);
     return MOR_OK;
 }
 
@@ -123,7 +123,9 @@ static mor_status set_constants(mor_context *context, mor_elastic *elastic)
             .inverse_density = 1.0 / density,
             .density = density,
             .particle_volume = volume,
-            .hourglass = elastic->settings.hourglass * (c0 * c0) * volume * factor,
+            /* Pairs pull with hourglass rho0 c0^2 V_i V_j |W'| / r0 times what the mean linear map misses of r_ij,
+             * after Silling (2017). */
+            .hourglass = elastic->scheme.hourglass * (c0 * c0) * volume * factor,
         };
     }
     return MOR_OK;
@@ -141,17 +143,17 @@ static mor_status init_parts(mor_context *context, mor_elastic *elastic)
     return mor_elastic_prepare(context, elastic);
 }
 
-mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const char *name,
-                            const mor_elastic_settings *settings, const mor_material_instance *material, int dimension,
-                            double spacing, const mor_body_request *requests, int n_bodies)
+mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const char *name, const mor_scheme *scheme,
+                            const mor_material_instance *material, int dimension, double spacing,
+                            const mor_body_request *requests, int n_bodies)
 {
     memset(elastic, 0, sizeof *elastic);
-    MOR_TRY(context, check_settings(context, name, settings, material));
+    MOR_TRY(context, check_scheme(context, name, scheme, material));
     MOR_TRY(context, mor_body_group_init(context, &elastic->group, name, MOR_BODY_ELASTIC, dimension, spacing, requests,
                                          n_bodies, BIT(STRESS) | BIT(ACCELERATION)));
-    elastic->settings = *settings;
+    elastic->scheme = *scheme;
     elastic->material = material;
-    elastic->smoothing_length = settings->smoothing_ratio * spacing;
+    elastic->smoothing_length = scheme->body_smoothing_ratio * spacing;
     const mor_status status = init_parts(context, elastic);
     if (status != MOR_OK) {
         mor_elastic_clear(context, elastic);
@@ -205,21 +207,21 @@ mor_status mor_elastic_prepare(mor_context *context, mor_elastic *elastic)
 static mor_status propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
 {
     const mor_elastic *elastic = owner;
-    const mor_elastic_settings *settings = &elastic->settings;
+    const mor_scheme *scheme = &elastic->scheme;
     const mor_body_group *group = &elastic->group;
     const double h = elastic->smoothing_length;
-    const double wave = elastic->sound_speed * sqrt(1.0 + settings->hourglass);
+    const double wave = elastic->sound_speed * sqrt(1.0 + scheme->hourglass);
     (void)context;
-    *step_length = settings->courant * h / (wave + elastic->largest_speed);
+    *step_length = scheme->body_courant * h / (wave + elastic->largest_speed);
     *limit = "the speed of sound in the bodies";
-    const double by_acceleration = settings->courant * sqrt(h / elastic->largest_acceleration);
+    const double by_acceleration = scheme->body_courant * sqrt(h / elastic->largest_acceleration);
     if (elastic->largest_acceleration > 0.0 && by_acceleration < *step_length) {
         *step_length = by_acceleration;
         *limit = "the acceleration of the bodies";
     }
     /* The damper diffuses velocity by Pi / rho = factor c0 h / 2; an explicit step bears about h2 / 2 over it. */
-    if (settings->damping_factor * elastic->sound_speed * *step_length > h) {
-        *step_length = h / (settings->damping_factor * elastic->sound_speed);
+    if (scheme->body_damping * elastic->sound_speed * *step_length > h) {
+        *step_length = h / (scheme->body_damping * elastic->sound_speed);
         *limit = "the viscous damping of the bodies";
     }
     if (group->damping * *step_length > 0.5) {
@@ -277,7 +279,7 @@ static double hourglass_energy(const mor_elastic *elastic, int body)
     while (body >= 0 && work->clusters[last - 1].body > body) {
         --last;
     }
-    return elastic->settings.hourglass > 0.0
+    return elastic->scheme.hourglass > 0.0
                ? work->table->hourglass[elastic->group.dimension == 3 ? 1 : 0](&job, first, last)
                : 0.0;
 }

@@ -5,6 +5,7 @@
 
 #include "bodies/body.h"
 #include "core/material/kit/material.h"
+#include "core/scheme/scheme.h"
 #include "core/time/stepper.h"
 
 /** @file
@@ -13,20 +14,10 @@
  *  discrete gradient of the positions, and the forces are its conjugate: linear and angular momentum are kept to
  *  rounding. Theory: Zhang et al. (2024) eqs. 36-47, 52, 57-59; docs/theory/bodies.md. */
 
-/** What the user may choose. Plain data. */
-typedef struct mor_elastic_settings {
-    double smoothing_ratio; /* h / spacing, > 0.5, 1; 1.15 in the source */
-    double courant;         /* CFL number, 1; 0.4 in the source */
-    double damping_factor;  /* Kelvin-Voigt damping over that of the source, Pi = factor * density * c0 * h / 2; 1 */
-    double hourglass;       /* strength of the hourglass control, 1; 0: off. Pairs pull with
-                             * hourglass rho0 c0^2 V_i V_j |W'| / r0 times what the mean linear map misses of r_ij,
-                             * after Silling (2017) */
-} mor_elastic_settings;
-
 /** A group of elastic bodies. Owner: the run. */
 typedef struct mor_elastic {
     mor_body_group group;
-    mor_elastic_settings settings;
+    mor_scheme scheme;                     /* of it: what is said of bodies */
     const mor_material_instance *material; /* total form; borrowed */
     unsigned char *held;                   /* shape [n_particles]; 1: clamped, does not move */
     double smoothing_length;               /* h, m */
@@ -42,7 +33,7 @@ typedef struct mor_elastic {
 /** Makes a group of elastic bodies: neighbors within each body only, correction matrices, deformation gradient I.
  *  @param elastic   [out]     cleared after a failure
  *  @param name      [in]      zero-terminated
- *  @param settings  [in]      copied
+ *  @param scheme    [in]      copied; of it: what is said of bodies
  *  @param material  [in]      total form; borrowed
  *  @param dimension [in]      2 or 3
  *  @param spacing   [in]      unit m
@@ -52,9 +43,9 @@ typedef struct mor_elastic {
  *  place, for settings out of range and for a material of the rate form; MOR_ERROR_MEMORY.
  *  Gives: fields deformation_gradient and deformation_rate in the set; the driver of a resumed run also restores
  *  largest_acceleration, damped_energy and, of each body, rotation_angle and the impulses. */
-mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const char *name,
-                            const mor_elastic_settings *settings, const mor_material_instance *material, int dimension,
-                            double spacing, const mor_body_request *requests, int n_bodies);
+mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const char *name, const mor_scheme *scheme,
+                            const mor_material_instance *material, int dimension, double spacing,
+                            const mor_body_request *requests, int n_bodies);
 
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_elastic_clear(mor_context *context, mor_elastic *elastic);

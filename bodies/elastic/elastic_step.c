@@ -19,7 +19,7 @@ mor_elastic_job mor_elastic_job_of(const mor_elastic *elastic, double length)
                              .density = data[MOR_FIELD_DENSITY],
                              .gradient = data[elastic->field_gradient],
                              .rate = data[elastic->field_rate],
-                             .damping_per_mass = 0.5 * elastic->settings.damping_factor * elastic->sound_speed * h,
+                             .damping_per_mass = 0.5 * elastic->scheme.body_damping * elastic->sound_speed * h,
                              .half_step = 0.5 * length};
 }
 

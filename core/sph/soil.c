@@ -94,21 +94,22 @@ static void sum_lattice(const mor_soil_settings *settings, double smoothing_leng
 static void set_constants(mor_soil *soil)
 {
     const mor_soil_settings *s = &soil->settings;
-    const double h = s->smoothing_ratio * s->spacing;
+    const double h = s->scheme.smoothing_ratio * s->spacing;
     soil->smoothing_length = h;
     double moment = 0.0;
     sum_lattice(s, h, &soil->lattice_sum, &moment);
     soil->constants = (mor_pair_constants){
         .dimension = s->dimension,
-        .dissipation = s->dissipation,
-        .has_artificial_stress = s->has_artificial_stress,
-        .has_pressure_term = s->has_density_pressure_term,
+        .dissipation = (mor_dissipation)s->scheme.dissipation,
+        .has_artificial_stress = s->scheme.artificial_stress,
+        .has_pressure_term = s->scheme.density_pressure_term,
         .smoothing_length = h,
-        .gradient_factor = mor_kernel_gradient_factor(h, s->dimension) / (s->has_lattice_normalization ? moment : 1.0),
-        .limiter_rate = s->dissipation_factor / soil->sound_speed,
-        .diffusion_rate = 2.0 * s->stress_diffusion * h * soil->sound_speed,
-        .has_limited_diffusion = s->has_limited_diffusion,
-        .artificial_exponent = s->artificial_stress_exponent,
+        .gradient_factor =
+            mor_kernel_gradient_factor(h, s->dimension) / (s->scheme.lattice_normalization ? moment : 1.0),
+        .limiter_rate = s->scheme.dissipation_factor / soil->sound_speed,
+        .diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->sound_speed,
+        .has_limited_diffusion = s->scheme.stress_diffusion_limiter == 1,
+        .artificial_exponent = s->scheme.artificial_stress_exponent,
         .shift_diameter = s->spacing * (s->dimension == 3 ? SPHERE_DIAMETER : DISC_DIAMETER),
         .spacing_kernel = mor_kernel_value(s->spacing, h, s->dimension),
         .kernel_normalization = mor_kernel_normalization(h, s->dimension),
@@ -156,13 +157,13 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     const int64_t padded = soil->tree.n_clusters * MOR_CLUSTER;
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
-    if (s->xsph > 0.0 || s->has_shifting) {
+    if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
-    if (s->has_gradient_correction || s->has_angular_momentum) {
+    if (s->scheme.gradient_correction || s->scheme.angular_momentum) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
-    if (s->has_angular_momentum) {
+    if (s->scheme.angular_momentum) {
         MOR_TRY(context, MOR_NEW(context, &soil->spin_stress, padded * 3, "skew stresses"));
     }
     MOR_TRY(context, MOR_NEW(context, &soil->block_values, n_particles / 128 + 2, "reduction blocks"));
@@ -184,9 +185,9 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     MOR_CHECK(context, material->material->form == MOR_MATERIAL_RATE, MOR_ERROR_ARGUMENT,
               "material '%s' is for elastic bodies; soil needs a material in rate form", material->material->name);
     uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
-    fields &= settings->has_artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
-    fields &= settings->stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
-    fields &= settings->has_reconstruction ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
+    fields &= settings->scheme.artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
+    fields &= settings->scheme.stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
+    fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
         status =
@@ -306,7 +307,7 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
         by_barrier = fmin(by_barrier, mor_soil_contact_at(soil, k)->longest_step);
         added_mass_ratio = fmax(added_mass_ratio, mor_soil_contact_at(soil, k)->boundary->added_mass_ratio);
     }
-    *step_length = soil->settings.courant * h / (soil->sound_speed + fastest);
+    *step_length = soil->settings.scheme.courant * h / (soil->sound_speed + fastest);
     *limit = "the speed of sound in the soil";
     if (added_mass_ratio > 1.0) {
         *step_length /= sqrt(added_mass_ratio);
@@ -324,8 +325,8 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
         *step_length = by_barrier;
         *limit = "the barrier between soil and rocks";
     }
-    if (soil->settings.damping * *step_length > 0.5) {
-        *step_length = 0.5 / soil->settings.damping;
+    if (soil->settings.scheme.damping * *step_length > 0.5) {
+        *step_length = 0.5 / soil->settings.scheme.damping;
         *limit = "the damping";
     }
     return limit_by_material(context, soil, step_length, limit);

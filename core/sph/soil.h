@@ -6,6 +6,7 @@
 #include "core/geometry/domain.h"
 #include "core/material/kit/material.h"
 #include "core/particle/set.h"
+#include "core/scheme/scheme.h"
 #include "core/sph/soil_contact.h"
 #include "core/sph/soil_energy.h"
 #include "core/time/stepper.h"
@@ -17,33 +18,12 @@
 
 enum { MOR_SOIL_WALLS_MAX = 64, MOR_SOIL_BOUNDARIES_MAX = 16 };
 
-/** What the user may choose. Plain data. */
+/** What a soil is built from, beside its material. Plain data. */
 typedef struct mor_soil_settings {
-    int dimension;                    /* 2 (plane strain in x, y) or 3 */
-    double spacing;                   /* initial particle spacing, m */
-    double smoothing_ratio;           /* h / spacing, 1 */
-    bool has_lattice_normalization;   /* kernel gradient exact for linear fields on the initial lattice */
-    double courant;                   /* CFL number, 1 */
-    mor_dissipation dissipation;      /* between soil particles */
-    mor_dissipation wall_dissipation; /* against walls */
-    double dissipation_factor;        /* eta, 1 */
-    bool has_density_pressure_term;   /* pressure part of U* in the density rate */
-    bool has_reconstruction;          /* the limiter sees what is left of a jump after linear reconstruction */
-    double stress_diffusion;          /* zeta, 1; 0: off */
-    bool has_limited_diffusion;       /* stress diffuses as far as pairs move, by the limiter of the dissipation */
-    double lateral_ratio;             /* K0 of the stress-diffusion operator, 1 */
-    bool has_artificial_stress;
-    double artificial_stress_exponent; /* n, 1 */
-    double artificial_stress_factor;   /* epsilon, 1 */
-    bool has_gradient_correction;      /* velocity gradient and density rate exact for linear fields */
-    double xsph;                       /* xi, 1; 0: off */
-    bool has_shifting;                 /* penetration-based shifting */
-    bool has_angular_momentum;         /* forces between soil particles keep angular momentum to rounding */
-    int density_interval;              /* steps between re-initializations of density; 0: never */
-    double skin_ratio;                 /* neighbor-list skin / spacing, 1 */
-    int sort_interval;                 /* steps between sorts, >= 1 */
-    double damping;                    /* rate of velocity damping, 1/s */
-    double gravity_ramp;               /* time over which gravity grows from zero, s; 0: at once */
+    mor_scheme scheme;                 /* what the user may choose about the method */
+    int dimension;                     /* 2 (plane strain in x, y) or 3 */
+    double spacing;                    /* initial particle spacing, m */
+    double lateral_ratio;              /* K0 of the stress-diffusion operator, 1 */
     double gravity[3];                 /* m/s2 */
     double domain_minimum[3];          /* m, before the placement */
     double domain_maximum[3];          /* likewise */

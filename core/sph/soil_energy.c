@@ -148,10 +148,10 @@ static double find_regularization(const mor_soil *soil, double length, int64_t i
     const double *before = soil->records + i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY;
     const double *after = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
     const double *sums = soil->regularization + 6 * i;
-    const double shifting = soil->settings.has_shifting ? mor_vector_length(before) : 0.0;
+    const double shifting = soil->settings.scheme.shifting ? mor_vector_length(before) : 0.0;
     double gained = 0.5 * (mor_vector_dot(after, after) - mor_vector_dot(before, before)) / length;
     for (int a = 0; a < 3; ++a) {
-        gained -= soil->settings.gravity[a] * (soil->settings.xsph * sums[a] + shifting * sums[3 + a]);
+        gained -= soil->settings.gravity[a] * (soil->settings.scheme.xsph * sums[a] + shifting * sums[3 + a]);
     }
     return -soil->set.data[MOR_FIELD_MASS][i] * gained;
 }
@@ -164,7 +164,7 @@ static void find_stress_block(mor_soil *soil, const mor_step *step, int64_t firs
     for (int64_t i = first; i < last && soil->regularization != NULL; ++i) {
         sums[MOR_SOIL_ENERGY_REGULARIZATION] += find_regularization(soil, step->length, i);
     }
-    for (int64_t i = first; i < last && soil->settings.has_gradient_correction; ++i) {
+    for (int64_t i = first; i < last && soil->settings.scheme.gradient_correction; ++i) {
         const double *record = soil->records + i * MOR_RECORD_SIZE;
         sums[MOR_SOIL_ENERGY_CORRECTION] -=
             record[MOR_RECORD_VOLUME] *

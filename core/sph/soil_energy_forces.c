@@ -110,12 +110,12 @@ static void find_motion_block(mor_soil *soil, const mor_step *step, int64_t firs
         for (int a = 0; a < 3; ++a) {
             const double before =
                 record[MOR_RECORD_VELOCITY + a] - step->length * soil->set.data[MOR_FIELD_ACCELERATION][3 * i + a];
-            sums[MOR_SOIL_ENERGY_DAMPING] += s->damping * mass * before * middle[a];
+            sums[MOR_SOIL_ENERGY_DAMPING] += s->scheme.damping * mass * before * middle[a];
             sums[MOR_SOIL_ENERGY_RAMP] += mass * (s->gravity[a] - soil->gravity[a]) * middle[a];
         }
         sums[MOR_SOIL_ENERGY_BOUNDARY] += taken[LOST];
         sums[MOR_SOIL_ENERGY_DRIVEN] += taken[GIVEN];
-        if (s->has_gradient_correction) {
+        if (s->scheme.gradient_correction) {
             sums[MOR_SOIL_ENERGY_CORRECTION] +=
                 record[MOR_RECORD_VOLUME] *
                 mor_soil_stress_power(record + MOR_RECORD_STRESS, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i);
@@ -190,10 +190,10 @@ static void audit_pairs(mor_context *context, mor_soil *soil, const mor_step *st
     strip_records(context, soil, step->length);
     mor_soil_run_pairs(context, &constants, &arrays, momentum);
     mor_soil_energy_add(context, soil, find_riemann_block, step);
-    if (soil->settings.has_artificial_stress && is_calm(soil, step)) {
+    if (soil->settings.scheme.artificial_stress && is_calm(soil, step)) {
         soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] =
             soil->energy->state[MOR_SOIL_ENERGY_POWER + MOR_SOIL_ENERGY_ARTIFICIAL];
-    } else if (soil->settings.has_artificial_stress) {
+    } else if (soil->settings.scheme.artificial_stress) {
         const double riemann = soil->energy->fresh[MOR_SOIL_ENERGY_RIEMANN];
         constants.has_artificial_stress = true;
         mor_soil_run_pairs(context, &constants, &arrays, momentum);
@@ -201,7 +201,7 @@ static void audit_pairs(mor_context *context, mor_soil *soil, const mor_step *st
         soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] -= riemann;
     }
     restore_records(context, soil);
-    if (soil->settings.has_angular_momentum) {
+    if (soil->settings.scheme.angular_momentum) {
         memset(soil->energy->scratch, 0, (size_t)(3 * soil->set.n_particles) * sizeof(double));
         mor_soil_run_pairs(context, &constants, &arrays, soil->table->spin);
         mor_soil_energy_add(context, soil, find_spin_block, step);

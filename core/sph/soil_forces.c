@@ -79,13 +79,13 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, co
 {
     mor_soil *soil = owner;
     (void)step;
-    if (!soil->settings.has_artificial_stress) {
+    if (!soil->settings.scheme.artificial_stress) {
         return MOR_OK;
     }
     const double *stress = soil->set.data[MOR_FIELD_STRESS];
     double *artificial = soil->set.data[MOR_FIELD_ARTIFICIAL_STRESS];
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, BATCH) {
-        find_artificial(stress + 6 * i, soil->settings.artificial_stress_factor, artificial + 6 * i);
+        find_artificial(stress + 6 * i, soil->settings.scheme.artificial_stress_factor, artificial + 6 * i);
     }
     return MOR_OK;
 }
@@ -114,8 +114,9 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, const
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
         mor_soil_contact_continue(context, contact, soil->table, &soil->constants, soil->records, &soil->inner);
-        mor_soil_contact_sum_forces(context, contact, soil->settings.wall_dissipation, soil->constants.limiter_rate,
-                                    soil->records, soil->set.n_particles, soil->set.data[MOR_FIELD_ACCELERATION]);
+        mor_soil_contact_sum_forces(context, contact, (mor_dissipation)soil->settings.scheme.wall_dissipation,
+                                    soil->constants.limiter_rate, soil->records, soil->set.n_particles,
+                                    soil->set.data[MOR_FIELD_ACCELERATION]);
         mor_soil_contact_share(context, contact, soil->table, &soil->constants, soil->records, soil->set.n_particles);
     }
     return MOR_OK;

@@ -84,7 +84,7 @@ void mor_soil_sort(mor_soil *soil)
 static mor_status build_lists(mor_context *context, mor_soil *soil)
 {
     const double reach =
-        MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.skin_ratio * soil->settings.spacing;
+        MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
     const mor_relation_points points = {&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3};
     mor_tree_fit(&soil->tree, points.records, 3);
     MOR_TRY(context, mor_relation_build(context, &soil->inner, &points, &points, reach));
@@ -99,7 +99,7 @@ static mor_status build_lists(mor_context *context, mor_soil *soil)
 mor_status mor_soil_find_neighbors(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
-    if (step->number > 0 && step->number % (uint64_t)soil->settings.sort_interval == 0) {
+    if (step->number > 0 && step->number % (uint64_t)soil->settings.scheme.sort_interval == 0) {
         mor_soil_sort(soil);
     }
     /* Two particles that each move by the drift change their distance by twice as much. */
@@ -108,7 +108,7 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, const mor_
         const double moved = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
         other = other >= moved ? other : moved;
     }
-    const bool is_fit = soil->drift + other <= soil->settings.skin_ratio * soil->settings.spacing;
+    const bool is_fit = soil->drift + other <= soil->settings.scheme.skin_ratio * soil->settings.spacing;
     return soil->has_lists && is_fit ? MOR_OK : build_lists(context, soil);
 }
 
@@ -157,7 +157,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, const mor_step *step
 
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step)
 {
-    const double ramp = soil->settings.gravity_ramp;
+    const double ramp = soil->settings.scheme.gravity_ramp;
     const double middle = step->time + 0.5 * step->length;
     return ramp > 0.0 && middle < ramp ? middle / ramp : 1.0;
 }
@@ -175,7 +175,7 @@ static void kick_block(mor_soil *soil, int64_t block, double length)
 {
     double *velocity = soil->set.data[MOR_FIELD_VELOCITY];
     double *acceleration = soil->set.data[MOR_FIELD_ACCELERATION];
-    const double damping = soil->settings.damping;
+    const double damping = soil->settings.scheme.damping;
     double fastest = 0.0;
     double strongest = 0.0;
     for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, soil->set.n_particles); ++i) {

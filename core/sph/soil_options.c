@@ -66,7 +66,7 @@ static void keep_density(mor_soil *soil, int64_t i, const double *sums)
 mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, const mor_step *step)
 {
     mor_soil *soil = owner;
-    const int interval = soil->settings.density_interval;
+    const int interval = soil->settings.scheme.density_reinitialization;
     if (interval == 0 || step->number == 0 || step->number % (uint64_t)interval != 0) {
         return MOR_OK;
     }
@@ -144,7 +144,7 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mo
 {
     mor_soil *soil = owner;
     (void)step;
-    if (!soil->settings.has_gradient_correction) {
+    if (!soil->settings.scheme.gradient_correction) {
         return MOR_OK;
     }
     sum_kernels(context, soil, keep_moments);
@@ -208,7 +208,7 @@ mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, con
 {
     mor_soil *soil = owner;
     (void)step;
-    if (!soil->settings.has_angular_momentum) {
+    if (!soil->settings.scheme.angular_momentum) {
         return MOR_OK;
     }
     sum_kernels(context, soil, keep_moments);
@@ -276,8 +276,8 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step
         soil->table->regularize(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
     }
     const int64_t n_blocks = mor_block_count(soil->set.n_particles);
-    const double xsph = step->length * soil->settings.xsph;
-    const double shifting = soil->settings.has_shifting ? step->length : 0.0;
+    const double xsph = step->length * soil->settings.scheme.xsph;
+    const double shifting = soil->settings.scheme.shifting ? step->length : 0.0;
     MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
         regularize_block(soil, block, xsph, shifting);
     }

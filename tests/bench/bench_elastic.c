@@ -79,15 +79,16 @@ static void run_row(bench *all, const void *chosen)
                                  .axis = {0.0, 0.0, 1.0},
                                  .angle = 0.3,
                                  .angular_velocity = {0.0, 0.0, 0.01 / across}};
-    const elastic_request request = {.dimension = row->dimension,
-                                     .spacing = 1.0,
-                                     .pieces = &piece,
-                                     .n_pieces = 1,
-                                     .youngs = 1e4,
-                                     .poisson = 0.25,
-                                     .density = 1.0,
-                                     .settings = {1.15, 0.4, 1.0, 0.1},
-                                     .n_threads = mor_parallel_cores()};
+    const elastic_request request = {
+        .dimension = row->dimension,
+        .spacing = 1.0,
+        .pieces = &piece,
+        .n_pieces = 1,
+        .youngs = 1e4,
+        .poisson = 0.25,
+        .density = 1.0,
+        .settings = {.body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.1},
+        .n_threads = mor_parallel_cores()};
     elastic_bodies it;
     elastic_open(&it, &request);
     elastic_steps(&it, 2);

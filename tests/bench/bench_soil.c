@@ -133,9 +133,9 @@ static void run_row(bench *all, const void *chosen)
     soil_bench it = {.scene = scene_new(&request), .timings = {{.n_threads = mor_parallel_cores()}, {.n_threads = 1}}};
     mor_soil *soil = &it.scene->simulation.soil;
     it.n_timings = row->has_one_thread && mor_parallel_cores() > 1 ? 2 : 1;
-    it.sort_interval = soil->settings.sort_interval;
+    it.sort_interval = soil->settings.scheme.sort_interval;
     it.n_steps = row->n_steps > 0 ? row->n_steps : it.sort_interval;
-    soil->settings.sort_interval = it.n_steps;
+    soil->settings.scheme.sort_interval = it.n_steps;
     meter_attach(&it.meter, &it.scene->simulation.schedule);
     find_neighbor_stage(&it);
     assert_true(row->n_repetitions <= BENCH_REPETITIONS_MAX);

@@ -28,16 +28,16 @@ enum { BODY_SCENE_BOXES_MAX = 4 };
 
 /** What a scene is made from. Borrowed. */
 typedef struct body_scene_request {
-    int dimension;                 /* 2: plane strain in x, y; 3 */
-    double spacing;                /* m; the lattice has a particle at half a spacing from the origin */
-    const double (*boxes)[6];      /* shape [n_boxes, 6]; lowest and highest corner, m; z is ignored in plane strain */
-    int n_boxes;                   /* they overlap, or there is one */
-    const mor_material *material;  /* NULL: neo_hookean */
-    double youngs, poisson;        /* Pa, 1 */
-    double density;                /* kg/m3 */
-    double end;                    /* longest time that will be asked for, s */
-    mor_elastic_settings settings; /* zeros: smoothing_ratio 1.15, courant 0.4, damping_factor 1, hourglass 0 */
-    int n_threads;                 /* 0: one */
+    int dimension;                /* 2: plane strain in x, y; 3 */
+    double spacing;               /* m; the lattice has a particle at half a spacing from the origin */
+    const double (*boxes)[6];     /* shape [n_boxes, 6]; lowest and highest corner, m; z is ignored in plane strain */
+    int n_boxes;                  /* they overlap, or there is one */
+    const mor_material *material; /* NULL: neo_hookean */
+    double youngs, poisson;       /* Pa, 1 */
+    double density;               /* kg/m3 */
+    double end;                   /* longest time that will be asked for, s */
+    mor_scheme settings;          /* zeros: body_smoothing_ratio 1.15, body_courant 0.4, body_damping 1, hourglass 0 */
+    int n_threads;                /* 0: one */
 } body_scene_request;
 
 /** One scene. Owner: the test, which ends it with body_scene_close. */
@@ -114,11 +114,11 @@ static inline double *body_scene_fill(const body_scene *it, const body_scene_req
     return points;
 }
 
-static inline mor_elastic_settings body_scene_settings(const body_scene_request *request)
+static inline mor_scheme body_scene_settings(const body_scene_request *request)
 {
-    const mor_elastic_settings source = {
-        .smoothing_ratio = 1.15, .courant = 0.4, .damping_factor = 1.0, .hourglass = 0.0};
-    return request->settings.courant > 0.0 ? request->settings : source;
+    const mor_scheme source = {
+        .body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0};
+    return request->settings.body_courant > 0.0 ? request->settings : source;
 }
 
 /** Makes the body at rest; velocities, held particles and gravity may be set before body_scene_start. */
@@ -140,7 +140,7 @@ static inline void body_scene_open(body_scene *it, const body_scene_request *req
     body_scene_require(it, mor_shape_find_moments(&it->context, it->shape, request->dimension, &body.geometry));
     double *points = body_scene_fill(it, request, &body.n_particles);
     body.positions = points;
-    const mor_elastic_settings settings = body_scene_settings(request);
+    const mor_scheme settings = body_scene_settings(request);
     body_scene_require(it, mor_elastic_init(&it->context, &it->elastic, "rock", &settings, it->material,
                                             request->dimension, request->spacing, &body, 1));
     free(points);

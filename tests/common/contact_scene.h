@@ -207,8 +207,10 @@ static inline void contact_scene_make_groups(contact_scene *it)
     }
     if (it->n_elastic > 0) {
         const double values[MOR_HOOKE_COUNT] = {request->modulus, request->poisson};
-        const mor_elastic_settings settings = {
-            .smoothing_ratio = 1.15, .courant = 0.4, .damping_factor = request->damping_factor, .hourglass = 0.0};
+        const mor_scheme settings = {.body_smoothing_ratio = 1.15,
+                                     .body_courant = 0.4,
+                                     .body_damping = request->damping_factor,
+                                     .hourglass = 0.0};
         contact_scene_require(
             it, mor_material_create(&it->context, &mor_neo_hookean, request->density, values, &it->material));
         contact_scene_require(it, mor_elastic_init(&it->context, &it->elastic, "rubber", &settings, it->material,

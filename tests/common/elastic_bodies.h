@@ -45,7 +45,7 @@ typedef struct elastic_request {
     const elastic_piece *pieces;
     int n_pieces;
     double youngs, poisson, density; /* Pa, 1, kg/m3 */
-    mor_elastic_settings settings;
+    mor_scheme settings;
     int n_threads; /* 0: one */
     double end;    /* longest time that will be asked for, s */
 } elastic_request;

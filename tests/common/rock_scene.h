@@ -45,18 +45,18 @@ static inline void rock_scene_open(rock_scene *it, int dimension, double spacing
     memset(it, 0, sizeof *it);
     mor_context_init(&it->context);
     it->context.n_threads = n_threads;
-    it->settings = (mor_soil_settings){.dimension = dimension,
+    it->settings = (mor_soil_settings){.scheme = {.smoothing_ratio = 1.3,
+                                                  .courant = 0.3,
+                                                  .dissipation = MOR_DISSIPATION_SEPARATION,
+                                                  .wall_dissipation = MOR_DISSIPATION_BOTH,
+                                                  .dissipation_factor = 20.0 * dimension,
+                                                  .lattice_normalization = true,
+                                                  .skin_ratio = 0.25,
+                                                  .sort_interval = 40},
+                                       .reference_density = 1600.0,
+                                       .dimension = dimension,
                                        .spacing = spacing,
-                                       .smoothing_ratio = 1.3,
-                                       .courant = 0.3,
-                                       .dissipation = MOR_DISSIPATION_SEPARATION,
-                                       .wall_dissipation = MOR_DISSIPATION_BOTH,
-                                       .dissipation_factor = 20.0 * dimension,
-                                       .has_lattice_normalization = true,
-                                       .lateral_ratio = 0.5,
-                                       .skin_ratio = 0.25,
-                                       .sort_interval = 40,
-                                       .reference_density = 1600.0};
+                                       .lateral_ratio = 0.5};
     for (int a = 0; a < 3; ++a) {
         it->settings.domain_minimum[a] = -1000.0 * spacing;
         it->settings.domain_maximum[a] = 1000.0 * spacing;

@@ -12,7 +12,8 @@ static double find_depth(int dimension, double speed_ratio, bool has_barrier)
     rock_scene *it = calloc(1, sizeof *it);
     assert_non_null(it);
     rock_scene_open(it, dimension, SPACING, 1);
-    it->settings.wall_dissipation = MOR_DISSIPATION_SEPARATION; /* the source as printed: the closing is not damped */
+    it->settings.scheme.wall_dissipation =
+        MOR_DISSIPATION_SEPARATION; /* the source as printed: the closing is not damped */
     it->parameters[MOR_DRUCKER_PRAGER_COHESION] = 0.0;
     rock_scene_add_soil(it, (const double[3]){0.0, -4 * SPACING, -3 * SPACING}, (const int[3]){10, 8, 6});
     it->velocity[0] = 1.0;

@@ -22,8 +22,8 @@ static rock_scene *open_bed(mor_wall_stress stress, mor_wall_friction friction, 
     assert_non_null(it);
     rock_scene_open(it, 2, SPACING, 1);
     it->settings.gravity[1] = -GRAVITY;
-    it->settings.damping = 0.0;
-    it->settings.stress_diffusion = 0.1;
+    it->settings.scheme.damping = 0.0;
+    it->settings.scheme.stress_diffusion = 0.1;
     it->parameters[MOR_DRUCKER_PRAGER_COHESION] = 0.0;
     it->stress = stress;
     rock_scene_add_soil(it, (const double[3]){0.0, 0.0, 0.0}, (const int[3]){LENGTH, DEPTH, 1});

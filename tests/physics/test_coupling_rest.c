@@ -19,7 +19,7 @@ static rock_scene *open_bed(mor_wall_friction friction, mor_wall_stress stress)
     const double middle = 0.5 * LENGTH * SPACING;
     rock_scene_open(it, 2, SPACING, 1);
     it->settings.gravity[1] = -GRAVITY;
-    it->settings.stress_diffusion = 0.1;
+    it->settings.scheme.stress_diffusion = 0.1;
     it->settings.lateral_ratio = 0.6;
     it->parameters[MOR_DRUCKER_PRAGER_COHESION] = 0.0;
     it->stress = stress;

@@ -31,7 +31,7 @@ static void open_square(body_scene *square, int n_across, double damping_factor,
     const double boxes[1][6] = {{-0.5, -0.5, 0, 0.5, 0.5, 0}};
     body_scene_request request = square_request(boxes, n_across, end);
     request.settings = body_scene_settings(&request);
-    request.settings.damping_factor = damping_factor;
+    request.settings.body_damping = damping_factor;
     body_scene_open(square, &request);
     const double *x0 = body_scene_reference(square);
     double *v = body_scene_velocities(square);
@@ -118,7 +118,8 @@ static void energy_error_falls_with_the_square_of_the_step(void **state)
         const double end = 0.02;
         body_scene square;
         body_scene_request request = square_request(boxes, 8, end);
-        request.settings = (mor_elastic_settings){1.15, k == 0 ? 0.4 : 0.2, 0.0, 0.0};
+        request.settings = (mor_scheme){
+            .body_smoothing_ratio = 1.15, .body_courant = k == 0 ? 0.4 : 0.2, .body_damping = 0.0, .hourglass = 0.0};
         body_scene_open(&square, &request);
         for (int64_t i = 0; i < body_scene_count(&square); ++i) {
             const double *x0 = body_scene_reference(&square) + 3 * i;

@@ -83,7 +83,7 @@ static rock_scene *open_collision(const collision *c)
     rock_scene *it = calloc(1, sizeof *it);
     assert_non_null(it);
     rock_scene_open(it, c->dimension, SPACING, c->n_threads);
-    it->settings.has_angular_momentum = c->keeps_angular;
+    it->settings.scheme.angular_momentum = c->keeps_angular;
     it->velocity[0] = 1.5;
     it->velocity[1] = 0.2;
     it->velocity[2] = c->dimension == 3 ? -0.3 : 0.0;

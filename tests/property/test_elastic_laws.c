@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tests/common/elastic_bodies.h"
 
-static const mor_elastic_settings undamped = {1.15, 0.4, 0.0, 0.0};
+static const mor_scheme undamped = {
+    .body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 0.0, .hourglass = 0.0};
 
 /* A tumbling box, or a spinning plate, far from the origin and stretched by its spin. */
 static elastic_request tumbler(int dimension, const elastic_piece *piece)
@@ -79,7 +80,7 @@ static void test_damping_only_takes_energy(void **state)
 {
     (void)state;
     elastic_request request = tumbler(3, &brick);
-    request.settings.damping_factor = 1.0;
+    request.settings.body_damping = 1.0;
     elastic_bodies it;
     elastic_open(&it, &request);
     double *v = it.elastic.group.set.data[MOR_FIELD_VELOCITY];
@@ -137,7 +138,8 @@ static void test_any_number_of_threads_gives_the_same_bits(void **state)
     request.n_pieces = 2;
     request.spacing = 0.05; /* enough particles for a team */
     request.jitter = 0.2;
-    request.settings = (mor_elastic_settings){1.15, 0.4, 1.0, 0.05};
+    request.settings =
+        (mor_scheme){.body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.05};
     const uint64_t expected = checksum_after(&request, 10, 1);
     for (int n_threads = 2; n_threads <= 3; ++n_threads) {
         assert_true(checksum_after(&request, 10, n_threads) == expected);
@@ -155,7 +157,8 @@ static void test_units_changed_by_powers_of_two_change_no_bit(void **state)
     elastic_piece scaled = brick;
     elastic_request request = tumbler(3, &brick);
     request.jitter = 0.2;
-    request.settings = (mor_elastic_settings){1.15, 0.4, 1.0, 0.05};
+    request.settings =
+        (mor_scheme){.body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.05};
     elastic_request other = request;
     other.pieces = &scaled;
     other.spacing *= length;
@@ -215,7 +218,8 @@ static void test_resumed_body_goes_on_bit_by_bit(void **state)
 {
     (void)state;
     elastic_request request = tumbler(3, &brick);
-    request.settings = (mor_elastic_settings){1.15, 0.4, 1.0, 0.05};
+    request.settings =
+        (mor_scheme){.body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.05};
     elastic_bodies it;
     elastic_bodies other;
     elastic_open(&it, &request);

@@ -92,7 +92,7 @@ static void take(const char *text, const char *const *settings, double factor, s
     for (int64_t i = 0; i < out->n; ++i) {
         const int64_t id = soil->set.id[i];
         memcpy(out->acceleration[id], data[MOR_FIELD_ACCELERATION] + 3 * i, sizeof out->acceleration[id]);
-        if (soil->settings.has_artificial_stress) {
+        if (soil->settings.scheme.artificial_stress) {
             memcpy(out->found[id], data[MOR_FIELD_ARTIFICIAL_STRESS] + 6 * i, sizeof out->found[id]);
         }
     }

@@ -13,14 +13,15 @@ static const elastic_piece two[2] = {{.side = {0.5, 0.4, 0.6},
 
 static elastic_request request_of(int dimension)
 {
-    return (elastic_request){.dimension = dimension,
-                             .spacing = 0.1,
-                             .pieces = two,
-                             .n_pieces = 2,
-                             .youngs = 1e6,
-                             .poisson = 0.3,
-                             .density = 1000.0,
-                             .settings = {1.15, 0.4, 0.0, 0.0}};
+    return (elastic_request){
+        .dimension = dimension,
+        .spacing = 0.1,
+        .pieces = two,
+        .n_pieces = 2,
+        .youngs = 1e6,
+        .poisson = 0.3,
+        .density = 1000.0,
+        .settings = {.body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 0.0, .hourglass = 0.0}};
 }
 
 static void test_particles_share_volume_and_mass_of_their_body(void **state)

@@ -126,7 +126,7 @@ static void contact_and_settings_arrive(void **state)
     assert_true(contact->pairs[0].restitution == 0.9);           /* exact */
     assert_true(contact->pairs[1].friction_coefficient == 0.0);  /* exact */
     assert_true(contact->pairs[1].restitution == 0.5);           /* exact: that of contact */
-    const mor_case_numerics *n = &f->first.numerics;
+    const mor_scheme *n = &f->first.numerics;
     assert_true(n->single_rate && n->angular_momentum);
     assert_true(n->body_smoothing_ratio == 1.3 && n->body_courant == 0.2);      /* exact */
     assert_true(n->body_damping == 2.0 && n->hourglass == 0.1);                 /* exact */

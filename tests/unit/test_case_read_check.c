@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "core/material/params.h"
 #include "tests/common/case_reading.h"
 
 /* Settings that have no effect in their company are warned of, with their line, and those that have one are not. */
@@ -94,25 +95,17 @@ static void settings_of_the_method_need_something_to_work_on(void **state)
         ++numerics;
     }
     for (const mor_case_key *key = numerics->keys; key->schema.key != NULL; ++key) {
-        static const char *const of_bodies[] = {"single_rate", "body_", "hourglass", "barrier_", NULL};
+        const bool is_of_bodies = (key->needs & (MOR_CASE_NEEDS_BODIES | MOR_CASE_NEEDS_ELASTIC)) != 0U;
+        const mor_schema *schema = &key->schema;
         char setting[128];
+        char word[64] = "0.37";
         char log[LOG_BYTES] = "";
-        bool is_of_bodies = false;
-        for (int k = 0; of_bodies[k] != NULL; ++k) {
-            is_of_bodies = is_of_bodies || strncmp(key->schema.key, of_bodies[k], strlen(of_bodies[k])) == 0;
+        if (schema->kind == MOR_SCHEMA_CHOICE) {
+            mor_params_word(schema->choices, schema->default_value == 0.0 ? 1 : 0, word, sizeof word);
+        } else if (schema->kind != MOR_SCHEMA_REAL) {
+            snprintf(word, sizeof word, "%s", schema->kind == MOR_SCHEMA_BOOLEAN ? "true" : "7");
         }
-        const bool is_choice = key->schema.kind == MOR_SCHEMA_CHOICE;
-        const bool is_switch = key->schema.kind == MOR_SCHEMA_BOOLEAN;
-        const bool is_whole = key->schema.kind == MOR_SCHEMA_INTEGER;
-        snprintf(setting, sizeof setting, "numerics.%s=%s", key->schema.key,
-                 is_switch                                        ? "true"
-                 : is_whole                                       ? "7"
-                 : !is_choice                                     ? "0.37"
-                 : strcmp(key->schema.key, "reconstruction") == 0 ? "linear"
-                 : strcmp(key->schema.key, "narrow_gaps") == 0    ? "allow"
-                 : strstr(key->schema.key, "limiter") != NULL     ? "motion"
-                 : strstr(key->schema.key, "dissipation") != NULL ? "both"
-                                                                  : "uniform");
+        snprintf(setting, sizeof setting, "numerics.%s=%s", schema->key, word);
         if (strstr(setting, "smoothing_ratio") != NULL) {
             snprintf(strchr(setting, '='), 8, "=1.37");
         }

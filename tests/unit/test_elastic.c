@@ -12,15 +12,16 @@ static const elastic_piece plate_and_disc[2] = {
 
 static elastic_request request_of(int dimension)
 {
-    return (elastic_request){.dimension = dimension,
-                             .spacing = 0.1,
-                             .jitter = 0.3,
-                             .pieces = dimension == 3 ? box_and_ball : plate_and_disc,
-                             .n_pieces = 2,
-                             .youngs = 1e6,
-                             .poisson = 0.3,
-                             .density = 1000.0,
-                             .settings = {1.15, 0.4, 1.0, 0.0}};
+    return (elastic_request){
+        .dimension = dimension,
+        .spacing = 0.1,
+        .jitter = 0.3,
+        .pieces = dimension == 3 ? box_and_ball : plate_and_disc,
+        .n_pieces = 2,
+        .youngs = 1e6,
+        .poisson = 0.3,
+        .density = 1000.0,
+        .settings = {.body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0}};
 }
 
 /* Velocities A X of all particles, where A is shape [3,3], 1/s; in plane strain without its last row and column. */

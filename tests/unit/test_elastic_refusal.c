@@ -5,14 +5,15 @@
 
 static elastic_request request_of(const elastic_piece *piece)
 {
-    return (elastic_request){.dimension = 3,
-                             .spacing = 0.1,
-                             .pieces = piece,
-                             .n_pieces = 1,
-                             .youngs = 1e6,
-                             .poisson = 0.3,
-                             .density = 1000.0,
-                             .settings = {1.15, 0.4, 1.0, 0.0}};
+    return (elastic_request){
+        .dimension = 3,
+        .spacing = 0.1,
+        .pieces = piece,
+        .n_pieces = 1,
+        .youngs = 1e6,
+        .poisson = 0.3,
+        .density = 1000.0,
+        .settings = {.body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0}};
 }
 
 static const elastic_piece cube = {.side = {0.4, 0.4, 0.4}, .middle = {1.0, 2.0, 3.0}};
@@ -59,7 +60,8 @@ static void test_thread_of_particles_is_refused_with_name_and_place(void **state
     (void)state;
     enum { CUBE = 64, THREAD = 4 };
     const elastic_request request = request_of(&cube);
-    const mor_elastic_settings settings = {1.15, 0.4, 1.0, 0.0};
+    const mor_scheme settings = {
+        .body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0};
     double points[3 * (CUBE + THREAD)];
     elastic_bodies it;
     elastic_open(&it, &request);
@@ -139,7 +141,8 @@ static double find_half_width(int dimension, double determinant, const double *c
 static void test_pointed_tip_is_refused_and_a_blunter_one_accepted(void **state)
 {
     (void)state;
-    const mor_elastic_settings settings = {1.15, 0.4, 1.0, 0.0};
+    const mor_scheme settings = {
+        .body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0};
     for (int option = 0; option < 4; ++option) {
         const int dimension = 2 + option / 2;
         const bool is_blunt = option % 2 == 1;
@@ -243,7 +246,8 @@ static void test_material_of_the_rate_form_is_refused(void **state)
     mor_elastic elastic;
     mor_context_init(&context);
     assert_int_equal(mor_material_create(&context, &mor_drucker_prager, 1000.0, parameters, &material), MOR_OK);
-    const mor_elastic_settings settings = {1.15, 0.4, 1.0, 0.0};
+    const mor_scheme settings = {
+        .body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0};
     assert_int_equal(mor_elastic_init(&context, &elastic, "rocks", &settings, material, 3, 0.1, NULL, 0),
                      MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(context.message, "total form"));

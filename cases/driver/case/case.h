@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_CASE_CASE_H
 
 #include "core/geometry/shape.h"
+#include "core/scheme/scheme.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -259,42 +260,6 @@ typedef struct mor_case_contact {
     uint64_t written;
 } mor_case_contact;
 
-/** Settings of the method, design.md "Fine grains". */
-typedef struct mor_case_numerics {
-    double smoothing_ratio;            /* h / spacing, 1.3 */
-    bool lattice_normalization;        /* kernel gradient exact for linear fields on the initial lattice */
-    double courant;                    /* CFL number, 0.4 */
-    int dissipation;                   /* 0 separation, 1 approach, 2 both */
-    int wall_dissipation;              /* likewise for walls */
-    int wall_stress;                   /* 0 uniform, 1 along, 2 linear */
-    double dissipation_factor;         /* eta; default 20 * dimension */
-    bool density_pressure_term;        /* pressure part of U* in the density rate */
-    int reconstruction;                /* of velocities at the middle of a pair: 0 none, 1 linear */
-    double stress_diffusion;           /* zeta; 0: off */
-    int stress_diffusion_limiter;      /* 0 none, 1 motion */
-    int narrow_gaps;                   /* gaps of walls below two spacings: 0 refuse, 1 allow */
-    bool artificial_stress;            /* Z(27)-Z(31) */
-    double artificial_stress_exponent; /* n */
-    double artificial_stress_factor;   /* epsilon */
-    bool gradient_correction;          /* kernel-gradient correction of the velocity gradient and density rate */
-    double xsph;                       /* xi of H(13); 0: off */
-    bool shifting;                     /* penetration-based shifting H(16) */
-    int density_reinitialization;      /* steps between re-initializations; 0: off */
-    double skin_ratio;                 /* neighbor-list skin / spacing */
-    int sort_interval;                 /* steps between sorts */
-    double damping;                    /* velocity damping rate, 1/s; 0: off */
-    double gravity_ramp;               /* time over which gravity grows linearly from 0, s */
-    bool single_rate;                  /* soil and bodies at one common step instead of sub-steps */
-    double body_smoothing_ratio;       /* h / spacing of elastic bodies, 1.15 */
-    double body_courant;               /* CFL number of elastic bodies, 0.4 */
-    double body_damping;               /* Kelvin-Voigt damping of elastic bodies over that of the source, 1 */
-    double hourglass;                  /* strength of the hourglass control, 1; 0: off */
-    int body_stress;                   /* stress soil sees in bodies, as wall_stress */
-    bool angular_momentum;             /* soil forces that keep angular momentum to rounding */
-    double barrier_stiffness;          /* of the barrier between soil and bodies, N/m (N/m2); 0: off */
-    double barrier_radius;             /* reach of the barrier, m; default the spacing */
-} mor_case_numerics;
-
 /** One probe: a named result. */
 typedef struct mor_case_probe {
     char name[MOR_CASE_NAME_BYTES];
@@ -378,7 +343,7 @@ typedef struct mor_case {
     mor_case_rocks rocks[MOR_CASE_ROCKS_MAX];
     int n_rocks;
     mor_case_contact contact;
-    mor_case_numerics numerics;
+    mor_scheme numerics;
     mor_case_probe probes[MOR_CASE_PROBES_MAX];
     int n_probes;
     mor_case_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];

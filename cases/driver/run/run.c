@@ -227,7 +227,7 @@ static void warn_of_outflow(mor_context *context, const mor_simulation *s)
 static mor_status warn_of_density_drift(mor_context *context, const mor_simulation *s)
 {
     const double advisable = 0.2; /* collapses at coarse spacing reach 0.14; what goes wrong, 0.4 to 12 */
-    const mor_case_numerics *n = &s->the_case->numerics;
+    const mor_scheme *n = &s->the_case->numerics;
     double drift = 0.0;
     if (!s->has_soil) {
         return MOR_OK;

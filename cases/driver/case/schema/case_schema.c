@@ -61,10 +61,12 @@ static const mor_case_key domain_keys[] = {
 static const mor_case_key lattice_keys[] = {
     {{"origin", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "a corner of a lattice cell; particles fill the cells"},
      MOR_CASE_STORE_REALS,
-     AT(mor_case, lattice_origin)},
+     AT(mor_case, lattice_origin),
+     .needs = MOR_CASE_NEEDS_SOIL},
     {{"jitter", SCALAR, "1", DEFAULT(0.0), 0.0, 0.5, 0, 1, NULL, "random displacement of particles / spacing"},
      MOR_CASE_STORE_REALS,
-     AT(mor_case, jitter_ratio)},
+     AT(mor_case, jitter_ratio),
+     .needs = MOR_CASE_NEEDS_SOIL},
     END};
 
 static const mor_case_key placement_keys[] = {
@@ -72,7 +74,8 @@ static const mor_case_key placement_keys[] = {
      MOR_CASE_STORE_REALS,
      AT(mor_case, placement_axis),
      .computed = "(0, 0, 1)",
-     .is_direction = true},
+     .is_direction = true,
+     .needs = MOR_CASE_NEEDS_ROTATION},
     {{"angle", SCALAR, "rad", DEFAULT(0.0), ANY, NULL, "angle of the rotation, right-handed"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, placement_angle)},
@@ -94,131 +97,38 @@ static const mor_case_key scale_keys[] = {
      AT(mor_case, scale_mass)},
     END};
 
-#define NUMERICS(member) AT(mor_case, numerics.member)
+/* The settings of the scheme: rows of core/scheme/scheme.def become keys of the same name. */
+#define BETWEEN(least, largest) (least), (largest), 0, 0
+#define ABOVE(least, largest) (least), (largest), 1, 0
+#define SOIL MOR_CASE_NEEDS_SOIL
+#define BODIES MOR_CASE_NEEDS_BODIES
+#define ELASTIC MOR_CASE_NEEDS_ELASTIC
+#define WALLS MOR_CASE_NEEDS_WALLS
+#define GRAVITY MOR_CASE_NEEDS_GRAVITY
+#define ARTIFICIAL MOR_CASE_NEEDS_ARTIFICIAL
+#define DIFFUSION MOR_CASE_NEEDS_DIFFUSION
+#define DISSIPATION MOR_CASE_NEEDS_DISSIPATION
+#define BARRIER MOR_CASE_NEEDS_BARRIER
+#define MOR_SETTING(type, storage, key, kind, unit, fallback, words, need, computed_default, plane, text, ...)         \
+    {{#key, MOR_SCHEMA_##kind, 1, unit, DEFAULT(fallback), __VA_ARGS__, words, text},                                  \
+     MOR_CASE_STORE_##storage,                                                                                         \
+     AT(mor_case, numerics.key),                                                                                       \
+     .computed = (computed_default),                                                                                   \
+     .unit_plane = (plane),                                                                                            \
+     .needs = (need)},
 static const mor_case_key numerics_keys[] = {
-    {{"smoothing_ratio", SCALAR, "1", DEFAULT(1.3), 1.0, 3.0, 0, 0, NULL, "smoothing length / spacing"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(smoothing_ratio)},
-    {{"courant", SCALAR, "1", DEFAULT(0.4), 0.0, 1.0, 1, 0, NULL, "Courant number of the time step"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(courant)},
-    {{"lattice_normalization", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "whether the kernel gradient is scaled to be exact for linear fields on the initial lattice"},
-     MOR_CASE_STORE_BOOL,
-     NUMERICS(lattice_normalization)},
-    {{"dissipation", CHOICE, "1", DEFAULT(0.0), ANY, "separation|approach|both",
-      "relative motion between soil particles that the Riemann solver damps"},
-     MOR_CASE_STORE_CHOICE,
-     NUMERICS(dissipation)},
-    {{"wall_dissipation", CHOICE, "1", DEFAULT(0.0), ANY, "separation|approach|both",
-      "relative motion between soil and walls that the Riemann solver damps"},
-     MOR_CASE_STORE_CHOICE,
-     NUMERICS(wall_dissipation)},
-    {{"wall_stress", CHOICE, "1", DEFAULT(1.0), ANY, "uniform|along|linear",
-      "stress a particle sees in a wall: its own, or its own varying as in the soil along the wall, or everywhere"},
-     MOR_CASE_STORE_CHOICE,
-     NUMERICS(wall_stress)},
-    {{"dissipation_factor", SCALAR, "1", DEFAULT(NAN), NOT_NEGATIVE, NULL, "slope of the dissipation limiter"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(dissipation_factor),
-     .computed = "20 * dimension"},
-    {{"reconstruction", CHOICE, "1", DEFAULT(0.0), ANY, "none|linear",
-      "velocities between which the Riemann solver damps: of the soil particles, or continued linearly to the middle "
-      "of the pair, so that smooth motion is not damped"},
-     MOR_CASE_STORE_CHOICE,
-     NUMERICS(reconstruction)},
-    {{"density_pressure_term", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "pressure part of the Riemann velocity in the "
-      "rate of density"},
-     MOR_CASE_STORE_BOOL,
-     NUMERICS(density_pressure_term)},
-    {{"stress_diffusion", SCALAR, "1", DEFAULT(0.1), 0.0, 0.5, 0, 0, NULL, "factor of the stress diffusion; 0: off"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(stress_diffusion)},
-    {{"stress_diffusion_limiter", CHOICE, "1", DEFAULT(0.0), ANY, "none|motion",
-      "where stress diffuses: everywhere, or only as far as particles move against each other, so that soil at rest "
-      "under a load does not creep (nowhere with dissipation_factor = 0)"},
-     MOR_CASE_STORE_CHOICE,
-     NUMERICS(stress_diffusion_limiter)},
-    {{"artificial_stress", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "artificial stress against clumping in tension, for "
-      "cohesive soil"},
-     MOR_CASE_STORE_BOOL,
-     NUMERICS(artificial_stress)},
-    {{"artificial_stress_exponent", SCALAR, "1", DEFAULT(2.55), POSITIVE, NULL, "exponent of the artificial stress"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(artificial_stress_exponent)},
-    {{"artificial_stress_factor", SCALAR, "1", DEFAULT(0.5), NOT_NEGATIVE, NULL, "factor of the artificial stress"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(artificial_stress_factor)},
-    {{"gradient_correction", SWITCH, "1", DEFAULT(0.0), ANY, NULL, "correction of kernel gradients to first order"},
-     MOR_CASE_STORE_BOOL,
-     NUMERICS(gradient_correction)},
-    {{"xsph", SCALAR, "1", DEFAULT(0.0), 0.0, 1.0, 0, 0, NULL,
-      "share of the neighbors' velocity in the motion; 0: off"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(xsph)},
-    {{"shifting", SWITCH, "1", DEFAULT(0.0), ANY, NULL, "shifting of particles towards even spacing"},
-     MOR_CASE_STORE_BOOL,
-     NUMERICS(shifting)},
-    {{"density_reinitialization", WHOLE, "1", DEFAULT(20.0), 0.0, 1.0e9, 0, 0, NULL,
-      "steps between summations of the density; 0: off"},
-     MOR_CASE_STORE_INT,
-     NUMERICS(density_reinitialization)},
-    {{"skin_ratio", SCALAR, "1", DEFAULT(0.45), 0.0, 4.0, 0, 0, NULL, "extra reach of neighbor lists / spacing"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(skin_ratio)},
-    {{"sort_interval", WHOLE, "1", DEFAULT(100.0), 1.0, 1.0e9, 0, 0, NULL, "steps between sorts of the particles"},
-     MOR_CASE_STORE_INT,
-     NUMERICS(sort_interval)},
-    {{"damping", SCALAR, "1/s", DEFAULT(0.0), NOT_NEGATIVE, NULL, "rate at which velocities are damped; 0: off"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(damping)},
-    {{"gravity_ramp", SCALAR, "s", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "time over which gravity grows from zero; 0: none"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(gravity_ramp)},
-    {{"single_rate", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "whether soil and bodies take the same steps, in place of several of the bodies in one of the soil"},
-     MOR_CASE_STORE_BOOL,
-     NUMERICS(single_rate)},
-    {{"narrow_gaps", CHOICE, "1", DEFAULT(0.0), ANY, "refuse|allow",
-      "gaps narrower than two spacings between walls and prescribed bodies, which soil does not pass"},
-     MOR_CASE_STORE_CHOICE,
-     NUMERICS(narrow_gaps)},
-    {{"body_smoothing_ratio", SCALAR, "1", DEFAULT(1.15), 1.0, 3.0, 0, 0, NULL,
-      "smoothing length / spacing of elastic bodies"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(body_smoothing_ratio)},
-    {{"body_courant", SCALAR, "1", DEFAULT(0.4), 0.0, 1.0, 1, 0, NULL, "Courant number of elastic bodies"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(body_courant)},
-    {{"body_damping", SCALAR, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL,
-      "viscous damping of elastic bodies / that of Zhang et al. (2024); 0: off"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(body_damping)},
-    {{"hourglass", SCALAR, "1", DEFAULT(0.1), NOT_NEGATIVE, NULL,
-      "strength of the hourglass control of elastic bodies; 0: off"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(hourglass)},
-    {{"body_stress", CHOICE, "1", DEFAULT(2.0), ANY, "uniform|along|linear",
-      "stress a soil particle sees in a body, as wall_stress"},
-     MOR_CASE_STORE_CHOICE,
-     NUMERICS(body_stress)},
-    {{"angular_momentum", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "whether forces within the soil keep its angular momentum to rounding"},
-     MOR_CASE_STORE_BOOL,
-     NUMERICS(angular_momentum)},
-    {{"barrier_stiffness", SCALAR, "N/m", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "stiffness of the barrier that keeps soil particles out of bodies, Jiang et al. (2022) eq. 23; 0: off"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(barrier_stiffness),
-     .unit_plane = "N/m2"},
-    {{"barrier_radius", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "distance at which the barrier begins to push"},
-     MOR_CASE_STORE_REALS,
-     NUMERICS(barrier_radius),
-     .computed = "spacing"},
+#include "core/scheme/scheme.def"
     END};
+#undef MOR_SETTING
+#undef SOIL
+#undef BODIES
+#undef ELASTIC
+#undef WALLS
+#undef GRAVITY
+#undef ARTIFICIAL
+#undef DIFFUSION
+#undef DISSIPATION
+#undef BARRIER
 
 #define OUTPUT(member) AT(mor_case, output.member)
 static const mor_case_key output_keys[] = {
@@ -314,10 +224,12 @@ static const mor_case_key wall_keys[] = {
       "rough: no slip; smooth: free slip; coulomb: "
       "slip at friction_coefficient"},
      MOR_CASE_STORE_CHOICE,
-     AT(mor_case_wall, friction)},
+     AT(mor_case_wall, friction),
+     .needs = MOR_CASE_NEEDS_SOIL},
     {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL, "needed with coulomb, refused without"},
      MOR_CASE_STORE_REALS,
-     AT(mor_case_wall, friction_coefficient)},
+     AT(mor_case_wall, friction_coefficient),
+     .needs = MOR_CASE_NEEDS_SOIL},
     {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "prescribed velocity"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, velocity)},
@@ -328,7 +240,8 @@ static const mor_case_key wall_keys[] = {
     {{"contact_poissons_ratio", SCALAR, "1", DEFAULT(0.25), 0.0, 0.5, 0, 1, NULL,
       "Poisson's ratio of its surface, with contact_modulus"},
      MOR_CASE_STORE_REALS,
-     AT(mor_case_wall, contact_poisson)},
+     AT(mor_case_wall, contact_poisson),
+     .needs = MOR_CASE_NEEDS_BODIES | MOR_CASE_NEEDS_COMPLIANCE},
     END};
 
 static const mor_case_part wall_parts[] = {{"shape", true, "shape", "the solid"}, {NULL, false, NULL, NULL}};

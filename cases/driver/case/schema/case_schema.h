@@ -26,6 +26,23 @@ typedef enum mor_case_storage {
     MOR_CASE_STORE_CHOICE /* int or enum; the index of the word */
 } mor_case_storage;
 
+/** What a key may need to have an effect. */
+enum {
+    MOR_CASE_NEEDS_SOIL = 1,
+    MOR_CASE_NEEDS_BODIES = 2,
+    MOR_CASE_NEEDS_ELASTIC = 4,
+    MOR_CASE_NEEDS_WALLS = 8,
+    MOR_CASE_NEEDS_GRAVITY = 16,
+    MOR_CASE_NEEDS_ARTIFICIAL = 32,
+    MOR_CASE_NEEDS_DIFFUSION = 64,
+    MOR_CASE_NEEDS_DISSIPATION = 128,
+    MOR_CASE_NEEDS_BARRIER = 256,
+    MOR_CASE_NEEDS_ROTATION = 512,
+    MOR_CASE_NEEDS_BODY_ROTATION = 1024,
+    MOR_CASE_NEEDS_STIFF_SPRING = 2048,
+    MOR_CASE_NEEDS_COMPLIANCE = 4096
+};
+
 /** One key. A table ends with schema.key NULL. */
 typedef struct mor_case_key {
     mor_schema schema; /* of a choice, default_value is the index of the word */
@@ -38,6 +55,7 @@ typedef struct mor_case_key {
     bool shares_member;     /* another key fills the same member: left alone when this one is not written */
     const char *former;     /* name in earlier versions, which works with a warning; NULL: none */
     const char *unit_plane; /* in plane strain, per meter of thickness; NULL: the same as in space */
+    unsigned needs;         /* MOR_CASE_NEEDS_ bits without which it has no effect */
 } mor_case_key;
 
 /** A key that holds a group or a list of its own. A table ends with name NULL. */

@@ -14,101 +14,38 @@ enum { VALUES_MAX = 9 };
 
 /* ---- Settings that have no effect -------------------------------------------------------------------------------- */
 
-/* What a setting may need to have an effect, and how that is said. */
-enum {
-    SOIL = 1,
-    BODIES = 2,
-    ELASTIC = 4,
-    WALLS = 8,
-    GRAVITY = 16,
-    ARTIFICIAL = 32,
-    DIFFUSION = 64,
-    DISSIPATION = 128,
-    BARRIER = 256,
-    TURN = 512,
-    BODY_TURN = 1024,
-    STIFF_SPRING = 2048,
-    YIELDING = 4096
-};
-
+/* How it is said what a key needs to have an effect. */
 static const struct {
     unsigned need;
     const char *words;
-} needs[] = {{SOIL, "in a case with soil"},
-             {BODIES, "in a case with bodies"},
-             {ELASTIC, "with elastic bodies"},
-             {WALLS, "in a case with walls"},
-             {GRAVITY, "with gravity"},
-             {ARTIFICIAL, "with artificial_stress = true"},
-             {DIFFUSION, "with stress_diffusion above 0"},
-             {DISSIPATION, "with dissipation_factor above 0"},
-             {BARRIER, "with barrier_stiffness above 0"},
-             {TURN, "with an angle other than 0"},
-             {BODY_TURN, "with an angle other than 0"},
-             {STIFF_SPRING, "with a stiffness above 0"},
-             {YIELDING, "with contact_modulus"}};
-
-/* Settings that are idle alone or in some company. Keys that only one kind of record takes are refused where that kind
- * is read: mor_case_body_condition, mor_case_start_condition and their like. */
-static const struct {
-    const char *group;
-    const char *key;
-    unsigned needs;
-} uses[] = {{"lattice", "origin", SOIL},
-            {"lattice", "jitter", SOIL},
-            {"placement", "axis", TURN},
-            {"numerics", "smoothing_ratio", SOIL},
-            {"numerics", "courant", SOIL},
-            {"numerics", "lattice_normalization", SOIL},
-            {"numerics", "dissipation", SOIL | DISSIPATION},
-            {"numerics", "wall_dissipation", SOIL | WALLS | DISSIPATION},
-            {"numerics", "wall_stress", SOIL | WALLS},
-            {"numerics", "dissipation_factor", SOIL},
-            {"numerics", "reconstruction", SOIL | DISSIPATION},
-            {"numerics", "density_pressure_term", SOIL},
-            {"numerics", "stress_diffusion", SOIL},
-            {"numerics", "stress_diffusion_limiter", SOIL | DIFFUSION},
-            {"numerics", "artificial_stress", SOIL},
-            {"numerics", "artificial_stress_exponent", SOIL | ARTIFICIAL},
-            {"numerics", "artificial_stress_factor", SOIL | ARTIFICIAL},
-            {"numerics", "gradient_correction", SOIL},
-            {"numerics", "xsph", SOIL},
-            {"numerics", "shifting", SOIL},
-            {"numerics", "density_reinitialization", SOIL},
-            {"numerics", "narrow_gaps", SOIL},
-            {"numerics", "skin_ratio", SOIL},
-            {"numerics", "sort_interval", SOIL},
-            {"numerics", "gravity_ramp", GRAVITY},
-            {"numerics", "single_rate", SOIL | BODIES},
-            {"numerics", "body_smoothing_ratio", ELASTIC},
-            {"numerics", "body_courant", ELASTIC},
-            {"numerics", "body_damping", ELASTIC},
-            {"numerics", "hourglass", ELASTIC},
-            {"numerics", "body_stress", SOIL | BODIES},
-            {"numerics", "angular_momentum", SOIL},
-            {"numerics", "barrier_stiffness", SOIL | BODIES},
-            {"numerics", "barrier_radius", SOIL | BODIES | BARRIER},
-            {"walls", "friction", SOIL},
-            {"walls", "friction_coefficient", SOIL},
-            {"bodies", "friction", SOIL},
-            {"bodies", "friction_coefficient", SOIL},
-            {"bodies", "axis", BODY_TURN},
-            {"walls", "contact_poissons_ratio", BODIES | YIELDING},
-            {"spring", "length", STIFF_SPRING}};
+} needs[] = {{MOR_CASE_NEEDS_SOIL, "in a case with soil"},
+             {MOR_CASE_NEEDS_BODIES, "in a case with bodies"},
+             {MOR_CASE_NEEDS_ELASTIC, "with elastic bodies"},
+             {MOR_CASE_NEEDS_WALLS, "in a case with walls"},
+             {MOR_CASE_NEEDS_GRAVITY, "with gravity"},
+             {MOR_CASE_NEEDS_ARTIFICIAL, "with artificial_stress = true"},
+             {MOR_CASE_NEEDS_DIFFUSION, "with stress_diffusion above 0"},
+             {MOR_CASE_NEEDS_DISSIPATION, "with dissipation_factor above 0"},
+             {MOR_CASE_NEEDS_BARRIER, "with barrier_stiffness above 0"},
+             {MOR_CASE_NEEDS_ROTATION, "with an angle other than 0"},
+             {MOR_CASE_NEEDS_BODY_ROTATION, "with an angle other than 0"},
+             {MOR_CASE_NEEDS_STIFF_SPRING, "with a stiffness above 0"},
+             {MOR_CASE_NEEDS_COMPLIANCE, "with contact_modulus"}};
 
 static unsigned find_given(const mor_case *c)
 {
-    const mor_case_numerics *n = &c->numerics;
-    unsigned given = (c->n_soils > 0 ? SOIL : 0U) | (c->n_bodies > 0 ? BODIES : 0U) | (c->n_walls > 0 ? WALLS : 0U);
+    const mor_scheme *n = &c->numerics;
+    unsigned given = (c->n_soils > 0 ? MOR_CASE_NEEDS_SOIL : 0U) | (c->n_bodies > 0 ? MOR_CASE_NEEDS_BODIES : 0U) |
+                     (c->n_walls > 0 ? MOR_CASE_NEEDS_WALLS : 0U);
     for (int k = 0; k < c->n_bodies; ++k) {
-        given |= mor_case_body_is_rigid(&c->bodies[k]) ? 0U : ELASTIC;
+        given |= mor_case_body_is_rigid(&c->bodies[k]) ? 0U : MOR_CASE_NEEDS_ELASTIC;
     }
-    given |= mor_vector_length(c->gravity) > 0.0 ? GRAVITY : 0U;
-    given |= n->artificial_stress ? ARTIFICIAL : 0U;
-    given |= n->stress_diffusion > 0.0 ? DIFFUSION : 0U;
-    given |= n->dissipation_factor > 0.0 ? DISSIPATION : 0U;
-    given |= n->barrier_stiffness > 0.0 ? BARRIER : 0U;
-    return given | (c->placement_angle != 0.0 ? TURN : 0U);
+    given |= mor_vector_length(c->gravity) > 0.0 ? MOR_CASE_NEEDS_GRAVITY : 0U;
+    given |= n->artificial_stress ? MOR_CASE_NEEDS_ARTIFICIAL : 0U;
+    given |= n->stress_diffusion > 0.0 ? MOR_CASE_NEEDS_DIFFUSION : 0U;
+    given |= n->dissipation_factor > 0.0 ? MOR_CASE_NEEDS_DISSIPATION : 0U;
+    given |= n->barrier_stiffness > 0.0 ? MOR_CASE_NEEDS_BARRIER : 0U;
+    return given | (c->placement_angle != 0.0 ? MOR_CASE_NEEDS_ROTATION : 0U);
 }
 
 /* Whether a key has the value it has when it is not written; case.resolved.cfg writes them all. */
@@ -142,15 +79,15 @@ static bool is_default(const mor_case_reader *reader, const mor_case *c, const m
     return memcmp(values, member, (size_t)key->schema.n_components * sizeof *values) == 0;
 }
 
-/* Warns of the keys of one group of the file that have no effect in this company. */
+/* Warns of the keys of one group of the file that have no effect in this company. Keys that only one kind of record
+ * takes are refused where that kind is read: mor_case_body_condition, mor_case_start_condition and their like. */
 static void warn_of_group(const mor_case_reader *reader, const mor_case_node *node, const mor_case *c,
                           const mor_case_group *group, const void *record, unsigned given)
 {
-    for (size_t k = 0; k < sizeof uses / sizeof *uses; ++k) {
-        const unsigned missing = uses[k].needs & ~given;
-        const mor_case_node *child = node == NULL ? NULL : mor_case_node_find(node, uses[k].key);
-        if (missing == 0U || child == NULL || strcmp(uses[k].group, group->name) != 0 ||
-            is_default(reader, c, &group->keys[mor_case_key_find(group->keys, uses[k].key)], record)) {
+    for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
+        const unsigned missing = key->needs & ~given;
+        const mor_case_node *child = node == NULL ? NULL : mor_case_node_find(node, key->schema.key);
+        if (missing == 0U || child == NULL || is_default(reader, c, key, record)) {
             continue;
         }
         size_t first = 0;
@@ -173,14 +110,14 @@ static void warn_of_idle_settings(const mor_case_reader *reader, const mor_case_
     const mor_case_node *walls = mor_case_node_find(root, "walls");
     const mor_case_wall *wall = c->walls;
     for (const mor_case_node *it = walls == NULL ? NULL : walls->first_child; it != NULL; it = it->next) {
-        const unsigned own = given | (wall->contact_modulus > 0.0 ? YIELDING : 0U);
+        const unsigned own = given | (wall->contact_modulus > 0.0 ? MOR_CASE_NEEDS_COMPLIANCE : 0U);
         warn_of_group(reader, it, c, &mor_case_wall_group, wall++, own);
     }
     const mor_case_node *bodies = mor_case_node_find(root, "bodies");
     const mor_case_body *body = c->bodies;
     for (const mor_case_node *it = bodies == NULL ? NULL : bodies->first_child; it != NULL; it = it->next) {
-        const unsigned own =
-            given | (body->angle != 0.0 ? BODY_TURN : 0U) | (body->spring_stiffness > 0.0 ? STIFF_SPRING : 0U);
+        const unsigned own = given | (body->angle != 0.0 ? MOR_CASE_NEEDS_BODY_ROTATION : 0U) |
+                             (body->spring_stiffness > 0.0 ? MOR_CASE_NEEDS_STIFF_SPRING : 0U);
         warn_of_group(reader, it, c, &mor_case_body_group, body, own);
         warn_of_group(reader, mor_case_node_find(it, "spring"), c, &mor_case_spring_group, body, own);
         ++body;

@@ -106,12 +106,10 @@ static mor_status make_elastic(mor_context *context, mor_simulation_bodies *bodi
     const mor_case_body *first = &c->bodies[r->members[0]];
     mor_material_instance **instance = &bodies->materials[bodies->n_elastics];
     mor_elastic *elastic = &bodies->elastics[bodies->n_elastics];
-    const mor_elastic_settings settings = {c->numerics.body_smoothing_ratio, c->numerics.body_courant,
-                                           c->numerics.body_damping, c->numerics.hourglass};
     char name[MOR_FIELD_NAME_BYTES];
     name_group(bodies, first->model, name, sizeof name);
     MOR_TRY(context, mor_material_create(context, material, first->density, first->parameters, instance));
-    MOR_TRY(context, mor_elastic_init(context, elastic, name, &settings, *instance, c->dimension, c->spacing,
+    MOR_TRY(context, mor_elastic_init(context, elastic, name, &c->numerics, *instance, c->dimension, c->spacing,
                                       r->requests, r->n_members));
     bodies->n_elastics += 1;
     for (int m = 0; m < r->n_members; ++m) {

@@ -274,33 +274,11 @@ static mor_status check_materials(mor_context *context, const mor_case *the_case
 static void set_settings(const mor_simulation *simulation, const mor_material *material, mor_soil_settings *s)
 {
     const mor_case *c = simulation->the_case;
-    const mor_case_numerics *n = &c->numerics;
     *s = (mor_soil_settings){
+        .scheme = c->numerics,
         .dimension = c->dimension,
         .spacing = c->spacing,
-        .smoothing_ratio = n->smoothing_ratio,
-        .has_lattice_normalization = n->lattice_normalization,
-        .courant = n->courant,
-        .dissipation = (mor_dissipation)n->dissipation,
-        .wall_dissipation = (mor_dissipation)n->wall_dissipation,
-        .dissipation_factor = n->dissipation_factor,
-        .has_density_pressure_term = n->density_pressure_term,
-        .has_reconstruction = n->reconstruction == 1,
-        .stress_diffusion = n->stress_diffusion,
-        .has_limited_diffusion = n->stress_diffusion_limiter == 1,
         .lateral_ratio = mor_simulation_lateral_ratio(material, &c->soils[0]),
-        .has_artificial_stress = n->artificial_stress,
-        .artificial_stress_exponent = n->artificial_stress_exponent,
-        .artificial_stress_factor = n->artificial_stress_factor,
-        .has_gradient_correction = n->gradient_correction,
-        .xsph = n->xsph,
-        .has_shifting = n->shifting,
-        .density_interval = n->density_reinitialization,
-        .skin_ratio = n->skin_ratio,
-        .sort_interval = n->sort_interval,
-        .damping = n->damping,
-        .gravity_ramp = n->gravity_ramp,
-        .has_angular_momentum = n->angular_momentum,
         .reference_density = c->soils[0].density,
     };
     const mor_simulation_frame *frame = &simulation->frame;

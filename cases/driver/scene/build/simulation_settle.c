@@ -78,7 +78,7 @@ static mor_status report_unrest(mor_context *context, const mor_simulation *simu
                                 double speed, double limit)
 {
     const double spacing = simulation->the_case->spacing;
-    const mor_case_numerics *numerics = &simulation->the_case->numerics;
+    const mor_scheme *numerics = &simulation->the_case->numerics;
     const bool may_creep = numerics->stress_diffusion > 0.0 && numerics->stress_diffusion_limiter == 0;
     mor_settle_judgment judgment;
     char found[FOUND_BYTES];
@@ -190,10 +190,10 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
     double ratio = 0.0;
     mor_soil *soil = &simulation->soil;
     if (find_settling(simulation->the_case, &longest, &ratio)) {
-        const double damping = soil->settings.damping;
-        const double ramp = soil->settings.gravity_ramp;
-        soil->settings.damping = SETTLE_DAMPING * soil->sound_speed / soil->smoothing_length;
-        soil->settings.gravity_ramp = 0.0;
+        const double damping = soil->settings.scheme.damping;
+        const double ramp = soil->settings.scheme.gravity_ramp;
+        soil->settings.scheme.damping = SETTLE_DAMPING * soil->sound_speed / soil->smoothing_length;
+        soil->settings.scheme.gravity_ramp = 0.0;
         soil->settings.removes_outflow = false; /* what is to come to rest may not leave */
         double velocities[MOR_SOIL_WALLS_MAX][3];
         mor_contact *contact = &simulation->bodies.contact;
@@ -205,7 +205,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
             memset(contact->walls[w].velocity, 0, sizeof contact->walls[w].velocity);
         }
         MOR_TRY(context, mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case,
-                                                      soil->settings.damping));
+                                                      soil->settings.scheme.damping));
         MOR_TRY(context, run_settling(context, simulation, longest, ratio, observer));
         MOR_TRY(context, mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case, 0.0));
         for (int w = 0; w < soil->n_walls; ++w) {
@@ -215,8 +215,8 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
             memcpy(contact->walls[w].velocity, velocities[w], sizeof velocities[w]);
         }
         contact->time = 0.0;
-        soil->settings.damping = damping;
-        soil->settings.gravity_ramp = ramp;
+        soil->settings.scheme.damping = damping;
+        soil->settings.scheme.gravity_ramp = ramp;
         soil->settings.removes_outflow = simulation->the_case->outflow == 1;
         const int64_t n = soil->set.n_particles;
         memset(soil->set.data[MOR_FIELD_VELOCITY], 0, (size_t)(3 * n) * sizeof(double));

@@ -1,0 +1,21 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SCHEME_SCHEME_H
+#define MOR_CORE_SCHEME_SCHEME_H
+
+#include <stdbool.h>
+
+/** @file
+ *  What the user may choose about the numerical scheme, of soil and of bodies. Each setting is one row of
+ *  core/scheme/scheme.def and one member here, with the same name; a case reads them into this record, and whoever
+ *  carries out the scheme gets the whole of it. */
+
+/** All settings. Plain data in SI; meaning, unit, range and default of each: its row in scheme.def. A choice is the
+ *  index of its word. */
+typedef struct mor_scheme {
+#define MOR_SETTING(type, storage, key, kind, unit, fallback, words, needs, computed, unit_plane, text, ...) type key;
+#include "core/scheme/scheme.def"
+#undef MOR_SETTING
+} mor_scheme;
+
+#endif
