@@ -7,6 +7,7 @@
 #include "core/geometry/shape.h"
 #include "core/particle/boundary.h"
 #include "core/particle/set.h"
+#include "core/particle/state.h"
 
 /** @file
  *  Rocks. A group holds all bodies of one material in one particle set, each body one range of it. The group is plain
@@ -152,6 +153,12 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
  *  lighter than the soil around them the present velocities, and the largest speed of both.
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
+
+/** Lists what every kind of body carries from step to step: the set, what the soil sees and has given. A solver adds
+ *  what is its own.
+ *  @param list    [in,out]  borrows from the group
+ *  Returns: as mor_state_add. */
+mor_status mor_body_group_list_state(mor_context *context, mor_body_group *group, mor_state_list *list);
 
 /** Finds how much soil a body drags along, compared with its own mass: the soil within one spacing of its surface, that
  *  which slides along a face counting a third, for the free motion of the body as a whole for which the ratio is

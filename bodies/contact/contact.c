@@ -226,11 +226,10 @@ static mor_status make_lists(mor_context *context, mor_contact *contact)
     MOR_TRY(context, MOR_NEW(context, &work->hit_pairs, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->kept_pairs, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->pair_mark, work->n_pairs, "contact"));
-    contact->n_sums = MOR_BODY_GROUPS_MAX * (2 + 3 * (int64_t)contact->n_walls);
-    MOR_TRY(context, MOR_NEW(context, &contact->sums, contact->n_sums, "contact"));
-    work->group_spring = contact->sums;
-    work->group_deepest = contact->sums + MOR_BODY_GROUPS_MAX;
-    work->wall_force = contact->sums + 2 * MOR_BODY_GROUPS_MAX;
+    MOR_TRY(context, MOR_NEW(context, &contact->group_spring, contact->n_groups, "contact"));
+    MOR_TRY(context, MOR_NEW(context, &contact->group_deepest, contact->n_groups, "contact"));
+    MOR_TRY(context,
+            MOR_NEW(context, &contact->wall_force, 3 * (int64_t)contact->n_groups * contact->n_walls, "contact"));
     return MOR_OK;
 }
 
@@ -327,7 +326,9 @@ void mor_contact_clear(mor_context *context, mor_contact *contact)
     MOR_FREE(context, &contact->work);
     MOR_FREE(context, &contact->walls);
     MOR_FREE(context, &contact->impacts);
-    MOR_FREE(context, &contact->sums);
+    MOR_FREE(context, &contact->group_spring);
+    MOR_FREE(context, &contact->group_deepest);
+    MOR_FREE(context, &contact->wall_force);
     mor_set_clear(context, &contact->history);
     memset(contact, 0, sizeof *contact);
 }
@@ -397,6 +398,17 @@ static void move_walls(mor_contact *contact, double time)
     }
     contact->work->wall_travel += fastest * fabs(time - contact->time);
     contact->time = time;
+}
+
+void mor_contact_resume(mor_contact *contact, double time)
+{
+    mor_contact_work *work = contact->work;
+    move_walls(contact, time);
+    work->is_warm = false;
+    work->n_held = 0;
+    work->n_hit = 0;
+    memset(work->group_worst, 0, sizeof work->group_worst);
+    mor_contact_add_sums(contact);
 }
 
 static mor_status run_contact(mor_context *context, void *owner, uint64_t members, const mor_step *step)

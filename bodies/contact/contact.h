@@ -60,20 +60,19 @@ typedef struct mor_contact {
     mor_contact_wall *walls; /* shape [n_walls]; owned */
     int n_walls;
     mor_contact_settings settings;
-    double time;            /* to which walls have moved; set by the exchange, and by the run when it resumes, s */
+    double time;            /* to which walls have moved; set by the exchange, s */
     double spring_energy;   /* stored in normal and tangential springs at the last sub-step, J (J/m) */
     double friction_energy; /* lost to sliding since the start, J (J/m) */
     double damping_energy;  /* lost to restitution since the start, J (J/m) */
     double wall_energy;     /* that bodies gave to moving walls since the start, J (J/m) */
     double deepest;         /* deepest penetration at the last sub-step, m */
-    double deepest_share;   /* largest so far of a penetration over what is allowed, saved with the run's values; 1 */
-    double driven_share;    /* likewise, of sides that no force moves, when it was warned of, saved, too; 0: never */
-    double *sums; /* shape [n_sums]; of each group at its last sub-step: spring energy [J], deepest penetration
-                             * [m], forces on walls [N]; saved with the run's values */
-    int64_t n_sums;
-    mor_set history; /* one entry per surface node of all groups: what friction remembers; fields evolve and are
-                              * saved with the run's sets */
-    double *impacts; /* shape [n_impacts]; impact speeds of touching pairs, saved with the run's values; m/s */
+    double deepest_share;   /* largest so far of a penetration over what is allowed, 1 */
+    double driven_share;    /* likewise, of sides that no force moves, when it was warned of, 1; 0: never */
+    double *group_spring;   /* shape [n_groups]; spring energy of each at its last sub-step, J (J/m) */
+    double *group_deepest;  /* shape [n_groups]; deepest penetration of each at its last sub-step, m */
+    double *wall_force;     /* shape [n_groups, n_walls, 3]; of each on each wall at its last sub-step, N (N/m) */
+    mor_set history;        /* one entry per surface node of all groups: what friction remembers; its fields evolve */
+    double *impacts;        /* shape [n_impacts]; impact speeds of touching pairs, m/s */
     int64_t n_impacts;
     struct mor_contact_work *work; /* lists and scratch; owned */
 } mor_contact;
@@ -98,9 +97,17 @@ void mor_contact_clear(mor_context *context, mor_contact *contact);
  *  @param contact  [in]   becomes the owner */
 void mor_contact_exchange(mor_contact *contact, mor_exchange *exchange);
 
-/** Sums over the groups what each had in its last sub-step: spring energy, deepest penetration, forces on walls. After
- *  a resume the groups' numbers are there, and these are found from them. */
-void mor_contact_add_sums(mor_contact *contact);
+/** Begins to count energies anew, and forgets how fast pairs came together that touch; friction springs stay. */
+void mor_contact_restart(mor_contact *contact);
+
+/** Lists what contact carries from step to step.
+ *  @param list    [in,out]  borrows from the contact
+ *  Returns: as mor_state_add. */
+mor_status mor_contact_list_state(mor_context *context, mor_contact *contact, mor_state_list *list);
+
+/** After a state was put back: makes the rest of the contact follow.
+ *  @param time    [in]      of that state, unit s */
+void mor_contact_resume(mor_contact *contact, double time);
 
 /** Writes the force on a wall in the last sub-step of some steppers, of their bodies alone.
  *  @param wall    [in]   index of the wall

@@ -52,7 +52,7 @@ void mor_contact_note_depth(mor_contact *contact, const mor_contact_near *near, 
     const int group = work->bodies[near->first].group_index;
     const double limit = mor_contact_depth_limit(contact, near->first, near->second);
     mor_contact_depth *worst = &work->group_worst[group];
-    work->group_deepest[group] = fmax(work->group_deepest[group], depth);
+    contact->group_deepest[group] = fmax(contact->group_deepest[group], depth);
     if (depth * worst->limit > worst->depth * limit || worst->limit == 0.0) {
         *worst = (mor_contact_depth){near->first, find_second(contact, near, place), depth, limit};
     }

@@ -178,7 +178,7 @@ static void push_wall(mor_contact *contact, const mor_contact_near *near, const 
     }
     const int group = work->bodies[near->first].group_index;
     const int wall = mor_contact_find_part(contact, near->second - work->n_bodies, place);
-    double *sum = work->wall_force + 3 * ((int64_t)group * contact->n_walls + wall);
+    double *sum = contact->wall_force + 3 * ((int64_t)group * contact->n_walls + wall);
     for (int a = 0; a < 3; ++a) {
         sum[a] -= force[a];
     }
@@ -228,7 +228,7 @@ static void soften_pair(mor_contact *contact, pair_sums *sums)
     }
     sums->softening = mor_contact_soften(contact, sums->near, energy, &stored);
     if (deepest > 0.0) {
-        work->group_spring[work->bodies[sums->near->first].group_index] += stored;
+        contact->group_spring[work->bodies[sums->near->first].group_index] += stored;
         mor_contact_note_depth(contact, sums->near, deepest, place);
     }
 }
@@ -483,7 +483,7 @@ static void apply_tangential_force(mor_contact *contact, const pair_sums *sums, 
         mor_vector_dot(force, slide) * sums->length + (slot < 0 ? 0.0 : stored - 0.5 * stiffness * before2);
     if (slot >= 0) {
         partners[slot] = other + 1;
-        work->group_spring[group] += stored;
+        contact->group_spring[group] += stored;
         work->slot_mark[MOR_CONTACT_SLOTS * entry + slot] = 1;
         work->kept_slots[work->n_kept++] = MOR_CONTACT_SLOTS * entry + slot;
     }
@@ -537,11 +537,11 @@ static void clear_sums(mor_contact *contact, uint64_t members)
         if ((contact->stepper_bits[g] & members) == 0) {
             continue;
         }
-        work->group_spring[g] = 0.0;
-        work->group_deepest[g] = 0.0;
+        contact->group_spring[g] = 0.0;
+        contact->group_deepest[g] = 0.0;
         work->group_worst[g] = (mor_contact_depth){0, 0, 0.0, 0.0};
         if (n > 0) {
-            memset(work->wall_force + n * g, 0, (size_t)n * sizeof *work->wall_force);
+            memset(contact->wall_force + n * g, 0, (size_t)n * sizeof *contact->wall_force);
         }
     }
     work->n_kept = 0;
@@ -553,19 +553,18 @@ void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t membe
     memset(force, 0, 3 * sizeof *force);
     for (int g = 0; g < contact->n_groups; ++g) {
         for (int a = 0; a < 3 && (contact->stepper_bits[g] & members) != 0; ++a) {
-            force[a] += contact->work->wall_force[3 * ((int64_t)g * contact->n_walls + wall) + a];
+            force[a] += contact->wall_force[3 * ((int64_t)g * contact->n_walls + wall) + a];
         }
     }
 }
 
 void mor_contact_add_sums(mor_contact *contact)
 {
-    const mor_contact_work *work = contact->work;
     contact->spring_energy = 0.0;
     contact->deepest = 0.0;
     for (int g = 0; g < contact->n_groups; ++g) {
-        contact->spring_energy += work->group_spring[g];
-        contact->deepest = fmax(contact->deepest, work->group_deepest[g]);
+        contact->spring_energy += contact->group_spring[g];
+        contact->deepest = fmax(contact->deepest, contact->group_deepest[g]);
     }
     for (int w = 0; w < contact->n_walls; ++w) {
         mor_contact_wall_force(contact, w, ~(uint64_t)0, contact->walls[w].force);

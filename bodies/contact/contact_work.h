@@ -7,8 +7,8 @@
 #include "bodies/contact/contact.h"
 
 /** @file
- *  What the files of contact share: lists, bounds and scratch. None of it is saved but what points
- *  into `sums` of the contact; the rest is found anew after a resume, and no result depends on when. */
+ *  What the files of contact share: lists, bounds and scratch. None of it is state: it is found anew on a resume, and
+ *  no result depends on when. */
 
 enum {
     MOR_CONTACT_SLOTS = 3,    /* partners whose friction a node remembers */
@@ -128,12 +128,9 @@ typedef struct mor_contact_work {
     int64_t n_hit, n_kept_pairs;
     unsigned char *pair_mark; /* shape [n_pairs] */
     bool is_warm;             /* the lists of slots and pairs have been found from the state */
-    double *group_spring;     /* shape [MOR_BODY_GROUPS_MAX]; spring energy, of the contact's sums; J (J/m) */
-    double *group_deepest;    /* shape [MOR_BODY_GROUPS_MAX]; likewise, m */
     mor_contact_depth group_worst[MOR_BODY_GROUPS_MAX]; /* the deepest for its limit */
     mor_contact_edge edge;
     mor_contact_depth driven;          /* deepest so far of sides that no force moves */
-    double *wall_force;                /* shape [MOR_BODY_GROUPS_MAX, n_walls, 3]; likewise, N (N/m) */
     int field_partners, field_springs; /* of the history */
 } mor_contact_work;
 
@@ -343,6 +340,9 @@ void mor_contact_forget(mor_contact *contact, uint64_t members);
  *  @param members [in]      bits of steppers
  *  @param length  [in]      of the sub-step, unit s */
 void mor_contact_act(mor_contact *contact, uint64_t members, double length);
+
+/** Sums over the groups what each had in its last sub-step: spring energy, deepest penetration, forces on walls. */
+void mor_contact_add_sums(mor_contact *contact);
 
 /** Strength of the gravity that acts on a body, unit m/s2. */
 double mor_contact_gravity(const mor_contact_body *c);

@@ -253,9 +253,32 @@ static mor_status finish_step(mor_context *context, void *owner, const mor_step 
     return MOR_OK;
 }
 
+/* The motion of each body as a whole is observed anew, but for what adds up over time. */
+static mor_status list_state(mor_context *context, void *owner, mor_state_list *list)
+{
+    mor_elastic *elastic = owner;
+    mor_body *bodies = elastic->group.bodies;
+    const char *name = elastic->group.set.name;
+    const int n = elastic->group.n_bodies;
+    const size_t size = sizeof *bodies;
+    MOR_TRY(context, mor_body_group_list_state(context, &elastic->group, list));
+    MOR_TRY(context, mor_state_add(context, list, name, "largest_acceleration", MOR_STATE_DOUBLE, 1,
+                                   &elastic->largest_acceleration));
+    MOR_TRY(context, mor_state_add(context, list, name, "damped_energy", MOR_STATE_DOUBLE, 1, &elastic->damped_energy));
+    MOR_TRY(context, mor_state_add_member(context, list, name, "rotation_angle", n, 3, size, bodies->rotation_angle));
+    MOR_TRY(context, mor_state_add_member(context, list, name, "soil_impulse", n, 3, size, bodies->soil_impulse));
+    return mor_state_add_member(context, list, name, "contact_impulse", n, 3, size, bodies->contact_impulse);
+}
+
+static mor_status resume(mor_context *context, void *owner)
+{
+    return mor_elastic_prepare(context, owner);
+}
+
 void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *evolving)
 {
-    static const mor_stepper_operations operations = {"elastic bodies", propose_step, begin_step, finish_step};
+    static const mor_stepper_operations operations = {"elastic bodies", propose_step, begin_step,
+                                                      finish_step,      list_state,   resume};
     *stepper = (mor_stepper){.name = elastic->group.set.name,
                              .operations = &operations,
                              .owner = elastic,

@@ -41,8 +41,7 @@ typedef struct mor_elastic {
  *  @param n_bodies  [in]      number of bodies
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body so thin that a correction matrix does not exist, naming body and
  *  place, for settings out of range and for a material of the rate form; MOR_ERROR_MEMORY.
- *  Gives: fields deformation_gradient and deformation_rate in the set; the driver of a resumed run also restores
- *  largest_acceleration, damped_energy and, of each body, rotation_angle and the impulses. */
+ *  Gives: fields deformation_gradient and deformation_rate in the set. */
 mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const char *name, const mor_scheme *scheme,
                             const mor_material_instance *material, int dimension, double spacing,
                             const mor_body_request *requests, int n_bodies);

@@ -127,18 +127,28 @@ static double find_speed(const mor_rigid *rigid, int b)
            mor_vector_length(body->angular_velocity) * rigid->work->constants[b].outermost;
 }
 
+/* Puts everything where the states say; what the soil sees of velocities is state itself. */
+static void follow_states(mor_context *context, mor_rigid *rigid)
+{
+    mor_body_group *group = &rigid->group;
+    mor_rigid_place(context, rigid);
+    for (int64_t i = 0; i < group->set.n_particles; ++i) {
+        double *record = group->boundary.records + i * MOR_BOUNDARY_RECORD;
+        memcpy(record + MOR_BOUNDARY_POSITION, group->set.data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof *record);
+    }
+}
+
 void mor_rigid_prepare(mor_context *context, mor_rigid *rigid)
 {
     mor_body_group *group = &rigid->group;
     mor_boundary *boundary = &group->boundary;
-    mor_rigid_place(context, rigid);
+    follow_states(context, rigid);
     boundary->largest_speed = 0.0;
     for (int b = 0; b < group->n_bodies; ++b) {
         boundary->largest_speed = fmax(boundary->largest_speed, find_speed(rigid, b));
     }
     for (int64_t i = 0; i < group->set.n_particles; ++i) {
         double *record = boundary->records + i * MOR_BOUNDARY_RECORD;
-        memcpy(record + MOR_BOUNDARY_POSITION, group->set.data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof *record);
         memcpy(record + MOR_BOUNDARY_VELOCITY, group->set.data[MOR_FIELD_VELOCITY] + 3 * i, 3 * sizeof *record);
     }
 }
@@ -213,9 +223,40 @@ static mor_status finish_step(mor_context *context, void *owner, const mor_step 
     return MOR_OK;
 }
 
+static mor_status list_state(mor_context *context, void *owner, mor_state_list *list)
+{
+    mor_rigid *rigid = owner;
+    mor_rigid_state *first = rigid->states;
+    const struct {
+        const char *member;
+        double *numbers;
+        int n;
+    } members[] = {{"center", first->center, 3},
+                   {"velocity", first->velocity, 3},
+                   {"quaternion", first->quaternion, 4},
+                   {"angular_momentum", first->angular_momentum, 3},
+                   {"rotation_angle", first->rotation_angle, 3},
+                   {"soil_impulse", first->soil_impulse, 3},
+                   {"contact_impulse", first->contact_impulse, 3},
+                   {"contact_angular_impulse", first->contact_angular_impulse, 3}};
+    MOR_TRY(context, mor_body_group_list_state(context, &rigid->group, list));
+    for (size_t k = 0; k < sizeof members / sizeof *members; ++k) {
+        MOR_TRY(context, mor_state_add_member(context, list, rigid->group.set.name, members[k].member,
+                                              rigid->group.n_bodies, members[k].n, sizeof *first, members[k].numbers));
+    }
+    return MOR_OK;
+}
+
+static mor_status resume(mor_context *context, void *owner)
+{
+    follow_states(context, owner);
+    return MOR_OK;
+}
+
 void mor_rigid_stepper(mor_rigid *rigid, mor_stepper *stepper, uint64_t *evolving)
 {
-    static const mor_stepper_operations operations = {"rigid bodies", propose_step, begin_step, finish_step};
+    static const mor_stepper_operations operations = {"rigid bodies", propose_step, begin_step,
+                                                      finish_step,    list_state,   resume};
     *stepper = (mor_stepper){.name = rigid->group.set.name,
                              .operations = &operations,
                              .owner = rigid,

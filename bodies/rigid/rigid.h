@@ -24,7 +24,7 @@ typedef struct mor_rigid_motion {
     double spring_damping;      /* N s/m (N s/m2) */
 } mor_rigid_motion;
 
-/** What evolves of a rigid body, beside its particles; saved in checkpoints as plain doubles. */
+/** What evolves of a rigid body, beside its particles. */
 typedef struct mor_rigid_state {
     double center[3];                  /* m */
     double velocity[3];                /* m/s */
@@ -60,7 +60,8 @@ mor_status mor_rigid_init(mor_context *context, mor_rigid *rigid, const char *na
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_rigid_clear(mor_context *context, mor_rigid *rigid);
 
-/** To be called when states were set from outside (resume): puts particles and bodies where the states say. */
+/** To be called when states were set from outside: puts particles and bodies where the states say, and shows the soil
+ *  their present velocities. */
 void mor_rigid_prepare(mor_context *context, mor_rigid *rigid);
 
 /** Returns the group as a stepper (a follower).

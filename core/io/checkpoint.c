@@ -32,9 +32,16 @@ static mor_status check_name(mor_context *context, const char *kind, const char 
     return MOR_OK;
 }
 
-static bool is_saved(const mor_set *set, int field)
+static mor_hdf5_kind kind_of(const mor_state_array *array)
 {
-    return (set->fields[field].flags & MOR_FIELD_EVOLVES) != 0 && set->data[field] != NULL;
+    static const mor_hdf5_kind kinds[] = {
+        [MOR_STATE_INT64] = MOR_HDF5_INT64, [MOR_STATE_UINT64] = MOR_HDF5_UINT64, [MOR_STATE_DOUBLE] = MOR_HDF5_DOUBLE};
+    return kinds[array->kind];
+}
+
+static mor_hdf5_shape shape_of_array(const mor_state_array *array)
+{
+    return (mor_hdf5_shape){kind_of(array), array->n_rows, array->n_columns};
 }
 
 /* Of a field of n particles. */
@@ -51,15 +58,14 @@ static mor_status write_set(mor_context *context, mor_hdf5_file *file, const mor
     MOR_TRY(context, check_name(context, "set", set->name));
     MOR_TRY(context, join_name(context, name, "sets", set->name, NULL));
     MOR_TRY(context, mor_hdf5_file_make_group(context, file, name));
-    MOR_TRY(context,
-            mor_hdf5_file_set_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
+    MOR_TRY(context, mor_hdf5_file_set_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
     MOR_TRY(context, mor_hdf5_file_set_number(context, file, name, "n_created", MOR_HDF5_INT64, &set->n_created));
     MOR_TRY(context, join_name(context, name, "sets", set->name, "id"));
     const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, set->n_particles, 1};
     MOR_TRY(context, mor_hdf5_file_write(context, file, name, &id_shape, set->id));
     for (int field = 0; field < set->n_fields; ++field) {
         const mor_field_info *info = &set->fields[field];
-        if (!is_saved(set, field)) {
+        if (!mor_state_has_field(set, field)) {
             continue;
         }
         const mor_hdf5_shape shape = shape_of_field(set, field, set->n_particles);
@@ -85,25 +91,43 @@ static mor_status write_identity(mor_context *context, mor_hdf5_file *file, cons
     return mor_hdf5_file_write(context, file, IDENTITY, &shape, text);
 }
 
-static mor_status write_state(mor_context *context, mor_hdf5_file *file, const mor_checkpoint *state)
+/* What to do with an array whose rows lie side by side in memory of their own. */
+typedef mor_status (*array_worker)(mor_context *context, mor_hdf5_file *file, const char *name,
+                                   const mor_state_array *array, void *packed);
+
+static mor_status work_on_array(mor_context *context, mor_hdf5_file *file, const mor_state_array *array,
+                                array_worker work)
 {
+    char name[NAME_BYTES];
+    double *packed = NULL;
+    MOR_TRY(context, join_name(context, name, "values", array->name, NULL));
+    MOR_TRY(context, MOR_NEW(context, &packed, array->n_rows * array->n_columns, "an array of a checkpoint"));
+    const mor_status status = work(context, file, name, array, packed);
+    MOR_FREE(context, &packed);
+    return status;
+}
+
+static mor_status write_array(mor_context *context, mor_hdf5_file *file, const char *name, const mor_state_array *array,
+                              void *packed)
+{
+    const mor_hdf5_shape shape = shape_of_array(array);
+    mor_state_gather(array, packed);
+    return mor_hdf5_file_write(context, file, name, &shape, packed);
+}
+
+static mor_status write_state(mor_context *context, mor_hdf5_file *file, const mor_checkpoint *checkpoint)
+{
+    const mor_state_list *state = checkpoint->state;
     MOR_TRY(context, mor_hdf5_file_make_group(context, file, "/sets"));
     for (int set = 0; set < state->n_sets; ++set) {
         MOR_TRY(context, write_set(context, file, state->sets[set]));
     }
     MOR_TRY(context, mor_hdf5_file_make_group(context, file, "/values"));
-    for (int k = 0; k < state->n_values; ++k) {
-        const mor_checkpoint_value *value = &state->values[k];
-        const mor_hdf5_shape shape = {value->kind, value->n, 1};
-        char name[NAME_BYTES];
-        MOR_CHECK(context, value->kind <= MOR_HDF5_DOUBLE && value->n >= 0, MOR_ERROR_ARGUMENT,
-                  "value '%s' has kind %d and length %lld; 64-bit kinds and lengths >= 0 can be saved", value->name,
-                  (int)value->kind, (long long)value->n);
-        MOR_TRY(context, check_name(context, "value", value->name));
-        MOR_TRY(context, join_name(context, name, "values", value->name, NULL));
-        MOR_TRY(context, mor_hdf5_file_write(context, file, name, &shape, value->data));
+    for (int k = 0; k < state->n_arrays; ++k) {
+        MOR_TRY(context, check_name(context, "value", state->arrays[k].name));
+        MOR_TRY(context, work_on_array(context, file, &state->arrays[k], write_array));
     }
-    return write_identity(context, file, state->identity);
+    return write_identity(context, file, checkpoint->identity);
 }
 
 static mor_status write_sealed(mor_context *context, const char *temporary, const mor_checkpoint *state)
@@ -160,12 +184,13 @@ static mor_status check_count(mor_context *context, mor_hdf5_file *file, const c
     MOR_TRY(context, mor_hdf5_file_count(context, file, group, &n_members));
     MOR_CHECK(context, n_members == n_expected, MOR_ERROR_CONFIG,
               "'%s' belongs to another case: it has %lld arrays or groups in '%s', this case makes %lld; "
-              "use the case it was written by", path, (long long)n_members, group, (long long)n_expected);
+              "use the case it was written by",
+              path, (long long)n_members, group, (long long)n_expected);
     return MOR_OK;
 }
 
-static mor_status check_array(mor_context *context, mor_hdf5_file *file, const char *name,
-                              const mor_hdf5_shape *shape, const char *path)
+static mor_status check_array(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
+                              const char *path)
 {
     MOR_CHECK(context, mor_hdf5_file_has(file, name), MOR_ERROR_CONFIG,
               "'%s' belongs to another case: it has no '%s'; use the case it was written by", path, name);
@@ -175,8 +200,9 @@ static mor_status check_array(mor_context *context, mor_hdf5_file *file, const c
               found.kind == shape->kind && found.n_rows == shape->n_rows && found.n_columns == shape->n_columns,
               MOR_ERROR_CONFIG,
               "'%s' belongs to another case: '%s' has %lld rows of %d numbers of kind %d, this case makes %lld of %d "
-              "of kind %d; use the case it was written by", path, name, (long long)found.n_rows, found.n_columns,
-              (int)found.kind, (long long)shape->n_rows, shape->n_columns, (int)shape->kind);
+              "of kind %d; use the case it was written by",
+              path, name, (long long)found.n_rows, found.n_columns, (int)found.kind, (long long)shape->n_rows,
+              shape->n_columns, (int)shape->kind);
     return MOR_OK;
 }
 
@@ -208,11 +234,11 @@ static mor_status check_set(mor_context *context, mor_hdf5_file *file, const mor
     MOR_TRY(context, mor_hdf5_file_get_number(context, file, name, "n_created", MOR_HDF5_INT64, &n_created));
     MOR_CHECK(context, n_created == set->n_created && n_particles >= 0 && n_particles <= n_created, MOR_ERROR_CONFIG,
               "'%s' belongs to another case: its set '%s' was made with %lld particles, of which it has %lld; this "
-              "case makes %lld; use the case it was written by", path, set->name, (long long)n_created,
-              (long long)n_particles, (long long)set->n_created);
+              "case makes %lld; use the case it was written by",
+              path, set->name, (long long)n_created, (long long)n_particles, (long long)set->n_created);
     int64_t n_arrays = 1;
     for (int field = 0; field < set->n_fields; ++field) {
-        if (is_saved(set, field)) {
+        if (mor_state_has_field(set, field)) {
             MOR_TRY(context, check_field(context, file, set, field, n_particles, path));
             n_arrays += 1;
         }
@@ -224,19 +250,19 @@ static mor_status check_set(mor_context *context, mor_hdf5_file *file, const mor
     return MOR_OK;
 }
 
-static mor_status check_state(mor_context *context, mor_hdf5_file *file, const mor_checkpoint *state, const char *path)
+static mor_status check_state(mor_context *context, mor_hdf5_file *file, const mor_state_list *state, const char *path)
 {
     for (int set = 0; set < state->n_sets; ++set) {
         MOR_TRY(context, check_set(context, file, state->sets[set], path));
     }
     MOR_TRY(context, check_count(context, file, "/sets", state->n_sets, path));
-    for (int k = 0; k < state->n_values; ++k) {
-        const mor_hdf5_shape shape = {state->values[k].kind, state->values[k].n, 1};
+    for (int k = 0; k < state->n_arrays; ++k) {
+        const mor_hdf5_shape shape = shape_of_array(&state->arrays[k]);
         char name[NAME_BYTES];
-        MOR_TRY(context, join_name(context, name, "values", state->values[k].name, NULL));
+        MOR_TRY(context, join_name(context, name, "values", state->arrays[k].name, NULL));
         MOR_TRY(context, check_array(context, file, name, &shape, path));
     }
-    MOR_TRY(context, check_count(context, file, "/values", state->n_values, path));
+    MOR_TRY(context, check_count(context, file, "/values", state->n_arrays, path));
     return MOR_OK;
 }
 
@@ -245,13 +271,12 @@ static mor_status load_set(mor_context *context, mor_hdf5_file *file, mor_set *s
     char name[NAME_BYTES];
     set->generation += 1;
     MOR_TRY(context, join_name(context, name, "sets", set->name, NULL));
-    MOR_TRY(context,
-            mor_hdf5_file_get_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
+    MOR_TRY(context, mor_hdf5_file_get_number(context, file, name, "n_particles", MOR_HDF5_INT64, &set->n_particles));
     const mor_hdf5_shape id_shape = {MOR_HDF5_INT64, set->n_particles, 1};
     MOR_TRY(context, join_name(context, name, "sets", set->name, "id"));
     MOR_TRY(context, mor_hdf5_file_read(context, file, name, &id_shape, set->id));
     for (int field = 0; field < set->n_fields; ++field) {
-        if (is_saved(set, field)) {
+        if (mor_state_has_field(set, field)) {
             const mor_hdf5_shape shape = shape_of_field(set, field, set->n_particles);
             MOR_TRY(context, join_name(context, name, "sets", set->name, set->fields[field].name));
             MOR_TRY(context, mor_hdf5_file_read(context, file, name, &shape, set->data[field]));
@@ -260,16 +285,22 @@ static mor_status load_set(mor_context *context, mor_hdf5_file *file, mor_set *s
     return MOR_OK;
 }
 
-static mor_status load_state(mor_context *context, mor_hdf5_file *file, const mor_checkpoint *state)
+static mor_status load_array(mor_context *context, mor_hdf5_file *file, const char *name, const mor_state_array *array,
+                             void *packed)
+{
+    const mor_hdf5_shape shape = shape_of_array(array);
+    MOR_TRY(context, mor_hdf5_file_read(context, file, name, &shape, packed));
+    mor_state_scatter(array, packed);
+    return MOR_OK;
+}
+
+static mor_status load_state(mor_context *context, mor_hdf5_file *file, const mor_state_list *state)
 {
     for (int set = 0; set < state->n_sets; ++set) {
         MOR_TRY(context, load_set(context, file, state->sets[set]));
     }
-    for (int k = 0; k < state->n_values; ++k) {
-        const mor_hdf5_shape shape = {state->values[k].kind, state->values[k].n, 1};
-        char name[NAME_BYTES];
-        MOR_TRY(context, join_name(context, name, "values", state->values[k].name, NULL));
-        MOR_TRY(context, mor_hdf5_file_read(context, file, name, &shape, state->values[k].data));
+    for (int k = 0; k < state->n_arrays; ++k) {
+        MOR_TRY(context, work_on_array(context, file, &state->arrays[k], load_array));
     }
     return MOR_OK;
 }
@@ -277,11 +308,11 @@ static mor_status load_state(mor_context *context, mor_hdf5_file *file, const mo
 mor_status mor_checkpoint_read(mor_context *context, const char *path, const mor_checkpoint *state)
 {
     mor_hdf5_file *file = NULL;
-    MOR_TRY(context, mor_hdf5_file_open(context, &file, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION,
-                                        MOR_SEAL_CHECK_ALL));
-    mor_status status = check_state(context, file, state, path);
+    MOR_TRY(context,
+            mor_hdf5_file_open(context, &file, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL));
+    mor_status status = check_state(context, file, state->state, path);
     if (status == MOR_OK) {
-        status = load_state(context, file, state);
+        status = load_state(context, file, state->state);
     }
     mor_hdf5_file_discard(context, &file);
     return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
@@ -308,7 +339,8 @@ static mor_status read_newest(mor_context *context, const char *folder, file_rea
     if (status == MOR_ERROR_IO) {
         return MOR_FAIL(context, MOR_ERROR_IO,
                         "no checkpoint can be used: %.700s; and the one before: %.700s; run without --resume to start "
-                        "again", reason, context->message);
+                        "again",
+                        reason, context->message);
     }
     if (status == MOR_OK && is_told) {
         mor_context_log(context, MOR_LOG_WARNING, "%s; resumed from the checkpoint before it, '%s'", reason, previous);
@@ -341,8 +373,8 @@ static mor_status read_identity(mor_context *context, const char *path, void *ta
 {
     char **text = target;
     mor_hdf5_file *file = NULL;
-    MOR_TRY(context, mor_hdf5_file_open(context, &file, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION,
-                                        MOR_SEAL_CHECK_ALL));
+    MOR_TRY(context,
+            mor_hdf5_file_open(context, &file, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL));
     const mor_status status = load_identity(context, file, text);
     mor_hdf5_file_discard(context, &file);
     if (status != MOR_OK) {

@@ -4,39 +4,28 @@
 #define MOR_CORE_IO_CHECKPOINT_H
 
 #include "core/io/hdf5_file.h"
-#include "core/particle/set.h"
+#include "core/particle/state.h"
 
 /** @file
  *  The complete state of a run in one sealed file, and its return bit for bit. It saves what it is handed and decides
- *  neither when to save nor what belongs to the state beyond the evolving fields of the sets.
+ *  neither when to save nor what belongs to the state: that is what the list names, core/particle/state.h.
  *
  *  Files of a run's folder: checkpoint.h5 is the newest, checkpoint.previous.h5 the one before. A new one is written to
  *  checkpoint.h5.tmp, sealed and synced; then the newest, if it is intact, is kept as the previous one, and one rename
  *  makes the new one valid. A process killed at any moment leaves at least one intact checkpoint once there was one.
  *
- *  Layout (version 1): /sets/<set> with attribute n_particles and arrays id [n] and <field> [n, components], in current
- *  particle order, each field with attributes unit and text; /values/<name> [n]. */
+ *  Layout (version 3): /sets/<set> with attribute n_particles and arrays id [n] and <field> [n, components], in current
+ *  particle order, each field with attributes unit and text; /values/<owner>.<member> [rows, columns]. */
 
 #define MOR_CHECKPOINT_FILE "checkpoint.h5"
 #define MOR_CHECKPOINT_PREVIOUS_FILE "checkpoint.previous.h5"
 
-enum { MOR_CHECKPOINT_VERSION = 2 };
+enum { MOR_CHECKPOINT_VERSION = 3 };
 
-/** A named number or array that belongs to the state: step, scheduler clock, ... */
-typedef struct mor_checkpoint_value {
-    const char *name;   /* zero-terminated, unique, without '/' */
-    mor_hdf5_kind kind; /* MOR_HDF5_INT64, MOR_HDF5_UINT64 or MOR_HDF5_DOUBLE */
-    int64_t n;          /* number of numbers, >= 0 */
-    void *data;         /* shape [n] of int64_t, uint64_t or double; borrowed */
-} mor_checkpoint_value;
-
-/** What is saved and restored: a view; everything in it is borrowed. */
+/** What is saved and restored; everything in it is borrowed. */
 typedef struct mor_checkpoint {
-    mor_set *const *sets;               /* shape [n_sets]; names unique and without '/' */
-    int n_sets;                         /* number of sets */
-    const mor_checkpoint_value *values; /* shape [n_values] */
-    int n_values;                       /* number of values */
-    const char *identity;               /* zero-terminated; what the state belongs to, such as the case; NULL: none */
+    const mor_state_list *state;
+    const char *identity; /* zero-terminated; what the state belongs to, such as the case; NULL: none */
 } mor_checkpoint;
 
 /** Saves the state as checkpoint.h5 of a folder and keeps the one before.
@@ -48,7 +37,7 @@ typedef struct mor_checkpoint {
  *  Cost: writes and reads the state once; allocates. */
 mor_status mor_checkpoint_write(mor_context *context, const char *folder, const mor_checkpoint *state);
 
-/** Restores the state from one file, bit for bit. The sets and values must be those that were saved: same names,
+/** Restores the state from one file, bit for bit. The sets and arrays must be those that were saved: same names,
  *  numbers of particles at creation, fields, components, units, kinds and lengths. A set gets the number of particles
  *  that were left when it was saved. Everything is checked before anything changes. The identity is not looked at.
  *  @param path    [in]      zero-terminated path of the file

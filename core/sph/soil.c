@@ -334,7 +334,8 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
 
 void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
 {
-    static const mor_stepper_operations operations = {"soil", propose_step, NULL, NULL};
+    static const mor_stepper_operations operations = {
+        .kind = "soil", .propose = propose_step, .list_state = mor_soil_list_state, .resume = mor_soil_resume};
     const int n_stages = (int)(sizeof soil_stages / sizeof *soil_stages);
     *stepper = (mor_stepper){.name = soil->set.name,
                              .operations = &operations,

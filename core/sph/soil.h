@@ -32,15 +32,14 @@ typedef struct mor_soil_settings {
     double reference_density;          /* rho_0, kg/m3 */
 } mor_soil_settings;
 
-/** What has left the domain since the start, as one array that a checkpoint saves. */
+/** What has left the domain since the start. */
 enum {
-    MOR_SOIL_OUTFLOW_PARTICLES = 0, /* number of particles, 1 */
-    MOR_SOIL_OUTFLOW_MASS = 1,      /* kg (kg/m) */
-    MOR_SOIL_OUTFLOW_MOMENTUM = 2,  /* shape [3], kg m/s (kg/s) */
-    MOR_SOIL_OUTFLOW_MOMENT = 5,    /* mass times place, shape [3], kg m (kg) */
-    MOR_SOIL_OUTFLOW_KINETIC = 8,   /* J (J/m) */
-    MOR_SOIL_OUTFLOW_ELASTIC = 9,   /* J (J/m); NaN when the material cannot tell */
-    MOR_SOIL_OUTFLOW_STATE = 10
+    MOR_SOIL_OUTFLOW_MASS = 0,     /* kg (kg/m) */
+    MOR_SOIL_OUTFLOW_MOMENTUM = 1, /* shape [3], kg m/s (kg/s) */
+    MOR_SOIL_OUTFLOW_MOMENT = 4,   /* mass times place, shape [3], kg m (kg) */
+    MOR_SOIL_OUTFLOW_KINETIC = 7,  /* J (J/m) */
+    MOR_SOIL_OUTFLOW_ELASTIC = 8,  /* J (J/m); NaN when the material cannot tell */
+    MOR_SOIL_OUTFLOW_STATE = 9
 };
 
 /** One soil. Owner: the run. */
@@ -71,7 +70,8 @@ typedef struct mor_soil {
     double largest_acceleration;                /* in the last step, m/s2 */
     double drift;                               /* bound of any particle's motion since the lists were built, m */
     bool has_outflow;                           /* particles are to be removed at the end of the step */
-    double outflow[MOR_SOIL_OUTFLOW_STATE];     /* units of the enum above */
+    int64_t n_outflow;                          /* particles that have left the domain since the start */
+    double outflow[MOR_SOIL_OUTFLOW_STATE];     /* of those, units of the enum above */
     bool has_lists;                             /* lists exist and belong to the present order */
     double gravity[3];                          /* in the last step, with the ramp, m/s2 */
     double wall_force[MOR_SOIL_WALLS_MAX][3];   /* of the soil on each wall in the last step, N (N/m in plane strain) */

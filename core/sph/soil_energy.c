@@ -42,7 +42,11 @@ void mor_soil_clear_energy(mor_context *context, mor_soil *soil)
 void mor_soil_restart_energy(mor_soil *soil)
 {
     if (soil->energy != NULL) {
-        memset(soil->energy->state, 0, sizeof soil->energy->state);
+        mor_soil_energy *energy = soil->energy;
+        memset(energy->integral, 0, sizeof energy->integral);
+        memset(energy->power, 0, sizeof energy->power);
+        energy->span = energy->turnover = 0.0;
+        energy->stride = energy->next = 0;
     }
 }
 
@@ -51,13 +55,12 @@ double mor_soil_energy_taken(const mor_soil *soil, mor_soil_energy_part part)
     if (soil->energy == NULL) {
         return 0.0;
     }
-    const double *state = soil->energy->state;
-    return state[MOR_SOIL_ENERGY_INTEGRAL + part] + state[MOR_SOIL_ENERGY_POWER + part] * state[MOR_SOIL_ENERGY_SPAN];
+    return soil->energy->integral[part] + soil->energy->power[part] * soil->energy->span;
 }
 
 bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step)
 {
-    return soil->energy != NULL && (double)step->number >= soil->energy->state[MOR_SOIL_ENERGY_NEXT];
+    return soil->energy != NULL && (int64_t)step->number >= soil->energy->next;
 }
 
 void mor_soil_energy_add(mor_context *context, mor_soil *soil, mor_soil_energy_block block, const mor_step *step)
@@ -176,23 +179,37 @@ static void find_stress_block(mor_soil *soil, const mor_step *step, int64_t firs
  * sample may be wrong by more than a share of all that was turned over so far, the next sample comes sooner. */
 static void integrate(mor_soil_energy *energy, const mor_step *step)
 {
-    double *state = energy->state;
-    const double reach = state[MOR_SOIL_ENERGY_SPAN] + 0.5 * step->length;
-    const bool is_first = state[MOR_SOIL_ENERGY_STRIDE] == 0.0;
+    const double reach = energy->span + 0.5 * step->length;
+    const bool is_first = energy->stride == 0;
     double change = 0.0;
     for (int part = 0; part < PARTS; ++part) {
         const double now = energy->fresh[part];
-        const double before = is_first ? now : state[MOR_SOIL_ENERGY_POWER + part];
-        state[MOR_SOIL_ENERGY_INTEGRAL + part] += 0.5 * (before + now) * reach;
-        state[MOR_SOIL_ENERGY_TURNOVER] += 0.5 * (fabs(before) + fabs(now)) * reach;
-        state[MOR_SOIL_ENERGY_POWER + part] = now;
+        const double before = is_first ? now : energy->power[part];
+        energy->integral[part] += 0.5 * (before + now) * reach;
+        energy->turnover += 0.5 * (fabs(before) + fabs(now)) * reach;
+        energy->power[part] = now;
         change += 0.5 * fabs(now - before) * reach;
     }
-    const double stride = state[MOR_SOIL_ENERGY_STRIDE];
-    const double next = change > LARGEST_ERROR * state[MOR_SOIL_ENERGY_TURNOVER] ? floor(0.5 * stride) : 2.0 * stride;
-    state[MOR_SOIL_ENERGY_SPAN] = 0.5 * step->length;
-    state[MOR_SOIL_ENERGY_STRIDE] = fmax(1.0, fmin(next, MOR_SOIL_ENERGY_INTERVAL));
-    state[MOR_SOIL_ENERGY_NEXT] = (double)step->number + state[MOR_SOIL_ENERGY_STRIDE];
+    const int64_t wanted = change > LARGEST_ERROR * energy->turnover ? energy->stride / 2 : 2 * energy->stride;
+    const int64_t bounded = wanted < MOR_SOIL_ENERGY_INTERVAL ? wanted : MOR_SOIL_ENERGY_INTERVAL;
+    energy->span = 0.5 * step->length;
+    energy->stride = bounded > 1 ? bounded : 1;
+    energy->next = (int64_t)step->number + energy->stride;
+}
+
+mor_status mor_soil_list_energy(mor_context *context, mor_soil *soil, mor_state_list *list)
+{
+    static const char own[] = "energy_audit";
+    mor_soil_energy *energy = soil->energy;
+    if (energy == NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_state_add(context, list, own, "integral", MOR_STATE_DOUBLE, PARTS, energy->integral));
+    MOR_TRY(context, mor_state_add(context, list, own, "power", MOR_STATE_DOUBLE, PARTS, energy->power));
+    MOR_TRY(context, mor_state_add(context, list, own, "span", MOR_STATE_DOUBLE, 1, &energy->span));
+    MOR_TRY(context, mor_state_add(context, list, own, "turnover", MOR_STATE_DOUBLE, 1, &energy->turnover));
+    MOR_TRY(context, mor_state_add(context, list, own, "stride", MOR_STATE_INT64, 1, &energy->stride));
+    return mor_state_add(context, list, own, "next", MOR_STATE_INT64, 1, &energy->next);
 }
 
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_step *step)
@@ -202,7 +219,7 @@ mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_st
         mor_soil_energy_add(context, soil, find_stress_block, step);
         integrate(soil->energy, step);
     } else if (soil->energy != NULL) {
-        soil->energy->state[MOR_SOIL_ENERGY_SPAN] += step->length;
+        soil->energy->span += step->length;
     }
     return MOR_OK;
 }

@@ -32,27 +32,21 @@ typedef enum mor_soil_energy_part {
     MOR_SOIL_ENERGY_PARTS
 } mor_soil_energy_part;
 
-/** What an audit carries from step to step, as one array that a checkpoint saves. */
-enum {
-    MOR_SOIL_ENERGY_INTEGRAL = 0,                     /* of each part up to the last sample, J (J/m) */
-    MOR_SOIL_ENERGY_POWER = MOR_SOIL_ENERGY_PARTS,    /* of each part in the last sample, W (W/m) */
-    MOR_SOIL_ENERGY_SPAN = 2 * MOR_SOIL_ENERGY_PARTS, /* time since the last sample, s */
-    MOR_SOIL_ENERGY_TURNOVER,                         /* of sizes of powers, integral up to the last sample, J (J/m) */
-    MOR_SOIL_ENERGY_STRIDE, /* steps from the last sample to the next, 0 before the first; 1 */
-    MOR_SOIL_ENERGY_NEXT,   /* number of the step of the next sample, 1 */
-    MOR_SOIL_ENERGY_STATE
-};
-
 struct mor_soil;
 
 /** One audit. Owner: the soil. */
 typedef struct mor_soil_energy {
-    double state[MOR_SOIL_ENERGY_STATE]; /* units of the enum above */
-    double fresh[MOR_SOIL_ENERGY_PARTS]; /* powers of the present sample, W (W/m) */
-    double *scratch;                     /* shape [n_particles, 3]; accelerations [m/s2] or powers [W (W/m)] */
-    double *strains;                     /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
+    double integral[MOR_SOIL_ENERGY_PARTS]; /* of each part up to the last sample, J (J/m) */
+    double power[MOR_SOIL_ENERGY_PARTS];    /* of each part in the last sample, W (W/m) */
+    double span;                            /* time since the last sample, s */
+    double turnover;                        /* of sizes of powers, integral up to the last sample, J (J/m) */
+    int64_t stride;                         /* steps from the last sample to the next; 0 before the first */
+    int64_t next;                           /* number of the step of the next sample */
+    double fresh[MOR_SOIL_ENERGY_PARTS];    /* powers of the present sample, W (W/m) */
+    double *scratch;                        /* shape [n_particles, 3]; accelerations [m/s2] or powers [W (W/m)] */
+    double *strains;                        /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
                                           * those that slip, 1/s */
-    double *block_sums;                  /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
+    double *block_sums;                     /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
 } mor_soil_energy;
 
 /** Switches the audit of a soil on.

@@ -173,8 +173,7 @@ static void restore_records(mor_context *context, mor_soil *soil)
  * stress will do: its loop is dear and its power small. */
 static bool is_calm(const mor_soil *soil, const mor_step *step)
 {
-    return soil->energy->state[MOR_SOIL_ENERGY_STRIDE] == MOR_SOIL_ENERGY_INTERVAL &&
-           step->number / MOR_SOIL_ENERGY_INTERVAL % 4 != 0;
+    return soil->energy->stride == MOR_SOIL_ENERGY_INTERVAL && step->number / MOR_SOIL_ENERGY_INTERVAL % 4 != 0;
 }
 
 /* (E6): the momentum loop once more with what is not stress, and once with the artificial stress alone. Particles are
@@ -191,8 +190,7 @@ static void audit_pairs(mor_context *context, mor_soil *soil, const mor_step *st
     mor_soil_run_pairs(context, &constants, &arrays, momentum);
     mor_soil_energy_add(context, soil, find_riemann_block, step);
     if (soil->settings.scheme.artificial_stress && is_calm(soil, step)) {
-        soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] =
-            soil->energy->state[MOR_SOIL_ENERGY_POWER + MOR_SOIL_ENERGY_ARTIFICIAL];
+        soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] = soil->energy->power[MOR_SOIL_ENERGY_ARTIFICIAL];
     } else if (soil->settings.scheme.artificial_stress) {
         const double riemann = soil->energy->fresh[MOR_SOIL_ENERGY_RIEMANN];
         constants.has_artificial_stress = true;

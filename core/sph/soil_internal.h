@@ -69,6 +69,9 @@ void mor_soil_energy_add(mor_context *context, mor_soil *soil, mor_soil_energy_b
 /** Whether there is an audit and a step is one of its samples. */
 bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step);
 
+/** Lists what the audit carries from step to step; nothing without one. */
+mor_status mor_soil_list_energy(mor_context *context, mor_soil *soil, mor_state_list *list);
+
 /** Frees the audit of a soil; accepts a soil without. */
 void mor_soil_clear_energy(mor_context *context, mor_soil *soil);
 
@@ -76,5 +79,9 @@ void mor_soil_clear_energy(mor_context *context, mor_soil *soil);
  *  @param stress   [in]  shape [6], unit Pa
  *  @param gradient [in]  shape [3,3], unit 1/s */
 double mor_soil_stress_power(const double *stress, const double *gradient);
+
+/** What a resumed run needs of the soil, what follows from it; owner is one mor_soil. See mor_stepper_operations. */
+mor_status mor_soil_list_state(mor_context *context, void *owner, mor_state_list *list);
+mor_status mor_soil_resume(mor_context *context, void *owner);
 
 #endif

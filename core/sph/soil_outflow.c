@@ -106,7 +106,7 @@ static void count_out(mor_soil *soil, int64_t i)
     const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
     const double *v = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
     double *out = soil->outflow;
-    out[MOR_SOIL_OUTFLOW_PARTICLES] += 1.0;
+    soil->n_outflow += 1;
     out[MOR_SOIL_OUTFLOW_MASS] += mass;
     out[MOR_SOIL_OUTFLOW_KINETIC] += 0.5 * mass * mor_vector_dot(v, v);
     out[MOR_SOIL_OUTFLOW_ELASTIC] += find_stored(soil, i);

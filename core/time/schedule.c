@@ -277,3 +277,32 @@ int mor_schedule_rate_ratio(const mor_schedule *schedule)
     }
     return ratio;
 }
+
+mor_status mor_schedule_list_state(mor_context *context, mor_schedule *schedule, mor_state_list *list)
+{
+    static const char own[] = "schedule";
+    MOR_TRY(context, mor_state_add(context, list, own, "now", MOR_STATE_INT64, 1, &schedule->now));
+    MOR_TRY(context, mor_state_add(context, list, own, "tick", MOR_STATE_DOUBLE, 1, &schedule->tick));
+    MOR_TRY(context, mor_state_add(context, list, own, "n_steps", MOR_STATE_UINT64, 1, &schedule->n_steps));
+    MOR_TRY(context,
+            mor_state_add(context, list, own, "n_particle_steps", MOR_STATE_UINT64, 1, &schedule->n_particle_steps));
+    MOR_TRY(context, mor_state_add(context, list, own, "step_length", MOR_STATE_DOUBLE, 1, &schedule->step_length));
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        const mor_stepper *stepper = &schedule->steppers[s];
+        if (stepper->operations->list_state != NULL) {
+            MOR_TRY(context, stepper->operations->list_state(context, stepper->owner, list));
+        }
+    }
+    return MOR_OK;
+}
+
+mor_status mor_schedule_resume(mor_context *context, const mor_schedule *schedule)
+{
+    for (int s = 0; s < schedule->n_steppers; ++s) {
+        const mor_stepper *stepper = &schedule->steppers[s];
+        if (stepper->operations->resume != NULL) {
+            MOR_TRY(context, stepper->operations->resume(context, stepper->owner));
+        }
+    }
+    return MOR_OK;
+}

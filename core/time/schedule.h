@@ -64,6 +64,15 @@ mor_status mor_schedule_add(mor_context *context, mor_schedule *schedule, const 
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC when the step collapses. */
 mor_status mor_schedule_preview(mor_context *context, mor_schedule *schedule, double *length);
 
+/** Lists the clock, and what each stepper lists.
+ *  @param list     [in,out]  borrows from the schedule and from the owners of the steppers
+ *  Returns: MOR_OK; what the steppers return. */
+mor_status mor_schedule_list_state(mor_context *context, mor_schedule *schedule, mor_state_list *list);
+
+/** After a state was put back: lets each stepper make the rest follow.
+ *  Returns: MOR_OK; what the steppers return. */
+mor_status mor_schedule_resume(mor_context *context, const mor_schedule *schedule);
+
 /** Returns the most sub-steps that any stepper took in the last common step, 1 when there was none. */
 int mor_schedule_rate_ratio(const mor_schedule *schedule);
 

@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_TIME_STEPPER_H
 #define MOR_CORE_TIME_STEPPER_H
 
+#include "core/particle/state.h"
 #include "core/time/stage.h"
 
 #include <stdbool.h>
@@ -21,6 +22,10 @@ typedef struct mor_stepper_operations {
     mor_status (*begin)(mor_context *context, void *owner, const mor_step *step);
     /** Of a follower, NULL: nothing to do. Called once after the sub-steps of a common step. */
     mor_status (*finish)(mor_context *context, void *owner, const mor_step *step);
+    /** Lists what a run that is resumed needs of the owner and that does not follow from the case. NULL: nothing. */
+    mor_status (*list_state)(mor_context *context, void *owner, mor_state_list *list);
+    /** Makes everything else of the owner follow what was listed and has been put back. NULL: nothing does. */
+    mor_status (*resume)(mor_context *context, void *owner);
 } mor_stepper_operations;
 
 /** One stepper. Borrowed by the schedule; the owner object belongs to whoever made it. */

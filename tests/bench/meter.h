@@ -110,9 +110,11 @@ static inline void meter_attach(meter *it, mor_schedule *schedule)
         meter_stepper *timed = &it->steppers[s];
         mor_stepper *stepper = &schedule->steppers[s];
         timed->plain = *stepper;
-        timed->operations = (mor_stepper_operations){stepper->operations->kind, meter_propose,
-                                                     stepper->operations->begin != NULL ? meter_begin : NULL,
-                                                     stepper->operations->finish != NULL ? meter_finish : NULL};
+        timed->operations =
+            (mor_stepper_operations){.kind = stepper->operations->kind,
+                                     .propose = meter_propose,
+                                     .begin = stepper->operations->begin != NULL ? meter_begin : NULL,
+                                     .finish = stepper->operations->finish != NULL ? meter_finish : NULL};
         for (int k = 0; k < stepper->n_stages; ++k) {
             timed->stages[k] = stepper->stages[k];
             timed->stages[k].run = meter_run_stage;

@@ -167,7 +167,7 @@ static inline mor_status rigid_make(rigid_scene *it, const rigid_box *boxes, int
 static inline rigid_scene *rigid_open_in(const rigid_box *boxes, int n, int dimension, double spacing,
                                          double common_step, double end, const rigid_units *units)
 {
-    static const mor_stepper_operations operations = {"leader", rigid_propose, NULL, NULL};
+    static const mor_stepper_operations operations = {.kind = "leader", .propose = rigid_propose};
     static const mor_stage stages[] = {{"push", rigid_push, 0, 0, 0, "pushes a point"}};
     rigid_scene *it = malloc(sizeof *it);
     assert_non_null(it);

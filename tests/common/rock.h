@@ -264,7 +264,8 @@ static inline mor_status rock_finish(mor_context *context, void *owner, const mo
 /** The rocks as a follower. */
 static inline mor_stepper rock_stepper(rock_pile *pile)
 {
-    static const mor_stepper_operations operations = {"rocks", rock_propose, rock_begin, rock_finish};
+    static const mor_stepper_operations operations = {
+        .kind = "rocks", .propose = rock_propose, .begin = rock_begin, .finish = rock_finish};
     static const mor_stage stages[] = {{"move", rock_move, 0, 0, 0, "moves the rocks"}};
     return (mor_stepper){.name = pile->boundary.name,
                          .operations = &operations,

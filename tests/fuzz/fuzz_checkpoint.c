@@ -20,9 +20,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes);
 typedef struct fixture {
     mor_context context;
     mor_set set;
-    mor_set *sets[1];
     double clock;
-    mor_checkpoint_value values[1];
+    mor_state_list list;
     mor_checkpoint view;
     char folder[64];
     char path[MOR_PATH_BYTES];
@@ -56,9 +55,10 @@ static void make_fixture(fixture *base)
 {
     mor_context_init(&base->context);
     require(mor_set_init(&base->context, &base->set, "soil", N_PARTICLES, 1u << MOR_FIELD_POSITION) == MOR_OK);
-    base->sets[0] = &base->set;
-    base->values[0] = (mor_checkpoint_value){"clock", MOR_HDF5_DOUBLE, 1, &base->clock};
-    base->view = (mor_checkpoint){base->sets, 1, base->values, 1, NULL};
+    base->list = (mor_state_list){0};
+    require(mor_state_add_set(&base->context, &base->list, &base->set) == MOR_OK);
+    require(mor_state_add(&base->context, &base->list, "run", "clock", MOR_STATE_DOUBLE, 1, &base->clock) == MOR_OK);
+    base->view = (mor_checkpoint){&base->list, NULL};
     fill_state(base, 1.0);
     const char *parent = getenv("TMPDIR");
     snprintf(base->folder, sizeof base->folder, "%s", "/tmp/moraine_fuzz_XXXXXX");
@@ -79,6 +79,7 @@ static void clear_fixture(fixture *base)
     unlink(base->path);
     rmdir(base->folder);
     mor_set_clear(&base->context, &base->set);
+    mor_state_clear(&base->context, &base->list);
 }
 
 /* Applies one edit to n_bytes bytes; returns the new size. */

@@ -156,31 +156,30 @@ static void threads_change_no_bit(void **state)
     assert_memory_equal(&found[0], &found[1], sizeof found[0]); /* exact */
 }
 
-static void copy_set(mor_set *to, const mor_set *from)
+/* All that owners list as state, and what follows from it. */
+static void list_state(contact_scene *scene, mor_state_list *list)
 {
-    for (int k = 0; k < from->n_fields; ++k) {
-        if (from->data[k] != NULL) {
-            memcpy(to->data[k], from->data[k],
-                   (size_t)(from->n_particles * from->fields[k].n_components) * sizeof(double));
-        }
-    }
+    memset(list, 0, sizeof *list);
+    contact_scene_require(scene, mor_schedule_list_state(&scene->context, &scene->schedule, list));
+    contact_scene_require(scene, mor_contact_list_state(&scene->context, &scene->contact, list));
 }
 
-/* What a checkpoint saves, carried from one scene to another. */
-static void resume(contact_scene *to, const contact_scene *from)
+/* Carries the state from one scene to another. */
+static void resume(contact_scene *to, contact_scene *from)
 {
-    copy_set(&to->elastic.group.set, &from->elastic.group.set);
-    copy_set(&to->contact.history, &from->contact.history);
-    memcpy(to->contact.impacts, from->contact.impacts, (size_t)from->contact.n_impacts * sizeof(double));
-    memcpy(to->rigid.states, from->rigid.states, (size_t)from->n_rigid * sizeof *from->rigid.states);
-    to->contact.friction_energy = from->contact.friction_energy;
-    to->contact.damping_energy = from->contact.damping_energy;
-    to->contact.time = from->contact.time;
-    to->schedule.now = from->schedule.now;
-    to->schedule.n_steps = from->schedule.n_steps;
-    mor_rigid_prepare(&to->context, &to->rigid);
-    contact_scene_require(to, mor_elastic_prepare(&to->context, &to->elastic));
-    to->elastic.largest_acceleration = from->elastic.largest_acceleration;
+    mor_state_list source, target;
+    list_state(from, &source);
+    list_state(to, &target);
+    char *bytes = malloc((size_t)mor_state_bytes(&source));
+    assert_non_null(bytes);
+    assert_int_equal(mor_state_bytes(&target), mor_state_bytes(&source));
+    mor_state_store(&source, bytes);
+    mor_state_load(&target, bytes);
+    free(bytes);
+    mor_contact_resume(&to->contact, mor_schedule_time(&to->schedule));
+    contact_scene_require(to, mor_schedule_resume(&to->context, &to->schedule));
+    mor_state_clear(&from->context, &source);
+    mor_state_clear(&to->context, &target);
 }
 
 static void a_resume_changes_no_bit(void **state)

@@ -19,7 +19,7 @@ typedef struct run {
     mor_set set;
     mor_set *sets[1];
     int64_t step;
-    mor_checkpoint_value values[1];
+    mor_state_list list;
     mor_checkpoint view;
 } run;
 
@@ -28,8 +28,9 @@ static void make_run(mor_context *context, run *state)
     memset(state, 0, sizeof *state);
     assert_int_equal(mor_set_init(context, &state->set, "soil", N_PARTICLES, 1u << MOR_FIELD_POSITION), MOR_OK);
     state->sets[0] = &state->set;
-    state->values[0] = (mor_checkpoint_value){"step", MOR_HDF5_INT64, 1, &state->step};
-    state->view = (mor_checkpoint){state->sets, 1, state->values, 1, NULL};
+    assert_int_equal(mor_state_add_set(context, &state->list, &state->set), MOR_OK);
+    assert_int_equal(mor_state_add(context, &state->list, "run", "step", MOR_STATE_INT64, 1, &state->step), MOR_OK);
+    state->view = (mor_checkpoint){&state->list, NULL};
 }
 
 static void set_step(run *state, int64_t step)
@@ -141,6 +142,7 @@ static void a_writer_killed_at_any_moment_loses_nothing_finished(void **state)
     }
     mor_table_data_clear(&folder->context, &series);
     mor_set_clear(&folder->context, &current.set);
+    mor_state_clear(&folder->context, &current.list);
 }
 
 int main(void)

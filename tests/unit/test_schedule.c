@@ -50,7 +50,7 @@ static mor_status see_step(mor_context *context, void *owner, const mor_step *st
 
 static const mor_stage stages[] = {{"take", take_step, 0, 0, 0, "takes a step"},
                                    {"see", see_step, 0, 0, 0, "comes second"}};
-static const mor_stepper_operations operations = {"walker", propose, NULL, NULL};
+static const mor_stepper_operations operations = {.kind = "walker", .propose = propose};
 
 static void add_walker(mor_context *context, mor_schedule *schedule, walker *w)
 {

@@ -97,7 +97,8 @@ static crew *crew_open(double end, const double *proposals, int n, int n_leaders
 {
     static const mor_stage crew_stages[] = {{"first", crew_first, 0, 0, 0, "before the exchange"},
                                             {"second", crew_second, 0, 0, 0, "after the exchange"}};
-    static const mor_stepper_operations crew_operations = {"member", crew_propose, crew_begin, crew_finish};
+    static const mor_stepper_operations crew_operations = {
+        .kind = "member", .propose = crew_propose, .begin = crew_begin, .finish = crew_finish};
     crew *c = calloc(1, sizeof *c);
     assert_non_null(c);
     mor_context_init(&c->context);

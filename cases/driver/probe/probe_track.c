@@ -131,8 +131,8 @@ static void forget(mor_probe_track *track)
     for (int k = 0; k < MOR_CASE_PROBES_MAX; ++k) {
         mor_probe_record_clear(track->records[k]);
         mor_probe_record_clear(track->past[k]);
-        track->values[k][0] = NAN;
-        track->values[k][1] = -1.0;
+        track->values[k] = NAN;
+        track->measured_at[k] = -1;
     }
 }
 
@@ -164,12 +164,15 @@ void mor_probe_track_free(mor_context *context, mor_probe_track **track)
     }
 }
 
-void mor_probe_track_state(mor_probe_track *track, mor_checkpoint_value *values)
+mor_status mor_probe_track_list_state(mor_context *context, mor_probe_track *track, mor_state_list *list)
 {
-    const int64_t n = (int64_t)MOR_CASE_PROBES_MAX * MOR_PROBE_RECORD_NUMBERS;
-    values[0] = (mor_checkpoint_value){"probe_records", MOR_HDF5_DOUBLE, n, track->records};
-    values[1] = (mor_checkpoint_value){"probe_past", MOR_HDF5_DOUBLE, n, track->past};
-    values[2] = (mor_checkpoint_value){"probe_values", MOR_HDF5_DOUBLE, 2 * MOR_CASE_PROBES_MAX, track->values};
+    static const char own[] = "probes";
+    const int64_t n = MOR_CASE_PROBES_MAX;
+    const int64_t n_numbers = n * MOR_PROBE_RECORD_NUMBERS;
+    MOR_TRY(context, mor_state_add(context, list, own, "records", MOR_STATE_DOUBLE, n_numbers, track->records));
+    MOR_TRY(context, mor_state_add(context, list, own, "past", MOR_STATE_DOUBLE, n_numbers, track->past));
+    MOR_TRY(context, mor_state_add(context, list, own, "values", MOR_STATE_DOUBLE, n, track->values));
+    return mor_state_add(context, list, own, "measured_at", MOR_STATE_INT64, n, track->measured_at);
 }
 
 /* ---- Each step --------------------------------------------------------------------------------------------------- */
@@ -182,8 +185,8 @@ static void keep(mor_probe_track *track, int k, double value)
     const double before = now - schedule->step_length; /* exact: both are whole numbers of ticks */
     double *record = track->records[k];
     const mor_probe_window *window = &track->windows[k];
-    track->values[k][0] = value;
-    track->values[k][1] = (double)schedule->n_steps;
+    track->values[k] = value;
+    track->measured_at[k] = (int64_t)schedule->n_steps;
     if ((traits & MOR_CASE_PROBE_OF_STEP) == 0) {
         mor_probe_record_add_instant(record, window, now, value);
         return;
@@ -253,17 +256,17 @@ mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation)
 mor_status mor_probe_value(mor_context *context, mor_simulation *simulation, int probe, double *value)
 {
     mor_probe_track *track = simulation->probes;
-    if (track->values[probe][1] != (double)simulation->schedule.n_steps) {
+    if (track->measured_at[probe] != (int64_t)simulation->schedule.n_steps) {
         mor_probe_scan_begin(track->scan);
         MOR_TRY(context, measure(context, track, probe));
     }
-    *value = track->values[probe][0];
+    *value = track->values[probe];
     return MOR_OK;
 }
 
 double mor_probe_last(const mor_simulation *simulation, int probe)
 {
-    return simulation->probes->values[probe][0];
+    return simulation->probes->values[probe];
 }
 
 void mor_probe_statistics_find(const mor_simulation *simulation, int probe, mor_probe_statistics *statistics)

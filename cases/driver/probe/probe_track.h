@@ -5,7 +5,7 @@
 
 #include "cases/driver/case/case.h"
 #include "cases/driver/probe/probe_record.h"
-#include "core/io/checkpoint.h"
+#include "core/particle/state.h"
 #include "core/time/stepper.h"
 
 /** @file
@@ -15,8 +15,6 @@
 struct mor_simulation;
 struct mor_probe_scan;
 
-enum { MOR_PROBE_TRACK_VALUES = 3 /* of a checkpoint */ };
-
 /** What the probes of a simulation remember. Owner: the simulation. */
 typedef struct mor_probe_track {
     struct mor_simulation *simulation; /* borrowed; owns this */
@@ -24,9 +22,9 @@ typedef struct mor_probe_track {
      * probe needs to know of the past to have a value. */
     double records[MOR_CASE_PROBES_MAX][MOR_PROBE_RECORD_NUMBERS];
     double past[MOR_CASE_PROBES_MAX][MOR_PROBE_RECORD_NUMBERS];
-    double values[MOR_CASE_PROBES_MAX][2]; /* last measured, unit of the probe; and the number of steps done then, 1,
-                                            * below zero: not measured yet */
-    int intervals[MOR_CASE_PROBES_MAX];    /* steps from one measurement to the next, >= 1 */
+    double values[MOR_CASE_PROBES_MAX];       /* last measured, unit of the probe */
+    int64_t measured_at[MOR_CASE_PROBES_MAX]; /* number of steps done then; -1: not measured yet */
+    int intervals[MOR_CASE_PROBES_MAX];       /* steps from one measurement to the next, >= 1 */
     mor_probe_window windows[MOR_CASE_PROBES_MAX];
     int bodies[MOR_CASE_PROBES_MAX]; /* number of the body of a probe in the case; -1: none */
     int walls[MOR_CASE_PROBES_MAX];  /* number of its wall, likewise */
@@ -52,9 +50,9 @@ mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track);
  *  @param track [in,out]  as the checkpoint left it */
 void mor_probe_track_resume(mor_probe_track *track);
 
-/** Lists what a checkpoint saves.
- *  @param track  [in,out]  the values point into it
- *  @param values [out]     shape [MOR_PROBE_TRACK_VALUES] */
-void mor_probe_track_state(mor_probe_track *track, mor_checkpoint_value *values);
+/** Lists what the probes remember.
+ *  @param list    [in,out]  borrows from the track
+ *  Returns: as mor_state_add. */
+mor_status mor_probe_track_list_state(mor_context *context, mor_probe_track *track, mor_state_list *list);
 
 #endif

@@ -211,7 +211,7 @@ static void warn_of_speed(mor_context *context, const mor_simulation *s, const p
 static void warn_of_outflow(mor_context *context, const mor_simulation *s)
 {
     const double advisable = 1.0e-3;
-    const double n_out = s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES];
+    const double n_out = (double)s->soil.n_outflow;
     const double share = s->has_soil ? n_out / (double)s->soil.set.n_created : 0.0;
     if (share > advisable) {
         mor_context_log(
@@ -327,8 +327,8 @@ static void print_end(const mor_run_files *files, const pace *p, double speed)
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
     }
     fprintf(out, "\n");
-    if (s->has_soil && s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES] > 0.0) {
-        fprintf(out, "%.0f particles, %.6g %s, left the domain\n", s->soil.outflow[MOR_SOIL_OUTFLOW_PARTICLES],
+    if (s->has_soil && s->soil.n_outflow > 0) {
+        fprintf(out, "%lld particles, %.6g %s, left the domain\n", (long long)s->soil.n_outflow,
                 s->soil.outflow[MOR_SOIL_OUTFLOW_MASS], s->the_case->dimension == 2 ? "kg/m" : "kg");
     }
 }

@@ -230,175 +230,30 @@ mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files
                                    mor_schedule_time(schedule));
 }
 
-/* Everything a checkpoint holds, as a view of the simulation. */
-enum { VALUES_MAX = 24 + 6 * MOR_BODY_GROUPS_MAX, VALUE_NAME_BYTES = 80 };
-typedef struct saved_state {
-    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
-    mor_checkpoint_value values[VALUES_MAX];
-    char names[VALUES_MAX][VALUE_NAME_BYTES]; /* of the values that belong to a group */
-    int n_values;
-    mor_checkpoint checkpoint;
-} saved_state;
-
-static void add_value(saved_state *state, const char *owner, const char *name, int64_t n, double *data)
-{
-    char *full = state->names[state->n_values];
-    snprintf(full, VALUE_NAME_BYTES, "%.47s_%s", owner, name);
-    state->values[state->n_values++] = (mor_checkpoint_value){full, MOR_HDF5_DOUBLE, n, data};
-}
-
-static void add_group_values(mor_simulation *s, int g, saved_state *state)
-{
-    mor_simulation_bodies *bodies = &s->bodies;
-    mor_body_group *group = bodies->groups[g];
-    const char *name = group->set.name;
-    if (g < bodies->n_elastics) {
-        mor_elastic *elastic = &bodies->elastics[g];
-        add_value(state, name, "largest_speed", 1, &elastic->largest_speed);
-        add_value(state, name, "largest_acceleration", 1, &elastic->largest_acceleration);
-        add_value(state, name, "damped_energy", 1, &elastic->damped_energy);
-    } else {
-        add_value(state, name, "states", group->n_bodies * (int64_t)(sizeof(mor_rigid_state) / sizeof(double)),
-                  bodies->rigid.states->center);
-    }
-    /* The soil's next step depends on it. Boundaries stand in the order of groups. */
-    if (s->has_soil) {
-        add_value(state, name, "barrier_step", 1, &s->soil.boundaries[g].longest_step);
-    }
-}
-
-/* What a run must remember. Everything else follows from the case. */
-static void list_state(mor_simulation *s, saved_state *state)
-{
-    const mor_checkpoint_value list[] = {
-        {"schedule_now", MOR_HDF5_INT64, 1, &s->schedule.now},
-        {"schedule_tick", MOR_HDF5_DOUBLE, 1, &s->schedule.tick},
-        {"schedule_steps", MOR_HDF5_UINT64, 1, &s->schedule.n_steps},
-        {"schedule_particle_steps", MOR_HDF5_UINT64, 1, &s->schedule.n_particle_steps},
-        {"schedule_step_length", MOR_HDF5_DOUBLE, 1, &s->schedule.step_length},
-        {"soil_largest_speed", MOR_HDF5_DOUBLE, 1, &s->soil.largest_speed},
-        {"soil_largest_acceleration", MOR_HDF5_DOUBLE, 1, &s->soil.largest_acceleration},
-        {"soil_wall_force", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_force},
-        {"soil_wall_impulse", MOR_HDF5_DOUBLE, MOR_SOIL_WALLS_MAX * 3, s->soil.wall_impulse},
-        {"initial_energies", MOR_HDF5_DOUBLE, 3, s->initial_energies},
-        {"surface_height", MOR_HDF5_DOUBLE, 1, &s->surface_height},
-        {"bodies", MOR_HDF5_DOUBLE, s->bodies.n_packed, s->bodies.packed},
-        {"contact_impacts", MOR_HDF5_DOUBLE, s->bodies.contact.n_impacts, s->bodies.contact.impacts},
-        {"contact_sums", MOR_HDF5_DOUBLE, s->bodies.contact.n_sums, s->bodies.contact.sums},
-        {"contact_deepest_share", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.deepest_share},
-        {"contact_driven_share", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.driven_share},
-        {"contact_spring_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.spring_energy},
-        {"contact_friction_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.friction_energy},
-        {"contact_damping_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.damping_energy},
-        {"contact_wall_energy", MOR_HDF5_DOUBLE, 1, &s->bodies.contact.wall_energy},
-    };
-    memset(state, 0, sizeof *state);
-    memcpy(state->values, list, sizeof list);
-    state->n_values = (int)(sizeof list / sizeof *list);
-    mor_probe_track_state(s->probes, state->values + state->n_values);
-    state->n_values += MOR_PROBE_TRACK_VALUES;
-    for (int g = 0; g < s->bodies.n_groups; ++g) {
-        add_group_values(s, g, state);
-    }
-    if (s->has_soil) {
-        add_value(state, "soil", "outflow", MOR_SOIL_OUTFLOW_STATE, s->soil.outflow);
-    }
-    if (s->soil.energy != NULL) {
-        add_value(state, "soil", "energy_audit", MOR_SOIL_ENERGY_STATE, s->soil.energy->state);
-    }
-    const int n_sets = mor_simulation_sets(s, true, state->sets);
-    state->checkpoint = (mor_checkpoint){state->sets, n_sets, state->values, state->n_values, NULL};
-}
-
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
 {
-    saved_state state;
-    list_state(files->simulation, &state);
-    state.checkpoint.identity = files->case_text;
-    MOR_TRY(context, mor_simulation_bodies_pack(context, &files->simulation->bodies, true));
+    const mor_checkpoint checkpoint = {&files->simulation->state, files->case_text};
     MOR_TRY(context, mor_table_sync(context, &files->series));
-    return mor_checkpoint_write(context, files->options->folder, &state.checkpoint);
-}
-
-/* What is done with every array of a state. */
-typedef enum copy_way { MEASURE, STORE, LOAD } copy_way;
-
-static int64_t copy_array(char *bytes, int64_t at, void *data, int64_t n_bytes, copy_way way)
-{
-    if (n_bytes == 0) {
-        return at; /* an array of nothing has no place */
-    }
-    if (way == STORE) {
-        memcpy(bytes + at, data, (size_t)n_bytes);
-    } else if (way == LOAD) {
-        memcpy(data, bytes + at, (size_t)n_bytes);
-    }
-    return at + n_bytes;
-}
-
-/* Walks over all that a checkpoint holds; returns its bytes. Room is measured with the sets as they were made. */
-static int64_t copy_state(const saved_state *state, char *bytes, copy_way way)
-{
-    int64_t at = 0;
-    for (int k = 0; k < state->checkpoint.n_sets; ++k) {
-        const mor_set *set = state->sets[k];
-        const int64_t n = way == MEASURE ? set->n_created : set->n_particles;
-        at = copy_array(bytes, at, set->id, n * (int64_t)sizeof *set->id, way);
-        for (int field = 0; field < set->n_fields; ++field) {
-            if ((set->fields[field].flags & MOR_FIELD_EVOLVES) != 0 && set->data[field] != NULL) {
-                const int64_t n_bytes = n * set->fields[field].n_components * (int64_t)sizeof(double);
-                at = copy_array(bytes, at, set->data[field], n_bytes, way);
-            }
-        }
-    }
-    for (int k = 0; k < state->n_values; ++k) {
-        at = copy_array(bytes, at, state->values[k].data, 8 * state->values[k].n, way); /* 64-bit numbers of any kind */
-    }
-    return at;
+    return mor_checkpoint_write(context, files->options->folder, &checkpoint);
 }
 
 mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_t next_snapshot)
 {
-    saved_state state;
     mor_run_kept *kept = &files->kept;
-    list_state(files->simulation, &state);
+    const mor_state_list *state = &files->simulation->state;
     if (kept->bytes == NULL) {
-        kept->n_bytes = copy_state(&state, NULL, MEASURE);
-        MOR_TRY(context, MOR_NEW(context, &kept->bytes, kept->n_bytes, "a state to go back to"));
+        MOR_TRY(context, MOR_NEW(context, &kept->bytes, mor_state_bytes(state), "a state to go back to"));
     }
-    MOR_TRY(context, mor_simulation_bodies_pack(context, &files->simulation->bodies, true));
-    for (int k = 0; k < state.checkpoint.n_sets; ++k) {
-        kept->n_particles[k] = state.sets[k]->n_particles;
-    }
-    copy_state(&state, kept->bytes, STORE);
+    mor_state_store(state, kept->bytes);
     kept->next_snapshot = next_snapshot;
     kept->is_valid = true;
     return MOR_OK;
 }
 
-/* What follows from a state that was put back. */
-static mor_status take_up(mor_context *context, mor_simulation *s)
-{
-    if (s->has_soil) {
-        mor_soil_fit(&s->soil);
-    }
-    s->bodies.contact.time = mor_schedule_time(&s->schedule);
-    if (s->bodies.has_contact) {
-        mor_contact_add_sums(&s->bodies.contact);
-    }
-    return mor_simulation_bodies_pack(context, &s->bodies, false);
-}
-
 mor_status mor_run_files_recall(mor_context *context, mor_run_files *files)
 {
-    saved_state state;
-    list_state(files->simulation, &state);
-    for (int k = 0; k < state.checkpoint.n_sets; ++k) {
-        state.sets[k]->n_particles = files->kept.n_particles[k];
-        state.sets[k]->generation += 1;
-    }
-    copy_state(&state, files->kept.bytes, LOAD);
-    return take_up(context, files->simulation);
+    mor_state_load(&files->simulation->state, files->kept.bytes);
+    return mor_simulation_resume(context, files->simulation);
 }
 
 /* Why a state cannot be taken up though the case may go on: what the domain cuts off became more. */
@@ -428,9 +283,9 @@ static mor_status set_clock(mor_context *context, mor_simulation *s)
 
 mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored)
 {
-    saved_state state;
     const char *folder = files->options->folder;
     mor_simulation *s = files->simulation;
+    const mor_checkpoint checkpoint = {&s->state, NULL};
     *is_restored = mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
                    mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
     if (!*is_restored) {
@@ -438,12 +293,11 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
                         folder);
         return MOR_OK;
     }
-    list_state(s, &state);
-    const mor_status status = mor_checkpoint_read_latest(context, folder, &state.checkpoint);
+    const mor_status status = mor_checkpoint_read_latest(context, folder, &checkpoint);
     MOR_TRY(context, status == MOR_OK ? status : explain_refusal(context, files, status));
     MOR_TRY(context, set_clock(context, s));
     mor_probe_track_resume(s->probes);
-    MOR_TRY(context, take_up(context, s));
+    MOR_TRY(context, mor_simulation_resume(context, s));
     mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu", mor_schedule_time(&s->schedule),
                     (unsigned long long)s->schedule.n_steps);
     return MOR_OK;

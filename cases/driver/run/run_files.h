@@ -22,11 +22,9 @@ enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16 };
 
 /** A state of the run in memory, to which a run that fails can go back. */
 typedef struct mor_run_kept {
-    char *bytes; /* shape [n_bytes] */
-    int64_t n_bytes;
-    int64_t n_particles[MOR_BODY_GROUPS_MAX + 2]; /* of each set */
-    int64_t next_snapshot;                        /* number of the next snapshot at that time */
-    bool is_valid;                                /* a state was kept */
+    char *bytes;           /* a copy of the state, see mor_state_store */
+    int64_t next_snapshot; /* number of the next snapshot at that time */
+    bool is_valid;         /* a state was kept */
 } mor_run_kept;
 
 /** Open files of a run and the numbers that go into them. Owner: the run. */

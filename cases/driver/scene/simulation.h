@@ -31,6 +31,7 @@ typedef struct mor_simulation {
     double first_step;                            /* length of the first time step, s */
     double initial_energies[3];                   /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     struct mor_probe_track *probes;               /* what the probes remember; owned */
+    mor_state_list state;                         /* what a resumed run needs, as its owners list it */
 } mor_simulation;
 
 /** Maps a point, or a direction, of the case into the placed frame.
@@ -75,6 +76,15 @@ static inline const char *mor_simulation_counted_unit(const mor_simulation *simu
 {
     return simulation->has_soil && simulation->bodies.n_groups > 0 ? "steps of soil particles" : "particle-steps";
 }
+
+/** Lists what a resumed run needs of the simulation but for its probes: asks each owner.
+ *  @param list       [in,out]  borrows from the simulation
+ *  Returns: MOR_OK; as mor_state_add. */
+mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simulation, mor_state_list *list);
+
+/** After a state was put back: makes everything else follow.
+ *  Returns: MOR_OK; what a material returns. */
+mor_status mor_simulation_resume(mor_context *context, mor_simulation *simulation);
 
 /** All particle sets: the soil, the groups of bodies, what their contact remembers.
  *  @param sets        [out]  shape [MOR_BODY_GROUPS_MAX + 2]; borrowed

@@ -22,7 +22,7 @@ typedef struct mor_simulation_body {
     mor_rigid *rigid;      /* NULL for an elastic body; borrowed */
 } mor_simulation_body;
 
-/** All rocks, their contact, and what a checkpoint must know of them. Owner: the simulation. */
+/** All rocks and their contact. Owner: the simulation. */
 typedef struct mor_simulation_bodies {
     mor_material_instance *materials[MOR_BODY_GROUPS_MAX]; /* of the elastic groups */
     mor_elastic elastics[MOR_BODY_GROUPS_MAX];
@@ -36,10 +36,6 @@ typedef struct mor_simulation_bodies {
     bool has_contact;
     mor_contact_pair pairs[MOR_CASE_PAIRS_MAX];
     mor_exchange exchange;
-    double *packed; /* shape [n_packed]; for checkpoints: of each group the rotation angle [rad] and the impulses
-                     * received and given [N s] of its bodies, the mean velocities of its particles over the last common
-                     * step and the largest of them [m/s] */
-    int64_t n_packed;
 } mor_simulation_bodies;
 
 /** What the bodies need to know of the case in the frame of the run. */
@@ -116,14 +112,6 @@ void mor_simulation_bodies_momentum(const mor_simulation_bodies *bodies, const d
  *  @param up    [in]  shape [3], unit vector, unit 1
  *  @param level [in]  along up over the origin of coordinates, unit m */
 double mor_simulation_body_depth(const mor_simulation_body *body, const double *up, double level);
-
-/** Numbers that `packed` holds. */
-int64_t mor_simulation_bodies_packed(const mor_simulation_bodies *bodies);
-
-/** Collects what a checkpoint saves of the bodies into `packed`, or puts it back and makes everything else follow.
- *  @param is_saved [in]      true: before saving; false: after restoring
- *  Returns: MOR_OK; what a material returns. */
-mor_status mor_simulation_bodies_pack(mor_context *context, mor_simulation_bodies *bodies, bool is_saved);
 
 /** Brings all bodies to rest and sets the damping of their motion, or gives them their motion at the start.
  *  @param damping  [in]      unit 1/s; while the soil settles; 0: the start of the run

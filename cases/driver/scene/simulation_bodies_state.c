@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Motion, energy and saved state of the rocks of a simulation. */
+/* Energy of the rocks of a simulation, and their motion at the start. */
 #include "cases/driver/scene/simulation_bodies.h"
 
 #include "bodies/body_surface.h"
@@ -8,9 +8,6 @@
 #include "core/base/math.h"
 
 #include <string.h>
-
-/* Numbers of a body in a checkpoint. */
-enum { PACKED = 12 };
 
 /* kL of the first bending mode of a cantilever: cos kL cosh kL = -1. */
 #define CANTILEVER_MODE 1.8751040687119611
@@ -284,57 +281,8 @@ mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bod
         }
         show_velocities(bodies->groups[g]);
     }
-    /* Springs of rocks at rest stay, speeds of impacts while they came to rest do not. */
-    for (int64_t k = 0; k < bodies->contact.n_impacts; ++k) {
-        bodies->contact.impacts[k] = 0.0;
-    }
-    bodies->contact.friction_energy = 0.0;
-    bodies->contact.damping_energy = 0.0;
-    bodies->contact.wall_energy = 0.0;
-    return MOR_OK;
-}
-
-/* ---- Checkpoints ------------------------------------------------------------------------------------------------- */
-
-/* Copies numbers into the packed array or back, and moves on behind them. */
-static double *pack_part(double *packed, double *part, int n, bool is_saved)
-{
-    memcpy(is_saved ? packed : part, is_saved ? part : packed, (size_t)n * sizeof *packed);
-    return packed + n;
-}
-
-int64_t mor_simulation_bodies_packed(const mor_simulation_bodies *bodies)
-{
-    int64_t n = 0;
-    for (int g = 0; g < bodies->n_groups; ++g) {
-        n += PACKED * (int64_t)bodies->groups[g]->n_bodies + 3 * bodies->groups[g]->set.n_particles + 1;
-    }
-    return n;
-}
-
-mor_status mor_simulation_bodies_pack(mor_context *context, mor_simulation_bodies *bodies, bool is_saved)
-{
-    double *packed = bodies->packed;
-    for (int g = 0; g < bodies->n_groups; ++g) {
-        mor_body_group *group = bodies->groups[g];
-        for (int b = 0; b < group->n_bodies; ++b) {
-            mor_body *body = &group->bodies[b];
-            packed = pack_part(packed, body->rotation_angle, 3, is_saved);
-            packed = pack_part(packed, body->soil_impulse, 3, is_saved);
-            packed = pack_part(packed, body->contact_impulse, 3, is_saved);
-            packed = pack_part(packed, group->boundary.patches[b].impulse, 3, is_saved);
-        }
-        /* Before the means, which it would set to the present velocities. */
-        if (!is_saved && g < bodies->n_elastics) {
-            MOR_TRY(context, mor_elastic_prepare(context, &bodies->elastics[g]));
-        } else if (!is_saved) {
-            mor_rigid_prepare(context, &bodies->rigid);
-        }
-        for (int64_t i = 0; i < group->set.n_particles; ++i) {
-            double *mean = group->boundary.records + i * MOR_BOUNDARY_RECORD + MOR_BOUNDARY_VELOCITY;
-            packed = pack_part(packed, mean, 3, is_saved);
-        }
-        packed = pack_part(packed, &group->boundary.largest_speed, 1, is_saved);
+    if (bodies->has_contact) {
+        mor_contact_restart(&bodies->contact); /* springs of rocks at rest stay */
     }
     return MOR_OK;
 }

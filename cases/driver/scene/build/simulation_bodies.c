@@ -456,8 +456,6 @@ mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodie
     }
     MOR_TRY(context, check_places(context, bodies, the_case, frame));
     MOR_TRY(context, make_contact(context, bodies, the_case, frame, first_bit));
-    bodies->n_packed = mor_simulation_bodies_packed(bodies);
-    MOR_TRY(context, MOR_NEW(context, &bodies->packed, bodies->n_packed, "motion of bodies for checkpoints"));
     return mor_simulation_bodies_settle(context, bodies, the_case, 0.0);
 }
 
@@ -474,7 +472,6 @@ void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bo
         mor_material_destroy(context, &bodies->materials[k]);
     }
     mor_rigid_clear(context, &bodies->rigid);
-    MOR_FREE(context, &bodies->packed);
     memset(bodies, 0, sizeof *bodies);
 }
 

@@ -407,6 +407,12 @@ static mor_status build_schedule(mor_context *context, mor_simulation *simulatio
                                       simulation->has_soil ? &simulation->soil : NULL, &simulation->schedule);
 }
 
+static mor_status list_state(mor_context *context, mor_simulation *simulation)
+{
+    MOR_TRY(context, mor_simulation_list_state(context, simulation, &simulation->state));
+    return mor_probe_track_list_state(context, simulation->probes, &simulation->state);
+}
+
 mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation, const mor_case *the_case,
                                const mor_registry *registry)
 {
@@ -432,6 +438,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     if (status == MOR_OK) {
         status = mor_probe_track_new(context, simulation);
     }
+    if (status == MOR_OK) {
+        status = list_state(context, simulation);
+    }
     if (status != MOR_OK) {
         mor_simulation_clear(context, simulation);
     }
@@ -440,6 +449,7 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
 
 void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
 {
+    mor_state_clear(context, &simulation->state);
     mor_probe_track_free(context, &simulation->probes);
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
