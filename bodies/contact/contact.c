@@ -194,12 +194,10 @@ static mor_status list_bodies(mor_context *context, mor_contact *contact)
 static mor_status make_history(mor_context *context, mor_contact *contact)
 {
     mor_contact_work *work = contact->work;
-    const mor_field_info partners = {
-        "friction_partners", MOR_CONTACT_SLOTS, "1",
-        "contact",           MOR_FIELD_EVOLVES, "what each surface node rubs against; 0: nothing"};
-    const mor_field_info springs = {
-        "friction_springs", 3 * MOR_CONTACT_SLOTS, "m",
-        "contact",          MOR_FIELD_EVOLVES,     "tangential springs of each surface node"};
+    const mor_field_info partners = {"friction_partners", MOR_CONTACT_SLOTS, "1", MOR_FIELD_EVOLVES,
+                                     "what each surface node rubs against; 0: nothing"};
+    const mor_field_info springs = {"friction_springs", 3 * MOR_CONTACT_SLOTS, "m", MOR_FIELD_EVOLVES,
+                                    "tangential springs of each surface node"};
     int64_t n_nodes = 0;
     for (int g = 0; g < contact->n_groups; ++g) {
         n_nodes += contact->groups[g]->n_nodes;

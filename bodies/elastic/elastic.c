@@ -10,6 +10,10 @@
 
 #define BIT(name) MOR_BIT(MOR_FIELD_##name)
 #define RECORDS MOR_BIT(MOR_RESOURCE_RECORDS)
+#define STATE MOR_BIT(MOR_RESOURCE_STATE)
+#define ENERGY_SUMS MOR_BIT(MOR_RESOURCE_ENERGY_SUMS)
+#define BODIES MOR_BIT(MOR_RESOURCE_BODIES)
+#define BOUNDS MOR_BIT(MOR_RESOURCE_BOUNDS)
 
 /* Fields beside the built-in ones, in the order in which they are added to the set. */
 enum { FIELD_GRADIENT = MOR_FIELD_CORE_COUNT, FIELD_RATE };
@@ -18,21 +22,22 @@ enum { FIELD_GRADIENT = MOR_FIELD_CORE_COUNT, FIELD_RATE };
 
 /* One sub-step. Contact acts between the first and the second stage. */
 static const mor_stage elastic_stages[] = {
-    {"first drift", mor_elastic_drift_first, BIT(VELOCITY), 0, BIT(POSITION),
-     "positions to the middle of the sub-step"},
-    {"stress", mor_elastic_find_stress, BIT(POSITION) | RATE, BIT(STRESS) | RECORDS, GRADIENT,
-     "deformation gradients to the middle of the sub-step; the material's stress and the Kelvin-Voigt damper"},
+    {"first drift", mor_elastic_drift_first, BIT(VELOCITY), 0, BIT(POSITION), "positions to the middle of the sub-step",
+     NULL},
+    {"stress", mor_elastic_find_stress, BIT(POSITION) | RATE, RECORDS, GRADIENT | BIT(STRESS) | STATE | ENERGY_SUMS,
+     "deformation gradients to the middle of the sub-step; the material's stress and the Kelvin-Voigt damper", NULL},
     {"forces", mor_elastic_sum_forces, RECORDS, BIT(ACCELERATION), 0,
-     "acceleration by the neighbors, hourglass control included"},
-    {"kick", mor_elastic_kick, BIT(ACCELERATION) | BIT(MASS), 0, BIT(VELOCITY) | RECORDS,
-     "soil, contact, gravity; velocities to the end of the sub-step"},
-    {"deformation rate", mor_elastic_find_rate, RECORDS, RATE, GRADIENT | BIT(DENSITY),
-     "rate of the deformation gradient; deformation gradients and densities to the end of the sub-step"},
-    {"second drift", mor_elastic_drift_second, BIT(VELOCITY), 0, BIT(POSITION), "positions to the end of the sub-step"},
+     "acceleration by the neighbors, hourglass control included", NULL},
+    {"kick", mor_elastic_kick, BIT(MASS), 0, BIT(VELOCITY) | BIT(ACCELERATION) | RECORDS | BODIES | BOUNDS,
+     "soil, contact, gravity; velocities to the end of the sub-step", NULL},
+    {"deformation rate", mor_elastic_find_rate, RECORDS, RATE | BIT(DENSITY), GRADIENT,
+     "rate of the deformation gradient; deformation gradients and densities to the end of the sub-step", NULL},
+    {"second drift", mor_elastic_drift_second, BIT(VELOCITY), 0, BIT(POSITION), "positions to the end of the sub-step",
+     NULL},
 };
 
-static const uint64_t evolving_fields =
-    BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS) | GRADIENT | RATE;
+static const uint64_t evolving_fields = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS) |
+                                        GRADIENT | RATE | STATE | ENERGY_SUMS | BODIES | BOUNDS;
 
 enum { BATCH = 64 };
 
@@ -53,14 +58,10 @@ static mor_status check_scheme(mor_context *context, const char *name, const mor
 
 static mor_status add_fields(mor_context *context, mor_elastic *elastic)
 {
-    static const mor_field_info gradient = {"deformation_gradient",
-                                            9,
-                                            "1",
-                                            "first drift, second drift",
-                                            MOR_FIELD_EVOLVES,
+    static const mor_field_info gradient = {"deformation_gradient", 9, "1", MOR_FIELD_EVOLVES,
                                             "deformation gradient, row a column b = dx_a/dX_b"};
-    static const mor_field_info rate = {
-        "deformation_rate", 9, "1/s", "deformation rate", MOR_FIELD_EVOLVES, "rate of the deformation gradient"};
+    static const mor_field_info rate = {"deformation_rate", 9, "1/s", MOR_FIELD_EVOLVES,
+                                        "rate of the deformation gradient"};
     mor_set *set = &elastic->group.set;
     MOR_TRY(context, mor_set_add_field(context, set, &gradient, &elastic->field_gradient));
     MOR_TRY(context, mor_set_add_field(context, set, &rate, &elastic->field_rate));
@@ -174,7 +175,8 @@ void mor_elastic_clear(mor_context *context, mor_elastic *elastic)
         MOR_FREE(context, &work->inverses);
         MOR_FREE(context, &work->sums);
         MOR_FREE(context, &work->constants);
-        MOR_FREE(context, &work->chunk_values);
+        MOR_FREE(context, &work->chunk_status);
+        MOR_FREE(context, &work->chunk_power);
         MOR_FREE(context, &work->chunk_failed);
     }
     MOR_FREE(context, &elastic->work);
@@ -197,8 +199,9 @@ mor_status mor_elastic_prepare(mor_context *context, mor_elastic *elastic)
     }
     elastic->largest_speed = sqrt(fastest);
     elastic->work->is_energy_known = false;
-    mor_elastic_pack_velocities(context, elastic);
-    MOR_TRY(context, mor_elastic_find_rate(context, elastic, NULL));
+    mor_view view = mor_view_open(&group->set, NULL);
+    mor_elastic_pack_velocities(context, elastic, &view);
+    MOR_TRY(context, mor_elastic_find_rate(context, elastic, &view, NULL));
     mor_body_group_observe(context, group, 0.0);
     return MOR_OK;
 }
@@ -286,14 +289,17 @@ void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *e
                              .n_stages = (int)(sizeof elastic_stages / sizeof *elastic_stages),
                              .n_before = 1,
                              .n_particles = elastic->group.set.n_particles,
-                             .is_leader = false};
+                             .is_leader = false,
+                             .set = &elastic->group.set};
     *evolving = evolving_fields;
 }
 
 static double hourglass_energy(const mor_elastic *elastic, int body)
 {
     const mor_elastic_work *work = elastic->work;
-    const mor_elastic_job job = mor_elastic_job_of(elastic, 0.0);
+    mor_elastic_job job = mor_elastic_job_of(elastic, 0.0);
+    job.position = elastic->group.set.data[MOR_FIELD_POSITION];
+    job.gradient = elastic->group.set.data[elastic->field_gradient];
     int64_t first = 0;
     int64_t last = work->n_clusters;
     while (body >= 0 && work->clusters[first].body < body) {

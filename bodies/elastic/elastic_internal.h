@@ -6,6 +6,7 @@
 #include "bodies/body_internal.h"
 #include "bodies/elastic/elastic.h"
 #include "core/particle/tree.h"
+#include "core/time/view.h"
 
 /** @file
  *  What the files of the elastic solver share among themselves. Not for others.
@@ -57,7 +58,8 @@ typedef struct mor_elastic_work {
     double *inverses;                 /* shape [n_clusters, 6, 8]; m^-1, 1/m2 */
     double *sums;                     /* shape [n_clusters, 3, 8]; sum k r, m */
     mor_elastic_constants *constants; /* shape [n_bodies] */
-    double *chunk_values;             /* shape [n_chunks, 2]; status and damped power of a chunk, W */
+    mor_status *chunk_status;         /* shape [n_chunks]; what the material returned */
+    double *chunk_power;              /* shape [n_chunks]; lost to damping, W (W/m) */
     int64_t *chunk_failed;            /* shape [n_chunks]; particle that the material refused */
     double energy;                    /* strain energy of all bodies, J (J/m) */
     bool is_energy_known;             /* since particles moved last */
@@ -65,15 +67,15 @@ typedef struct mor_elastic_work {
     int state_fields[MOR_MATERIAL_STATES_MAX]; /* indices of the material's state variables in the set */
 } mor_elastic_work;
 
-/** Arrays for the loops; borrowed. */
+/** Arrays for the loops; borrowed. A stage fills in what it declared; the rest is NULL. */
 typedef struct mor_elastic_job {
     const mor_elastic_work *work;
-    double *position;        /* shape [n, 3], m */
-    double *velocity;        /* shape [n, 3], m/s */
+    const double *position;  /* shape [n, 3], m */
     double *acceleration;    /* shape [n, 3], m/s2 */
     double *density;         /* shape [n], kg/m3 */
     double *gradient;        /* shape [n, 9], F, 1 */
-    double *rate;            /* shape [n, 9], dF/dt, 1/s */
+    const double *rate;      /* shape [n, 9], dF/dt, 1/s */
+    double *rate_out;        /* the same, found by the loop rate */
     double *stress;          /* shape [n, 6], Cauchy stress, Pa; NULL: not asked */
     const double *piola;     /* shape [particles of the chunk padded to 8, 9]; P of the material, Pa */
     double damping_per_mass; /* Pi / density, m2/s */
@@ -101,20 +103,20 @@ typedef struct mor_elastic_table {
 const mor_elastic_table *mor_elastic_select(const char *name);
 
 /** Stages of a sub-step; owner is one mor_elastic. Each returns MOR_OK or what went wrong. */
-mor_status mor_elastic_drift_first(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_elastic_find_stress(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_elastic_sum_forces(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_elastic_kick(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_elastic_find_rate(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_elastic_drift_second(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_elastic_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_elastic_find_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_elastic_sum_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_elastic_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_elastic_find_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_elastic_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 
 /** Finds neighbors, weights, correction matrices. Returns what mor_elastic_init does. */
 mor_status mor_elastic_find_neighbors(mor_context *context, mor_elastic *elastic);
 
 /** Copies velocities into the records of the loops. */
-void mor_elastic_pack_velocities(mor_context *context, mor_elastic *elastic);
+void mor_elastic_pack_velocities(mor_context *context, mor_elastic *elastic, mor_view *view);
 
-/** Arrays of the group as the loops want them, for a sub-step of a length, unit s. */
+/** What all loops want, without fields, for a sub-step of a length, unit s. */
 mor_elastic_job mor_elastic_job_of(const mor_elastic *elastic, double length);
 
 #endif

@@ -177,7 +177,7 @@ INLINE void rate_part(const mor_elastic_job *job, const part *p, const int d)
             for (int c = 1; c < d; ++c) {
                 rate += sum[a * d + c] * m[c * d + b];
             }
-            store(job->rate + 9 * p->particle, 9, 3 * a + b, p->n_lanes, rate);
+            store(job->rate_out + 9 * p->particle, 9, 3 * a + b, p->n_lanes, rate);
         }
     }
 }

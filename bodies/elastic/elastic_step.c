@@ -10,15 +10,8 @@ enum { CHUNK_PARTICLES = MOR_ELASTIC_CHUNK * MOR_CLUSTER };
 
 mor_elastic_job mor_elastic_job_of(const mor_elastic *elastic, double length)
 {
-    double *const *data = elastic->group.set.data;
     const double h = elastic->smoothing_length;
     return (mor_elastic_job){.work = elastic->work,
-                             .position = data[MOR_FIELD_POSITION],
-                             .velocity = data[MOR_FIELD_VELOCITY],
-                             .acceleration = data[MOR_FIELD_ACCELERATION],
-                             .density = data[MOR_FIELD_DENSITY],
-                             .gradient = data[elastic->field_gradient],
-                             .rate = data[elastic->field_rate],
                              .damping_per_mass = 0.5 * elastic->scheme.body_damping * elastic->sound_speed * h,
                              .half_step = 0.5 * length};
 }
@@ -41,13 +34,13 @@ static int index_of_dimension(const mor_elastic *elastic)
 }
 
 /* Positions over a time; deformation gradients move in the stages that read them anyway. */
-static void drift(mor_context *context, const mor_elastic *elastic, double time)
+static void drift(mor_context *context, const mor_elastic *elastic, mor_view *view, double time)
 {
+    double *restrict x = mor_view_write(view, MOR_FIELD_POSITION);
+    const double *restrict v = mor_view_read(view, MOR_FIELD_VELOCITY);
     const mor_body_group *group = &elastic->group;
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
-        double *restrict x = group->set.data[MOR_FIELD_POSITION];
-        const double *restrict v = group->set.data[MOR_FIELD_VELOCITY];
         const int64_t last = group->pieces[p].first + group->pieces[p].n_particles;
         for (int64_t k = 3 * group->pieces[p].first; k < 3 * last; ++k) {
             x[k] += time * v[k];
@@ -55,16 +48,17 @@ static void drift(mor_context *context, const mor_elastic *elastic, double time)
     }
 }
 
-mor_status mor_elastic_drift_first(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_elastic_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     const mor_elastic *elastic = owner;
     elastic->work->is_energy_known = false;
-    drift(context, elastic, 0.5 * step->length);
+    drift(context, elastic, view, 0.5 * step->length);
     return MOR_OK;
 }
 
-/* Stress of a chunk; its status and the power lost to damping go into chunk_values. */
-static void find_chunk_stress(const mor_elastic *elastic, const mor_elastic_job *job, int64_t chunk)
+/* Stress of a chunk; state holds the material's variables of all particles. */
+static void find_chunk_stress(const mor_elastic *elastic, const mor_elastic_job *job, double *const *state,
+                              int64_t chunk)
 {
     mor_elastic_work *work = elastic->work;
     const mor_material_instance *material = elastic->material;
@@ -76,8 +70,7 @@ static void find_chunk_stress(const mor_elastic *elastic, const mor_elastic_job 
     double *state_out[MOR_MATERIAL_STATES_MAX];
     int64_t failed = 0;
     for (int k = 0; k < material->n_state; ++k) {
-        const int field = work->state_fields[k];
-        state_out[k] = set->data[field] + first * set->fields[field].n_components;
+        state_out[k] = state[k] + first * set->fields[work->state_fields[k]].n_components;
         state_in[k] = state_out[k];
     }
     const mor_batch batch = {.n = work->clusters[last].first - first,
@@ -91,12 +84,12 @@ static void find_chunk_stress(const mor_elastic *elastic, const mor_elastic_job 
     }
     work->table->stretch(job, chunk * MOR_ELASTIC_CHUNK, last);
     const mor_status status = material->operations.stress_total(material, &batch);
-    work->chunk_values[2 * chunk] = (double)status;
+    work->chunk_status[chunk] = status;
     work->chunk_failed[chunk] = first + failed;
     if (status == MOR_OK) {
         mor_elastic_job own = *job;
         own.piola = piola;
-        work->chunk_values[2 * chunk + 1] =
+        work->chunk_power[chunk] =
             work->table->stress[index_of_dimension(elastic)](&own, chunk * MOR_ELASTIC_CHUNK, last);
     }
 }
@@ -106,13 +99,14 @@ static void find_chunk_stress(const mor_elastic *elastic, const mor_elastic_job 
 #define PARTICLE_NAMES(group, i)                                                                                       \
     (long long)(group)->set.id[i], (group)->bodies[(group)->body_of[i]].name, (group)->set.name
 
-static mor_status report_refusal(mor_context *context, const mor_elastic *elastic, int64_t chunk, const mor_step *step)
+static mor_status report_refusal(mor_context *context, const mor_elastic *elastic, const mor_view *view, int64_t chunk,
+                                 const mor_step *step)
 {
     const mor_body_group *group = &elastic->group;
-    const mor_status status = (mor_status)elastic->work->chunk_values[2 * chunk];
+    const mor_status status = elastic->work->chunk_status[chunk];
     const int64_t i = elastic->work->chunk_failed[chunk];
-    const double *x = group->set.data[MOR_FIELD_POSITION] + 3 * i;
-    const double *f = group->set.data[elastic->field_gradient] + 9 * i;
+    const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
+    const double *f = mor_view_quote(view, elastic->field_gradient, i);
     const double determinant = mor_matrix_determinant(f);
     const mor_status told =
         MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
@@ -124,7 +118,7 @@ static mor_status report_refusal(mor_context *context, const mor_elastic *elasti
     return mor_context_name_particle(context, told, group->set.name, group->set.id[i]);
 }
 
-mor_status mor_elastic_find_stress(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_elastic_find_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_elastic *elastic = owner;
     mor_elastic_work *work = elastic->work;
@@ -132,26 +126,35 @@ mor_status mor_elastic_find_stress(mor_context *context, void *owner, const mor_
     const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
     mor_elastic_job job = mor_elastic_job_of(elastic, step->length);
     /* Cauchy stress is for people; they look between common steps. */
-    job.stress = step->part + 1 >= step->n_parts ? elastic->group.set.data[MOR_FIELD_STRESS] : NULL;
+    job.stress = step->part + 1 >= step->n_parts ? mor_view_write(view, MOR_FIELD_STRESS) : NULL;
+    job.position = mor_view_read(view, MOR_FIELD_POSITION);
+    job.gradient = mor_view_write(view, elastic->field_gradient);
+    job.rate = mor_view_read(view, elastic->field_rate);
+    job.work = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, work);
+    double *state[MOR_MATERIAL_STATES_MAX];
+    mor_view_write_state(view, work->state_fields, elastic->material->n_state, state);
     MOR_PARALLEL_FOR (&team, chunk, n_chunks, 2) {
-        find_chunk_stress(elastic, &job, chunk);
+        find_chunk_stress(elastic, &job, state, chunk);
     }
     double power = 0.0;
     for (int64_t chunk = 0; chunk < n_chunks; ++chunk) {
-        if (work->chunk_values[2 * chunk] != (double)MOR_OK) {
-            return report_refusal(context, elastic, chunk, step);
+        if (work->chunk_status[chunk] != MOR_OK) {
+            return report_refusal(context, elastic, view, chunk, step);
         }
-        power += work->chunk_values[2 * chunk + 1];
+        power += work->chunk_power[chunk];
     }
-    elastic->damped_energy += step->length * power;
+    double *damped_energy = mor_view_write_shared(view, MOR_RESOURCE_ENERGY_SUMS, &elastic->damped_energy);
+    *damped_energy += step->length * power;
     return MOR_OK;
 }
 
-mor_status mor_elastic_sum_forces(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_elastic_sum_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     const mor_elastic *elastic = owner;
     const mor_elastic_loop forces = elastic->work->table->forces[index_of_dimension(elastic)];
-    const mor_elastic_job job = mor_elastic_job_of(elastic, step->length);
+    mor_elastic_job job = mor_elastic_job_of(elastic, step->length);
+    job.work = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, elastic->work);
+    job.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
     MOR_PARALLEL_FOR (&team, chunk, count_chunks(elastic->work), 2) {
         forces(&job, chunk * MOR_ELASTIC_CHUNK, end_of_chunk(elastic->work, chunk));
@@ -162,27 +165,35 @@ mor_status mor_elastic_sum_forces(mor_context *context, void *owner, const mor_s
 /* Values of a piece after the kick. */
 enum { KICK_SPEED = 0, KICK_STRENGTH = 1, KICK_SOIL = 2, KICK_CONTACT = 5 };
 
+/* What the kick of a piece needs. */
+typedef struct kick {
+    const double *mass;
+    double *velocity;
+    double *acceleration;
+    double gravity[3];
+    double length; /* of the sub-step, s */
+} kick;
+
 /* Largest squared speed and acceleration of a piece, where a value that is not a number wins; forces from outside. */
-static void kick_piece(const mor_elastic *elastic, const mor_body_piece *piece, const double *gravity, double length,
-                       double *values)
+static void kick_piece(const mor_elastic *elastic, const kick *job, const mor_body_piece *piece, double *values)
 {
     const mor_body_group *group = &elastic->group;
     const double damping = group->damping;
-    const double inverse_mass = 1.0 / group->set.data[MOR_FIELD_MASS][piece->first];
+    const double inverse_mass = 1.0 / job->mass[piece->first];
     double sums[8] = {0.0};
     for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
-        double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
-        double *a = group->set.data[MOR_FIELD_ACCELERATION] + 3 * i;
+        double *v = job->velocity + 3 * i;
+        double *a = job->acceleration + 3 * i;
         for (int k = 0; k < 3; ++k) {
             const double soil = group->boundary.force[3 * i + k];
             const double contact = group->contact_force[3 * i + k];
             sums[KICK_SOIL + k] += soil;
             sums[KICK_CONTACT + k] += contact;
-            a[k] += inverse_mass * (soil + contact) + gravity[k] - damping * v[k];
+            a[k] += inverse_mass * (soil + contact) + job->gravity[k] - damping * v[k];
             if (elastic->held[i]) {
                 a[k] = 0.0;
             }
-            v[k] += length * a[k];
+            v[k] += job->length * a[k];
         }
         const double speed2 = mor_vector_dot(v, v);
         const double strength2 = mor_vector_dot(a, a);
@@ -195,13 +206,14 @@ static void kick_piece(const mor_elastic *elastic, const mor_body_piece *piece, 
 }
 
 /* Names the first particle that is not a number or faster than sound, where the method has lost its ground. */
-static mor_status report_runaway(mor_context *context, const mor_elastic *elastic, const mor_step *step)
+static mor_status report_runaway(mor_context *context, const mor_elastic *elastic, const mor_view *view,
+                                 const mor_step *step)
 {
     const mor_body_group *group = &elastic->group;
     for (int64_t i = 0; i < group->set.n_particles; ++i) {
-        const double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+        const double *v = mor_view_quote(view, MOR_FIELD_VELOCITY, i);
         if (!(mor_vector_length(v) < elastic->sound_speed)) {
-            const double *x = group->set.data[MOR_FIELD_POSITION] + 3 * i;
+            const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
             const mor_status status =
                 MOR_FAIL(context, MOR_ERROR_NUMERIC,
                          PARTICLE " has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, t = %.6g s, step "
@@ -237,30 +249,35 @@ static void finish_kick(mor_elastic *elastic, double length)
     elastic->largest_acceleration = sqrt(strongest);
 }
 
-mor_status mor_elastic_kick(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_elastic_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
-    mor_elastic *elastic = owner;
+    mor_elastic *elastic = mor_view_write_shared(view, MOR_RESOURCE_BODIES, owner);
     mor_body_group *group = &elastic->group;
     const double middle = step->time + 0.5 * step->length;
     const double part = group->gravity_ramp > 0.0 && middle < group->gravity_ramp ? middle / group->gravity_ramp : 1.0;
-    const double gravity[3] = {part * group->gravity[0], part * group->gravity[1], part * group->gravity[2]};
+    const kick job = {mor_view_read(view, MOR_FIELD_MASS),
+                      mor_view_write(view, MOR_FIELD_VELOCITY),
+                      mor_view_write(view, MOR_FIELD_ACCELERATION),
+                      {part * group->gravity[0], part * group->gravity[1], part * group->gravity[2]},
+                      step->length};
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
-        kick_piece(elastic, &group->pieces[p], gravity, step->length, group->piece_values + p * MOR_BODY_PIECE_VALUES);
+        kick_piece(elastic, &job, &group->pieces[p], group->piece_values + p * MOR_BODY_PIECE_VALUES);
     }
+    mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &elastic->largest_speed);
     finish_kick(elastic, step->length);
     if (!(elastic->largest_speed < elastic->sound_speed) || !isfinite(elastic->largest_acceleration)) {
-        return report_runaway(context, elastic, step);
+        return report_runaway(context, elastic, view, step);
     }
-    mor_elastic_pack_velocities(context, elastic);
+    mor_elastic_pack_velocities(context, elastic, view);
     return MOR_OK;
 }
 
-void mor_elastic_pack_velocities(mor_context *context, mor_elastic *elastic)
+void mor_elastic_pack_velocities(mor_context *context, mor_elastic *elastic, mor_view *view)
 {
-    mor_elastic_work *work = elastic->work;
+    const mor_elastic_work *work = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, elastic->work);
     const int d = elastic->group.dimension;
-    const double *velocity = elastic->group.set.data[MOR_FIELD_VELOCITY];
+    const double *velocity = mor_view_read(view, MOR_FIELD_VELOCITY);
     const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
     MOR_PARALLEL_FOR (&team, chunk, (work->n_clusters + MOR_BLOCK - 1) / MOR_BLOCK, 1) {
         const int64_t last = mor_block_end(chunk, work->n_clusters);
@@ -276,12 +293,17 @@ void mor_elastic_pack_velocities(mor_context *context, mor_elastic *elastic)
     }
 }
 
-mor_status mor_elastic_find_rate(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_elastic_find_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     const mor_elastic *elastic = owner;
     const mor_elastic_table *table = elastic->work->table;
     const mor_elastic_loop rate = table->rate[index_of_dimension(elastic)];
-    const mor_elastic_job job = mor_elastic_job_of(elastic, step != NULL ? step->length : 0.0);
+    mor_elastic_job job = mor_elastic_job_of(elastic, step != NULL ? step->length : 0.0);
+    job.work = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, elastic->work);
+    job.rate_out = mor_view_write(view, elastic->field_rate);
+    job.rate = job.rate_out;
+    job.gradient = mor_view_write(view, elastic->field_gradient);
+    job.density = mor_view_write(view, MOR_FIELD_DENSITY);
     const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
     MOR_PARALLEL_FOR (&team, chunk, count_chunks(elastic->work), 2) {
         const int64_t first = chunk * MOR_ELASTIC_CHUNK;
@@ -302,10 +324,10 @@ static bool is_inside(const mor_body_group *group, const double *x)
     return mor_domain_holds(group->domain_minimum, group->domain_maximum, 3, local);
 }
 
-static mor_status check_domain(mor_context *context, const mor_elastic *elastic, const mor_step *step)
+static mor_status check_domain(mor_context *context, const mor_elastic *elastic, mor_view *view, const mor_step *step)
 {
     const mor_body_group *group = &elastic->group;
-    const double *position = group->set.data[MOR_FIELD_POSITION];
+    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
@@ -335,10 +357,10 @@ static mor_status check_domain(mor_context *context, const mor_elastic *elastic,
     return MOR_OK;
 }
 
-mor_status mor_elastic_drift_second(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_elastic_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     const mor_elastic *elastic = owner;
     elastic->work->is_energy_known = false;
-    drift(context, elastic, 0.5 * step->length);
-    return check_domain(context, elastic, step);
+    drift(context, elastic, view, 0.5 * step->length);
+    return check_domain(context, elastic, view, step);
 }

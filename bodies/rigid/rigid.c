@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define BIT(name) MOR_BIT(MOR_FIELD_##name)
+#define BODIES MOR_BIT(MOR_RESOURCE_BODIES)
 
 /* Share of a spring's period that a step takes unless the case says otherwise, and how far a point of a body may move
  * in a step, in spacings. */
@@ -18,10 +19,10 @@
 enum { ALL_LOCKED = 0x3f };
 
 static const mor_stage rigid_stages[] = {
-    {"first drift", mor_rigid_drift_first, 0, 0, 0, "bodies to the middle of the step"},
-    {"kick", mor_rigid_kick, 0, 0, 0, "momentum and angular momentum to the end of the step"},
-    {"second drift", mor_rigid_drift_second, 0, BIT(POSITION) | BIT(VELOCITY), 0,
-     "bodies to the end of the step; their particles at the end of a common one"},
+    {"first drift", mor_rigid_drift_first, 0, 0, BODIES, "bodies to the middle of the step", NULL},
+    {"kick", mor_rigid_kick, 0, 0, BODIES, "momentum and angular momentum to the end of the step", NULL},
+    {"second drift", mor_rigid_drift_second, 0, 0, BODIES | BIT(POSITION) | BIT(VELOCITY),
+     "bodies to the end of the step; their particles at the end of a common one", NULL},
 };
 
 /* Motion at the start. Angular momenta about locked axes mean nothing and are zero. */
@@ -131,7 +132,8 @@ static double find_speed(const mor_rigid *rigid, int b)
 static void follow_states(mor_context *context, mor_rigid *rigid)
 {
     mor_body_group *group = &rigid->group;
-    mor_rigid_place(context, rigid);
+    mor_view view = mor_view_open(&group->set, NULL);
+    mor_rigid_place(context, rigid, &view);
     for (int64_t i = 0; i < group->set.n_particles; ++i) {
         double *record = group->boundary.records + i * MOR_BOUNDARY_RECORD;
         memcpy(record + MOR_BOUNDARY_POSITION, group->set.data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof *record);
@@ -264,8 +266,9 @@ void mor_rigid_stepper(mor_rigid *rigid, mor_stepper *stepper, uint64_t *evolvin
                              .n_stages = sizeof rigid_stages / sizeof *rigid_stages,
                              .n_before = 1,
                              .n_particles = rigid->group.set.n_particles,
-                             .is_leader = false};
-    *evolving = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY);
+                             .is_leader = false,
+                             .set = &rigid->group.set};
+    *evolving = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BODIES;
 }
 
 double mor_rigid_energy(const mor_rigid *rigid, int body, double *momentum, double *angular_momentum)

@@ -4,6 +4,7 @@
 #define MOR_BODIES_RIGID_RIGID_INTERNAL_H
 
 #include "bodies/rigid/rigid.h"
+#include "core/time/view.h"
 
 /** @file
  *  What the files of the rigid solver share: constants of a body and its rotation. docs/theory/rigid.md. */
@@ -65,7 +66,7 @@ void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const doub
 void mor_rigid_rotate(const mor_rigid_constants *constants, double length, mor_rigid_state *state);
 
 /** Puts bodies and particles where the states say. */
-void mor_rigid_place(mor_context *context, mor_rigid *rigid);
+void mor_rigid_place(mor_context *context, mor_rigid *rigid, mor_view *view);
 
 /** Spring of a body as it is now.
  *  @param body      [in]   index of the body; it has a spring
@@ -76,8 +77,8 @@ void mor_rigid_place(mor_context *context, mor_rigid *rigid);
 double mor_rigid_spring(const mor_rigid *rigid, int body, double *arm, double *direction, double *flexion);
 
 /** Stages of a step; see mor_stage. */
-mor_status mor_rigid_drift_first(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_rigid_kick(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_rigid_drift_second(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_rigid_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_rigid_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_rigid_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 
 #endif

@@ -32,9 +32,8 @@ static bool is_well_inside(const mor_body_group *group, const mor_body *body, do
 }
 
 /* First particle of a piece outside the domain, or -1. */
-static double find_stray(const mor_body_group *group, const mor_body_piece *piece)
+static double find_stray(const mor_body_group *group, const mor_body_piece *piece, const double *position)
 {
-    const double *position = group->set.data[MOR_FIELD_POSITION];
     for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
         if (!is_in_domain(group, position + 3 * i)) {
             return (double)i;
@@ -44,11 +43,10 @@ static double find_stray(const mor_body_group *group, const mor_body_piece *piec
 }
 
 /* Particles of a piece follow their body. */
-static void place_piece(const mor_body_group *group, const mor_body_piece *piece)
+static void place_piece(const mor_body_group *group, const mor_body_piece *piece, double *restrict position,
+                        double *restrict velocity)
 {
     const mor_body *body = &group->bodies[piece->body];
-    double *restrict position = group->set.data[MOR_FIELD_POSITION];
-    double *restrict velocity = group->set.data[MOR_FIELD_VELOCITY];
     for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
         double *x = position + 3 * i;
         double *v = velocity + 3 * i;
@@ -89,17 +87,19 @@ static void place_bodies(mor_rigid *rigid)
     }
 }
 
-void mor_rigid_place(mor_context *context, mor_rigid *rigid)
+void mor_rigid_place(mor_context *context, mor_rigid *rigid, mor_view *view)
 {
     const mor_body_group *group = &rigid->group;
+    double *position = mor_view_write(view, MOR_FIELD_POSITION);
+    double *velocity = mor_view_write(view, MOR_FIELD_VELOCITY);
     place_bodies(rigid);
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
         const double radius = rigid->work->constants[piece->body].outermost;
-        place_piece(group, piece);
+        place_piece(group, piece, position, velocity);
         group->piece_values[p * MOR_BODY_PIECE_VALUES + STRAY] =
-            is_well_inside(group, &group->bodies[piece->body], radius) ? -1.0 : find_stray(group, piece);
+            is_well_inside(group, &group->bodies[piece->body], radius) ? -1.0 : find_stray(group, piece, position);
     }
 }
 
@@ -135,19 +135,20 @@ static void drift_half(mor_rigid *rigid, double half_step, double time)
     }
 }
 
-mor_status mor_rigid_drift_first(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_rigid_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
-    mor_rigid *rigid = owner;
+    mor_rigid *rigid = mor_view_write_shared(view, MOR_RESOURCE_BODIES, owner);
     (void)context;
     drift_half(rigid, 0.5 * step->length, step->time + 0.5 * step->length);
     place_bodies(rigid);
     return MOR_OK;
 }
 
-static mor_status report_stray(mor_context *context, const mor_rigid *rigid, int64_t particle, const mor_step *step)
+static mor_status report_stray(mor_context *context, const mor_rigid *rigid, const mor_view *view, int64_t particle,
+                               const mor_step *step)
 {
     const mor_body_group *group = &rigid->group;
-    const double *x = group->set.data[MOR_FIELD_POSITION] + 3 * particle;
+    const double *x = mor_view_quote(view, MOR_FIELD_POSITION, particle);
     const mor_body *body = &group->bodies[group->body_of[particle]];
     const double time = step->time + step->length;
     MOR_CHECK(context, isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), MOR_ERROR_NUMERIC,
@@ -182,20 +183,20 @@ static mor_status report_stray(mor_context *context, const mor_rigid *rigid, int
     return mor_context_name_particle(context, status, group->set.name, group->set.id[particle]);
 }
 
-mor_status mor_rigid_drift_second(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_rigid_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
-    mor_rigid *rigid = owner;
+    mor_rigid *rigid = mor_view_write_shared(view, MOR_RESOURCE_BODIES, owner);
     const mor_body_group *group = &rigid->group;
     drift_half(rigid, 0.5 * step->length, step->time + step->length);
     if (step->part + 1 < step->n_parts) {
         place_bodies(rigid); /* nobody looks at particles before the end of the common step */
         return MOR_OK;
     }
-    mor_rigid_place(context, rigid);
+    mor_rigid_place(context, rigid, view);
     for (int64_t p = 0; p < group->n_pieces; ++p) {
         const double stray = group->piece_values[p * MOR_BODY_PIECE_VALUES + STRAY];
         if (stray >= 0.0) {
-            return report_stray(context, rigid, (int64_t)stray, step);
+            return report_stray(context, rigid, view, (int64_t)stray, step);
         }
     }
     return MOR_OK;
@@ -334,9 +335,9 @@ static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
     }
 }
 
-mor_status mor_rigid_kick(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_rigid_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
-    mor_rigid *rigid = owner;
+    mor_rigid *rigid = mor_view_write_shared(view, MOR_RESOURCE_BODIES, owner);
     (void)context;
     if (step->part == 0 && !rigid->group.is_unseen) {
         hold_soil_forces(rigid);

@@ -14,6 +14,7 @@ void mor_context_init(mor_context *context)
     context->particle = -1;
     context->n_threads = 1;
     context->seed = 1;
+    context->is_checked = MOR_CHECKED != 0;
 }
 
 void mor_context_clear_error(mor_context *context)

@@ -5,6 +5,7 @@
 
 #include "core/base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -43,6 +44,7 @@ typedef struct mor_context {
     void *log_user;                            /* passed to log_sink; owned by the installer */
     int n_threads;                             /* threads a parallel loop uses, >= 1 */
     uint64_t seed;                             /* seed of all counter-based random numbers */
+    bool is_checked;                           /* the run proves what stages and materials declare; slow */
     size_t memory_bytes;                       /* bytes now held by mor_memory_new */
     size_t memory_peak_bytes;                  /* largest memory_bytes so far */
     uint64_t n_allocations;                    /* number of successful mor_memory_new so far */

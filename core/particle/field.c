@@ -3,8 +3,7 @@
 #include "core/particle/field.h"
 
 static const mor_field_info core_fields[] = {
-#define FIELD(identifier, name, components, unit, writer, flags, text)                                                 \
-    {name, components, unit, writer, flags, text},
+#define FIELD(identifier, name, components, unit, flags, text) {name, components, unit, flags, text},
 #include "core/particle/fields_core.def"
 #undef FIELD
 };

@@ -6,18 +6,20 @@
 #include <stdint.h>
 
 /** @file
- *  What a particle field is: name, components, unit, who writes it, flags, text. The built-in ones stand in
- *  fields_core.def; materials and bodies declare more when a set is made. */
+ *  What a particle field is: name, components, unit, flags, text. Who writes it follows from the stages
+ *  (core/time/stage.h). The built-in ones stand in fields_core.def; materials and bodies declare more when a set is
+ *  made. */
 
 enum {
     MOR_FIELD_EVOLVES = 1, /* state: permuted by the sort, saved in checkpoints, part of the checksum */
     MOR_FIELD_OUTPUT = 2,  /* written to snapshots */
-    MOR_FIELD_SCRATCH = 4  /* recomputed in each step before it is read */
+    MOR_FIELD_SCRATCH = 4, /* recomputed in each step before it is read */
+    MOR_FIELD_STATE = 8    /* state variable of the material */
 };
 
 /** Built-in fields, in the order of fields_core.def. */
 typedef enum mor_field_id {
-#define FIELD(identifier, name, components, unit, writer, flags, text) MOR_FIELD_##identifier,
+#define FIELD(identifier, name, components, unit, flags, text) MOR_FIELD_##identifier,
 #include "core/particle/fields_core.def"
 #undef FIELD
     MOR_FIELD_CORE_COUNT
@@ -30,8 +32,7 @@ typedef struct mor_field_info {
     char name[MOR_FIELD_NAME_BYTES]; /* unique in a set */
     int n_components;                /* numbers per particle, 1 to 9 */
     const char *unit;                /* SI unit, "1" for dimensionless */
-    const char *writer;              /* the stage that writes it */
-    unsigned flags;                  /* MOR_FIELD_EVOLVES, _OUTPUT, _SCRATCH */
+    unsigned flags;                  /* MOR_FIELD_EVOLVES, _OUTPUT, _SCRATCH, _STATE */
     const char *text;                /* one line for people */
 } mor_field_info;
 

@@ -74,8 +74,7 @@ mor_status mor_set_add_state(mor_context *context, mor_set *set, const mor_schem
     for (int k = 0; k < n_state; ++k) {
         mor_field_info info = {.n_components = state[k].n_components,
                                .unit = state[k].unit,
-                               .writer = "stress",
-                               .flags = MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT,
+                               .flags = MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT | MOR_FIELD_STATE,
                                .text = state[k].text};
         snprintf(info.name, sizeof info.name, "%s", state[k].key);
         MOR_TRY(context, mor_set_add_field(context, set, &info, &fields[k]));

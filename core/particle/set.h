@@ -45,7 +45,7 @@ void mor_set_clear(mor_context *context, mor_set *set);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when the name is taken or the table is full; MOR_ERROR_MEMORY. */
 mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field_info *info, int *index);
 
-/** Adds the state of a material as fields that evolve, are written by the stage "stress" and come out.
+/** Adds the state of a material as fields that evolve and come out.
  *  @param state   [in]      shape [n_state]
  *  @param n_state [in]      number of variables
  *  @param fields  [out]     shape [n_state]; indices of the fields in set->data

@@ -22,50 +22,51 @@
 /* One step, Zhang et al. (2024) eqs. 54-56: positions to the middle, forces there, velocity, positions, stress. */
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
-     "positions and densities to the middle of the step"},
+     "positions and densities to the middle of the step", NULL},
     {"neighbors", mor_soil_find_neighbors, BIT(POSITION), LISTS, 0,
-     "sort at an interval; lists when the skin is used up"},
+     "sort at an interval; lists when the skin is used up", NULL},
     {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), RECORDS, 0,
-     "one record per particle for the pair loops"},
-    {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over walls and rocks in reach"},
+     "one record per particle for the pair loops", NULL},
+    {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over walls and rocks in reach", NULL},
     {"density", mor_soil_reinitialize_density, RECORDS | LISTS | WALL_SUMS | BIT(MASS), 0,
-     BIT(DENSITY) | BIT(DENSITY_RATE) | RECORDS, "density by summation at an interval"},
+     BIT(DENSITY) | BIT(DENSITY_RATE) | RECORDS, "density by summation at an interval", NULL},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
-     "against tensile instability, when switched on"},
+     "against tensile instability, when switched on", NULL},
     {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
-     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHORT_LISTS, 0, "acceleration and stress diffusion by the neighbors"},
+     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHORT_LISTS, 0, "acceleration and stress diffusion by the neighbors",
+     NULL},
     {"angular momentum", mor_soil_keep_angular_momentum, RECORDS | LISTS | SHORT_LISTS, 0, BIT(ACCELERATION),
-     "takes out what turns the soil by itself, when switched on"},
+     "takes out what turns the soil by itself, when switched on", NULL},
     {"wall push", mor_soil_sum_boundary_forces, RECORDS | SHORT_LISTS | WALL_SUMS, 0, BIT(ACCELERATION),
-     "acceleration by walls and rocks, and the forces on them"},
-    {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step"},
+     "acceleration by walls and rocks, and the forces on them", NULL},
+    {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step", NULL},
     {"velocity gradient", mor_soil_sum_gradient, RECORDS | SHORT_LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
-     "velocity gradient and density rate by the neighbors"},
+     "velocity gradient and density rate by the neighbors", NULL},
     {"wall drag", mor_soil_sum_boundary_gradient, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
-     "the part of walls and rocks in both"},
+     "the part of walls and rocks in both", NULL},
     {"energy of forces", mor_soil_audit_forces,
      RECORDS | LISTS | WALL_SUMS | BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) |
          BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS),
-     0, 0, "what forces take beside what stress gets, at an interval, when a probe asks"},
+     0, 0, "what forces take beside what stress gets, at an interval, when a probe asks", NULL},
     {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS | WALL_SUMS, 0,
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on"},
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on", NULL},
     {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), 0, BIT(STRAIN_RATE),
-     "kept for the next step's reconstruction, when switched on"},
+     "kept for the next step's reconstruction, when switched on", NULL},
     {"regularization", mor_soil_regularize, RECORDS | SHORT_LISTS | BIT(VELOCITY_GRADIENT), 0,
-     BIT(POSITION) | BIT(VELOCITY), "XSPH and shifting, when switched on"},
+     BIT(POSITION) | BIT(VELOCITY), "XSPH and shifting, when switched on", NULL},
     {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
-     "positions and densities to the end of the step"},
+     "positions and densities to the end of the step", NULL},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0, BIT(STRESS),
-     "the material's update"},
+     "the material's update", NULL},
     {"energy of stress", mor_soil_audit_stress,
      RECORDS | BIT(VELOCITY) | BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS), 0, 0,
-     "what the stress update takes, likewise"},
+     "what the stress update takes, likewise", NULL},
     {"outflow", mor_soil_remove_outflow, BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS), 0, 0,
-     "takes out what has left the domain, when that does not stop the run"},
+     "takes out what has left the domain, when that does not stop the run", NULL},
 };
 
-static const uint64_t evolving_fields =
-    BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE);
+static const uint64_t evolving_fields = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
+                                        BIT(STRESS) | BIT(STRAIN_RATE) | MOR_BIT(MOR_RESOURCE_STATE);
 
 /* Sums over the lattice the soil starts from: of V W, and of V (r_j - r_i) (x) grad_i W, one diagonal entry. */
 static void sum_lattice(const mor_soil_settings *settings, double smoothing_length, double *value, double *moment)
@@ -344,7 +345,8 @@ void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
                              .n_stages = n_stages,
                              .n_before = n_stages,
                              .n_particles = soil->set.n_particles,
-                             .is_leader = true};
+                             .is_leader = true,
+                             .set = &soil->set};
     /* Forces on walls and rocks are known once the walls have pushed. */
     for (int k = 0; k < n_stages; ++k) {
         stepper->n_before = soil_stages[k].run == mor_soil_sum_boundary_forces ? k + 1 : stepper->n_before;

@@ -212,9 +212,10 @@ mor_status mor_soil_list_energy(mor_context *context, mor_soil *soil, mor_state_
     return mor_state_add(context, list, own, "next", MOR_STATE_INT64, 1, &energy->next);
 }
 
-mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     if (mor_soil_energy_is_due(soil, step)) {
         mor_soil_energy_add(context, soil, find_stress_block, step);
         integrate(soil->energy, step);

@@ -206,9 +206,10 @@ static void audit_pairs(mor_context *context, mor_soil *soil, const mor_step *st
     }
 }
 
-mor_status mor_soil_audit_forces(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     if (!mor_soil_energy_is_due(soil, step)) {
         return MOR_OK;
     }

@@ -29,9 +29,10 @@ static void run_loop(mor_context *context, const mor_soil *soil, mor_pair_loop l
     mor_soil_run_pairs(context, &soil->constants, &arrays, loop);
 }
 
-mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact_sum(context, mor_soil_contact_at(soil, k), soil->table, &soil->constants, soil->records);
@@ -75,9 +76,10 @@ static void find_artificial(const double *stress, double factor, double *artific
     }
 }
 
-mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     if (!soil->settings.scheme.artificial_stress) {
         return MOR_OK;
@@ -90,9 +92,10 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, co
     return MOR_OK;
 }
 
-mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     const mor_soil_settings *s = &soil->settings;
     const double part = mor_soil_gravity_part(soil, step);
     const double weight = part * s->reference_density * mor_vector_length(s->gravity);
@@ -107,9 +110,10 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_st
     return MOR_OK;
 }
 
-mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
@@ -122,17 +126,19 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, const
     return MOR_OK;
 }
 
-mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     run_loop(context, soil, soil->table->gradient[soil->settings.dimension - 2]);
     return MOR_OK;
 }
 
-mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
@@ -230,9 +236,10 @@ static mor_status report_stress(mor_context *context, const mor_soil *soil, cons
     return mor_context_name_particle(context, told, soil->set.name, soil->set.id[i]);
 }
 
-mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     const int64_t n_batches = (soil->set.n_particles + BATCH - 1) / BATCH;
     MOR_PARALLEL_FOR (context, k, n_batches, 4) {
         soil->block_values[k] = advance_batch(soil, k * BATCH, step->length, NULL);

@@ -9,26 +9,26 @@
  *  What the files of the soil solver share among themselves. Not for others. */
 
 /** Stages of a step; owner is one mor_soil. Each returns MOR_OK or what went wrong. */
-mor_status mor_soil_drift_first(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_find_neighbors(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_pack(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_sum_walls(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_sum_momentum(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_sum_gradient(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_advance_stress(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_audit_forces(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_audit_stress(mor_context *context, void *owner, const mor_step *step);
-mor_status mor_soil_remove_outflow(mor_context *context, void *owner, const mor_step *step);
+mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 
 /** Looks for particles outside the domain, with a position that is not a number, or without density.
  *  @param soil    [in,out]  is told whether particles are to be removed

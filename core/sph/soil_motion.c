@@ -49,9 +49,10 @@ static void drift_half(mor_context *context, mor_soil *soil, double half_step)
     soil->drift += half_step * soil->largest_speed;
 }
 
-mor_status mor_soil_drift_first(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     drift_half(context, soil, 0.5 * step->length);
     const double middle = step->time + 0.5 * step->length;
     for (int w = 0; w < soil->n_walls; ++w) {
@@ -66,9 +67,10 @@ mor_status mor_soil_drift_first(mor_context *context, void *owner, const mor_ste
     return MOR_OK;
 }
 
-mor_status mor_soil_drift_second(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     drift_half(context, soil, 0.5 * step->length);
     return mor_soil_check_domain(context, soil, step);
 }
@@ -96,9 +98,10 @@ static mor_status build_lists(mor_context *context, mor_soil *soil)
     return MOR_OK;
 }
 
-mor_status mor_soil_find_neighbors(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     if (step->number > 0 && step->number % (uint64_t)soil->settings.scheme.sort_interval == 0) {
         mor_soil_sort(soil);
     }
@@ -133,9 +136,10 @@ static mor_status pack_range(const mor_soil *soil, int64_t first, int64_t last)
     return status;
 }
 
-mor_status mor_soil_pack(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     const int64_t n = soil->set.n_particles;
     MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 4) {
         const int64_t last = (chunk + 1) * GRAIN;
@@ -226,9 +230,10 @@ static void give_impulse(mor_boundary *boundary, double length)
     }
 }
 
-mor_status mor_soil_kick(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     const int64_t n_blocks = mor_block_count(soil->set.n_particles);
     set_gravity(soil, step);
     MOR_PARALLEL_FOR (context, block, n_blocks, 1) {

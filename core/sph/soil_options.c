@@ -63,9 +63,10 @@ static void keep_density(mor_soil *soil, int64_t i, const double *sums)
 
 /* Density by summation over soil and walls, in units of the lattice's own sum. Where the sum falls short of the
  * particle's density there is a free surface, and the missing part is taken as being at the reference density. */
-mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     const int interval = soil->settings.scheme.density_reinitialization;
     if (interval == 0 || step->number == 0 || step->number % (uint64_t)interval != 0) {
         return MOR_OK;
@@ -140,9 +141,10 @@ static void correct_particle(mor_soil *soil, int64_t i)
     memcpy(gradient, corrected, sizeof corrected);
 }
 
-mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     if (!soil->settings.scheme.gradient_correction) {
         return MOR_OK;
@@ -155,9 +157,10 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, const mo
     return MOR_OK;
 }
 
-mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     double *kept = soil->set.data[MOR_FIELD_STRAIN_RATE];
     const double *gradient = soil->set.data[MOR_FIELD_VELOCITY_GRADIENT];
@@ -204,9 +207,10 @@ static void find_spin_stress(mor_soil *soil, int64_t i)
     }
 }
 
-mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     (void)step;
     if (!soil->settings.scheme.angular_momentum) {
         return MOR_OK;
@@ -263,9 +267,10 @@ static void regularize_block(mor_soil *soil, int64_t block, double xsph, double 
     soil->block_values[2 * block + 1] = fastest;
 }
 
-mor_status mor_soil_regularize(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     if (soil->regularization == NULL) {
         return MOR_OK;
     }

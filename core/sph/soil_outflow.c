@@ -126,9 +126,10 @@ void mor_soil_fit(mor_soil *soil)
     soil->has_lists = false;
 }
 
-mor_status mor_soil_remove_outflow(mor_context *context, void *owner, const mor_step *step)
+mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
+    (void)view;
     int64_t n_out = 0;
     if (!soil->has_outflow) {
         return MOR_OK;

@@ -50,8 +50,10 @@ mor_status mor_schedule_add(mor_context *context, mor_schedule *schedule, const 
     MOR_CHECK(context, stepper->n_before >= 0 && stepper->n_before <= stepper->n_stages, MOR_ERROR_INTERNAL,
               "stepper '%s' has %d stages and claims %d of them before the exchange", stepper->name, stepper->n_stages,
               stepper->n_before);
-    MOR_TRY(context, mor_stage_verify(context, stepper->stages, stepper->n_stages, evolving));
-    schedule->steppers[schedule->n_steppers++] = *stepper;
+    MOR_TRY(context, mor_stage_verify(context, stepper->stages, stepper->n_stages, evolving, stepper->set));
+    schedule->steppers[schedule->n_steppers] = *stepper;
+    schedule->steppers[schedule->n_steppers].evolving = evolving;
+    schedule->n_steppers += 1;
     return MOR_OK;
 }
 
@@ -160,7 +162,7 @@ static mor_status run_stages(mor_context *context, const mor_stepper *stepper, i
                              const mor_step *step)
 {
     for (int k = first; k < last; ++k) {
-        MOR_TRY(context, stepper->stages[k].run(context, stepper->owner, step));
+        MOR_TRY(context, mor_stepper_run_stage(context, stepper, k, step));
     }
     return MOR_OK;
 }

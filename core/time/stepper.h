@@ -4,7 +4,7 @@
 #define MOR_CORE_TIME_STEPPER_H
 
 #include "core/particle/state.h"
-#include "core/time/stage.h"
+#include "core/time/view.h"
 
 #include <stdbool.h>
 
@@ -28,6 +28,9 @@ typedef struct mor_stepper_operations {
     mor_status (*resume)(mor_context *context, void *owner);
 } mor_stepper_operations;
 
+/** Is shown one shared array: job, MOR_RESOURCE_..., values of any unit or NULL, number of values. */
+typedef void (*mor_shared_visit)(void *job, int resource, double *values, int64_t n_values);
+
 /** One stepper. Borrowed by the schedule; the owner object belongs to whoever made it. */
 typedef struct mor_stepper {
     const char *name;
@@ -39,7 +42,18 @@ typedef struct mor_stepper {
                                                * follower, with its partners (contact) */
     int64_t n_particles; /* for the unit of account, particle-steps */
     bool is_leader;      /* takes the common step; followers take sub-steps within it */
+    mor_set *set;        /* whose fields the stages declare; borrowed; NULL: none */
+    uint64_t evolving;   /* bits that hold valid data when a step begins; mor_schedule_add sets it */
+    /** Of a checked run, NULL: none. Calls visit(job, ...) for each array of numbers that stages hand on beside the
+     *  fields: those of which a stage that declares to write them sets every value. */
+    void (*visit_shared)(void *owner, mor_shared_visit visit, void *job);
 } mor_stepper;
+
+/** Runs one stage of a stepper with its view, or skips it when it is switched off. In a checked run its declaration is
+ *  proved.
+ *  @param index [in]  of the stage
+ *  Returns: what the stage returns; MOR_ERROR_INTERNAL for a breach of its declaration. */
+mor_status mor_stepper_run_stage(mor_context *context, const mor_stepper *stepper, int index, const mor_step *step);
 
 /** What happens among followers in the middle of a sub-step. Borrowed by the schedule. */
 typedef struct mor_exchange {

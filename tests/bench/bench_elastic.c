@@ -37,7 +37,7 @@ static double run_steps(elastic_bodies *it, int n_steps, double *stage_seconds)
         const mor_step step = {.length = length, .number = (uint64_t)n, .n_parts = 2};
         double before = mor_clock_now();
         for (int k = 0; k < stepper->n_stages; ++k) {
-            elastic_require(it, stepper->stages[k].run(&it->context, stepper->owner, &step));
+            elastic_require(it, mor_stepper_run_stage(&it->context, stepper, k, &step));
             const double now = mor_clock_now();
             stage_seconds[k] += now - before;
             before = now;

@@ -36,12 +36,14 @@ typedef struct meter {
     double exchange_seconds;            /* spent in contact, the search for partners included, s */
 } meter;
 
-static inline mor_status meter_run_stage(mor_context *context, void *owner, const mor_step *step)
+static inline mor_status meter_run_stage(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     meter_stepper *it = owner;
     const double start = mor_clock_now();
     const int stage = it->next;
-    const mor_status status = it->plain.stages[stage].run(context, it->plain.owner, step);
+    const mor_stage *plain = &it->plain.stages[stage];
+    const bool is_active = plain->is_active == NULL || plain->is_active(it->plain.owner);
+    const mor_status status = is_active ? plain->run(context, it->plain.owner, view, step) : MOR_OK;
     it->last_seconds[stage] = mor_clock_now() - start;
     it->stage_seconds[stage] += it->last_seconds[stage];
     it->next = (stage + 1) % it->plain.n_stages;
@@ -118,6 +120,7 @@ static inline void meter_attach(meter *it, mor_schedule *schedule)
         for (int k = 0; k < stepper->n_stages; ++k) {
             timed->stages[k] = stepper->stages[k];
             timed->stages[k].run = meter_run_stage;
+            timed->stages[k].is_active = NULL; /* asked with the owner it knows, above */
         }
         stepper->owner = timed;
         stepper->operations = &timed->operations;

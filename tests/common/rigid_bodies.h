@@ -59,8 +59,9 @@ static inline mor_status rigid_propose(mor_context *context, void *owner, double
 }
 
 /** The push of the soil: a force on one point where the leader sees it. */
-static inline mor_status rigid_push(mor_context *context, void *owner, const mor_step *step)
+static inline mor_status rigid_push(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
+    (void)view;
     rigid_scene *it = owner;
     (void)context;
     if (it->pushed >= 0) {
@@ -168,7 +169,7 @@ static inline rigid_scene *rigid_open_in(const rigid_box *boxes, int n, int dime
                                          double common_step, double end, const rigid_units *units)
 {
     static const mor_stepper_operations operations = {.kind = "leader", .propose = rigid_propose};
-    static const mor_stage stages[] = {{"push", rigid_push, 0, 0, 0, "pushes a point"}};
+    static const mor_stage stages[] = {{"push", rigid_push, 0, 0, 0, "pushes a point", NULL}};
     rigid_scene *it = malloc(sizeof *it);
     assert_non_null(it);
     assert_int_equal(rigid_make(it, boxes, n, dimension, spacing, units), MOR_OK);

@@ -205,8 +205,9 @@ static inline void rock_collect(const rock_pile *pile, const rock *it, double *g
 }
 
 /** One sub-step under the force that is held; exact for a constant force. */
-static inline mor_status rock_move(mor_context *context, void *owner, const mor_step *step)
+static inline mor_status rock_move(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
+    (void)view;
     (void)context;
     rock_pile *pile = owner;
     const double dt = step->length;
@@ -266,7 +267,7 @@ static inline mor_stepper rock_stepper(rock_pile *pile)
 {
     static const mor_stepper_operations operations = {
         .kind = "rocks", .propose = rock_propose, .begin = rock_begin, .finish = rock_finish};
-    static const mor_stage stages[] = {{"move", rock_move, 0, 0, 0, "moves the rocks"}};
+    static const mor_stage stages[] = {{"move", rock_move, 0, 0, 0, "moves the rocks", NULL}};
     return (mor_stepper){.name = pile->boundary.name,
                          .operations = &operations,
                          .owner = pile,

@@ -202,8 +202,8 @@ static void test_bodies_of_a_group_do_not_see_one_another(void **state)
     const mor_step step = {.length = 2e-4, .n_parts = 1};
     for (int k = 0; k < 50; ++k) {
         for (int s = 0; s < it.stepper.n_stages; ++s) {
-            elastic_require(&it, it.stepper.stages[s].run(&it.context, it.stepper.owner, &step));
-            elastic_require(&first, first.stepper.stages[s].run(&first.context, first.stepper.owner, &step));
+            elastic_require(&it, mor_stepper_run_stage(&it.context, &it.stepper, s, &step));
+            elastic_require(&first, mor_stepper_run_stage(&first.context, &first.stepper, s, &step));
         }
     }
     const int64_t n = first.elastic.group.set.n_particles;

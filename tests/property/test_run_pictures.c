@@ -34,7 +34,7 @@ static void fill_set(run_folder *folder, mor_set *set, const char *name, double 
 /* The upper half is body 1, the lower half body 0. */
 static void add_bodies(run_folder *folder, mor_set *set)
 {
-    const mor_field_info info = {"body", 1, "1", "set-up", MOR_FIELD_OUTPUT, "number of the body"};
+    const mor_field_info info = {"body", 1, "1", MOR_FIELD_OUTPUT, "number of the body"};
     int index = 0;
     assert_int_equal(mor_set_add_field(&folder->context, set, &info, &index), MOR_OK);
     for (int i = 0; i < N_PARTICLES; ++i) {

@@ -66,7 +66,7 @@ static void make_sample(mor_context *context, sample *state, int64_t n_soil, uin
         1u << MOR_FIELD_POSITION | 1u << MOR_FIELD_STRESS | 1u << MOR_FIELD_MASS | 1u << MOR_FIELD_ACCELERATION;
     assert_int_equal(mor_set_init(context, &state->soil, "soil", n_soil, mask), MOR_OK);
     assert_int_equal(mor_set_init(context, &state->rock, "rock two", N_ROCK, 1u << MOR_FIELD_VELOCITY), MOR_OK);
-    const mor_field_info strain = {"plastic_strain", 1, "1", "material", MOR_FIELD_EVOLVES, "plastic strain"};
+    const mor_field_info strain = {"plastic_strain", 1, "1", MOR_FIELD_EVOLVES, "plastic strain"};
     int index = 0;
     assert_int_equal(mor_set_add_field(context, &state->soil, &strain, &index), MOR_OK);
     assert_int_equal(mor_state_add_set(context, &state->list, &state->soil), MOR_OK);

@@ -87,7 +87,7 @@ static void find_acceleration(elastic_bodies *it)
 {
     const mor_step step = {.n_parts = 1};
     for (int k = 1; k <= 2; ++k) {
-        elastic_require(it, it->stepper.stages[k].run(&it->context, it->stepper.owner, &step));
+        elastic_require(it, mor_stepper_run_stage(&it->context, &it->stepper, k, &step));
     }
 }
 

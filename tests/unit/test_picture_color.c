@@ -60,7 +60,7 @@ static mor_status check_color(mor_context *context, const char *color, const cha
     snprintf(the_case.path, sizeof the_case.path, "scene.cfg");
     snprintf(the_case.output.color_field, sizeof the_case.output.color_field, "%s", color);
     for (int k = 0; k < n_sets; ++k) {
-        mor_field_info info = {"stretch", 1, "1", "stress", MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT, "of the material"};
+        mor_field_info info = {"stretch", 1, "1", MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT, "of the material"};
         if (strcmp(names[k], "soil") == 0) {
             snprintf(info.name, sizeof info.name, "plastic_strain");
         }

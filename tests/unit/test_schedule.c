@@ -29,8 +29,9 @@ static mor_status propose(mor_context *context, void *owner, double *step_length
     return w->proposes == MOR_OK ? MOR_OK : MOR_FAIL(context, w->proposes, "no proposal");
 }
 
-static mor_status take_step(mor_context *context, void *owner, const mor_step *step)
+static mor_status take_step(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
+    (void)view;
     walker *w = owner;
     if (w->runs != MOR_OK) {
         return MOR_FAIL(context, w->runs, "the stage gives up");
@@ -40,16 +41,17 @@ static mor_status take_step(mor_context *context, void *owner, const mor_step *s
     return MOR_OK;
 }
 
-static mor_status see_step(mor_context *context, void *owner, const mor_step *step)
+static mor_status see_step(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
+    (void)view;
     const walker *w = owner;
     (void)context;
     assert_memory_equal(&w->steps[w->n_steps - 1], step, sizeof *step); /* runs after take_step, in the same step */
     return MOR_OK;
 }
 
-static const mor_stage stages[] = {{"take", take_step, 0, 0, 0, "takes a step"},
-                                   {"see", see_step, 0, 0, 0, "comes second"}};
+static const mor_stage stages[] = {{"take", take_step, 0, 0, 0, "takes a step", NULL},
+                                   {"see", see_step, 0, 0, 0, "comes second", NULL}};
 static const mor_stepper_operations operations = {.kind = "walker", .propose = propose};
 
 static void add_walker(mor_context *context, mor_schedule *schedule, walker *w)
@@ -284,7 +286,7 @@ static void stepper_is_checked_before_it_is_added(void **state)
     mor_schedule schedule;
     walker w;
     start(&context, &schedule, &w, 1.0, 0.25);
-    const mor_stage reads[] = {{"reads", take_step, MOR_BIT(3), 0, 0, "reads field 3"}};
+    const mor_stage reads[] = {{"reads", take_step, MOR_BIT(3), 0, 0, "reads field 3", NULL}};
     const mor_stepper stepper = {
         .name = "reader", .operations = &operations, .owner = &w, .stages = reads, .n_stages = 1, .n_particles = 1};
     assert_int_equal(mor_schedule_add(&context, &schedule, &stepper, 0), MOR_ERROR_INTERNAL);

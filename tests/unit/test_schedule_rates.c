@@ -61,8 +61,9 @@ static mor_status crew_finish(mor_context *context, void *owner, const mor_step 
     return write_log(((member *)owner)->crew, 'f', ((member *)owner)->number, step);
 }
 
-static mor_status crew_first(mor_context *context, void *owner, const mor_step *step)
+static mor_status crew_first(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
+    (void)view;
     member *m = owner;
     (void)context;
     /* Sub-steps follow one another without a gap. */
@@ -71,8 +72,9 @@ static mor_status crew_first(mor_context *context, void *owner, const mor_step *
     return write_log(m->crew, '1', m->number, step);
 }
 
-static mor_status crew_second(mor_context *context, void *owner, const mor_step *step)
+static mor_status crew_second(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
+    (void)view;
     (void)context;
     return write_log(((member *)owner)->crew, '2', ((member *)owner)->number, step);
 }
@@ -95,8 +97,8 @@ static mor_status crew_exchange(mor_context *context, void *owner, uint64_t memb
 /* Steppers with n_particles = 10^number; the first n_leaders lead. */
 static crew *crew_open(double end, const double *proposals, int n, int n_leaders)
 {
-    static const mor_stage crew_stages[] = {{"first", crew_first, 0, 0, 0, "before the exchange"},
-                                            {"second", crew_second, 0, 0, 0, "after the exchange"}};
+    static const mor_stage crew_stages[] = {{"first", crew_first, 0, 0, 0, "before the exchange", NULL},
+                                            {"second", crew_second, 0, 0, 0, "after the exchange", NULL}};
     static const mor_stepper_operations crew_operations = {
         .kind = "member", .propose = crew_propose, .begin = crew_begin, .finish = crew_finish};
     crew *c = calloc(1, sizeof *c);

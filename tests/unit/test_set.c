@@ -13,7 +13,6 @@ static mor_field_info state_field(const char *name, int n_components)
 {
     mor_field_info info = {.n_components = n_components,
                            .unit = "1",
-                           .writer = "stress",
                            .flags = MOR_FIELD_EVOLVES | MOR_FIELD_OUTPUT,
                            .text = "a material's state"};
     snprintf(info.name, sizeof info.name, "%s", name);
@@ -94,7 +93,7 @@ static void core_fields_are_described_without_gaps(void **state)
     for (int field = 0; field < MOR_FIELD_CORE_COUNT; ++field) {
         const mor_field_info *info = mor_field_core_info((mor_field_id)field);
         assert_in_range(info->n_components, 1, 9);
-        assert_true(strlen(info->unit) > 0 && strlen(info->writer) > 0 && strlen(info->text) > 0);
+        assert_true(strlen(info->unit) > 0 && strlen(info->text) > 0);
         const bool evolves = (info->flags & MOR_FIELD_EVOLVES) != 0;
         const bool is_scratch = (info->flags & MOR_FIELD_SCRATCH) != 0;
         assert_true(evolves != is_scratch); /* a field is carried over or made anew, never both */

@@ -45,8 +45,8 @@ static void make_sample(mor_context *context, sample *state)
     assert_int_equal(mor_set_init(context, &state->soil, "clay & <sand>", N_SOIL, mask), MOR_OK);
     assert_int_equal(mor_set_init(context, &state->rock, "rock", N_ROCK, mask), MOR_OK);
     assert_int_equal(mor_set_init(context, &state->empty, "empty", 0, mask), MOR_OK);
-    const mor_field_info matrix = {"deformation", 9, "1", "body", MOR_FIELD_OUTPUT, "deformation gradient"};
-    const mor_field_info odd = {"odd", 4, "K", "material", MOR_FIELD_OUTPUT, "four numbers"};
+    const mor_field_info matrix = {"deformation", 9, "1", MOR_FIELD_OUTPUT, "deformation gradient"};
+    const mor_field_info odd = {"odd", 4, "K", MOR_FIELD_OUTPUT, "four numbers"};
     int index = 0;
     assert_int_equal(mor_set_add_field(context, &state->rock, &matrix, &index), MOR_OK);
     assert_int_equal(mor_set_add_field(context, &state->rock, &odd, &index), MOR_OK);
@@ -133,8 +133,9 @@ static void round_trip_keeps_fields_ids_units_and_texts(void **state)
     sample source;
     make_sample(&folder->context, &source);
     for (int is_single = 0; is_single < 2; ++is_single) {
-        assert_int_equal(mor_snapshot_writer_init(&folder->context, &writer, folder->path,
-                                                  is_single ? &in_single : &in_double, -1), MOR_OK);
+        assert_int_equal(
+            mor_snapshot_writer_init(&folder->context, &writer, folder->path, is_single ? &in_single : &in_double, -1),
+            MOR_OK);
         add_step(&folder->context, &writer, &source, 0);
         add_step(&folder->context, &writer, &source, 1234567);
         mor_snapshot_writer_clear(&folder->context, &writer);
@@ -216,12 +217,13 @@ static void index_file_leads_to_every_snapshot(void **state)
     assert_int_equal(mor_hdf5_file_get_text(&folder->context, file, "/step_000003", "time_unit", text, sizeof text),
                      MOR_OK);
     assert_string_equal(text, "s");
-    assert_int_equal(mor_hdf5_file_get_text(&folder->context, file, "/step_000003/rock/stress", "component_names",
-                                            text, sizeof text), MOR_OK);
+    assert_int_equal(mor_hdf5_file_get_text(&folder->context, file, "/step_000003/rock/stress", "component_names", text,
+                                            sizeof text),
+                     MOR_OK);
     assert_string_equal(text, "xx yy zz xy yz zx");
     for (int k = 0; k < 3; ++k) {
-        assert_int_equal(mor_hdf5_file_get_text(&folder->context, file, "/provenance", facts[k].key, text,
-                                                sizeof text), MOR_OK);
+        assert_int_equal(mor_hdf5_file_get_text(&folder->context, file, "/provenance", facts[k].key, text, sizeof text),
+                         MOR_OK);
         assert_string_equal(text, facts[k].value);
     }
     mor_hdf5_file_discard(&folder->context, &file);
@@ -257,7 +259,8 @@ static void description_for_paraview_names_every_array_once(void **state)
     assert_int_equal(count_text(text, "<Time Value=\"0.10000000000000001\"/>"), 2);
     assert_int_equal(count_text(text, "Grid Name=\"clay &amp; &lt;sand&gt;\""), 3);
     assert_int_equal(count_text(text, "Dimensions=\"11 6\">snapshots/step_000002.h5:/step_000002/clay &amp; "
-                                      "&lt;sand&gt;/stress</DataItem>"), 1);
+                                      "&lt;sand&gt;/stress</DataItem>"),
+                     1);
     assert_int_equal(count_text(text, "Name=\"stress\" AttributeType=\"Matrix\""), 4);
     assert_int_equal(count_text(text, "Name=\"velocity\" AttributeType=\"Vector\""), 4);
     assert_int_equal(count_text(text, "Name=\"deformation\" AttributeType=\"Tensor\""), 2);

@@ -29,12 +29,7 @@ static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *s
             fprintf(out, "       %-8s", verbs[verb]);
             for (int bit = 0; bit < 64; ++bit) {
                 if (bits[verb] >> bit & 1u) {
-                    fprintf(out, " %s",
-                            bit < set->n_fields               ? set->fields[bit].name
-                            : bit == MOR_RESOURCE_RECORDS     ? "(records)"
-                            : bit == MOR_RESOURCE_LISTS       ? "(lists)"
-                            : bit == MOR_RESOURCE_SHORT_LISTS ? "(short lists)"
-                                                              : "(wall sums)");
+                    fprintf(out, " %s", mor_stage_bit_name(set, bit));
                 }
             }
             fprintf(out, "\n");

@@ -42,13 +42,27 @@ static mor_status list_probes(mor_context *context, const mor_registry *registry
     return MOR_OK;
 }
 
+/* The stages of soil, which are the same whatever it is made of; only what mor_soil_stepper reads of it is there. */
+static mor_stepper soil_stepper(mor_soil *soil)
+{
+    mor_stepper stepper;
+    uint64_t evolving = 0;
+    *soil = (mor_soil){.set = {.name = "soil"}};
+    mor_soil_stepper(soil, &stepper, &evolving);
+    return stepper;
+}
+
 static mor_status list_fields(mor_context *context, const mor_registry *registry, FILE *out)
 {
+    mor_soil soil;
+    const mor_stepper stepper = soil_stepper(&soil);
     (void)context;
     for (int id = 0; id < MOR_FIELD_CORE_COUNT; ++id) {
         const mor_field_info *info = mor_field_core_info((mor_field_id)id);
+        char writers[256];
+        mor_stage_list_writers(stepper.stages, stepper.n_stages, id, writers, sizeof writers);
         fprintf(out, "%-20s %d x [%s]%s %s; written by '%s'\n", info->name, info->n_components, info->unit,
-                (info->flags & MOR_FIELD_OUTPUT) != 0 ? " in snapshots;" : "", info->text, info->writer);
+                (info->flags & MOR_FIELD_OUTPUT) != 0 ? " in snapshots;" : "", info->text, writers);
     }
     for (int k = 0; k < mor_registry_count(registry); ++k) {
         const mor_material *material = mor_registry_get(registry, k);
@@ -62,12 +76,10 @@ static mor_status list_fields(mor_context *context, const mor_registry *registry
 
 static mor_status list_stages(mor_context *context, const mor_registry *registry, FILE *out)
 {
-    mor_soil soil = {.set = {.name = "soil"}};
-    mor_stepper stepper;
-    uint64_t evolving = 0;
+    mor_soil soil;
+    const mor_stepper stepper = soil_stepper(&soil);
     (void)context;
     (void)registry;
-    mor_soil_stepper(&soil, &stepper, &evolving);
     for (int k = 0; k < stepper.n_stages; ++k) {
         fprintf(out, "%2d %-20s %s\n", k + 1, stepper.stages[k].name, stepper.stages[k].text);
     }

@@ -250,9 +250,9 @@ static const struct {
     mor_field_info field;
     double (*tell)(const filling *it, int64_t i);
 } columns[] = {
-    {2, {"volume", 1, "m2", "relax", MOR_FIELD_OUTPUT, "volume"}, tell_volume},
-    {3, {"volume", 1, "m3", "relax", MOR_FIELD_OUTPUT, "volume"}, tell_volume},
-    {0, {"depth", 1, "m", "relax", MOR_FIELD_OUTPUT, "distance to the surface"}, tell_depth},
+    {2, {"volume", 1, "m2", MOR_FIELD_OUTPUT, "volume"}, tell_volume},
+    {3, {"volume", 1, "m3", MOR_FIELD_OUTPUT, "volume"}, tell_volume},
+    {0, {"depth", 1, "m", MOR_FIELD_OUTPUT, "distance to the surface"}, tell_depth},
 };
 
 static mor_status fill_set(mor_context *context, const filling *it, mor_set *set)

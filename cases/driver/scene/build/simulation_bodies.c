@@ -257,7 +257,6 @@ static mor_status add_body_field(mor_context *context, mor_body_group *group)
     const mor_field_info info = {.name = "body",
                                  .n_components = 1,
                                  .unit = "1",
-                                 .writer = "set-up",
                                  .flags = MOR_FIELD_OUTPUT,
                                  .text = "number of the body in its group"};
     int field = 0;

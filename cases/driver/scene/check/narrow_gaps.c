@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Spacings. Narrower gaps are refused or warned of, thinner walls likewise. */

@@ -5,6 +5,8 @@
 
 #include "cases/driver/scene/simulation.h"
 
+#include <stdio.h>
+
 /** @file
  *  What a scene that can be computed will not do as its author wants. `check`, `explain` and `run` tell the same. */
 
