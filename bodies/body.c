@@ -59,7 +59,7 @@ static mor_status allocate_group(mor_context *context, mor_body_group *group, in
     MOR_TRY(context, MOR_NEW(context, &boundary->records, n_padded * MOR_BOUNDARY_RECORD, "bodies as soil sees them"));
     MOR_TRY(context, MOR_NEW(context, &boundary->patches, group->n_bodies, "bodies as soil sees them"));
     MOR_TRY(context, MOR_NEW(context, &boundary->force, 3 * n, "forces of soil on bodies"));
-    if (group->kind == MOR_BODY_ELASTIC) {
+    if (group->operations->is_deformable) {
         MOR_TRY(context, MOR_NEW(context, &group->contact_force, 3 * n, "contact forces on bodies"));
     }
     return MOR_OK;
@@ -186,14 +186,16 @@ static mor_status fill_group(mor_context *context, mor_body_group *group, const 
     return MOR_OK;
 }
 
-mor_status mor_body_group_init(mor_context *context, mor_body_group *group, const char *name, mor_body_kind kind,
-                               int dimension, double spacing, const mor_body_request *requests, int n_bodies,
-                               uint64_t field_mask)
+mor_status mor_body_group_init(mor_context *context, mor_body_group *group, const char *name,
+                               const mor_body_operations *operations, void *owner, int dimension, double spacing,
+                               const mor_body_request *requests, int n_bodies, uint64_t field_mask)
 {
     memset(group, 0, sizeof *group);
     int64_t n = 0;
     MOR_TRY(context, check_requests(context, name, requests, n_bodies, &n));
-    group->kind = kind;
+    group->operations = operations;
+    group->owner = owner;
+    group->sound_speed = INFINITY;
     group->dimension = dimension;
     group->spacing = spacing;
     group->n_bodies = n_bodies;

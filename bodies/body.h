@@ -8,6 +8,7 @@
 #include "core/particle/boundary.h"
 #include "core/particle/set.h"
 #include "core/particle/state.h"
+#include "core/time/stepper.h"
 
 /** @file
  *  Rocks. A group holds all bodies of one material in one particle set, each body one range of it. The group is plain
@@ -22,11 +23,51 @@ enum {
     MOR_BODY_NODE_PARTICLES = 32 /* particles that carry one surface node, at most */
 };
 
-/** How the bodies of a group move. */
-typedef enum mor_body_kind {
-    MOR_BODY_ELASTIC, /* total-Lagrangian SPH */
-    MOR_BODY_RIGID    /* six degrees of freedom */
-} mor_body_kind;
+struct mor_body_group;
+
+/** How a body is put into motion at the start; all vectors in the frame of the run. Plain data. */
+typedef struct mor_body_start {
+    double velocity[3];         /* of the center of mass, m/s */
+    double angular_velocity[3]; /* about it, rad/s */
+    bool is_resting;            /* nothing moves yet */
+    bool is_held;               /* waits where it is until it is started again: no force moves it */
+    bool is_prescribed;         /* keeps these velocities, whatever pushes it */
+    /** Adds the velocity beyond a rigid motion at a reference position, shape [3], m; NULL: none. Deformable bodies. */
+    void (*add_velocity)(const void *user, const double *reference, double *velocity);
+    /** Whether a reference position, shape [3], m, is in the clamp; NULL: there is none. Deformable bodies. */
+    bool (*is_clamped)(const void *user, const double *reference);
+    const void *user; /* first argument of both */
+} mor_body_start;
+
+/** What a kind of body is and does. One constant table per kind, in the file of its solver; whoever else handles bodies
+ *  goes through it and knows no kind. bodies/README.md says how to add one. */
+typedef struct mor_body_operations {
+    const char *kind; /* for people */
+    /** The surface follows the particles, which carry contact by the weights of the nodes and yield by themselves. Else
+     *  it moves as a whole, forces act on the center, and contact yields by Hertz's law. */
+    bool is_deformable;
+    /** Ends the solver and frees it, the group included; accepts one that was not finished. */
+    void (*destroy)(mor_context *context, struct mor_body_group *group);
+    /** Fills in how it steps: proposal, begin, stages, finish, state, resume; evolving as in mor_schedule_add. */
+    void (*make_stepper)(struct mor_body_group *group, mor_stepper *stepper, uint64_t *evolving);
+    /** Sets the motion of one body. Returns the particles in its clamp. */
+    int64_t (*start)(struct mor_body_group *group, int body, const mor_body_start *start);
+    /** After all bodies of the group were started: makes the rest follow and lets the books begin at zero. */
+    mor_status (*prepare)(mor_context *context, struct mor_body_group *group);
+    /** Momentum and angular momentum about the origin, shape [3] each. Returns the kinetic energy, J (J/m). */
+    double (*momentum)(const struct mor_body_group *group, int body, double *momentum, double *angular_momentum);
+    /** Strain energy of one body, or of all for -1, J (J/m); NULL: it has none. */
+    double (*strain_energy)(const struct mor_body_group *group, int body);
+    /** Energy of the springs that hold one body, J (J/m); NULL: there are none. */
+    double (*spring_energy)(const struct mor_body_group *group, int body);
+    /** Energy that viscous damping took from the group since the start, J (J/m); NULL: it has none. */
+    double (*damped_energy)(const struct mor_body_group *group);
+    /** Energy that a body that moves as prescribed took from contact and weight up to a time, s; J (J/m). NULL: bodies
+     *  of this kind do not. */
+    double (*driven_energy)(const struct mor_body_group *group, int body, double time);
+    /** Writes what else is worth knowing of the group in a few words, zero-terminated; NULL: nothing. */
+    void (*describe)(const struct mor_body_group *group, char *text, size_t room);
+} mor_body_operations;
 
 /** One body. */
 typedef struct mor_body {
@@ -67,17 +108,19 @@ typedef struct mor_body_piece {
 
 enum { MOR_BODY_PIECE_VALUES = 24 };
 
-/** All bodies of one material. Owner: the solver of the group. */
+/** All bodies of one material, or of one kind without. Owner: the solver of the group. */
 typedef struct mor_body_group {
-    mor_body_kind kind;
-    int dimension;     /* 2 (plane strain in x, y) or 3 */
-    double spacing;    /* m */
-    mor_set set;       /* particles in the order (body, cluster); never permuted. Fields in use: POSITION, VELOCITY,
+    const mor_body_operations *operations;
+    void *owner;        /* the solver, which the group is part of */
+    double sound_speed; /* of waves in its bodies, m/s; INFINITY: they do not deform */
+    int dimension;      /* 2 (plane strain in x, y) or 3 */
+    double spacing;     /* m */
+    mor_set set;        /* particles in the order (body, cluster); never permuted. Fields in use: POSITION, VELOCITY,
                             * MASS, DENSITY, and those the solver adds */
-    double *reference; /* shape [n_particles, 3], reference positions, m */
-    double *volume;    /* shape [n_particles], in the reference configuration, m3 (m2); each body's add up to its own */
-    int32_t *body_of;  /* shape [n_particles], index of the body */
-    double *contact_force; /* shape [n_particles, 3]; of contact in this sub-step, N (N/m); NULL for rigid groups */
+    double *reference;  /* shape [n_particles, 3], reference positions, m */
+    double *volume;   /* shape [n_particles], in the reference configuration, m3 (m2); each body's add up to its own */
+    int32_t *body_of; /* shape [n_particles], index of the body */
+    double *contact_force; /* shape [n_particles, 3]; of contact in this sub-step, N (N/m); NULL unless deformable */
     mor_body *bodies;      /* shape [n_bodies] */
     int n_bodies;
     mor_boundary boundary; /* what the soil sees; patch b is body b; boundary.force is the soil's force on particles */
@@ -89,7 +132,7 @@ typedef struct mor_body_group {
     int64_t n_nodes;
     double *node_reference;                      /* shape [n_nodes, 3], on the surface, reference configuration, m */
     double *node_area;                           /* shape [n_nodes], m2 (m); each body's add up to about its surface */
-    int32_t *node_count;                         /* shape [n_nodes], particles in use; 0 for rigid groups */
+    int32_t *node_count;                         /* shape [n_nodes], particles in use; 0 unless deformable */
     int32_t *node_particles;                     /* shape [n_nodes, MOR_BODY_NODE_PARTICLES] */
     double *node_weights;                        /* shape [n_nodes, MOR_BODY_NODE_PARTICLES], 1 */
     double gravity[3];                           /* m/s2 */
@@ -130,16 +173,17 @@ typedef struct mor_body_request {
  *  the true ones, sets the motion at the start (velocity + angular velocity x arm), makes surface nodes.
  *  @param group      [out]     cleared after a failure
  *  @param name       [in]      zero-terminated; of the set and the boundary
- *  @param kind       [in]      how the bodies move
+ *  @param operations [in]      of their kind; borrowed
+ *  @param owner      [in]      the solver that the group is part of; borrowed
  *  @param dimension  [in]      2 or 3
  *  @param spacing    [in]      unit m
  *  @param requests   [in]      shape [n_bodies]
  *  @param n_bodies   [in]      number of bodies, >= 1
  *  @param field_mask [in]      built-in fields beside POSITION, VELOCITY, MASS, DENSITY; see mor_set_init
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body of no particles; MOR_ERROR_MEMORY. */
-mor_status mor_body_group_init(mor_context *context, mor_body_group *group, const char *name, mor_body_kind kind,
-                               int dimension, double spacing, const mor_body_request *requests, int n_bodies,
-                               uint64_t field_mask);
+mor_status mor_body_group_init(mor_context *context, mor_body_group *group, const char *name,
+                               const mor_body_operations *operations, void *owner, int dimension, double spacing,
+                               const mor_body_request *requests, int n_bodies, uint64_t field_mask);
 
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_body_group_clear(mor_context *context, mor_body_group *group);
@@ -169,10 +213,8 @@ mor_status mor_body_group_list_state(mor_context *context, mor_body_group *group
  *  @param body            [in]      index of the body
  *  @param density         [in]      of the soil, unit kg/m3
  *  @param sound_speed     [in]      of the soil, unit m/s
- *  @param own_sound_speed [in]      of an elastic body, unit m/s; INFINITY: rigid
  *  @param locked          [in]      bit a: no motion along axis a; bit 3 + a: no rotation about axis a */
-void mor_body_meet_soil(mor_body_group *group, int body, double density, double sound_speed, double own_sound_speed,
-                        unsigned locked);
+void mor_body_meet_soil(mor_body_group *group, int body, double density, double sound_speed, unsigned locked);
 
 /** Finds an elastic body's motion as a whole from its particles: center, mean velocity, angular velocity (angular
  *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map), rotation angle.
@@ -183,7 +225,7 @@ void mor_body_group_observe(mor_context *context, mor_body_group *group, double 
  *  @param body             [in]   index of the body
  *  @param momentum         [out]  shape [3], unit kg m/s (kg/s)
  *  @param angular_momentum [out]  shape [3], about the origin of coordinates, unit kg m2/s (kg m/s)
- *  Returns: kinetic energy, unit J (J/m). For a rigid body use mor_rigid_energy, which knows the true inertia. */
+ *  Returns: kinetic energy, unit J (J/m). For a body of any kind: its operation `momentum`. */
 double mor_body_group_momentum(const mor_body_group *group, int body, double *momentum, double *angular_momentum);
 
 #endif

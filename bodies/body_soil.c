@@ -123,8 +123,7 @@ static double find_largest_ratio(const double *added, const own_mass *own)
     return ratio;
 }
 
-void mor_body_meet_soil(mor_body_group *group, int index, double density, double sound_speed, double own_sound_speed,
-                        unsigned locked)
+void mor_body_meet_soil(mor_body_group *group, int index, double density, double sound_speed, unsigned locked)
 {
     mor_body *body = &group->bodies[index];
     double added[MOTIONS * MOTIONS] = {0.0};
@@ -133,7 +132,7 @@ void mor_body_meet_soil(mor_body_group *group, int index, double density, double
         add_node(group, body, node, density, added);
     }
     find_own_mass(body, locked, &own);
-    const double softness = SOFT_IMPEDANCE * density * sound_speed / (body->density * own_sound_speed);
+    const double softness = SOFT_IMPEDANCE * density * sound_speed / (body->density * group->sound_speed);
     body->added_mass_ratio = fmax(find_largest_ratio(added, &own), softness * softness);
     body->is_light = body->added_mass_ratio > 1.0 || body->density < density;
     group->boundary.added_mass_ratio = fmax(group->boundary.added_mass_ratio, body->added_mass_ratio);

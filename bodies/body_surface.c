@@ -562,7 +562,7 @@ mor_status mor_body_group_make_nodes(mor_context *context, mor_body_group *group
         MOR_TRY(context, make_body_nodes(context, group, &group->bodies[b]));
     }
     MOR_TRY(context, MOR_NEW(context, &group->node_count, group->n_nodes, "surface nodes"));
-    if (group->kind == MOR_BODY_RIGID) {
+    if (!group->operations->is_deformable) {
         return MOR_OK;
     }
     const int64_t n = group->n_nodes * MOR_BODY_NODE_PARTICLES;

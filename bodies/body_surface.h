@@ -13,13 +13,13 @@
 /** A weighted mean of particles of one body, exact for linear fields. A force on the point goes onto the particles with
  *  the same weights: power, momentum and angular momentum are kept. */
 typedef struct mor_body_support {
-    int count;                /* particles in use; 0: the point moves with a rigid body */
+    int count;                /* particles in use; 0: the point moves with the body as a whole */
     const int32_t *particles; /* shape [count], indices in the set */
     const double *weights;    /* shape [count], 1; they add up to 1 */
 } mor_body_support;
 
 /** Makes the surface nodes of all bodies of a group: fills in n_nodes, node_reference, node_area, node_count, the node
- *  ranges of the bodies and, of an elastic group, node_particles and node_weights. Needs: set, reference, volume,
+ *  ranges of the bodies and, of a deformable group, node_particles and node_weights. Needs: set, reference, volume,
  *  bodies with shape and placement. mor_body_group_clear frees the arrays.
  *  @param group   [in,out]  without nodes
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body whose particles do not reach its surface, or, elastic, too few to
@@ -83,12 +83,18 @@ void mor_body_point_velocity(const mor_body_group *group, int body, const mor_bo
  *  @param place [out]  shape [3], unit m */
 void mor_body_node_place(const mor_body_group *group, int body, int64_t node, double *place);
 
-/** Adds a force at a point of a body: to contact_force and contact_moment of a rigid one, to contact_force of the
- *  particles of an elastic one.
+/** Adds a force at a point of a body: to contact_force and contact_moment of one that moves as a whole, to
+ *  contact_force of the particles of a deformable one.
  *  @param body    [in]      index of the body
  *  @param place   [in]      shape [3]; where the point is, unit m
  *  @param force   [in]      shape [3], unit N (N/m in plane strain) */
 void mor_body_point_push(mor_body_group *group, int body, const mor_body_support *support, const double *place,
                          const double *force);
+
+/** Force of contact on a body in the last sub-step.
+ *  @param body      [in]  index of the body
+ *  @param direction [in]  shape [3]; unit vector, unit 1
+ *  Returns: along that direction, unit N (N/m). */
+double mor_body_contact_force(const mor_body_group *group, int body, const double *direction);
 
 #endif

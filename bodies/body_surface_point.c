@@ -229,3 +229,16 @@ void mor_body_point_push(mor_body_group *group, int body, const mor_body_support
     }
     mor_vector_cross_add(1.0, arm, force, b->contact_moment);
 }
+
+double mor_body_contact_force(const mor_body_group *group, int body, const double *direction)
+{
+    const mor_body *b = &group->bodies[body];
+    double sum = 0.0;
+    if (!group->operations->is_deformable) {
+        return mor_vector_dot(b->contact_force, direction);
+    }
+    for (int64_t i = b->first; i < b->first + b->n_particles; ++i) {
+        sum += mor_vector_dot(group->contact_force + 3 * i, direction);
+    }
+    return sum;
+}

@@ -172,7 +172,7 @@ static mor_status list_bodies(mor_context *context, mor_contact *contact)
         mor_body_group *group = contact->groups[g];
         for (int b = 0; b < group->n_bodies; ++b) {
             mor_contact_body *c = &work->bodies[work->first_body[g] + b];
-            const bool is_rigid = group->kind == MOR_BODY_RIGID;
+            const bool is_rigid = !group->operations->is_deformable;
             c->group = group;
             c->group_index = g;
             c->body = b;

@@ -90,7 +90,7 @@ static void observe_body(mor_contact_body *c)
     if (c->is_observed) {
         return;
     }
-    if (c->group->kind == MOR_BODY_ELASTIC) {
+    if (c->group->operations->is_deformable) {
         observe_elastic(c);
     } else {
         memcpy(c->center, body->center, sizeof c->center);
@@ -126,7 +126,7 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     mor_contact_body *c = &work->bodies[second];
     mor_body_group *group = c->group;
     const mor_body *body = &group->bodies[c->body];
-    if (group->kind == MOR_BODY_RIGID) {
+    if (!group->operations->is_deformable) {
         mor_body_point_push(group, c->body, &(mor_body_support){0, NULL, NULL}, place, force);
         return;
     }
@@ -428,7 +428,7 @@ static double inverse_share(const mor_contact *contact, const pair_sums *sums, i
         return 0.0;
     }
     const mor_contact_body *c = &contact->work->bodies[second];
-    if (c->group->kind == MOR_BODY_RIGID) {
+    if (!c->group->operations->is_deformable) {
         return inverse * sums->stiffness / stiffness;
     }
     const double area = stiffness / mor_contact_area_stiffness(contact, sums->near->first, sums->near->second);

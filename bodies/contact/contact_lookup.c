@@ -200,7 +200,7 @@ void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *nea
     touch->is_followed = false;
     if (wall != NULL) {
         may_touch = look_at_wall(contact, near, wall, is_whole, touch);
-    } else if (partner->group->kind == MOR_BODY_RIGID) {
+    } else if (!partner->group->operations->is_deformable) {
         may_touch = look_at_rigid(contact, near, partner, is_whole, touch);
     } else {
         look_at_elastic(partner, touch, particles, weights);

@@ -44,7 +44,7 @@ static mor_status visit_nodes(mor_context *context, mor_contact *contact, const 
 static mor_status visit_bodies(mor_context *context, mor_contact *contact, const int64_t *first, int64_t *counts)
 {
     for (int b = 0; b < contact->work->n_bodies; ++b) {
-        if (contact->work->bodies[b].group->kind == MOR_BODY_RIGID) {
+        if (!contact->work->bodies[b].group->operations->is_deformable) {
             MOR_TRY(context, visit_nodes(context, contact, &contact->work->bodies[b], first, counts));
         }
     }

@@ -54,7 +54,7 @@ static void box_of_elastic(const mor_contact_body *c, double *box, double *speed
 
 void mor_contact_box(const mor_contact_body *body, double *box, double *speed)
 {
-    if (body->group->kind == MOR_BODY_RIGID) {
+    if (!body->group->operations->is_deformable) {
         box_of_rigid(body, box, speed);
     } else {
         box_of_elastic(body, box, speed);
@@ -66,7 +66,7 @@ static void measure_travel(mor_contact_body *c)
 {
     const mor_body *body = &c->group->bodies[c->body];
     double far = 0.0;
-    if (c->group->kind == MOR_BODY_RIGID) {
+    if (!c->group->operations->is_deformable) {
         double turned = 0.0;
         for (int a = 0; a < 9; ++a) {
             const double d = body->rotation[a] - c->previous[3 + a];
@@ -215,7 +215,7 @@ static void close_near(mor_context *context, mor_contact_work *work, mor_contact
 /* The tree serves queries widened by what its body has traveled since it was fitted. */
 static void refit_tree(mor_contact_body *c)
 {
-    if (c->group->kind == MOR_BODY_RIGID) {
+    if (!c->group->operations->is_deformable) {
         return;
     }
     if (c->tree_travel < 0.0 || c->travel - c->tree_travel > HOLD * c->group->spacing) {

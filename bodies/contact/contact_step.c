@@ -84,13 +84,13 @@ static double limit_pair(const mor_contact *contact, int own, int other, double 
     }
     const double own_rate2 = pair_rate2(contact, own, other, speed) * (1.0 + y);
     double step = STEP_SHARE / sqrt(own_rate2);
-    if (c->group->kind == MOR_BODY_ELASTIC) {
+    if (c->group->operations->is_deformable) {
         step = LAYER_SHARE / sqrt(mor_contact_area_stiffness(contact, first, second) * c->softness * (1.0 + y));
     }
     if (apart > STEPS_AHEAD * step) {
         return 0.25 * apart;
     }
-    if (c->group->kind == MOR_BODY_RIGID) {
+    if (!c->group->operations->is_deformable) {
         *rate2 += own_rate2;
     }
     return step;

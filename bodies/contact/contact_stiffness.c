@@ -54,8 +54,8 @@ double mor_contact_spacing(const mor_contact *contact, int first, int second)
 bool mor_contact_is_hertzian(const mor_contact *contact, int first, int second)
 {
     const mor_body_group *group = mor_contact_group(contact, second);
-    return contact->work->bodies[first].group->kind == MOR_BODY_RIGID &&
-           (group == NULL || group->kind == MOR_BODY_RIGID);
+    return !contact->work->bodies[first].group->operations->is_deformable &&
+           (group == NULL || !group->operations->is_deformable);
 }
 
 static bool is_edged(const mor_contact *contact, int first, int second)
@@ -373,7 +373,7 @@ mor_status mor_contact_measure_curvatures(mor_context *context, mor_contact *con
     MOR_TRY(context, MOR_NEW(context, &work->is_smooth, n, "contact"));
     MOR_TRY(context, MOR_NEW(context, &scratch, n, "contact"));
     for (int b = 0; b < work->n_bodies; ++b) {
-        if (work->bodies[b].group->kind == MOR_BODY_RIGID) {
+        if (!work->bodies[b].group->operations->is_deformable) {
             measure_rigid(contact, &work->bodies[b], scratch);
         }
     }

@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/particle/kernel.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define BIT(name) MOR_BIT(MOR_FIELD_##name)
@@ -150,12 +151,13 @@ mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const ch
 {
     memset(elastic, 0, sizeof *elastic);
     MOR_TRY(context, check_scheme(context, name, scheme, material));
-    MOR_TRY(context, mor_body_group_init(context, &elastic->group, name, MOR_BODY_ELASTIC, dimension, spacing, requests,
-                                         n_bodies, BIT(STRESS) | BIT(ACCELERATION)));
+    MOR_TRY(context, mor_body_group_init(context, &elastic->group, name, &mor_elastic_operations, elastic, dimension,
+                                         spacing, requests, n_bodies, BIT(STRESS) | BIT(ACCELERATION)));
     elastic->scheme = *scheme;
     elastic->material = material;
     elastic->smoothing_length = scheme->body_smoothing_ratio * spacing;
     const mor_status status = init_parts(context, elastic);
+    elastic->group.sound_speed = elastic->sound_speed;
     if (status != MOR_OK) {
         mor_elastic_clear(context, elastic);
         return mor_context_pass(context, status, MOR_HERE);
@@ -348,3 +350,80 @@ double mor_elastic_energy(const mor_elastic *elastic, int body)
     }
     return work->energy;
 }
+
+/* ---- A kind of body ---------------------------------------------------------------------------------------------- */
+
+static void elastic_destroy(mor_context *context, mor_body_group *group)
+{
+    mor_elastic *elastic = group->owner;
+    mor_elastic_clear(context, elastic);
+    MOR_FREE(context, &elastic);
+}
+
+static void elastic_make_stepper(mor_body_group *group, mor_stepper *stepper, uint64_t *evolving)
+{
+    mor_elastic_stepper(group->owner, stepper, evolving);
+}
+
+static int64_t elastic_start(mor_body_group *group, int body, const mor_body_start *start)
+{
+    const mor_elastic *elastic = group->owner;
+    const mor_body *own = &group->bodies[body];
+    int64_t n_clamped = 0;
+    for (int64_t i = own->first; i < own->first + own->n_particles; ++i) {
+        const double *reference = group->reference + 3 * i;
+        double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+        double arm[3];
+        for (int a = 0; a < 3; ++a) {
+            arm[a] = group->set.data[MOR_FIELD_POSITION][3 * i + a] - own->center[a];
+        }
+        const bool is_clamped = start->is_clamped != NULL && start->is_clamped(start->user, reference);
+        n_clamped += is_clamped;
+        elastic->held[i] = is_clamped || start->is_held;
+        memcpy(v, start->velocity, sizeof start->velocity);
+        mor_vector_cross_add(1.0, start->angular_velocity, arm, v);
+        if (start->add_velocity != NULL) {
+            start->add_velocity(start->user, reference, v);
+        }
+        if (start->is_resting || is_clamped) {
+            memset(v, 0, 3 * sizeof *v);
+        }
+    }
+    return n_clamped;
+}
+
+static mor_status elastic_prepare(mor_context *context, mor_body_group *group)
+{
+    mor_elastic *elastic = group->owner;
+    elastic->damped_energy = 0.0;
+    return mor_elastic_prepare(context, elastic);
+}
+
+static double elastic_strain_energy(const mor_body_group *group, int body)
+{
+    return mor_elastic_energy(group->owner, body);
+}
+
+static double elastic_damped_energy(const mor_body_group *group)
+{
+    const mor_elastic *elastic = group->owner;
+    return elastic->damped_energy;
+}
+
+static void elastic_describe(const mor_body_group *group, char *text, size_t room)
+{
+    const mor_elastic *elastic = group->owner;
+    snprintf(text, room, "smoothing length %g m, sound speed %.4g m/s", elastic->smoothing_length,
+             elastic->sound_speed);
+}
+
+const mor_body_operations mor_elastic_operations = {.kind = "elastic bodies",
+                                                    .is_deformable = true,
+                                                    .destroy = elastic_destroy,
+                                                    .make_stepper = elastic_make_stepper,
+                                                    .start = elastic_start,
+                                                    .prepare = elastic_prepare,
+                                                    .momentum = mor_body_group_momentum,
+                                                    .strain_energy = elastic_strain_energy,
+                                                    .damped_energy = elastic_damped_energy,
+                                                    .describe = elastic_describe};

@@ -30,6 +30,9 @@ typedef struct mor_elastic {
     struct mor_elastic_work *work;         /* neighbors, kernel gradients, corrections, packed records; owned */
 } mor_elastic;
 
+/** What elastic bodies are and do. A group that ends by its operation `destroy` lies in memory of its own. */
+extern const mor_body_operations mor_elastic_operations;
+
 /** Makes a group of elastic bodies: neighbors within each body only, correction matrices, deformation gradient I.
  *  @param elastic   [out]     cleared after a failure
  *  @param name      [in]      zero-terminated

@@ -97,8 +97,8 @@ mor_status mor_rigid_init(mor_context *context, mor_rigid *rigid, const char *na
 {
     memset(rigid, 0, sizeof *rigid);
     rigid->courant = COURANT;
-    mor_status status =
-        mor_body_group_init(context, &rigid->group, name, MOR_BODY_RIGID, dimension, spacing, requests, n_bodies, 0);
+    mor_status status = mor_body_group_init(context, &rigid->group, name, &mor_rigid_operations, rigid, dimension,
+                                            spacing, requests, n_bodies, 0);
     if (status == MOR_OK) {
         status = start_group(context, rigid, motions);
     }
@@ -288,3 +288,97 @@ double mor_rigid_energy(const mor_rigid *rigid, int body, double *momentum, doub
     mor_vector_cross_add(1.0, state->center, momentum, angular_momentum);
     return 0.5 * mor_vector_dot(momentum, state->velocity) + turning;
 }
+
+/* ---- A kind of body ---------------------------------------------------------------------------------------------- */
+
+static void rigid_destroy(mor_context *context, mor_body_group *group)
+{
+    mor_rigid *rigid = group->owner;
+    mor_rigid_clear(context, rigid);
+    MOR_FREE(context, &rigid);
+}
+
+static void rigid_make_stepper(mor_body_group *group, mor_stepper *stepper, uint64_t *evolving)
+{
+    mor_rigid_stepper(group->owner, stepper, evolving);
+}
+
+static int64_t rigid_start(mor_body_group *group, int body, const mor_body_start *start)
+{
+    const mor_rigid *rigid = group->owner;
+    mor_rigid_state *state = &rigid->states[body];
+    mor_rigid_motion *motion = &rigid->motions[body];
+    const mor_body *own = &group->bodies[body];
+    double relative[3];
+    double momentum[3];
+    double turned[3];
+    motion->is_prescribed = start->is_prescribed || start->is_held;
+    for (int a = 0; a < 3; ++a) {
+        state->velocity[a] = start->is_resting ? 0.0 : start->velocity[a];
+        motion->velocity[a] = state->velocity[a];
+        motion->angular_velocity[a] = start->is_resting ? 0.0 : start->angular_velocity[a];
+    }
+    mor_matrix_apply_transposed(own->rotation, motion->angular_velocity, relative);
+    mor_symmetric_apply(own->geometry.inertia, relative, momentum);
+    mor_matrix_apply(own->rotation, momentum, turned);
+    for (int a = 0; a < 3; ++a) {
+        state->angular_momentum[a] = own->density * turned[a];
+        state->rotation_angle[a] = 0.0;
+        state->soil_impulse[a] = 0.0;
+        state->contact_impulse[a] = 0.0;
+        state->contact_angular_impulse[a] = 0.0;
+    }
+    return 0;
+}
+
+static mor_status rigid_prepare(mor_context *context, mor_body_group *group)
+{
+    mor_rigid_prepare(context, group->owner);
+    return MOR_OK;
+}
+
+static double rigid_momentum(const mor_body_group *group, int body, double *momentum, double *angular_momentum)
+{
+    return mor_rigid_energy(group->owner, body, momentum, angular_momentum);
+}
+
+static double rigid_spring_energy(const mor_body_group *group, int body)
+{
+    const mor_rigid *rigid = group->owner;
+    const mor_rigid_motion *motion = &rigid->motions[body];
+    const mor_body *it = &group->bodies[body];
+    double arm[3];
+    double turned[3];
+    double offset[3];
+    if (!motion->has_spring) {
+        return 0.0;
+    }
+    for (int a = 0; a < 3; ++a) {
+        arm[a] = motion->spring_point[a] - it->geometry.center[a];
+    }
+    mor_matrix_apply(it->rotation, arm, turned);
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = it->center[a] + turned[a] - motion->spring_anchor[a];
+    }
+    const double stretch = mor_vector_length(offset) - motion->spring_length;
+    return 0.5 * motion->spring_stiffness * stretch * stretch;
+}
+
+static double rigid_driven_energy(const mor_body_group *group, int body, double time)
+{
+    const mor_rigid *rigid = group->owner;
+    const mor_rigid_state *state = &rigid->states[body];
+    const mor_body *own = &group->bodies[body];
+    return mor_vector_dot(state->velocity, state->contact_impulse) +
+           mor_vector_dot(own->angular_velocity, state->contact_angular_impulse) +
+           own->mass * time * mor_vector_dot(group->gravity, state->velocity);
+}
+
+const mor_body_operations mor_rigid_operations = {.kind = "rigid bodies",
+                                                  .destroy = rigid_destroy,
+                                                  .make_stepper = rigid_make_stepper,
+                                                  .start = rigid_start,
+                                                  .prepare = rigid_prepare,
+                                                  .momentum = rigid_momentum,
+                                                  .spring_energy = rigid_spring_energy,
+                                                  .driven_energy = rigid_driven_energy};

@@ -45,6 +45,9 @@ typedef struct mor_rigid {
     struct mor_rigid_work *work; /* constants of the bodies and forces held over a common step; owned */
 } mor_rigid;
 
+/** What rigid bodies are and do. A group that ends by its operation `destroy` lies in memory of its own. */
+extern const mor_body_operations mor_rigid_operations;
+
 /** Makes a group of rigid bodies.
  *  @param rigid     [out]     cleared after a failure
  *  @param name      [in]      zero-terminated

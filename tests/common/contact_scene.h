@@ -31,7 +31,7 @@ enum { CONTACT_SCENE_BODIES_MAX = 8, CONTACT_SCENE_WALLS_MAX = 4, CONTACT_SCENE_
 
 /** One body. Plain data. */
 typedef struct contact_scene_body {
-    mor_body_kind kind;
+    const mor_body_operations *kind;
     double radius;              /* of a ball (2D: a disc), m; 0: a box */
     double half[3];             /* half the sides of a box, m */
     double position[3];         /* of the center, m */
@@ -188,7 +188,7 @@ static inline void contact_scene_make_groups(contact_scene *it)
     memset(motions, 0, sizeof motions);
     for (int k = 0; k < request->n_bodies; ++k) {
         const contact_scene_body *body = &request->bodies[k];
-        const bool is_rigid = body->kind == MOR_BODY_RIGID;
+        const bool is_rigid = body->kind == &mor_rigid_operations;
         contact_scene_make_shape(it, k);
         it->place[k] = is_rigid ? it->n_rigid : it->n_elastic;
         asks[is_rigid][it->place[k]] = contact_scene_ask(it, k);
@@ -217,7 +217,7 @@ static inline void contact_scene_make_groups(contact_scene *it)
                                                    request->dimension, request->spacing, asks[0], it->n_elastic));
     }
     for (int k = 0; k < request->n_bodies; ++k) {
-        free((void *)(uintptr_t)asks[request->bodies[k].kind == MOR_BODY_RIGID][it->place[k]].positions);
+        free((void *)(uintptr_t)asks[request->bodies[k].kind == &mor_rigid_operations][it->place[k]].positions);
     }
 }
 
@@ -332,7 +332,7 @@ static inline void contact_scene_run(contact_scene *it, double until)
 /** The group of body k of the request, one object. */
 static inline mor_body_group *contact_scene_group(contact_scene *it, int k)
 {
-    return it->request.bodies[k].kind == MOR_BODY_RIGID ? &it->rigid.group : &it->elastic.group;
+    return it->request.bodies[k].kind == &mor_rigid_operations ? &it->rigid.group : &it->elastic.group;
 }
 
 /** Body k of the request, one object. */
@@ -344,7 +344,7 @@ static inline mor_body *contact_scene_of(contact_scene *it, int k)
 /** Momenta of body k, shape [3] each, unit kg m/s and kg m2/s about the origin; returns the kinetic energy, J. */
 static inline double contact_scene_momentum(contact_scene *it, int k, double *momentum, double *angular)
 {
-    if (it->request.bodies[k].kind == MOR_BODY_RIGID) {
+    if (it->request.bodies[k].kind == &mor_rigid_operations) {
         return mor_rigid_energy(&it->rigid, it->place[k], momentum, angular);
     }
     return mor_body_group_momentum(&it->elastic.group, it->place[k], momentum, angular);
@@ -365,7 +365,7 @@ static inline void contact_scene_center(contact_scene *it, int k, double *center
 {
     const mor_body *body = contact_scene_of(it, k);
     const mor_body_group *group = contact_scene_group(it, k);
-    if (group->kind == MOR_BODY_RIGID) {
+    if (group->operations == &mor_rigid_operations) {
         memcpy(center, body->center, 3 * sizeof *center);
         return;
     }

@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/elastic/elastic.h"
 #include "core/base/math.h"
 #include "tests/common/scene.h"
 
@@ -32,7 +33,7 @@ static void find_partners(const mor_body_group *group, double spacing, int64_t *
 
 static void observe(const scene *it, const int64_t *partners, double first, impact *found)
 {
-    const mor_elastic *elastic = &it->simulation.bodies.elastics[0];
+    const mor_elastic *elastic = it->simulation.bodies.groups[0]->owner;
     const mor_body_group *group = &elastic->group;
     const double *x = group->set.data[MOR_FIELD_POSITION];
     const double spacing = it->the_case.spacing;
@@ -62,7 +63,7 @@ static impact collide(const char *damping)
     const scene_request request = {.text = "cases/rings-2d/case.cfg", .settings = lists, .n_lists = 1};
     impact found = {0};
     scene *it = scene_new(&request);
-    const mor_body_group *group = &it->simulation.bodies.elastics[0].group;
+    const mor_body_group *group = it->simulation.bodies.groups[0];
     int64_t *partners = malloc((size_t)group->bodies[0].n_particles * sizeof *partners);
     double momenta[2][3];
     double angular[3];

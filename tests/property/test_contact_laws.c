@@ -33,7 +33,7 @@ static void open_heap(contact_scene *scene, const heap_request *it)
     wall.velocity[0] = 0.1 * l / t;
     contact_scene_body bodies[HEAP];
     for (int k = 0; k < HEAP; ++k) {
-        bodies[k] = (contact_scene_body){.kind = k % 2 == 0 ? MOR_BODY_RIGID : MOR_BODY_ELASTIC,
+        bodies[k] = (contact_scene_body){.kind = k % 2 == 0 ? &mor_rigid_operations : &mor_elastic_operations,
                                          .radius = k == 3 || k == 4 ? 0.5 * SIDE * l : 0.0,
                                          .half = {0.5 * SIDE * l, 0.4 * SIDE * l, 0.5 * SIDE * l},
                                          .axis = {0.0, 0.0, 1.0},

@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "bodies/rigid/rigid.h"
 #include "tests/common/elastic_bodies.h"
 #include "tests/common/near.h"
 
@@ -231,15 +232,18 @@ static void test_body_without_particles_or_volume_is_refused(void **state)
     const double point[3] = {0.0};
     mor_body_request request = {.name = "pebble", .positions = point, .density = 1.0, .geometry.volume = 1.0};
     mor_context_init(&context);
-    assert_int_equal(mor_body_group_init(&context, &group, "rocks", MOR_BODY_RIGID, 3, 0.1, &request, 1, 0),
-                     MOR_ERROR_ARGUMENT);
+    assert_int_equal(
+        mor_body_group_init(&context, &group, "rocks", &mor_rigid_operations, NULL, 3, 0.1, &request, 1, 0),
+        MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(context.message, "pebble"));
     request.n_particles = 1;
     request.geometry.volume = 0.0;
-    assert_int_equal(mor_body_group_init(&context, &group, "rocks", MOR_BODY_RIGID, 3, 0.1, &request, 1, 0),
-                     MOR_ERROR_ARGUMENT);
-    assert_int_equal(mor_body_group_init(&context, &group, "rocks", MOR_BODY_RIGID, 3, 0.1, &request, 0, 0),
-                     MOR_ERROR_ARGUMENT);
+    assert_int_equal(
+        mor_body_group_init(&context, &group, "rocks", &mor_rigid_operations, NULL, 3, 0.1, &request, 1, 0),
+        MOR_ERROR_ARGUMENT);
+    assert_int_equal(
+        mor_body_group_init(&context, &group, "rocks", &mor_rigid_operations, NULL, 3, 0.1, &request, 0, 0),
+        MOR_ERROR_ARGUMENT);
     assert_int_equal(context.memory_bytes, 0);
 }
 

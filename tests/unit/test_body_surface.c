@@ -40,10 +40,14 @@ static double worst_gap(contact_scene *scene, double *area)
 }
 
 static const contact_scene_body bodies[] = {
-    {.kind = MOR_BODY_RIGID, .radius = 0.05, .position = {0.3, 0.1, 0.0}},
-    {.kind = MOR_BODY_ELASTIC, .radius = 0.05},
-    {.kind = MOR_BODY_ELASTIC, .half = {0.03, 0.04, 0.02}, .axis = {0.0, 0.0, 1.0}, .angle = 0.7},
-    {.kind = MOR_BODY_RIGID, .half = {0.032, 0.041, 0.027}, .position = {1.0, 2.0, 0.0}, .axis = {0, 0, 1}, .angle = 2},
+    {.kind = &mor_rigid_operations, .radius = 0.05, .position = {0.3, 0.1, 0.0}},
+    {.kind = &mor_elastic_operations, .radius = 0.05},
+    {.kind = &mor_elastic_operations, .half = {0.03, 0.04, 0.02}, .axis = {0.0, 0.0, 1.0}, .angle = 0.7},
+    {.kind = &mor_rigid_operations,
+     .half = {0.032, 0.041, 0.027},
+     .position = {1.0, 2.0, 0.0},
+     .axis = {0, 0, 1},
+     .angle = 2},
 };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 

@@ -22,14 +22,15 @@ static contact_scene_request plain_request(const contact_scene_body *bodies, int
                                    .end = 1.0};
 }
 
-static contact_scene_body block_at(mor_body_kind kind, double x, double y)
+static contact_scene_body block_at(const mor_body_operations *kind, double x, double y)
 {
     return (contact_scene_body){.kind = kind, .half = {0.5 * SIDE, 0.5 * SIDE, 0.5 * SIDE}, .position = {x, y, 0.0}};
 }
 
 static void try_settings(const mor_contact_settings *settings, const char *expected)
 {
-    const contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.5), block_at(MOR_BODY_RIGID, 1.0, 0.5)};
+    const contact_scene_body bodies[2] = {block_at(&mor_rigid_operations, 0.0, 0.5),
+                                          block_at(&mor_rigid_operations, 1.0, 0.5)};
     contact_scene_request request = plain_request(bodies, 2);
     request.walls = &floor_wall;
     request.n_walls = 1;
@@ -66,7 +67,8 @@ static void wrong_settings_are_refused(void **state)
 static void bodies_alone_may_take_any_step(void **state)
 {
     (void)state;
-    const contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.5), block_at(MOR_BODY_RIGID, 1.0, 0.5)};
+    const contact_scene_body bodies[2] = {block_at(&mor_rigid_operations, 0.0, 0.5),
+                                          block_at(&mor_rigid_operations, 1.0, 0.5)};
     const contact_scene_request request = plain_request(bodies, 2);
     contact_scene scene;
     contact_scene_open(&scene, &request);
@@ -81,8 +83,10 @@ static void the_step_is_a_part_of_the_period_on_the_contact_spring(void **state)
     (void)state;
     const double speed = 0.5;
     const double radius = 0.5 * SIDE;
-    const contact_scene_body ball = {
-        .kind = MOR_BODY_RIGID, .radius = radius, .position = {0.0, radius, 0.0}, .velocity = {0.0, -speed, 0.0}};
+    const contact_scene_body ball = {.kind = &mor_rigid_operations,
+                                     .radius = radius,
+                                     .position = {0.0, radius, 0.0},
+                                     .velocity = {0.0, -speed, 0.0}};
     contact_scene_request request = plain_request(&ball, 1);
     request.dimension = 3;
     request.walls = &floor_wall;
@@ -103,7 +107,7 @@ static void the_step_is_a_part_of_the_period_on_the_contact_spring(void **state)
 static void the_step_of_touching_bodies_does_not_depend_on_gaps(void **state)
 {
     (void)state;
-    const mor_body_kind kinds[2] = {MOR_BODY_RIGID, MOR_BODY_ELASTIC};
+    const mor_body_operations *const kinds[2] = {&mor_rigid_operations, &mor_elastic_operations};
     for (int k = 0; k < 2; ++k) {
         double near_step = 0.0;
         double step = 0.0;
@@ -127,7 +131,8 @@ static void the_step_of_touching_bodies_does_not_depend_on_gaps(void **state)
 static void partners_are_those_that_can_meet(void **state)
 {
     (void)state;
-    contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.5), block_at(MOR_BODY_ELASTIC, 1.0, 0.5)};
+    contact_scene_body bodies[2] = {block_at(&mor_rigid_operations, 0.0, 0.5),
+                                    block_at(&mor_elastic_operations, 1.0, 0.5)};
     bodies[0].velocity[0] = 1.0;
     const contact_scene_request request = plain_request(bodies, 2);
     contact_scene scene;
@@ -150,7 +155,7 @@ static void a_belt_drags_a_block_by_the_law_of_the_pair(void **state)
     const double friction = 0.2;
     const mor_contact_pair pair = {"w0", "b0", {friction, 0.5}};
     const contact_scene_wall belt = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.5, 0.0, 0.0}};
-    const contact_scene_body body = block_at(MOR_BODY_RIGID, 0.0, 0.5 * SIDE);
+    const contact_scene_body body = block_at(&mor_rigid_operations, 0.0, 0.5 * SIDE);
     contact_scene_request request = plain_request(&body, 1);
     request.walls = &belt;
     request.n_walls = 1;
@@ -174,7 +179,7 @@ static void a_rising_wall_lifts_a_block(void **state)
 {
     (void)state;
     const contact_scene_wall lift = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.1, 0.0}};
-    contact_scene_body body = block_at(MOR_BODY_RIGID, 0.0, 0.5 * SIDE);
+    contact_scene_body body = block_at(&mor_rigid_operations, 0.0, 0.5 * SIDE);
     body.velocity[1] = 0.1;
     contact_scene_request request = plain_request(&body, 1);
     request.walls = &lift;
@@ -193,7 +198,8 @@ static void a_rising_wall_lifts_a_block(void **state)
 static void a_held_body_counts_as_infinitely_heavy(void **state)
 {
     (void)state;
-    contact_scene_body bodies[2] = {block_at(MOR_BODY_RIGID, 0.0, 0.0), block_at(MOR_BODY_RIGID, 1.01 * SIDE, 0.0)};
+    contact_scene_body bodies[2] = {block_at(&mor_rigid_operations, 0.0, 0.0),
+                                    block_at(&mor_rigid_operations, 1.01 * SIDE, 0.0)};
     bodies[0].is_held = true;
     bodies[0].velocity[0] = 1.0;
     contact_scene_request request = plain_request(bodies, 2);
@@ -213,8 +219,8 @@ static void a_held_body_counts_as_infinitely_heavy(void **state)
 static void bodies_that_do_not_touch_feel_nothing(void **state)
 {
     (void)state;
-    const contact_scene_body bodies[2] = {block_at(MOR_BODY_ELASTIC, 0.0, 0.0),
-                                          block_at(MOR_BODY_ELASTIC, 1.01 * SIDE, 0.0)};
+    const contact_scene_body bodies[2] = {block_at(&mor_elastic_operations, 0.0, 0.0),
+                                          block_at(&mor_elastic_operations, 1.01 * SIDE, 0.0)};
     const contact_scene_request request = plain_request(bodies, 2);
     contact_scene scene;
     contact_scene_open(&scene, &request);
@@ -239,8 +245,8 @@ static void nothing_touches_beyond_an_edge(void **state)
                 step * 5.0 / 180.0 * 3.14159265358979; /* around the corner, from one face to the next */
             const double reach = radius + 0.1 * SIDE / 4;
             const contact_scene_body bodies[2] = {
-                block_at(MOR_BODY_RIGID, 0.0, 0.0),
-                {.kind = MOR_BODY_RIGID,
+                block_at(&mor_rigid_operations, 0.0, 0.0),
+                {.kind = &mor_rigid_operations,
                  .radius = radius,
                  .position = {0.5 * SIDE + reach * cos(angle), 0.5 * SIDE + reach * sin(angle), 0.0}}};
             contact_scene_request request = plain_request(bodies, 2);
@@ -260,7 +266,7 @@ static void nothing_touches_beyond_an_edge(void **state)
  * closed form, up along the floor's normal and about its center. */
 static void expect_response(double angle, double height)
 {
-    contact_scene_body block = block_at(MOR_BODY_RIGID, 0.0, height);
+    contact_scene_body block = block_at(&mor_rigid_operations, 0.0, height);
     block.axis[2] = 1.0;
     block.angle = angle;
     contact_scene_request request = plain_request(&block, 1);

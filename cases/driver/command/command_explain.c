@@ -114,9 +114,10 @@ static void print_sizes(FILE *out, const mor_simulation *s)
         const mor_body_group *group = s->bodies.groups[g];
         fprintf(out, "  %-23s %d bod%s, %lld particles, %lld surface nodes", group->set.name, group->n_bodies,
                 group->n_bodies == 1 ? "y" : "ies", (long long)group->set.n_particles, (long long)group->n_nodes);
-        if (g < s->bodies.n_elastics) {
-            fprintf(out, ", smoothing length %g m, sound speed %.4g m/s", s->bodies.elastics[g].smoothing_length,
-                    s->bodies.elastics[g].sound_speed);
+        if (group->operations->describe != NULL) {
+            char text[160];
+            group->operations->describe(group, text, sizeof text);
+            fprintf(out, ", %s", text);
         }
         fprintf(out, "\n");
     }

@@ -3,6 +3,7 @@
 /* Probes of bodies, their contact, and their coupling with the soil. */
 #include "cases/driver/probe/probe_measure.h"
 
+#include "bodies/body_surface.h"
 #include "core/base/math.h"
 
 #include <string.h>
@@ -117,18 +118,9 @@ static mor_status moment_soil(mor_context *context, const view *v, double *value
     return MOR_OK;
 }
 
-/* Force of contact on a body along the direction of the probe. */
 static double find_contact_force(const view *v)
 {
-    const mor_body *body = body_of(v->body);
-    double sum = 0.0;
-    if (v->body->rigid != NULL) {
-        return mor_vector_dot(body->contact_force, v->frame.direction);
-    }
-    for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
-        sum += mor_vector_dot(v->body->group->contact_force + 3 * i, v->frame.direction);
-    }
-    return sum;
+    return mor_body_contact_force(v->body->group, v->body->index, v->frame.direction);
 }
 
 static mor_status force_contact(mor_context *context, const view *v, double *value)
@@ -166,8 +158,7 @@ static mor_status kinetic_energy(mor_context *context, const view *v, double *va
     double momentum[3];
     double angular[3];
     MOR_TRY(context, find_body(context, v, &it));
-    *value = it->rigid != NULL ? mor_rigid_energy(it->rigid, it->index, momentum, angular)
-                               : mor_body_group_momentum(it->group, it->index, momentum, angular);
+    *value = it->group->operations->momentum(it->group, it->index, momentum, angular);
     return MOR_OK;
 }
 
@@ -175,7 +166,8 @@ static mor_status elastic_energy(mor_context *context, const view *v, double *va
 {
     const mor_simulation_body *it = NULL;
     MOR_TRY(context, find_body(context, v, &it));
-    *value = it->elastic != NULL ? mor_elastic_energy(it->elastic, it->index) : 0.0;
+    const mor_body_operations *operations = it->group->operations;
+    *value = operations->strain_energy != NULL ? operations->strain_energy(it->group, it->index) : 0.0;
     return MOR_OK;
 }
 
@@ -220,12 +212,8 @@ static mor_status bodies_elastic_energy(mor_context *context, const view *v, dou
 
 static mor_status bodies_damped_energy(mor_context *context, const view *v, double *value)
 {
-    const mor_simulation_bodies *bodies = &v->simulation->bodies;
     (void)context;
-    *value = 0.0;
-    for (int g = 0; g < bodies->n_elastics; ++g) {
-        *value += bodies->elastics[g].damped_energy;
-    }
+    *value = mor_simulation_bodies_damped(&v->simulation->bodies);
     return MOR_OK;
 }
 

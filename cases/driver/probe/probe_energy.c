@@ -80,13 +80,9 @@ static double find_driven_bodies(const mor_simulation *s)
     double sum = s->bodies.contact.wall_energy;
     for (int b = 0; b < s->the_case->n_bodies; ++b) {
         const mor_simulation_body *it = &s->bodies.of[b];
-        if (s->the_case->bodies[b].is_prescribed && it->rigid != NULL) {
-            const mor_body *body = &it->group->bodies[it->index];
-            const mor_rigid_state *state = &it->rigid->states[it->index];
-            const double *velocity = state->velocity;
-            sum += mor_vector_dot(velocity, state->contact_impulse) +
-                   mor_vector_dot(body->angular_velocity, state->contact_angular_impulse) +
-                   body->mass * time * mor_vector_dot(it->group->gravity, velocity);
+        const mor_body_operations *operations = it->group->operations;
+        if (s->the_case->bodies[b].is_prescribed && operations->driven_energy != NULL) {
+            sum += operations->driven_energy(it->group, it->index, time);
         }
     }
     return sum;

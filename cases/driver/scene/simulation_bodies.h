@@ -4,31 +4,24 @@
 #define MOR_CASES_DRIVER_SCENE_SIMULATION_BODIES_H
 
 #include "bodies/contact/contact.h"
-#include "bodies/elastic/elastic.h"
-#include "bodies/rigid/rigid.h"
 #include "cases/driver/case/case.h"
 #include "core/material/registry.h"
 #include "core/sph/soil.h"
 #include "core/time/schedule.h"
 
 /** @file
- *  The rocks of a simulation: bodies of one elastic material form one group, all rigid bodies another. */
+ *  The rocks of a simulation: bodies of one kind and one material form a group. */
 
 /** Where a body of the case is kept. */
 typedef struct mor_simulation_body {
     mor_body_group *group; /* borrowed */
     int index;             /* in the group */
-    mor_elastic *elastic;  /* NULL for a rigid body; borrowed */
-    mor_rigid *rigid;      /* NULL for an elastic body; borrowed */
 } mor_simulation_body;
 
 /** All rocks and their contact. Owner: the simulation. */
 typedef struct mor_simulation_bodies {
-    mor_material_instance *materials[MOR_BODY_GROUPS_MAX]; /* of the elastic groups */
-    mor_elastic elastics[MOR_BODY_GROUPS_MAX];
-    int n_elastics;
-    mor_rigid rigid;
-    mor_body_group *groups[MOR_BODY_GROUPS_MAX]; /* shape [n_groups]; all groups, elastic ones first; borrowed */
+    mor_body_group *groups[MOR_BODY_GROUPS_MAX]; /* shape [n_groups]; by kind, as mor_body_kinds lists them; owned */
+    mor_material_instance *materials[MOR_BODY_GROUPS_MAX]; /* of each group; NULL: a kind without; owned */
     int n_groups;
     mor_simulation_body of[MOR_CASE_BODIES_MAX]; /* by number of the body in the case */
     mor_contact contact;
@@ -89,6 +82,9 @@ double mor_simulation_placed_distance(const mor_shape *shape, const double *rota
 
 /** Work to lift all bodies by a spacing of their own: less moves nothing that is resolved; unit J (J/m). */
 double mor_simulation_bodies_lift(const mor_simulation_bodies *bodies);
+
+/** Energy that viscous damping took from all bodies since the start, unit J (J/m). */
+double mor_simulation_bodies_damped(const mor_simulation_bodies *bodies);
 
 /** Energy that contact and viscous damping took from all bodies since the start, unit J (J/m). */
 double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies);

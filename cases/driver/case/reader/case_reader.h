@@ -130,11 +130,11 @@ mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_no
 
 /** Where the group material of a soil or a body goes. */
 typedef struct mor_case_material_slot {
-    const mor_case_group *group; /* its keys are model and density */
-    void *record;                /* of the struct that the group's offsets refer to */
-    mor_material_form form;      /* of the models allowed */
-    const char *bare_word;       /* zero-terminated; a model that has no parameters and no code; NULL: none */
-    const double *density;       /* one number, member of the record, unit kg/m3 */
+    const mor_case_group *group;   /* its keys are model and density */
+    void *record;                  /* of the struct that the group's offsets refer to */
+    mor_material_form form;        /* of the models allowed */
+    const char *const *bare_words; /* models that have no parameters and no code; ends with NULL; NULL: none */
+    const double *density;         /* one number, member of the record, unit kg/m3 */
     double *parameters; /* shape [MOR_CASE_PARAMETERS_MAX], member of the record; units of the model's schema */
     uint64_t *written;  /* one number, member of the record: which parameters were given */
     const char *what;   /* zero-terminated; for messages: "material model of a soil" */

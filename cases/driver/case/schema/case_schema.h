@@ -93,8 +93,8 @@ enum { MOR_CASE_LOCKS = 6 };
 /** Words of the member locked of a body, in the order of mor_case_body.is_locked. */
 extern const char *const mor_case_lock_words[MOR_CASE_LOCKS];
 
-/** Name of the model of bodies that do not deform. */
-extern const char mor_case_rigid_word[];
+/** Models of bodies that do not deform and have no material, one for each such kind; ends with NULL. */
+extern const char *const mor_case_rigid_words[];
 
 /** Members of the lists soil, walls, probes and expect, and the groups of a soil; records mor_case_soil, mor_case_wall,
  *  mor_case_probe, mor_case_expectation. */
@@ -195,7 +195,7 @@ extern const char mor_case_statistic_words[];
  *  @param dimension [in]  2 or 3 */
 const char *mor_case_statistic_unit(const mor_case_probe_type *type, mor_case_statistic statistic, int dimension);
 
-/** Whether a body is rigid. */
+/** Whether a body is of a kind that does not deform. */
 bool mor_case_body_is_rigid(const mor_case_body *body);
 
 /** Tells what a key or a group of a body needs to have an effect.

@@ -20,7 +20,7 @@
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
-const char mor_case_rigid_word[] = "rigid";
+const char *const mor_case_rigid_words[] = {"rigid", NULL};
 const char *const mor_case_lock_words[MOR_CASE_LOCKS] = {"x", "y", "z", "rx", "ry", "rz"};
 
 static const mor_case_key body_keys[] = {
@@ -204,7 +204,11 @@ const mor_case_group mor_case_pair_group = {"pairs", "Pairs with a contact of th
 
 bool mor_case_body_is_rigid(const mor_case_body *body)
 {
-    return strcmp(body->model, mor_case_rigid_word) == 0;
+    bool is_rigid = false;
+    for (const char *const *word = mor_case_rigid_words; *word != NULL; ++word) {
+        is_rigid = is_rigid || strcmp(body->model, *word) == 0;
+    }
+    return is_rigid;
 }
 
 enum { ELASTIC = 1, FREE = 2, PRESCRIBED = 4 };

@@ -37,7 +37,7 @@ static mor_status read_material(const mor_case_reader *reader, const mor_case_no
     const mor_case_material_slot slot = {.group = &mor_case_body_material_group,
                                          .record = body,
                                          .form = MOR_MATERIAL_TOTAL,
-                                         .bare_word = mor_case_rigid_word,
+                                         .bare_words = mor_case_rigid_words,
                                          .density = &body->density,
                                          .parameters = body->parameters,
                                          .written = &body->written_parameters,

@@ -20,11 +20,11 @@ static mor_status read_model(const mor_case_reader *reader, const mor_case_node 
     const mor_case_node *name = NULL;
     *model = NULL;
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "model", MOR_CASE_NODE_TEXT, &name));
-    if (slot->bare_word != NULL) {
-        if (strcmp(slot->bare_word, name->text) == 0) {
+    for (const char *const *word = slot->bare_words; word != NULL && *word != NULL; ++word) {
+        if (strcmp(*word, name->text) == 0) {
             return MOR_OK;
         }
-        words[n_words++] = slot->bare_word;
+        words[n_words++] = *word;
     }
     for (int k = 0; k < mor_registry_count(reader->registry); ++k) {
         const mor_material *listed = mor_registry_get(reader->registry, k);

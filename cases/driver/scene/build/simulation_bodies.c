@@ -4,6 +4,7 @@
 #include "cases/driver/scene/simulation_bodies.h"
 
 #include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/scene/build/body_kinds.h"
 #include "cases/driver/scene/build/simulation_fill.h"
 #include "cases/driver/scene/simulation.h"
 #include "cases/driver/scene/wall_seams.h"
@@ -48,40 +49,12 @@ static bool has_same_material(const mor_case_body *a, const mor_case_body *b)
            memcmp(a->parameters, b->parameters, sizeof a->parameters) == 0;
 }
 
-/* How a rigid body moves, in the frame of the run. */
-static void set_motion(const mor_case *c, const mor_case_body *it, const mor_body_request *request,
-                       mor_rigid_motion *motion)
-{
-    memset(motion, 0, sizeof *motion);
-    motion->is_prescribed = it->is_prescribed;
-    memcpy(motion->velocity, request->velocity, sizeof motion->velocity);
-    memcpy(motion->angular_velocity, request->angular_velocity, sizeof motion->angular_velocity);
-    for (int k = 0; k < 6; ++k) {
-        motion->locked |= it->is_locked[k] ? 1u << k : 0u;
-    }
-    motion->has_spring = it->has_spring;
-    if (it->has_spring) {
-        double offset[3];
-        mor_matrix_apply(request->shape_rotation, it->spring_point, motion->spring_point);
-        mor_matrix_apply(c->rotation, it->spring_anchor, motion->spring_anchor);
-        for (int a = 0; a < 3; ++a) {
-            motion->spring_point[a] += request->shape_translation[a];
-            motion->spring_anchor[a] += c->translation[a];
-            offset[a] = motion->spring_point[a] - motion->spring_anchor[a];
-        }
-        motion->spring_length = isnan(it->spring_length) ? mor_vector_length(offset) : it->spring_length;
-        motion->spring_stiffness = it->spring_stiffness;
-        motion->spring_damping = it->spring_damping;
-    }
-}
-
 /* One group in the making. Zeroed before each. */
 typedef struct group_spec {
     int members[MOR_CASE_BODIES_MAX]; /* numbers in the case */
     int n_members;
     mor_lattice_points points[MOR_CASE_BODIES_MAX];
     mor_body_request requests[MOR_CASE_BODIES_MAX];
-    mor_rigid_motion motions[MOR_CASE_BODIES_MAX];
 } group_spec;
 
 /* What the groups are made with. */
@@ -98,40 +71,6 @@ static void name_group(const mor_simulation_bodies *bodies, const char *model, c
         n_same += strncmp(bodies->groups[g]->set.name, model, strlen(model)) == 0;
     }
     snprintf(name, room, n_same > 1 ? "%s_%d" : "%s", model, n_same);
-}
-
-static mor_status make_elastic(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
-                               const mor_material *material, group_spec *r)
-{
-    const mor_case_body *first = &c->bodies[r->members[0]];
-    mor_material_instance **instance = &bodies->materials[bodies->n_elastics];
-    mor_elastic *elastic = &bodies->elastics[bodies->n_elastics];
-    char name[MOR_FIELD_NAME_BYTES];
-    name_group(bodies, first->model, name, sizeof name);
-    MOR_TRY(context, mor_material_create(context, material, first->density, first->parameters, instance));
-    MOR_TRY(context, mor_elastic_init(context, elastic, name, &c->numerics, *instance, c->dimension, c->spacing,
-                                      r->requests, r->n_members));
-    bodies->n_elastics += 1;
-    for (int m = 0; m < r->n_members; ++m) {
-        bodies->of[r->members[m]] = (mor_simulation_body){&elastic->group, m, elastic, NULL};
-    }
-    bodies->groups[bodies->n_groups++] = &elastic->group;
-    return MOR_OK;
-}
-
-static mor_status make_rigid(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, group_spec *r)
-{
-    mor_rigid *rigid = &bodies->rigid;
-    for (int m = 0; m < r->n_members; ++m) {
-        set_motion(c, &c->bodies[r->members[m]], &r->requests[m], &r->motions[m]);
-    }
-    MOR_TRY(context,
-            mor_rigid_init(context, rigid, "rigid", c->dimension, c->spacing, r->requests, r->motions, r->n_members));
-    for (int m = 0; m < r->n_members; ++m) {
-        bodies->of[r->members[m]] = (mor_simulation_body){&rigid->group, m, NULL, rigid};
-    }
-    bodies->groups[bodies->n_groups++] = &rigid->group;
-    return MOR_OK;
 }
 
 /* A body that cannot be made is an error of the case: says where it stands there. */
@@ -215,34 +154,63 @@ static mor_status try_thinnest(mor_context *context, const mor_case *c, mor_poin
     return status == MOR_ERROR_CONFIG ? explain_thin_body(context, c, thinnest) : status;
 }
 
-/* The group of one body and of all later bodies of its material. */
-static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c, int leader,
-                             group_builder *shop)
+/* Gathers a body and all later ones that go into one group with it. */
+static mor_status gather_members(mor_context *context, const mor_case *c, const mor_body_kind *kind, int leader,
+                                 group_builder *builder)
 {
-    group_spec *r = &shop->group_spec;
+    group_spec *r = &builder->group_spec;
+    mor_status status = MOR_OK;
+    for (int b = leader; b < c->n_bodies && status == MOR_OK; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        if (mor_body_kind_is(kind, it) && (kind->word != NULL || has_same_material(&c->bodies[leader], it))) {
+            const int m = r->n_members++;
+            r->members[m] = b;
+            status = make_request(context, c, it, &builder->cache, &r->points[m], &r->requests[m]);
+        }
+    }
+    return status;
+}
+
+/* Makes the group of the members that were gathered, and the material they are of. */
+static mor_status finish_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                               const mor_body_kind *kind, const mor_material *material, const group_spec *r)
+{
+    const mor_case_body *first = &c->bodies[r->members[0]];
+    mor_material_instance **instance = &bodies->materials[bodies->n_groups];
+    mor_body_group *group = NULL;
+    char name[MOR_FIELD_NAME_BYTES];
+    name_group(bodies, first->model, name, sizeof name);
+    if (material != NULL) {
+        MOR_TRY(context, mor_material_create(context, material, first->density, first->parameters, instance));
+    }
+    MOR_TRY(
+        context,
+        kind->make(context, &(mor_body_group_spec){c, name, r->members, r->requests, r->n_members, *instance}, &group));
+    for (int m = 0; m < r->n_members; ++m) {
+        bodies->of[r->members[m]] = (mor_simulation_body){group, m};
+    }
+    bodies->groups[bodies->n_groups++] = group;
+    return MOR_OK;
+}
+
+/* The group of one body and of all later bodies of its kind and material. */
+static mor_status make_group(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
+                             const mor_body_kind *kind, int leader, group_builder *builder)
+{
+    group_spec *r = &builder->group_spec;
     const mor_case_body *first = &c->bodies[leader];
     const mor_material *material = NULL;
-    mor_status status = MOR_OK;
     MOR_CHECK(context, bodies->n_groups < MOR_BODY_GROUPS_MAX, MOR_ERROR_CONFIG,
               "%s:%d: found body '%s' of one more material; allowed are %d materials of bodies, all rigid bodies "
               "counting as one; give some bodies the same material",
               first->place.file, first->place.line, first->name, MOR_BODY_GROUPS_MAX);
-    if (!mor_case_body_is_rigid(first)) {
-        MOR_TRY(context, mor_registry_require(context, shop->registry, first->model, &material));
+    if (kind->word == NULL) {
+        MOR_TRY(context, mor_registry_require(context, builder->registry, first->model, &material));
     }
     memset(r, 0, sizeof *r);
-    for (int b = leader; b < c->n_bodies && status == MOR_OK; ++b) {
-        const mor_case_body *it = &c->bodies[b];
-        if (b == leader ||
-            (mor_case_body_is_rigid(first) ? mor_case_body_is_rigid(it) : has_same_material(first, it))) {
-            const int m = r->n_members++;
-            r->members[m] = b;
-            status = make_request(context, c, it, &shop->cache, &r->points[m], &r->requests[m]);
-        }
-    }
+    mor_status status = gather_members(context, c, kind, leader, builder);
     if (status == MOR_OK) {
-        status = mor_case_body_is_rigid(first) ? make_rigid(context, bodies, c, r)
-                                               : make_elastic(context, bodies, c, material, r);
+        status = finish_group(context, bodies, c, kind, material, r);
     }
     status = annotate_error(context, c, r, status);
     for (int m = 0; m < r->n_members; ++m) {
@@ -417,21 +385,20 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
 static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
                               const mor_registry *registry)
 {
-    group_builder *shop = NULL;
-    MOR_TRY(context, MOR_NEW(context, &shop, 1, "groups of bodies"));
-    shop->registry = registry;
-    mor_point_cache_init(&shop->cache, NULL);
-    mor_status status = try_thinnest(context, c, &shop->cache);
-    /* Elastic groups first, so that the rigid one is the last. */
-    for (int pass = 0; pass < 2; ++pass) {
+    group_builder *builder = NULL;
+    MOR_TRY(context, MOR_NEW(context, &builder, 1, "groups of bodies"));
+    builder->registry = registry;
+    mor_point_cache_init(&builder->cache, NULL);
+    mor_status status = try_thinnest(context, c, &builder->cache);
+    for (const mor_body_kind *kind = mor_body_kinds; kind->make != NULL; ++kind) {
         for (int b = 0; b < c->n_bodies && status == MOR_OK; ++b) {
-            if (mor_case_body_is_rigid(&c->bodies[b]) == (pass == 1) && bodies->of[b].group == NULL) {
-                status = make_group(context, bodies, c, b, shop);
+            if (mor_body_kind_is(kind, &c->bodies[b]) && bodies->of[b].group == NULL) {
+                status = make_group(context, bodies, c, kind, b, builder);
             }
         }
     }
-    mor_point_cache_clear(context, &shop->cache);
-    MOR_FREE(context, &shop);
+    mor_point_cache_clear(context, &builder->cache);
+    MOR_FREE(context, &builder);
     return status;
 }
 
@@ -466,11 +433,12 @@ void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bo
     for (int w = 0; w < MOR_CASE_WALLS_MAX; ++w) {
         mor_shape_free(context, &bodies->wholes[w]);
     }
-    for (int k = 0; k < MOR_BODY_GROUPS_MAX; ++k) {
-        mor_elastic_clear(context, &bodies->elastics[k]);
-        mor_material_destroy(context, &bodies->materials[k]);
+    for (int g = 0; g < MOR_BODY_GROUPS_MAX; ++g) {
+        if (bodies->groups[g] != NULL) {
+            bodies->groups[g]->operations->destroy(context, bodies->groups[g]);
+        }
+        mor_material_destroy(context, &bodies->materials[g]);
     }
-    mor_rigid_clear(context, &bodies->rigid);
     memset(bodies, 0, sizeof *bodies);
 }
 
@@ -493,8 +461,7 @@ static void meet_soil(mor_simulation_bodies *bodies, const mor_case *c, const mo
             locked |= it->is_locked[k] ? 1u << k : 0u;
         }
         locked = it->is_prescribed || it->clamp != NULL ? ALL : locked;
-        mor_body_meet_soil(body->group, body->index, soil->settings.reference_density, soil->sound_speed,
-                           body->elastic != NULL ? body->elastic->sound_speed : INFINITY, locked);
+        mor_body_meet_soil(body->group, body->index, soil->settings.reference_density, soil->sound_speed, locked);
     }
 }
 
@@ -504,11 +471,7 @@ mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodie
     for (int g = 0; g < bodies->n_groups; ++g) {
         mor_stepper stepper;
         uint64_t evolving = 0;
-        if (g < bodies->n_elastics) {
-            mor_elastic_stepper(&bodies->elastics[g], &stepper, &evolving);
-        } else {
-            mor_rigid_stepper(&bodies->rigid, &stepper, &evolving);
-        }
+        bodies->groups[g]->operations->make_stepper(bodies->groups[g], &stepper, &evolving);
         MOR_TRY(context, mor_schedule_add(context, schedule, &stepper, evolving));
         bodies->groups[g]->is_unseen = soil == NULL;
         if (soil != NULL) {
