@@ -3,10 +3,8 @@
 #ifndef MOR_MATERIALS_DRUCKER_PRAGER_H
 #define MOR_MATERIALS_DRUCKER_PRAGER_H
 
-#include "core/material/kit/material.h"
-
 /** @file
- *  Elastic, perfectly plastic Drucker-Prager soil with non-associated flow: Zhang et al. (2024), eqs. 4 to 12. */
+ *  Parameters of the Drucker-Prager law, and the cones it may take. The law itself: drucker_prager_isa.c. */
 
 /** Places of the parameters in the value array. */
 enum {
@@ -39,9 +37,5 @@ typedef struct mor_drucker_prager_surface {
  *  @param cohesion [in]  >= 0; unit Pa
  *  Threads: safe to call concurrently. */
 mor_drucker_prager_surface mor_drucker_prager_cone_fit(mor_drucker_prager_cone cone, double angle, double cohesion);
-
-/** The model. Deviations from the paper: the flow term of eq. 7 uses the dilation slope and the deviatoric strain; the
- *  return of eqs. 11 and 12 follows the flow direction when the dilation angle is not zero; rotation is exact. */
-extern const mor_material mor_drucker_prager;
 
 #endif

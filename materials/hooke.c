@@ -12,7 +12,7 @@ const mor_schema mor_hooke_parameters[] = {
 
 const mor_schema mor_hooke_no_state[] = {{.key = NULL}};
 
-mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance, mor_hooke_run run)
+mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance)
 {
     const mor_status status = services->memory_new(services->context, &instance->data, 1, sizeof(mor_hooke),
                                                    "elastic constants of a material");
@@ -29,19 +29,12 @@ mor_status mor_hooke_create(const mor_services *services, mor_material_instance 
     const double third_of_pressure_wave = (constants->lame + constants->two_shear) / 3.0;
     const double modulus = poisson < 0.0 ? third_of_pressure_wave : constants->bulk;
     constants->wave_speed = sqrt(modulus / instance->density);
-    constants->run = run;
     return MOR_OK;
 }
 
 void mor_hooke_destroy(const mor_services *services, mor_material_instance *instance)
 {
     services->memory_free(services->context, &instance->data);
-}
-
-mor_status mor_hooke_run_batch(const mor_material_instance *instance, const mor_batch *batch)
-{
-    const mor_hooke *constants = instance->data;
-    return constants->run(constants, batch);
 }
 
 mor_status mor_hooke_wave_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed)

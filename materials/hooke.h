@@ -14,31 +14,27 @@
 /** Places of the parameters in the value array. */
 enum { MOR_HOOKE_YOUNGS_MODULUS, MOR_HOOKE_POISSONS_RATIO, MOR_HOOKE_COUNT };
 
-typedef struct mor_hooke mor_hooke;
-
-/** The work of a law on one batch: advance_rate or stress_total, compiled for one instruction set. */
-typedef mor_status (*mor_hooke_run)(const mor_hooke *constants, const mor_batch *batch);
-
 /** Constants of one instance. */
-struct mor_hooke {
+typedef struct mor_hooke {
     double shear;      /* G = E/(2(1+nu)), Pa */
     double two_shear;  /* 2G, Pa */
     double lame;       /* lambda = K - 2G/3, Pa */
     double bulk;       /* K = E/(3(1-2nu)), Pa */
     double wave_speed; /* m/s, see mor_hooke_wave_speed */
-    mor_hooke_run run;
-};
+} mor_hooke;
 
 /** Schema entries of the two parameters, for laws that have more. */
 #define MOR_HOOKE_YOUNGS_MODULUS_SCHEMA                                                                                \
     {                                                                                                                  \
-        .key = "youngs_modulus", .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "Pa", .is_required = 1,           \
-        .minimum = 0.0, .maximum = INFINITY, .excludes_minimum = 1, .text = "Young's modulus E"                        \
+        .key = "youngs_modulus", .role = MOR_ROLE_YOUNGS_MODULUS, .kind = MOR_SCHEMA_REAL, .n_components = 1,          \
+        .unit = "Pa", .is_required = 1, .minimum = 0.0, .maximum = INFINITY, .excludes_minimum = 1,                    \
+        .text = "Young's modulus E"                                                                                    \
     }
 #define MOR_HOOKE_POISSONS_RATIO_SCHEMA                                                                                \
     {                                                                                                                  \
-        .key = "poissons_ratio", .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "1", .is_required = 1,            \
-        .minimum = -1.0, .maximum = 0.5, .excludes_minimum = 1, .excludes_maximum = 1, .text = "Poisson's ratio"       \
+        .key = "poissons_ratio", .role = MOR_ROLE_POISSONS_RATIO, .kind = MOR_SCHEMA_REAL, .n_components = 1,          \
+        .unit = "1", .is_required = 1, .minimum = -1.0, .maximum = 0.5, .excludes_minimum = 1, .excludes_maximum = 1,  \
+        .text = "Poisson's ratio"                                                                                      \
     }
 
 /** Parameter schema: youngs_modulus, poissons_ratio; shape [MOR_HOOKE_COUNT + 1], ended by key NULL. */
@@ -47,17 +43,12 @@ extern const mor_schema mor_hooke_parameters[];
 /** State schema of a law without internal variables; ended by key NULL. */
 extern const mor_schema mor_hooke_no_state[];
 
-/** Makes the constants of an instance.
- *  @param run      [in]      the law's function for the machine it runs on
+/** The operation create: makes the constants of an instance.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
-mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance, mor_hooke_run run);
+mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance);
 
 /** The operation destroy. */
 void mor_hooke_destroy(const mor_services *services, mor_material_instance *instance);
-
-/** The operations advance_rate and stress_total: the function chosen when the instance was made.
- *  Returns: what the law returns. */
-mor_status mor_hooke_run_batch(const mor_material_instance *instance, const mor_batch *batch);
 
 /** The operation wave_speed: c0 = sqrt(K/rho0), Zhang et al. (2024), whose time steps follow from it. Pressure waves
  *  run faster, at sqrt(K/rho0) times sqrt(3(1-nu)/(1+nu)): 1.34 times at nu = 0.25, and 1.73 times at nu = 0. This the

@@ -359,12 +359,12 @@ static void density(const mor_elastic_job *job, int64_t first, int64_t last)
     }
 }
 
-const mor_elastic_table *MOR_JOIN(mor_elastic_table_, MOR_ISA)(void);
+const mor_elastic_table *MOR_ISA_NAME(mor_elastic_table)(void);
 
-const mor_elastic_table *MOR_JOIN(mor_elastic_table_, MOR_ISA)(void)
+const mor_elastic_table *MOR_ISA_NAME(mor_elastic_table)(void)
 {
     static const mor_elastic_table table = {
-        MOR_TEXT(MOR_ISA), {forces_2d, forces_3d}, {rate_2d, rate_3d},          stretch,
-        density,           {stress_2d, stress_3d}, {hourglass_2d, hourglass_3d}};
+        MOR_ISA_TEXT(MOR_ISA),  {forces_2d, forces_3d},      {rate_2d, rate_3d}, stretch, density,
+        {stress_2d, stress_3d}, {hourglass_2d, hourglass_3d}};
     return &table;
 }

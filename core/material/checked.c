@@ -20,11 +20,10 @@ typedef enum operation {
     MAX_STEP,
     NONLOCAL,
     TANGENT,
-    SEPARATE,
     N_OPERATIONS
 } operation;
 
-typedef enum breach { NO_BREACH, INPUT_CHANGED, MARK_BROKEN, NOT_WRITTEN, SPLIT_DIFFERS, FLAG_WRONG } breach;
+typedef enum breach { NO_BREACH, INPUT_CHANGED, MARK_BROKEN, NOT_WRITTEN, SPLIT_DIFFERS } breach;
 
 /* Which array; the states follow each other. */
 typedef enum array {
@@ -41,28 +40,15 @@ typedef enum array {
     CONDUCTIVITY,
     SOURCE,
     SOURCE_DERIVATIVE,
-    FLAG,
     STATE_IN,
     STATE_OUT = STATE_IN + MOR_MATERIAL_STATES_MAX,
     N_ARRAYS = STATE_OUT + MOR_MATERIAL_STATES_MAX
 } array;
 
-static const char *const ARRAY_NAMES[] = {"density",
-                                          "velocity_gradient",
-                                          "extra_stress_rate",
-                                          "deformation_gradient",
-                                          "stress_in",
-                                          "stress_out",
-                                          "first_piola_out",
-                                          "dissipation",
-                                          "the result",
-                                          "the field",
-                                          "the conductivity",
-                                          "the source",
-                                          "the source derivative",
-                                          "the flag",
-                                          "a state_in",
-                                          "a state_out"};
+static const char *const ARRAY_NAMES[] = {
+    "density",          "velocity_gradient", "extra_stress_rate",     "deformation_gradient", "stress_in",
+    "stress_out",       "first_piola_out",   "dissipation",           "the result",           "the field",
+    "the conductivity", "the source",        "the source derivative", "a state_in",           "a state_out"};
 
 /* Reads and writes of each operation, as core/material/kit/material.h states them. */
 enum {
@@ -95,15 +81,12 @@ static const profile PROFILES[N_OPERATIONS] = {
     [MAX_STEP] = {"max_step", USES_DENSITY | USES_STRESS | USES_STATE | MAY_BE_INFINITE, 1},
     [NONLOCAL] = {"nonlocal", USES_STRESS | USES_STATE, 1},
     [TANGENT] = {"tangent", USES_DENSITY | USES_STRESS | USES_STATE | USES_MOTION, 36},
-    [SEPARATE] = {"separate", USES_STRESS | USES_STATE, 0},
 };
 
 enum {
-    MARKS = 4,                                                    /* guard numbers on each side of an array */
-    NUMBERS = 93 + 2 * 9 * MOR_MATERIAL_STATES_MAX,               /* most numbers of one particle in all arrays */
-    ARENA = NUMBERS * MOR_CHECKED_CHUNK + (2 * MARKS) * N_ARRAYS, /* in doubles */
-    FLAG_BYTES = MOR_CHECKED_CHUNK + 2 * MARKS,
-    FLAG_POISON = 0xA5
+    MARKS = 4,                                                   /* guard numbers on each side of an array */
+    NUMBERS = 93 + 2 * 9 * MOR_MATERIAL_STATES_MAX,              /* most numbers of one particle in all arrays */
+    ARENA = NUMBERS * MOR_CHECKED_CHUNK + (2 * MARKS) * N_ARRAYS /* in doubles */
 };
 
 static const double MARK = -7.3914061e211;
@@ -120,13 +103,11 @@ typedef struct call {
     const mor_batch *batch;
     double *result;                  /* NULL: none */
     const mor_nonlocal_terms *terms; /* NULL: none */
-    unsigned char *flag;             /* NULL: none */
 } call;
 
 /* A guarded copy of a part of a call. About 70 KiB; lives on the stack, because an operation may not allocate. */
 typedef struct guard {
     double numbers[ARENA];
-    unsigned char flags[FLAG_BYTES];
     int used;
     double *copy[N_ARRAYS];         /* NULL: not handed over */
     const double *source[N_ARRAYS]; /* of an input: the host's */
@@ -227,7 +208,6 @@ static void add_results(guard *g, const call *c, int64_t first)
         add_output(g, SOURCE, c->terms->source, first, 1);
         add_output(g, SOURCE_DERIVATIVE, c->terms->source_derivative, first, 1);
     }
-    memset(g->flags, FLAG_POISON, sizeof g->flags);
 }
 
 static void fill_guard(guard *g, const mor_material_instance *inner, const call *c, int64_t first, int64_t n)
@@ -281,8 +261,6 @@ static mor_status run_inner(const mor_material_instance *inner, guard *g, operat
         return o->nonlocal(inner, &g->batch, &terms);
     case TANGENT:
         return o->tangent(inner, &g->batch, result);
-    case SEPARATE:
-        return o->separate(inner, &g->batch, g->flags + MARKS);
     case N_OPERATIONS:
         break;
     }
@@ -311,21 +289,6 @@ static breach inspect_array(const guard *g, int which, mor_status status, int ma
     return NO_BREACH;
 }
 
-static breach inspect_flags(const guard *g, mor_status status, int is_used)
-{
-    const int n = is_used ? (int)g->batch.n : 0;
-    for (int k = 0; k < FLAG_BYTES; ++k) {
-        const int is_inside = k >= MARKS && k < MARKS + n;
-        if (!is_inside && g->flags[k] != FLAG_POISON) {
-            return MARK_BROKEN;
-        }
-        if (is_inside && status == MOR_OK && g->flags[k] > 1) {
-            return FLAG_WRONG;
-        }
-    }
-    return NO_BREACH;
-}
-
 static void record(checked *data, operation which, breach fault, int array_index)
 {
     const uint32_t code = ((uint32_t)which << 16) | ((uint32_t)fault << 8) | (uint32_t)array_index;
@@ -345,11 +308,7 @@ static int inspect(checked *data, const guard *g, const call *c, mor_status stat
             return 0;
         }
     }
-    const breach fault = inspect_flags(g, status, c->flag != NULL);
-    if (fault != NO_BREACH) {
-        record(data, c->operation, fault, FLAG);
-    }
-    return fault == NO_BREACH;
+    return 1;
 }
 
 /* Runs a part again and compares its outputs with those of the whole chunk. */
@@ -372,22 +331,15 @@ static int is_part_same(checked *data, const guard *whole, const call *c, int64_
             return 0;
         }
     }
-    const int is_same = c->flag == NULL || memcmp(part.flags + MARKS, whole->flags + MARKS + offset, (size_t)n) == 0;
-    if (!is_same) {
-        record(data, c->operation, SPLIT_DIFFERS, FLAG);
-    }
-    return is_same;
+    return 1;
 }
 
-static void copy_out(const guard *g, const call *c, int64_t first)
+static void copy_out(const guard *g)
 {
     for (int which = 0; which < N_ARRAYS; ++which) {
         if (g->target[which] != NULL) {
             memcpy(g->target[which], g->copy[which], (size_t)g->n_numbers[which] * sizeof(double));
         }
-    }
-    if (c->flag != NULL) {
-        memcpy(c->flag + first, g->flags + MARKS, (size_t)g->batch.n);
     }
 }
 
@@ -410,7 +362,7 @@ static mor_status run_chunk(checked *data, const call *c, int64_t first, int64_t
         *c->batch->failed = first + (g.failed >= 0 && g.failed < n ? g.failed : 0);
     }
     if (status == MOR_OK) {
-        copy_out(&g, c, first);
+        copy_out(&g);
     }
     return status;
 }
@@ -482,11 +434,6 @@ static mor_status checked_tangent(const mor_material_instance *instance, const m
     return run_checked(instance, &(call){.operation = TANGENT, .batch = batch, .result = tangent});
 }
 
-static mor_status checked_separate(const mor_material_instance *instance, const mor_batch *batch, unsigned char *flag)
-{
-    return run_checked(instance, &(call){.operation = SEPARATE, .batch = batch, .flag = flag});
-}
-
 static void checked_describe(const mor_services *services, const mor_material_instance *instance, char *text,
                              size_t text_bytes)
 {
@@ -518,7 +465,6 @@ static void set_operations(mor_material_operations *mine, const mor_material_ope
         .max_step = checked_max_step,
         .nonlocal = inner->nonlocal != NULL ? checked_nonlocal : NULL,
         .tangent = inner->tangent != NULL ? checked_tangent : NULL,
-        .separate = inner->separate != NULL ? checked_separate : NULL,
         .describe = checked_describe,
     };
 }
@@ -564,7 +510,6 @@ int mor_checked_fault(const mor_material_instance *instance, char *text, size_t 
         [MARK_BROKEN] = "wrote outside",
         [NOT_WRITTEN] = "returned ok but left NaN or infinity in",
         [SPLIT_DIFFERS] = "gives other bits when the range is split, in",
-        [FLAG_WRONG] = "wrote something other than 0 or 1 to",
     };
     text[0] = '\0';
     if (instance->operations.destroy != checked_destroy) {

@@ -129,9 +129,6 @@ static const char *find_operation_fault(const mor_material *material)
     if (((material->capabilities & MOR_MATERIAL_TANGENT) != 0) != (operations->tangent != NULL)) {
         return "capability MOR_MATERIAL_TANGENT and operation tangent go together";
     }
-    if (((material->capabilities & MOR_MATERIAL_SEPARATES) != 0) != (operations->separate != NULL)) {
-        return "capability MOR_MATERIAL_SEPARATES and operation separate go together";
-    }
     return NULL;
 }
 
@@ -140,6 +137,9 @@ static mor_status verify_state_schema(mor_context *context, const mor_material *
     for (const mor_schema *entry = material->state; entry->key != NULL; ++entry) {
         MOR_CHECK(context, entry->kind == MOR_SCHEMA_REAL || entry->kind == MOR_SCHEMA_VECTOR, MOR_ERROR_PLUGIN,
                   "material '%s': state variable '%s' must be real or a vector", material->name, entry->key);
+        MOR_CHECK(context, entry->role == MOR_ROLE_NONE, MOR_ERROR_PLUGIN,
+                  "material '%s': state variable '%s' has a role; roles belong to parameters", material->name,
+                  entry->key);
         MOR_CHECK(context, !entry->is_required, MOR_ERROR_PLUGIN,
                   "material '%s': state variable '%s' needs a default, its initial value; set is_required to 0",
                   material->name, entry->key);

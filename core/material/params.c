@@ -43,6 +43,62 @@ int mor_params_offset(const mor_schema *schema, int entry)
     return offset;
 }
 
+/* Text and unit of each role. */
+static const struct {
+    const char *text, *unit;
+} ROLES[MOR_ROLE_COUNT] = {
+    [MOR_ROLE_NONE] = {"", ""},
+    [MOR_ROLE_YOUNGS_MODULUS] = {"Young's modulus E", "Pa"},
+    [MOR_ROLE_POISSONS_RATIO] = {"Poisson's ratio nu", "1"},
+    [MOR_ROLE_SHEAR_MODULUS] = {"shear modulus G", "Pa"},
+    [MOR_ROLE_BULK_MODULUS] = {"bulk modulus K", "Pa"},
+    [MOR_ROLE_FRICTION_ANGLE] = {"friction angle phi", "rad"},
+    [MOR_ROLE_COHESION] = {"cohesion c", "Pa"},
+    [MOR_ROLE_DILATION_ANGLE] = {"dilation angle psi", "rad"},
+    [MOR_ROLE_TENSION_RATIO] = {"tension ratio", "1"},
+};
+
+const char *mor_role_text(mor_role role)
+{
+    return ROLES[role].text;
+}
+
+const char *mor_role_unit(mor_role role)
+{
+    return ROLES[role].unit;
+}
+
+int mor_params_find_role(const mor_schema *schema, mor_role role)
+{
+    for (int entry = 0; schema[entry].key != NULL; ++entry) {
+        if (schema[entry].role == role) {
+            return entry;
+        }
+    }
+    return -1;
+}
+
+double mor_params_role_value(const mor_schema *schema, const double *values, mor_role role, double fallback)
+{
+    const int entry = mor_params_find_role(schema, role);
+    return entry < 0 ? fallback : values[mor_params_offset(schema, entry)];
+}
+
+double mor_params_youngs_modulus(const mor_schema *schema, const double *values, double fallback)
+{
+    const double shear = mor_params_role_value(schema, values, MOR_ROLE_SHEAR_MODULUS, NAN);
+    const double bulk = mor_params_role_value(schema, values, MOR_ROLE_BULK_MODULUS, NAN);
+    const double derived = 9.0 * bulk * shear / (3.0 * bulk + shear);
+    return mor_params_role_value(schema, values, MOR_ROLE_YOUNGS_MODULUS, isnan(derived) ? fallback : derived);
+}
+
+const char *mor_params_stiffness_key(const mor_schema *schema)
+{
+    const int youngs = mor_params_find_role(schema, MOR_ROLE_YOUNGS_MODULUS);
+    const int entry = youngs >= 0 ? youngs : mor_params_find_role(schema, MOR_ROLE_BULK_MODULUS);
+    return entry >= 0 ? schema[entry].key : "its stiffness";
+}
+
 int mor_params_choice(const char *choices, const char *word)
 {
     const char *start = choices;
@@ -163,6 +219,24 @@ static int is_key_wellformed(const char *key)
     return key[0] >= 'a' && key[0] <= 'z' && key[strspn(key, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0';
 }
 
+/* Returns what is wrong with the role of an entry, NULL when nothing is. */
+static const char *find_role_fault(const mor_schema *schema, const mor_schema *entry)
+{
+    if ((int)entry->role < MOR_ROLE_NONE || entry->role >= MOR_ROLE_COUNT) {
+        return "its role must be one of MOR_ROLE_...";
+    }
+    if (entry->role == MOR_ROLE_NONE) {
+        return NULL;
+    }
+    if (mor_params_find_role(schema, entry->role) != (int)(entry - schema)) {
+        return "another entry has the same role";
+    }
+    if (entry->kind != MOR_SCHEMA_REAL || strcmp(entry->unit, mor_role_unit(entry->role)) != 0) {
+        return "its role needs a real number in the unit of the role (core/base/schema.h)";
+    }
+    return NULL;
+}
+
 static int is_text_present(const char *text)
 {
     return text != NULL && text[0] != '\0';
@@ -196,8 +270,10 @@ static const char *find_entry_fault(const mor_schema *schema, const mor_schema *
     if (!(entry->minimum <= entry->maximum)) {
         return "its minimum must not exceed its maximum (use -INFINITY and INFINITY for none)";
     }
-    return entry->is_required || is_value_allowed(entry, entry->default_value) ? NULL
-                                                                               : "its default is out of its own range";
+    if (!entry->is_required && !is_value_allowed(entry, entry->default_value)) {
+        return "its default is out of its own range";
+    }
+    return find_role_fault(schema, entry);
 }
 
 mor_status mor_params_verify_schema(mor_context *context, const mor_schema *schema, const char *owner, int n_max)

@@ -29,6 +29,39 @@ int mor_params_find(const mor_schema *schema, const char *key);
  *  @param entry  [in]  0 <= entry < mor_params_entries */
 int mor_params_offset(const mor_schema *schema, int entry);
 
+/** What a role means, in words; "" for MOR_ROLE_NONE.
+ *  Returns: a static text. */
+const char *mor_role_text(mor_role role);
+
+/** SI unit that a parameter of a role has; "" for MOR_ROLE_NONE.
+ *  Returns: a static text. */
+const char *mor_role_unit(mor_role role);
+
+/** Place of the entry with a role, or -1.
+ *  @param schema [in]  table ended by key NULL
+ *  @param role   [in]  other than MOR_ROLE_NONE */
+int mor_params_find_role(const mor_schema *schema, mor_role role);
+
+/** Value of the parameter with a role.
+ *  @param schema   [in]  table ended by key NULL
+ *  @param values   [in]  shape [mor_params_count]; units of the schema
+ *  @param role     [in]  other than MOR_ROLE_NONE
+ *  @param fallback [in]  unit of the role
+ *  Returns: unit of the role; fallback where no parameter has it. */
+double mor_params_role_value(const mor_schema *schema, const double *values, mor_role role, double fallback);
+
+/** Young's modulus of a set of parameters: that of its role, else the one that follows from shear and bulk modulus.
+ *  @param schema   [in]  table ended by key NULL
+ *  @param values   [in]  shape [mor_params_count]; units of the schema
+ *  @param fallback [in]  unit Pa
+ *  Returns: unit Pa; fallback where the roles do not tell. */
+double mor_params_youngs_modulus(const mor_schema *schema, const double *values, double fallback);
+
+/** Key of the parameter to raise where a material is too soft, for messages: Young's modulus, else the bulk modulus.
+ *  @param schema   [in]  table ended by key NULL
+ *  Returns: a text of the schema; "its stiffness" where no parameter has such a role. */
+const char *mor_params_stiffness_key(const mor_schema *schema);
+
 /** Number of words of a choice, or the place of one of them.
  *  @param choices [in]  zero-terminated; words separated by '|'
  *  @param word    [in]  zero-terminated; NULL: count the words
@@ -48,7 +81,8 @@ void mor_params_word(const char *choices, int index, char *word, size_t word_byt
 void mor_params_defaults(const mor_schema *schema, double *values);
 
 /** Checks that a schema itself makes sense: unique lower-case keys, units, texts, default within the range, allowed
- *  kinds, component counts, at most a stated number of entries and values.
+ *  kinds, component counts, roles that fit and stand
+ *  once, at most a stated number of entries and values.
  *  @param schema  [in]      table ended by key NULL
  *  @param owner   [in]      zero-terminated; named in messages
  *  @param n_max   [in]      largest allowed number of entries and of values

@@ -3,19 +3,12 @@
 #ifndef MOR_CORE_PARTICLE_LANES_H
 #define MOR_CORE_PARTICLE_LANES_H
 
+#include "core/base/isa.h"
 #include "core/particle/tree.h"
 
 /** @file
  *  Numbers in lanes, for loops over clusters of eight particles that are compiled once per instruction set. Only files
  *  named *_isa.c include it; MOR_ISA is the name of the set. Not for others: the names are short. */
-
-#ifndef MOR_ISA
-#define MOR_ISA baseline
-#endif
-#define MOR_JOIN_(a, b) a##b
-#define MOR_JOIN(a, b) MOR_JOIN_(a, b)
-#define MOR_TEXT_(a) #a
-#define MOR_TEXT(a) MOR_TEXT_(a)
 
 /* Numbers in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others, so
  * that a particle's sums do not depend on the width. */

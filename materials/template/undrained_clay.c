@@ -9,11 +9,13 @@
 #include "core/material/kit/plugin.h"
 
 /* Step 1: the parameters, in the order in which create finds them. Moraine reads them from the case file, converts the
- * units, checks the ranges and prints them into every output. */
+ * units, checks the ranges and prints them into every output. The role says what a parameter means to others: stress at
+ * rest, stiffness in contact and warnings need friction angle, cohesion and moduli, whatever their keys. */
 enum { SHEAR_MODULUS, BULK_MODULUS, UNDRAINED_STRENGTH };
 
 static const mor_schema PARAMETERS[] = {
     {.key = "shear_modulus",
+     .role = MOR_ROLE_SHEAR_MODULUS,
      .kind = MOR_SCHEMA_REAL,
      .n_components = 1,
      .unit = "Pa",
@@ -23,6 +25,7 @@ static const mor_schema PARAMETERS[] = {
      .excludes_minimum = 1,
      .text = "undrained shear modulus G"},
     {.key = "bulk_modulus",
+     .role = MOR_ROLE_BULK_MODULUS,
      .kind = MOR_SCHEMA_REAL,
      .n_components = 1,
      .unit = "Pa",
@@ -32,6 +35,7 @@ static const mor_schema PARAMETERS[] = {
      .excludes_minimum = 1,
      .text = "bulk modulus K, as high as the time step can bear"},
     {.key = "undrained_strength",
+     .role = MOR_ROLE_COHESION,
      .kind = MOR_SCHEMA_REAL,
      .n_components = 1,
      .unit = "Pa",

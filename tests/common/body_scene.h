@@ -9,7 +9,7 @@
 #include "core/geometry/shape_moments.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
-#include "materials/neo_hookean.h"
+#include "tests/common/laws.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -128,7 +128,7 @@ static inline void body_scene_open(body_scene *it, const body_scene_request *req
     mor_context_init(&it->context);
     it->context.n_threads = request->n_threads > 0 ? request->n_threads : 1;
     const double values[MOR_HOOKE_COUNT] = {request->youngs, request->poisson};
-    const mor_material *model = request->material != NULL ? request->material : &mor_neo_hookean;
+    const mor_material *model = request->material != NULL ? request->material : law_named("neo_hookean");
     body_scene_require(it, mor_material_create(&it->context, model, request->density, values, &it->material));
     body_scene_make_shape(it, request);
     mor_body_request body = {.name = "body",

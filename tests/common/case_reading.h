@@ -40,7 +40,7 @@ static inline int case_reading_set_up(void **state)
     mor_context_init(&f->units_context);
     return mor_units_new(&f->units_context, &f->units) != MOR_OK ||
            mor_registry_new(&f->context, &f->registry) != MOR_OK ||
-           mor_registry_add_list(&f->context, f->registry, &mor_materials_builtin) != MOR_OK;
+           mor_registry_add_list(&f->context, f->registry, mor_materials_builtin(NULL)) != MOR_OK;
 }
 
 static inline int case_reading_tear_down(void **state)

@@ -12,7 +12,7 @@
 #include "core/geometry/shape_moments.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
-#include "materials/neo_hookean.h"
+#include "tests/common/laws.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -212,7 +212,7 @@ static inline void contact_scene_make_groups(contact_scene *it)
                                      .body_damping = request->damping_factor,
                                      .hourglass = 0.0};
         contact_scene_require(
-            it, mor_material_create(&it->context, &mor_neo_hookean, request->density, values, &it->material));
+            it, mor_material_create(&it->context, law_named("neo_hookean"), request->density, values, &it->material));
         contact_scene_require(it, mor_elastic_init(&it->context, &it->elastic, "rubber", &settings, it->material,
                                                    request->dimension, request->spacing, asks[0], it->n_elastic));
     }

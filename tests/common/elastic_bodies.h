@@ -9,7 +9,7 @@
 #include "core/base/random.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/time/schedule.h"
-#include "materials/neo_hookean.h"
+#include "tests/common/laws.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -155,7 +155,8 @@ static inline mor_status elastic_try_open(elastic_bodies *it, const elastic_requ
     memset(it, 0, sizeof *it);
     mor_context_init(&it->context);
     it->context.n_threads = r->n_threads > 0 ? r->n_threads : 1;
-    elastic_require(it, mor_material_create(&it->context, &mor_neo_hookean, r->density, parameters, &it->material));
+    elastic_require(it,
+                    mor_material_create(&it->context, law_named("neo_hookean"), r->density, parameters, &it->material));
     for (int b = 0; b < r->n_pieces; ++b) {
         elastic_describe(it, r, b, &bodies[b], &points[b]);
     }

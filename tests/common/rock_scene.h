@@ -7,6 +7,7 @@
 #include "core/time/schedule.h"
 #include "materials/drucker_prager.h"
 #include "tests/common/cloud.h"
+#include "tests/common/laws.h"
 #include "tests/common/rock.h"
 
 #include <math.h>
@@ -110,7 +111,8 @@ static inline void rock_scene_build(rock_scene *it)
     const double dp = it->settings.spacing;
     const double volume = it->settings.dimension == 3 ? dp * dp * dp : dp * dp;
     const double density = it->settings.reference_density;
-    rock_scene_require(it, mor_material_create(&it->context, &mor_drucker_prager, density, it->parameters, &it->sand));
+    rock_scene_require(
+        it, mor_material_create(&it->context, law_named("drucker_prager"), density, it->parameters, &it->sand));
     rock_scene_require(it, mor_soil_init(&it->context, &it->soil, "sand", &it->settings, it->sand, it->n_points));
     double *const *data = it->soil.set.data;
     memcpy(data[MOR_FIELD_POSITION], it->points, (size_t)(3 * it->n_points) * sizeof(double));

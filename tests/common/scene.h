@@ -106,7 +106,7 @@ static inline scene *scene_new(const scene_request *request)
     mor_context_init(&it->context);
     it->context.n_threads = request->n_threads > 0 ? request->n_threads : 1;
     scene_require(it, mor_registry_new(&it->context, &it->registry));
-    scene_require(it, mor_registry_add_list(&it->context, it->registry, &mor_materials_builtin));
+    scene_require(it, mor_registry_add_list(&it->context, it->registry, mor_materials_builtin(NULL)));
     scene_read(it, request);
     scene_require(it, mor_simulation_init(&it->context, &it->simulation, &it->the_case, it->registry));
     scene_require(it, mor_simulation_settle(&it->context, &it->simulation, NULL));

@@ -86,7 +86,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes)
     mor_registry *registry = NULL;
     mor_context_init(&context);
     require(mor_registry_new(&context, &registry) == MOR_OK, "registry", context.message);
-    require(mor_registry_add_list(&context, registry, &mor_materials_builtin) == MOR_OK, "registry", context.message);
+    require(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)) == MOR_OK, "registry",
+            context.message);
     const mor_case_text text = {.name = "fuzz.cfg",
                                 .text = (const char *)data,
                                 .n_bytes = (int64_t)n_bytes,

@@ -188,7 +188,7 @@ static mor_status build_scene(const char *source, const char *setting, char *mes
     mor_registry *registry = NULL;
     mor_context_init(&context);
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     const mor_case_text text = {"scene.cfg", source, (int64_t)strlen(source), &setting, setting != NULL,
                                 registry,    NULL};
     mor_status status = mor_case_read_text(&context, &text, &the_case);
@@ -267,7 +267,7 @@ static void geostatic_stress_counts_all_soil_straight_above(void **state)
     const char *settings[] = {"soil[0].initial_stress.type=k0"};
     mor_context_init(&context);
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     const mor_case_text text = {"scene.cfg", base, (int64_t)strlen(base), settings, 1, registry, NULL};
     assert_int_equal(mor_case_read_text(&context, &text, &the_case), MOR_OK);
     assert_int_equal(mor_simulation_init(&context, &simulation, &the_case, registry), MOR_OK);

@@ -102,7 +102,7 @@ static mor_status build(const char *text, char *said)
     context.log_sink = keep_warning;
     context.log_user = said;
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     char *quoted = scene_quote(text);
     const mor_case_text source = {
         .name = "scene", .text = quoted, .n_bytes = (int64_t)strlen(quoted), .registry = registry};

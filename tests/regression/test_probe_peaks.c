@@ -43,7 +43,7 @@ static char *run_hit(run_folder *folder, int *n_missed)
                                      .commit = "",
                                      .output = output};
     assert_int_equal(mor_registry_new(&folder->context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&folder->context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&folder->context, registry, mor_materials_builtin(NULL)), MOR_OK);
     if (mor_run(&folder->context, &options, registry, &outcome) != MOR_OK) {
         fail_msg("%s", folder->context.message);
     }

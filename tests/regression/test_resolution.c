@@ -38,7 +38,7 @@ static double find_volume(run_folder *folder, const char *source, const char *se
     const char *settings[] = {setting};
     finished_run_store_text(folder, source, path);
     assert_int_equal(mor_registry_new(context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(context, registry, mor_materials_builtin(NULL)), MOR_OK);
     assert_int_equal(mor_case_read(context, path, settings, setting != NULL, registry, &the_case), MOR_OK);
     assert_int_equal(mor_simulation_init(context, &simulation, &the_case, registry), MOR_OK);
     assert_int_equal(mor_simulation_find_volume(context, &simulation, 0, &volume), MOR_OK);

@@ -56,7 +56,7 @@ static void run_case(run_folder *folder, const char *name, const variant *it, do
                                      .commit = "",
                                      .output = output};
     assert_int_equal(mor_registry_new(&folder->context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&folder->context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&folder->context, registry, mor_materials_builtin(NULL)), MOR_OK);
     if (mor_run(&folder->context, &options, registry, &outcome) != MOR_OK) {
         fail_msg("'%s': %s", it->name, folder->context.message);
     }

@@ -22,8 +22,8 @@ What a case can measure. Each line: type, [unit; unit in plane strain], meaning.
 [case_file.md](case_file.md); which measure of a run-out to report is in
 [measure_run_out.md](../guide/measure_run_out.md)."""),
     "materials.md": ("materials", "Material models", """
-Each model with its literature and its parameters in SI units, [-] for none. Ranges and defaults are in
-[case_file.md](case_file.md)."""),
+Each model with its literature and its parameters in SI units, [-] for none. The role of a parameter is what the program
+finds it by, whatever its name. Ranges and defaults are in [case_file.md](case_file.md)."""),
 }
 
 

@@ -19,6 +19,7 @@ import check_rooms_drawing
 import check_sizes
 import check_symbols
 import check_tests
+import check_roles
 import check_text
 import source
 
@@ -336,6 +337,22 @@ class Calls(Sample):
 
     def test_empty_build_is_refused(self):
         self.expect(check_calls.check(self.root), "build first")
+
+
+class Roles(Sample):
+    LAW = TAG + 'static const mor_schema P[] = {{.key = "friction_angle",\n    .role = MOR_ROLE_FRICTION_ANGLE}};\n'
+
+    def test_a_key_in_its_law_passes(self):
+        self.write("materials/clay.c", self.LAW)
+        self.expect(check_roles.check(self.root))
+
+    def test_a_key_elsewhere_is_refused(self):
+        self.write("materials/clay.c", self.LAW)
+        self.write("core/base/bad.c", TAG + 'double a(void) { return find("friction_angle"); }\n')
+        self.expect(check_roles.check(self.root), "core/base/bad.c:3", "friction_angle", "by its role")
+
+    def test_laws_without_roles_are_refused(self):
+        self.expect(check_roles.check(self.root), "no parameter has a role")
 
 
 class RoomsDrawing(Sample):

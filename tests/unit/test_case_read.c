@@ -315,7 +315,7 @@ static void a_written_case_marks_defaults_and_only_them(void **state)
     assert_non_null(strstr(text, "series_interval = \"0.0025 s\"; # default\n"));
     assert_non_null(strstr(text, "dilation_angle = \"0.0 rad\"; # default\n"));
     assert_non_null(strstr(text, "cone = \"extension\";\n"));
-    assert_non_null(strstr(text, "# lateral_ratio: 1 - sin(friction_angle) (default)\n"));
+    assert_non_null(strstr(text, "# lateral_ratio: 1 - sin(friction angle) (default)\n"));
     case_reading_read(f, text, NULL, &f->second);
     free(text);
     text = case_reading_write(f, &f->second);

@@ -31,7 +31,7 @@ static int set_up(void **state)
     *state = f;
     mor_context_init(&f->context);
     return mor_units_new(&f->context, &f->units) != MOR_OK || mor_registry_new(&f->context, &f->registry) != MOR_OK ||
-           mor_registry_add_list(&f->context, f->registry, &mor_materials_builtin) != MOR_OK;
+           mor_registry_add_list(&f->context, f->registry, mor_materials_builtin(NULL)) != MOR_OK;
 }
 
 static int tear_down(void **state)

@@ -4,6 +4,7 @@
 #include "core/base/random.h"
 #include "core/material/checked.h"
 #include "materials/drucker_prager.h"
+#include "tests/common/laws.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -34,8 +35,6 @@ typedef enum misdeed {
     NAN_PRESSURE,
     SKIPS_SOURCE,
     SKIPS_TANGENT,
-    ODD_FLAG,
-    FLAG_BEHIND,
     N_MISDEEDS
 } misdeed;
 
@@ -114,15 +113,6 @@ static mor_status rogue_nonlocal(const mor_material_instance *instance, const mo
     return does(instance, SKIPS_SOURCE) ? MOR_OK : fill_result(batch, 1, 5.0, terms->source);
 }
 
-static mor_status rogue_separate(const mor_material_instance *instance, const mor_batch *batch, unsigned char *flag)
-{
-    memset(flag, does(instance, ODD_FLAG) ? 2 : 1, (size_t)batch->n);
-    if (does(instance, FLAG_BEHIND)) {
-        flag[batch->n] = 0;
-    }
-    return MOR_OK;
-}
-
 static mor_status rogue_advance(const mor_material_instance *instance, const mor_batch *batch)
 {
     for (int64_t i = 0; i < batch->n; ++i) {
@@ -164,7 +154,7 @@ static const mor_material ROGUE = {
     .text = "breaks one rule",
     .literature = "none",
     .form = MOR_MATERIAL_RATE,
-    .capabilities = MOR_MATERIAL_NONLOCAL | MOR_MATERIAL_TANGENT | MOR_MATERIAL_SEPARATES | MOR_MATERIAL_DISSIPATION,
+    .capabilities = MOR_MATERIAL_NONLOCAL | MOR_MATERIAL_TANGENT | MOR_MATERIAL_DISSIPATION,
     .parameters = PARAMETERS,
     .state = STATE,
     .operations = {.create = rogue_create,
@@ -173,8 +163,7 @@ static const mor_material ROGUE = {
                    .advance_rate = rogue_advance,
                    .pressure = rogue_pressure,
                    .nonlocal = rogue_nonlocal,
-                   .tangent = rogue_tangent,
-                   .separate = rogue_separate},
+                   .tangent = rogue_tangent},
 };
 
 /* Arrays of one range. */
@@ -220,7 +209,6 @@ static mor_material_instance *wrap(mor_context *context, const mor_material *mat
 static mor_status run_all(const mor_material_instance *m, const mor_batch *batch)
 {
     static double result[36 * N], more[3][N];
-    static unsigned char flag[N];
     const mor_nonlocal_terms terms = {.field = batch->density,
                                       .capacity = result,
                                       .conductivity = more[0],
@@ -238,9 +226,6 @@ static mor_status run_all(const mor_material_instance *m, const mor_batch *batch
     }
     if (status == MOR_OK && o->tangent != NULL) {
         status = o->tangent(m, batch, result);
-    }
-    if (status == MOR_OK && o->separate != NULL) {
-        status = o->separate(m, batch, flag);
     }
     return status;
 }
@@ -261,11 +246,11 @@ static void good_material_passes_and_numbers_are_its_own(void **state)
     }
     plain = r;
     mor_material_instance *inner = NULL;
-    assert_int_equal(mor_material_create(&context, &mor_drucker_prager, 2000.0, SOIL, &inner), MOR_OK);
+    assert_int_equal(mor_material_create(&context, law_named("drucker_prager"), 2000.0, SOIL, &inner), MOR_OK);
     const mor_batch plain_batch = view(&plain);
     assert_int_equal(inner->operations.advance_rate(inner, &plain_batch), MOR_OK);
     mor_material_destroy(&context, &inner);
-    mor_material_instance *checked = wrap(&context, &mor_drucker_prager, SOIL, 1);
+    mor_material_instance *checked = wrap(&context, law_named("drucker_prager"), SOIL, 1);
     const mor_batch batch = view(&r);
     assert_int_equal(run_all(checked, &batch), MOR_OK);
     char text[TEXT_BYTES];
@@ -298,8 +283,6 @@ static void every_breach_is_found_and_named(void **state)
         [NAN_PRESSURE] = {"pressure", "the result"},
         [SKIPS_SOURCE] = {"nonlocal", "the source"},
         [SKIPS_TANGENT] = {"tangent", "the result"},
-        [ODD_FLAG] = {"separate", "other than 0 or 1"},
-        [FLAG_BEHIND] = {"separate", "wrote outside"},
     };
     for (int what = 0; what < N_MISDEEDS; ++what) {
         mor_context context;
@@ -341,7 +324,7 @@ static void failures_of_the_material_pass_through_with_the_place(void **state)
     mor_context context;
     mor_context_init(&context);
     range r = {0};
-    mor_material_instance *checked = wrap(&context, &mor_drucker_prager, SOIL, 1);
+    mor_material_instance *checked = wrap(&context, law_named("drucker_prager"), SOIL, 1);
     const mor_batch batch = view(&r);
     r.gradient[9 * 70 + 1] = 1e9;
     assert_int_equal(checked->operations.advance_rate(checked, &batch), MOR_RETRY_SMALLER_STEP);

@@ -4,6 +4,7 @@
 #include "core/base/memory.h"
 #include "core/base/random.h"
 #include "materials/drucker_prager.h"
+#include "tests/common/laws.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -33,7 +34,7 @@ static void open_point(point *p, soil_values values)
     mor_context_init(&p->context);
     const double v[MOR_DRUCKER_PRAGER_COUNT] = {values.youngs,   values.poisson, values.friction,     values.cohesion,
                                                 values.dilation, values.cone,    values.tension_ratio};
-    assert_int_equal(mor_material_create(&p->context, &mor_drucker_prager, 2000.0, v, &p->soil), MOR_OK);
+    assert_int_equal(mor_material_create(&p->context, law_named("drucker_prager"), 2000.0, v, &p->soil), MOR_OK);
     memset(p->stress, 0, sizeof p->stress);
     p->plastic_strain = 0.0;
     p->dissipation = 0.0;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
 #include "materials/drucker_prager.h"
+#include "tests/common/laws.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -23,7 +24,7 @@ static mor_material_instance *make(mor_context *context)
 {
     mor_context_init(context);
     mor_material_instance *soil = NULL;
-    assert_int_equal(mor_material_create(context, &mor_drucker_prager, 2000.0, &SAND.youngs, &soil), MOR_OK);
+    assert_int_equal(mor_material_create(context, law_named("drucker_prager"), 2000.0, &SAND.youngs, &soil), MOR_OK);
     return soil;
 }
 
@@ -124,7 +125,7 @@ static void wrong_parameters_are_refused_with_a_reason(void **state)
         mor_context_init(&context);
         mor_material_instance *soil = NULL;
         const double *values = &cases[k].values.youngs;
-        assert_int_equal(mor_material_create(&context, &mor_drucker_prager, cases[k].density, values, &soil),
+        assert_int_equal(mor_material_create(&context, law_named("drucker_prager"), cases[k].density, values, &soil),
                          MOR_ERROR_ARGUMENT);
         assert_null(soil);
         assert_non_null(strstr(context.message, cases[k].word));

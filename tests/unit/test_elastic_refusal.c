@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "materials/drucker_prager.h"
 #include "tests/common/elastic_bodies.h"
+#include "tests/common/laws.h"
 
 static elastic_request request_of(const elastic_piece *piece)
 {
@@ -245,7 +246,7 @@ static void test_material_of_the_rate_form_is_refused(void **state)
     mor_material_instance *material = NULL;
     mor_elastic elastic;
     mor_context_init(&context);
-    assert_int_equal(mor_material_create(&context, &mor_drucker_prager, 1000.0, parameters, &material), MOR_OK);
+    assert_int_equal(mor_material_create(&context, law_named("drucker_prager"), 1000.0, parameters, &material), MOR_OK);
     const mor_scheme settings = {
         .body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0};
     assert_int_equal(mor_elastic_init(&context, &elastic, "rocks", &settings, material, 3, 0.1, NULL, 0),

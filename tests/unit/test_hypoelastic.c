@@ -1,8 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/hypoelastic.h"
 
-#include "materials/neo_hookean.h"
+#include "tests/common/laws.h"
 #include "tests/common/rock_point.h"
 
 static const double YOUNGS = 5.98e6;
@@ -19,7 +18,7 @@ static int open_point(void **state)
 {
     static rate_point point;
     memset(&point, 0, sizeof point);
-    open_rock(&point.base, &mor_hypoelastic, YOUNGS, POISSON, 2600.0);
+    open_rock(&point.base, law_named("hypoelastic"), YOUNGS, POISSON, 2600.0);
     *state = &point;
     return 0;
 }
@@ -167,7 +166,7 @@ static void small_strains_give_the_stress_of_the_total_form(void **state)
 {
     rate_point *p = *state;
     rock_point neo;
-    open_rock(&neo, &mor_neo_hookean, YOUNGS, POISSON, 2600.0);
+    open_rock(&neo, law_named("neo_hookean"), YOUNGS, POISSON, 2600.0);
     static const int PLACES[6] = {0, 4, 8, 1, 5, 6};
     const double strain = 1e-4;
     double f[9];

@@ -5,6 +5,7 @@
 #include "core/time/schedule.h"
 #include "materials/drucker_prager.h"
 #include "tests/common/cloud.h"
+#include "tests/common/laws.h"
 
 enum { SIDE_X = 14, SIDE_Y = 9, LAYERS = 4, STEPS = 20 };
 
@@ -209,7 +210,8 @@ static void open_sandbox(sandbox *box)
     mor_context_init(&box->context);
     const double parameters[MOR_DRUCKER_PRAGER_COUNT] = {1e6, 0.3, 0.5, 100.0, 0.0, MOR_DRUCKER_PRAGER_PLANE_STRAIN,
                                                          1.0};
-    assert_int_equal(mor_material_create(&box->context, &mor_drucker_prager, 1600.0, parameters, &box->sand), MOR_OK);
+    assert_int_equal(mor_material_create(&box->context, law_named("drucker_prager"), 1600.0, parameters, &box->sand),
+                     MOR_OK);
     mor_soil_settings settings;
     fill_settings(&settings);
     assert_int_equal(mor_soil_init(&box->context, &box->soil, "sand", &settings, box->sand, (int64_t)SIDE_X * SIDE_Y),

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/neo_hookean.h"
 
+#include "tests/common/laws.h"
 #include "tests/common/rock_point.h"
 
 #include <float.h>
@@ -13,7 +13,7 @@ static const double DENSITY = 1200.0;
 static int open_point(void **state)
 {
     static rock_point point;
-    open_rock(&point, &mor_neo_hookean, YOUNGS, POISSON, DENSITY);
+    open_rock(&point, law_named("neo_hookean"), YOUNGS, POISSON, DENSITY);
     *state = &point;
     return 0;
 }
@@ -146,7 +146,7 @@ static void logarithm_is_good_to_the_last_digits_for_any_volume(void **state)
 {
     (void)state;
     rock_point p;
-    open_rock(&p, &mor_neo_hookean, 1.0, 0.499999, DENSITY); /* the logarithm dominates */
+    open_rock(&p, law_named("neo_hookean"), 1.0, 0.499999, DENSITY); /* the logarithm dominates */
     double worst = 0.0;
     for (int k = -2000; k <= 2000; ++k) {
         const double x = k == 0 ? 1e-9 : (k < 0 ? 0.9999 : 3.0) * k / 2000.0;
@@ -241,7 +241,7 @@ static void wave_speed_gives_the_time_steps_of_the_source(void **state)
 {
     (void)state;
     static const double ROWS[3][2] = {{4e-3, 7.4e-6}, {2e-3, 3.7e-6}, {1.5e-3, 2.8e-6}};
-    const double speed = speed_of(&mor_neo_hookean, 200e6, 0.25, 2200.0);
+    const double speed = speed_of(law_named("neo_hookean"), 200e6, 0.25, 2200.0);
     assert_true(fabs(speed - sqrt(200e6 / 1.5 / 2200.0)) < 1e-12 * speed); /* rounding */
     for (int k = 0; k < 3; ++k) {
         const double step = 0.4 * 1.15 * ROWS[k][0] / speed;
@@ -255,7 +255,7 @@ static void wave_speed_bounds_that_of_pressure_waves(void **state)
     for (int k = -98; k < 50; k += 4) {
         const double poisson = 0.01 * k;
         const double pressure_wave = sqrt((1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson)) / 1000.0);
-        const double ratio = pressure_wave / speed_of(&mor_neo_hookean, 1.0, poisson, 1000.0);
+        const double ratio = pressure_wave / speed_of(law_named("neo_hookean"), 1.0, poisson, 1000.0);
         assert_true(ratio < sqrt(3.0) * (1.0 + 1e-12)); /* rounding */
         assert_true(ratio > 1.0);
     }

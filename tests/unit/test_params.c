@@ -167,10 +167,12 @@ static void faulty_schemas_are_refused_with_the_entry(void **state)
 {
     (void)state;
     const mor_schema good = SCHEMA[0];
-    mor_schema table[8][3];
-    const char *const words[8] = {"lower-case", "unit",   "kind",    "n_components",
-                                  "words",      "0 or 1", "minimum", "default"};
-    for (int k = 0; k < 8; ++k) {
+    enum { N_FAULTS = 11 };
+    mor_schema table[N_FAULTS][3];
+    const char *const words[N_FAULTS] = {"lower-case",  "unit",    "kind",    "n_components", "words",
+                                         "0 or 1",      "minimum", "default", "same role",    "unit of the role",
+                                         "MOR_ROLE_..."};
+    for (int k = 0; k < N_FAULTS; ++k) {
         table[k][0] = good;
         table[k][1] = (mor_schema){.key = NULL};
         table[k][2] = (mor_schema){.key = NULL};
@@ -185,7 +187,12 @@ static void faulty_schemas_are_refused_with_the_entry(void **state)
     table[6][0].minimum = NAN;
     table[7][0].is_required = 0;
     table[7][0].default_value = -1.0;
-    for (int k = 0; k < 8; ++k) {
+    table[8][0].role = MOR_ROLE_YOUNGS_MODULUS;
+    table[8][1] = table[8][0];
+    table[8][1].key = "other";
+    table[9][0].role = MOR_ROLE_FRICTION_ANGLE;
+    table[10][0].role = MOR_ROLE_COUNT;
+    for (int k = 0; k < N_FAULTS; ++k) {
         mor_context context;
         mor_context_init(&context);
         assert_int_equal(mor_params_verify_schema(&context, table[k], "clay", 32), MOR_ERROR_PLUGIN);
@@ -205,6 +212,35 @@ static void faulty_schemas_are_refused_with_the_entry(void **state)
     assert_non_null(strstr(context.message, "twice"));
 }
 
+/* A law may call its parameters as it likes, and have what others need or not. */
+static void parameters_are_found_by_their_role(void **state)
+{
+    (void)state;
+    const mor_schema schema[] = {
+        {.key = "v", .kind = MOR_SCHEMA_VECTOR, .n_components = 3, .unit = "m", .text = "a vector"},
+        {.key = "g", .role = MOR_ROLE_SHEAR_MODULUS, .n_components = 1, .unit = "Pa", .text = "shear modulus"},
+        {.key = "b", .role = MOR_ROLE_BULK_MODULUS, .n_components = 1, .unit = "Pa", .text = "bulk modulus"},
+        {.key = "e", .role = MOR_ROLE_YOUNGS_MODULUS, .n_components = 1, .unit = "Pa", .text = "Young's modulus"},
+        {.key = NULL}};
+    mor_schema shorter[] = {schema[0], schema[1], schema[2], {.key = NULL}};
+    const double values[] = {1.0, 2.0, 3.0, 4.0, 8.0, 5.0};
+    const double from_both = 9.0 * 8.0 * 4.0 / (3.0 * 8.0 + 4.0);
+    assert_int_equal(mor_params_find_role(schema, MOR_ROLE_BULK_MODULUS), 2);
+    assert_int_equal(mor_params_find_role(schema, MOR_ROLE_COHESION), -1);
+    assert_true(mor_params_role_value(schema, values, MOR_ROLE_BULK_MODULUS, 7.0) == 8.0); /* exact: copied */
+    assert_true(mor_params_role_value(schema, values, MOR_ROLE_COHESION, 7.0) == 7.0);     /* exact: copied */
+    assert_true(mor_params_youngs_modulus(schema, values, 7.0) == 5.0);                    /* exact: copied */
+    assert_true(mor_params_youngs_modulus(shorter, values, 7.0) == from_both);             /* exact: same formula */
+    assert_string_equal(mor_params_stiffness_key(schema), "e");
+    assert_string_equal(mor_params_stiffness_key(shorter), "b");
+    shorter[2].role = MOR_ROLE_NONE;
+    assert_true(mor_params_youngs_modulus(shorter, values, 7.0) == 7.0); /* exact: copied */
+    assert_string_equal(mor_params_stiffness_key(shorter), "its stiffness");
+    for (int role = MOR_ROLE_NONE + 1; role < MOR_ROLE_COUNT; ++role) {
+        assert_true(mor_role_text((mor_role)role)[0] != '\0' && mor_role_unit((mor_role)role)[0] != '\0');
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -214,6 +250,7 @@ int main(void)
         cmocka_unit_test(values_out_of_range_are_refused_with_key_value_and_range),
         cmocka_unit_test(printing_names_every_value_and_never_overflows),
         cmocka_unit_test(faulty_schemas_are_refused_with_the_entry),
+        cmocka_unit_test(parameters_are_found_by_their_role),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

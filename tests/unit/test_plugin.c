@@ -104,7 +104,7 @@ static void sound_plugin_is_loaded_registered_and_unloaded_last(void **state)
     assert_true(mor_plugin_path(plugin)[0] == '/');
     assert_string_equal(mor_plugin_get(plugin, 0)->version, "2.5");
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     assert_int_equal(mor_plugin_register(&context, plugin, registry), MOR_OK);
     assert_int_equal(mor_plugin_register(&context, plugin, registry), MOR_OK); /* again: nothing changes */
     const mor_material *material = mor_registry_find(registry, "test_soil");
@@ -130,7 +130,7 @@ static void taken_name_leaves_the_registry_as_it_was(void **state)
     mor_plugin *plugin = NULL;
     mor_registry *registry = NULL;
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     const int n = mor_registry_count(registry);
     assert_int_equal(mor_plugin_load(&context, path, &plugin), MOR_OK);
     assert_int_equal(mor_plugin_register(&context, plugin, registry), MOR_ERROR_PLUGIN);
@@ -146,7 +146,7 @@ static void faulty_plugins_are_refused_with_the_reason(void **state)
     const struct {
         const char *name, *options, *word;
     } cases[] = {
-        {"other_abi", "-DABI=77", "does not serve interface 1"},
+        {"other_abi", "-DABI=77", "does not serve interface 2"},
         {"stubborn", "-DABI=77 -UREFUSAL -DREFUSAL=\\&LIST", "built for interface 77"},
         {"short", "-DBYTES=16", "16 bytes"},
         {"nameless", "-DNAME='\"\"'", "without a name"},

@@ -4,6 +4,7 @@
 #include "core/material/registry.h"
 #include "materials/builtin.h"
 #include "materials/drucker_prager.h"
+#include "tests/common/laws.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -70,14 +71,14 @@ static void builtin_models_are_found_by_name(void **state)
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
     assert_int_equal(mor_registry_count(registry), 0);
     assert_null(mor_registry_get(registry, 0));
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     const int n = mor_registry_count(registry);
     assert_true(n >= 1);
-    assert_ptr_equal(mor_registry_find(registry, "drucker_prager"), &mor_drucker_prager);
+    assert_ptr_equal(mor_registry_find(registry, "drucker_prager"), law_named("drucker_prager"));
     assert_null(mor_registry_find(registry, "Drucker_Prager"));
     assert_null(mor_registry_get(registry, -1));
     assert_null(mor_registry_get(registry, n));
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin),
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)),
                      MOR_OK); /* again: nothing changes */
     assert_int_equal(mor_registry_count(registry), n);
     mor_registry_free(&context, &registry);
@@ -92,12 +93,12 @@ static void a_miss_names_the_nearest_and_lists_all(void **state)
     mor_context context;
     mor_context_init(&context);
     mor_registry *registry = NULL;
-    const mor_material *material = &mor_drucker_prager;
+    const mor_material *material = law_named("drucker_prager");
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
     assert_int_equal(mor_registry_require(&context, registry, "sand", &material), MOR_ERROR_CONFIG);
     assert_non_null(strstr(context.message, "no model is registered"));
     assert_null(material);
-    assert_int_equal(mor_registry_add_list(&context, registry, &mor_materials_builtin), MOR_OK);
+    assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     assert_int_equal(mor_registry_require(&context, registry, "druker_prager", &material), MOR_ERROR_CONFIG);
     assert_null(material);
     assert_non_null(strstr(context.message, "did you mean 'drucker_prager'?"));
@@ -106,7 +107,7 @@ static void a_miss_names_the_nearest_and_lists_all(void **state)
     assert_null(strstr(context.message, "did you mean"));
     assert_null(mor_registry_nearest(registry, "concrete"));
     assert_int_equal(mor_registry_require(&context, registry, "drucker_prager", &material), MOR_OK);
-    assert_ptr_equal(material, &mor_drucker_prager);
+    assert_ptr_equal(material, law_named("drucker_prager"));
     mor_registry_free(&context, &registry);
 }
 
@@ -122,7 +123,7 @@ static void many_models_fit_and_names_are_unique(void **state)
     static char names[MANY][NAME_BYTES];
     for (int k = 0; k < MANY; ++k) {
         snprintf(names[k], sizeof names[k], "model_%02d", k);
-        models[k] = mor_drucker_prager;
+        models[k] = *law_named("drucker_prager");
         models[k].name = names[k];
         assert_int_equal(mor_registry_add(&context, registry, &models[k]), MOR_OK);
     }
@@ -157,9 +158,9 @@ static void faulty_descriptors_are_refused_with_the_reason(void **state)
                                          "create, destroy", "advance_rate", "stress_total",  "form",
                                          "tangent",         "schema",       "state variable"};
     for (int k = 0; k < N_FAULTS; ++k) {
-        faulty[k] = mor_drucker_prager;
+        faulty[k] = *law_named("drucker_prager");
     }
-    mor_schema required_state[2] = {mor_drucker_prager.state[0], {.key = NULL}};
+    mor_schema required_state[2] = {law_named("drucker_prager")->state[0], {.key = NULL}};
     required_state[0].is_required = 1;
     faulty[0].abi = 99;
     faulty[1].struct_bytes -= 8;

@@ -1,14 +1,13 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/saint_venant_kirchhoff.h"
 
-#include "materials/neo_hookean.h"
+#include "tests/common/laws.h"
 #include "tests/common/rock_point.h"
 
 static int open_point(void **state)
 {
     static rock_point point;
-    open_rock(&point, &mor_saint_venant_kirchhoff, 10e6, 0.4, 1200.0);
+    open_rock(&point, law_named("saint_venant_kirchhoff"), 10e6, 0.4, 1200.0);
     *state = &point;
     return 0;
 }
@@ -93,7 +92,7 @@ static void the_laws_for_rock_part_with_the_square_of_the_strain(void **state)
 {
     const rock_point *p = *state;
     rock_point neo;
-    open_rock(&neo, &mor_neo_hookean, 10e6, 0.4, 1200.0);
+    open_rock(&neo, law_named("neo_hookean"), 10e6, 0.4, 1200.0);
     double gap[2];
     for (int k = 0; k < 2; ++k) {
         const double strain = 1e-3 / (k + 1);

@@ -25,7 +25,7 @@
 static mor_status make_registry(mor_context *context, mor_registry **registry)
 {
     MOR_TRY(context, mor_registry_new(context, registry));
-    return mor_registry_add_list(context, *registry, &mor_materials_builtin);
+    return mor_registry_add_list(context, *registry, mor_materials_builtin(NULL));
 }
 
 /* What a case command works on. */

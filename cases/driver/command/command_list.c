@@ -6,6 +6,7 @@
 #include "cases/driver/case/schema/case_schema.h"
 #include "core/base/nearest.h"
 #include "core/material/conformance/conformance.h"
+#include "core/material/params.h"
 #include "core/material/plugin.h"
 #include "core/particle/field.h"
 #include "core/sph/soil.h"
@@ -21,8 +22,9 @@ static mor_status list_materials(mor_context *context, const mor_registry *regis
         const mor_material *material = mor_registry_get(registry, k);
         fprintf(out, "%s %s: %s\n  from %s\n", material->name, material->version, material->text, material->literature);
         for (const mor_schema *p = material->parameters; p->key != NULL; ++p) {
-            fprintf(out, "  %-20s [%s] %s%s\n", p->key, strcmp(p->unit, "1") == 0 ? "-" : p->unit, p->text,
-                    p->is_required ? "" : " (has a default)");
+            fprintf(out, "  %-20s [%s] %s%s%s%s\n", p->key, strcmp(p->unit, "1") == 0 ? "-" : p->unit, p->text,
+                    p->is_required ? "" : " (has a default)", p->role != MOR_ROLE_NONE ? "; role: " : "",
+                    mor_role_text(p->role));
         }
     }
     return MOR_OK;
@@ -135,7 +137,7 @@ const char *mor_command_list_word(int index)
 static mor_status make_registry(mor_context *context, mor_registry **registry)
 {
     MOR_TRY(context, mor_registry_new(context, registry));
-    return mor_registry_add_list(context, *registry, &mor_materials_builtin);
+    return mor_registry_add_list(context, *registry, mor_materials_builtin(NULL));
 }
 
 mor_status mor_command_list(mor_command *command, int *exit_code)

@@ -12,6 +12,7 @@
 #include "cases/driver/run/run_warnings.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
 #include "core/base/math.h"
+#include "core/material/params.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -201,9 +202,9 @@ static void warn_of_speed(mor_context *context, const mor_simulation *s, const p
     if (s->has_soil && p->fastest > advisable * s->soil.sound_speed) {
         mor_context_log(
             context, MOR_LOG_WARNING,
-            "the largest speed was %.2f of the speed of sound (at t = %.4g s); below %g is advisable: raise "
-            "youngs_modulus",
-            p->fastest / s->soil.sound_speed, p->fastest_time, advisable);
+            "the largest speed was %.2f of the speed of sound (at t = %.4g s); below %g is advisable: raise %s",
+            p->fastest / s->soil.sound_speed, p->fastest_time, advisable,
+            mor_params_stiffness_key(s->material->material->parameters));
     }
 }
 

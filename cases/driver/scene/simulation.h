@@ -52,15 +52,6 @@ void mor_simulation_find_up(const mor_case *the_case, double *up);
  *  @param material [in]  the model */
 double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil);
 
-/** Value of a parameter of a soil by name.
- *  @param material   [in]  the model
- *  @param parameters [in]  shape of the model's parameters, in its order; SI
- *  @param key        [in]  zero-terminated
- *  @param fallback   [in]  unit of the parameter; returned where the model has none of that name
- *  Returns: unit of the parameter. */
-double mor_simulation_parameter(const mor_material *material, const double *parameters, const char *key,
-                                double fallback);
-
 /** Number of particles, soil and rocks. */
 int64_t mor_simulation_particles(const mor_simulation *simulation);
 

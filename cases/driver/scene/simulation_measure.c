@@ -4,6 +4,7 @@
 #include "cases/driver/scene/simulation.h"
 
 #include "core/base/math.h"
+#include "core/material/params.h"
 #include "core/sph/measure/measure.h"
 #include "core/sph/measure/measure_sum.h"
 
@@ -34,25 +35,12 @@ int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **
     return n;
 }
 
-double mor_simulation_parameter(const mor_material *material, const double *parameters, const char *key,
-                                double fallback)
-{
-    int at = 0;
-    for (const mor_schema *schema = material->parameters; schema->key != NULL; ++schema) {
-        if (strcmp(schema->key, key) == 0) {
-            return parameters[at];
-        }
-        at += schema->kind == MOR_SCHEMA_VECTOR ? schema->n_components : 1;
-    }
-    return fallback;
-}
-
 /* Jaky's ratio for frictional models, hydrostatic for others. */
 double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil)
 {
     return soil->lateral_ratio >= 0.0
                ? soil->lateral_ratio
-               : 1.0 - sin(mor_simulation_parameter(material, soil->parameters, "friction_angle", 0.0));
+               : 1.0 - sin(mor_params_role_value(material->parameters, soil->parameters, MOR_ROLE_FRICTION_ANGLE, 0.0));
 }
 
 static mor_measure_points points_of(const mor_simulation *simulation)

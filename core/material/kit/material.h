@@ -13,7 +13,7 @@
  *  Read core/material/kit/batch.h first. */
 
 /** Number of this contract; a plug-in made for another number is refused. */
-enum { MOR_MATERIAL_ABI = 1 };
+enum { MOR_MATERIAL_ABI = 2 };
 
 /** Bounds that let the host keep fixed tables. */
 enum { MOR_MATERIAL_PARAMETERS_MAX = 32, MOR_MATERIAL_STATES_MAX = 8, MOR_MATERIAL_TEXT_BYTES = 4096 };
@@ -32,9 +32,8 @@ enum {
     MOR_MATERIAL_PATH_DEPENDENT = 1, /* the stress depends on the path; energy is not a potential */
     MOR_MATERIAL_NONLOCAL = 2,       /* declares a scalar field; operation nonlocal is present */
     MOR_MATERIAL_TANGENT = 4,        /* operation tangent is present */
-    MOR_MATERIAL_SEPARATES = 8,      /* operation separate is present */
-    MOR_MATERIAL_DISSIPATION = 16,   /* advance_rate fills batch->dissipation when it is asked for */
-    MOR_MATERIAL_EXACT_SCALING = 32  /* results are bit-identical under units changed by powers of two */
+    MOR_MATERIAL_DISSIPATION = 8,    /* advance_rate fills batch->dissipation when it is asked for */
+    MOR_MATERIAL_EXACT_SCALING = 16  /* results are bit-identical under units changed by powers of two */
 };
 
 /** What the host lends to create, destroy and describe, so that a plug-in has no undefined symbols. */
@@ -124,10 +123,6 @@ typedef struct mor_material_operations {
      *  stress at the end by the tensor components of the strain increment, an off-diagonal component standing for both
      *  of its places. */
     mor_status (*tangent)(const mor_material_instance *instance, const mor_batch *batch, double *tangent);
-
-    /** Only with MOR_MATERIAL_SEPARATES. Reads stress_in, state_in; writes flag, shape [n]: 1 where the material is
-     *  released in tension, else 0. */
-    mor_status (*separate)(const mor_material_instance *instance, const mor_batch *batch, unsigned char *flag);
 
     /** Default: made from the schemas. Writes at most text_bytes bytes to text (zero-terminated). */
     void (*describe)(const mor_services *services, const mor_material_instance *instance, char *text,

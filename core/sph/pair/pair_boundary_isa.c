@@ -28,8 +28,8 @@ INLINE void kernel_part(const mor_pair_constants *c, const mor_pair_kernel_job *
     }
 }
 
-void MOR_JOIN(mor_pair_kernel_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
-                                         int64_t last)
+void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
+                                   int64_t last)
 {
     for (int64_t place = first; place < last; ++place) {
         const mor_pair_slot *slot = job->slots != NULL ? job->slots + place : NULL;
@@ -103,8 +103,8 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
     }
 }
 
-void MOR_JOIN(mor_pair_tangent_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
-                                          int64_t last)
+void MOR_ISA_NAME(mor_pair_tangent)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
+                                    int64_t last)
 {
     for (int64_t place = first; place < last; ++place) {
         for (int64_t part = 0; part < PARTS; ++part) {
@@ -138,8 +138,7 @@ INLINE void mean_part(const mor_pair_constants *c, const mor_pair_mean_job *job,
     }
 }
 
-void MOR_JOIN(mor_pair_mean_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first,
-                                       int64_t last)
+void MOR_ISA_NAME(mor_pair_mean)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first, int64_t last)
 {
     for (int64_t place = first; place < last; ++place) {
         const mor_pair_slot *slot = job->slots + place;
@@ -179,8 +178,8 @@ INLINE void share_part(const mor_pair_constants *c, const mor_pair_share_job *jo
     }
 }
 
-void MOR_JOIN(mor_pair_share_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
-                                        int64_t last)
+void MOR_ISA_NAME(mor_pair_share)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
+                                  int64_t last)
 {
     for (int64_t k = first; k < last; ++k) {
         const int64_t place = job->chosen[k];

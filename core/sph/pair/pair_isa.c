@@ -556,18 +556,18 @@ static void regularize_range(const mor_pair_constants *c, const mor_pair_arrays 
     }
 }
 
-const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void);
+const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void);
 
-const mor_pair_table *MOR_JOIN(mor_pair_table_, MOR_ISA)(void)
+const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
 {
-    static const mor_pair_table table = {MOR_TEXT(MOR_ISA),
+    static const mor_pair_table table = {MOR_ISA_TEXT(MOR_ISA),
                                          {momentum_2d, momentum_3d},
                                          {gradient_2d, gradient_3d},
                                          regularize_range,
-                                         MOR_JOIN(mor_pair_kernel_, MOR_ISA),
-                                         MOR_JOIN(mor_pair_tangent_, MOR_ISA),
-                                         MOR_JOIN(mor_pair_mean_, MOR_ISA),
-                                         MOR_JOIN(mor_pair_share_, MOR_ISA),
+                                         MOR_ISA_NAME(mor_pair_kernel),
+                                         MOR_ISA_NAME(mor_pair_tangent),
+                                         MOR_ISA_NAME(mor_pair_mean),
+                                         MOR_ISA_NAME(mor_pair_share),
                                          spin_range};
     return &table;
 }

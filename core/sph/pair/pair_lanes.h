@@ -215,16 +215,16 @@ INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
 }
 
 /** Finds kernel sums over a range of a job. See mor_pair_table. */
-void MOR_JOIN(mor_pair_kernel_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
-                                         int64_t last);
+void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
+                                   int64_t last);
 /** Finds the stress divergence over a range of a job. See mor_pair_table. */
-void MOR_JOIN(mor_pair_tangent_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
-                                          int64_t last);
+void MOR_ISA_NAME(mor_pair_tangent)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
+                                    int64_t last);
 /** Finds the mean velocities over a range of a job. See mor_pair_table. */
-void MOR_JOIN(mor_pair_mean_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first,
-                                       int64_t last);
+void MOR_ISA_NAME(mor_pair_mean)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first,
+                                 int64_t last);
 /** Finds the forces on points over a range of a job. See mor_pair_table. */
-void MOR_JOIN(mor_pair_share_, MOR_ISA)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
-                                        int64_t last);
+void MOR_ISA_NAME(mor_pair_share)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
+                                  int64_t last);
 
 #endif

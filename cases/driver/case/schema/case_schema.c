@@ -16,7 +16,7 @@ static const mor_case_key root_keys[] = {
     {{"title", WORDS, "1", DEFAULT(0.0), ANY, NULL, "one line that names the case in pictures and reports"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case, title)},
-    {{"dimension", WHOLE, "1", REQUIRED, 2.0, 3.0, 0, 0, NULL, "2: plane strain in x and y; 3: three dimensions"},
+    {{"dimension", WHOLE, "1", REQUIRED, BETWEEN(2.0, 3.0), NULL, "2: plane strain in x and y; 3: three dimensions"},
      MOR_CASE_STORE_INT,
      AT(mor_case, dimension)},
     {{"spacing", SCALAR, "m", REQUIRED, POSITIVE, NULL, "distance between particles"},
@@ -63,7 +63,7 @@ static const mor_case_key lattice_keys[] = {
      MOR_CASE_STORE_REALS,
      AT(mor_case, lattice_origin),
      .needs = MOR_CASE_NEEDS_SOIL},
-    {{"jitter", SCALAR, "1", DEFAULT(0.0), 0.0, 0.5, 0, 1, NULL, "random displacement of particles / spacing"},
+    {{"jitter", SCALAR, "1", DEFAULT(0.0), BELOW(0.0, 0.5), NULL, "random displacement of particles / spacing"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, jitter_ratio),
      .needs = MOR_CASE_NEEDS_SOIL},
@@ -98,8 +98,6 @@ static const mor_case_key scale_keys[] = {
     END};
 
 /* The settings of the scheme: rows of core/scheme/scheme.def become keys of the same name. */
-#define BETWEEN(least, largest) (least), (largest), 0, 0
-#define ABOVE(least, largest) (least), (largest), 1, 0
 #define SOIL MOR_CASE_NEEDS_SOIL
 #define BODIES MOR_CASE_NEEDS_BODIES
 #define ELASTIC MOR_CASE_NEEDS_ELASTIC
@@ -132,7 +130,7 @@ static const mor_case_key numerics_keys[] = {
 
 #define OUTPUT(member) AT(mor_case, output.member)
 static const mor_case_key output_keys[] = {
-    {{"snapshots", WHOLE, "1", DEFAULT(20.0), 0.0, 1.0e6, 0, 0, NULL, "snapshots after the first, evenly spaced"},
+    {{"snapshots", WHOLE, "1", DEFAULT(20.0), BETWEEN(0.0, 1.0e6), NULL, "snapshots after the first, evenly spaced"},
      MOR_CASE_STORE_INT,
      OUTPUT(n_snapshots)},
     {{"series_interval", SCALAR, "s", DEFAULT(NAN), POSITIVE, NULL, "simulated time between rows of series.csv"},
@@ -200,7 +198,7 @@ static const mor_case_key stress_keys[] = {
     {{"lateral_ratio", SCALAR, "1", DEFAULT(-1.0), NOT_NEGATIVE, NULL, "lateral stress / vertical stress"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, lateral_ratio),
-     .computed = "1 - sin(friction_angle)"},
+     .computed = "1 - sin(friction angle)"},
     {{"surface_level", SCALAR, "m", DEFAULT(NAN), ANY, NULL, "height of the free surface, against gravity"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, surface_level),
@@ -237,7 +235,7 @@ static const mor_case_key wall_keys[] = {
       "Young's modulus of its surface, for rigid bodies that touch it; 0: it does not yield"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, contact_modulus)},
-    {{"contact_poissons_ratio", SCALAR, "1", DEFAULT(0.25), 0.0, 0.5, 0, 1, NULL,
+    {{"contact_poissons_ratio", SCALAR, "1", DEFAULT(0.25), BELOW(0.0, 0.5), NULL,
       "Poisson's ratio of its surface, with contact_modulus"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, contact_poisson),

@@ -7,9 +7,13 @@
  *  Short words for the tables of keys, so that a key fits on a line. Only for the files that hold tables. Entries
  *  follow mor_schema: key, kind, components, unit, required, default, range, choices, text. */
 
-#define ANY -INFINITY, INFINITY, 0, 0
-#define POSITIVE 0.0, INFINITY, 1, 0
-#define NOT_NEGATIVE 0.0, INFINITY, 0, 0
+#define ANY -INFINITY, INFINITY, 0, 0, MOR_ROLE_NONE
+#define POSITIVE ABOVE(0.0, INFINITY)
+#define NOT_NEGATIVE BETWEEN(0.0, INFINITY)
+#define BETWEEN(least, largest) (least), (largest), 0, 0, MOR_ROLE_NONE
+#define ABOVE(least, largest) (least), (largest), 1, 0, MOR_ROLE_NONE
+#define BELOW(least, largest) (least), (largest), 0, 1, MOR_ROLE_NONE
+#define INSIDE(least, largest) (least), (largest), 1, 1, MOR_ROLE_NONE
 #define REQUIRED 1, 0.0
 #define DEFAULT(value) 0, (value)
 #define SCALAR MOR_SCHEMA_REAL, 1

@@ -214,14 +214,14 @@ static mor_status complete_modulus(const mor_case_reader *reader, const mor_case
         return MOR_OK;
     }
     const mor_schema *schemas = mor_registry_find(reader->registry, body->model)->parameters;
-    const int entry = mor_params_find(schemas, "youngs_modulus");
-    if (entry < 0) {
-        return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found no 'contact_modulus' for the model '%s', which has no youngs_modulus to take "
-                                  "instead; allowed: > 0 Pa; add it",
-                                  body->model);
+    body->contact_modulus = mor_params_youngs_modulus(schemas, body->parameters, NAN);
+    if (isnan(body->contact_modulus)) {
+        return MOR_CASE_NODE_FAIL(
+            reader->context, node,
+            "found no 'contact_modulus' for the model '%s', whose parameters tell no Young's modulus to "
+            "take instead; allowed: > 0 Pa; add it",
+            body->model);
     }
-    body->contact_modulus = body->parameters[mor_params_offset(schemas, entry)];
     return MOR_OK;
 }
 

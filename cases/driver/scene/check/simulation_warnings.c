@@ -7,6 +7,7 @@
 #include "cases/driver/scene/wall_seams.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
+#include "core/material/params.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -29,8 +30,7 @@ static void warn_of_softness(mor_context *context, const mor_simulation *s)
         return;
     }
     const mor_case_soil *it = &c->soils[0];
-    const double stiffness =
-        mor_simulation_parameter(s->material->material, it->parameters, "youngs_modulus", INFINITY);
+    const double stiffness = mor_params_youngs_modulus(s->material->material->parameters, it->parameters, INFINITY);
     const double weight = it->density * mor_vector_length(c->gravity) * s->soil_depth;
     if (!(weight > compression_largest * stiffness)) {
         return;
@@ -41,8 +41,9 @@ static void warn_of_softness(mor_context *context, const mor_simulation *s)
     }
     mor_context_log(context, MOR_LOG_WARNING,
                     "the soil is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% "
-                    "is advisable: raise youngs_modulus to %.3g %s or more",
-                    100.0 * weight / stiffness, weight / compression_advisable / units[k].size, units[k].name);
+                    "is advisable: raise %s to %.3g %s or more",
+                    100.0 * weight / stiffness, mor_params_stiffness_key(s->material->material->parameters),
+                    weight / compression_advisable / units[k].size, units[k].name);
 }
 
 /* A lateral stress that the soil cannot bear is none of rest: it yields in the first step. The limits are Rankine's at
@@ -54,8 +55,8 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
         const mor_material *law = s->material->material;
-        const double angle = mor_simulation_parameter(law, it->parameters, "friction_angle", NAN);
-        const double cohesion = mor_simulation_parameter(law, it->parameters, "cohesion", 0.0);
+        const double angle = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_FRICTION_ANGLE, NAN);
+        const double cohesion = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_COHESION, 0.0);
         const double vertical = it->density * mor_vector_length(c->gravity) * s->soil_depth;
         if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(angle) || !(vertical > 0.0)) {
             continue;

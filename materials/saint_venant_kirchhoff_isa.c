@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/saint_venant_kirchhoff.h"
-
+/* Hooke's law between Green-Lagrange strain E and second Piola-Kirchhoff stress: S = lambda tr(E) I + 2 mu E, P = F S.
+ * For large rotations and small strains; it softens in strong compression. docs/theory/elastic.md. */
 #include "materials/total_lanes.h"
 
 /* P = F S */
@@ -18,16 +18,9 @@ static MOR_LANES_INLINE void stress_block(const mor_hooke *c, mor_total_block *b
     }
 }
 
-static MOR_LANES_INLINE mor_status stress_batch(const mor_hooke *constants, const mor_batch *batch)
+static mor_status saint_venant_kirchhoff_stress_total(const mor_material_instance *instance, const mor_batch *batch)
 {
-    return mor_total_run(constants, batch, stress_block);
-}
-
-MOR_LANES_VARIANTS(stress_batch, mor_hooke)
-
-static mor_status saint_venant_kirchhoff_create(const mor_services *services, mor_material_instance *instance)
-{
-    return mor_hooke_create(services, instance, choose_stress_batch());
+    return mor_total_run(instance->data, batch, stress_block);
 }
 
 /* W = lambda/2 (tr E)^2 + mu E:E = K/2 (tr E)^2 + 2 mu J2(E), so that no term is negative. */
@@ -44,7 +37,7 @@ static mor_status saint_venant_kirchhoff_energy(const mor_material_instance *ins
     return mor_total_energy(instance, batch, stored, find_density);
 }
 
-const mor_material mor_saint_venant_kirchhoff = {
+const mor_material MOR_ISA_NAME(mor_saint_venant_kirchhoff) = {
     .abi = MOR_MATERIAL_ABI,
     .struct_bytes = sizeof(mor_material),
     .name = "saint_venant_kirchhoff",
@@ -57,10 +50,10 @@ const mor_material mor_saint_venant_kirchhoff = {
     .state = mor_hooke_no_state,
     .operations =
         {
-            .create = saint_venant_kirchhoff_create,
+            .create = mor_hooke_create,
             .destroy = mor_hooke_destroy,
             .wave_speed = mor_hooke_wave_speed,
-            .stress_total = mor_hooke_run_batch,
+            .stress_total = saint_venant_kirchhoff_stress_total,
             .energy = saint_venant_kirchhoff_energy,
         },
 };

@@ -1,7 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/neo_hookean.h"
-
+/* Compressible Neo-Hookean solid, Zhang et al. (2024) eqs. 39 to 41:
+ * W = mu tr(E) - mu ln J + lambda/2 (ln J)^2, S = mu (I - C^-1) + lambda ln(J) C^-1, P = F S.
+ * W is zero without deformation. docs/theory/elastic.md. */
 #include "materials/total_lanes.h"
 
 /* Range of det F - 1 in which the series below serves; rock never leaves it. */
@@ -67,16 +68,9 @@ static MOR_LANES_INLINE void stress_block(const mor_hooke *c, mor_total_block *b
     }
 }
 
-static MOR_LANES_INLINE mor_status stress_batch(const mor_hooke *constants, const mor_batch *batch)
+static mor_status neo_hookean_stress_total(const mor_material_instance *instance, const mor_batch *batch)
 {
-    return mor_total_run(constants, batch, stress_block);
-}
-
-MOR_LANES_VARIANTS(stress_batch, mor_hooke)
-
-static mor_status neo_hookean_create(const mor_services *services, mor_material_instance *instance)
-{
-    return mor_hooke_create(services, instance, choose_stress_batch());
+    return mor_total_run(instance->data, batch, stress_block);
 }
 
 static double find_density(const mor_hooke *c, mor_symmetric strain, double j_minus_1)
@@ -90,7 +84,7 @@ static mor_status neo_hookean_energy(const mor_material_instance *instance, cons
     return mor_total_energy(instance, batch, stored, find_density);
 }
 
-const mor_material mor_neo_hookean = {
+const mor_material MOR_ISA_NAME(mor_neo_hookean) = {
     .abi = MOR_MATERIAL_ABI,
     .struct_bytes = sizeof(mor_material),
     .name = "neo_hookean",
@@ -103,10 +97,10 @@ const mor_material mor_neo_hookean = {
     .state = mor_hooke_no_state,
     .operations =
         {
-            .create = neo_hookean_create,
+            .create = mor_hooke_create,
             .destroy = mor_hooke_destroy,
             .wave_speed = mor_hooke_wave_speed,
-            .stress_total = mor_hooke_run_batch,
+            .stress_total = neo_hookean_stress_total,
             .energy = neo_hookean_energy,
         },
 };

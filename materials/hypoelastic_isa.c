@@ -1,7 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/hypoelastic.h"
-
+/* Hooke's law between the Jaumann rate of the Cauchy stress and the strain rate: the elastic solid of
+ * updated-Lagrangian SPH. Rotation is exact (Hughes and Winget (1980)). For strains well below 1: in simple shear the
+ * Jaumann rate makes the stress oscillate, G sin(gamma). Stored energy is per current volume; no work is dissipated.
+ * docs/theory/elastic.md. */
 #include "materials/hooke.h"
 #include "materials/rate_lanes.h"
 
@@ -17,16 +19,9 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
     }
 }
 
-static MOR_LANES_INLINE mor_status advance_batch(const mor_hooke *constants, const mor_batch *batch)
+static mor_status hypoelastic_advance_rate(const mor_material_instance *instance, const mor_batch *batch)
 {
-    return mor_rate_run(constants, batch, advance_lanes, 0);
-}
-
-MOR_LANES_VARIANTS(advance_batch, mor_hooke)
-
-static mor_status hypoelastic_create(const mor_services *services, mor_material_instance *instance)
-{
-    return mor_hooke_create(services, instance, choose_advance_batch());
+    return mor_rate_run(instance->data, batch, advance_lanes, 0);
 }
 
 static mor_status hypoelastic_energy(const mor_material_instance *instance, const mor_batch *batch, double *stored)
@@ -41,7 +36,7 @@ static mor_status hypoelastic_energy(const mor_material_instance *instance, cons
     return MOR_OK;
 }
 
-const mor_material mor_hypoelastic = {
+const mor_material MOR_ISA_NAME(mor_hypoelastic) = {
     .abi = MOR_MATERIAL_ABI,
     .struct_bytes = sizeof(mor_material),
     .name = "hypoelastic",
@@ -54,10 +49,10 @@ const mor_material mor_hypoelastic = {
     .state = mor_hooke_no_state,
     .operations =
         {
-            .create = hypoelastic_create,
+            .create = mor_hooke_create,
             .destroy = mor_hooke_destroy,
             .wave_speed = mor_hooke_wave_speed,
-            .advance_rate = mor_hooke_run_batch,
+            .advance_rate = hypoelastic_advance_rate,
             .energy = hypoelastic_energy,
         },
 };
