@@ -12,15 +12,6 @@
 
 #define MOR_PRAGMA_(text) _Pragma(#text)
 
-/** Compiles a function for several instruction sets; the loader takes the best the processor has. Only for functions
- *  whose results do not depend on it. Needs GNU indirect functions, which the sanitizers do not get along with. */
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) &&                       \
-    !defined(__SANITIZE_ADDRESS__)
-#define MOR_TARGET_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define MOR_TARGET_CLONES
-#endif
-
 /** for-loop over [0, n) shared by the threads in chunks of `grain`: MOR_PARALLEL_FOR(context, i, n, grain) { ... } */
 #define MOR_PARALLEL_FOR(context, index, count, grain)                                                                 \
     MOR_PRAGMA_(omp parallel for schedule(dynamic, grain) num_threads((context)->n_threads))                           \

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "relaxation/relax/relax.h"
 
+#include "core/base/isa.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/random.h"
@@ -174,47 +175,6 @@ static mor_status place_starts(mor_context *context, uint64_t seed, relaxation *
     return status;
 }
 
-/* Pushes of the neighbors on the particles from first on: sum of (1 - r / support)^3 (x_i - x_j), and how many of them
- * are close. Lanes are added in a fixed order, so that the result is that of any instruction set. */
-MOR_TARGET_CLONES
-static void push_apart(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end,
-                       double (*out)[4])
-{
-    const int64_t n = neighbors->n;
-    const double *y = x + n;
-    const double *z = x + 2 * n;
-    for (int64_t i = first; i < end; ++i) {
-        double sum[4][MOR_RELAX_LANES] = {{0.0}};
-        const int32_t *row = neighbors->rows + i * neighbors->capacity;
-        const double xi = x[i];
-        const double yi = y[i];
-        const double zi = z[i];
-        for (int64_t k = 0; k < neighbors->counts[i]; k += MOR_RELAX_LANES) {
-            for (int l = 0; l < MOR_RELAX_LANES; ++l) {
-                const int32_t j = row[k + l];
-                const double dx = xi - x[j];
-                const double dy = yi - y[j];
-                const double dz = zi - z[j];
-                const double r2 = dx * dx + dy * dy + dz * dz;
-                const double u0 = 1.0 - (1.0 / MOR_RELAX_SUPPORT) * sqrt(r2);
-                const double u = u0 > 0.0 ? u0 : 0.0;
-                const double weight = u * u * u;
-                sum[0][l] += weight * dx;
-                sum[1][l] += weight * dy;
-                sum[2][l] += weight * dz;
-                sum[3][l] += r2 < MOR_RELAX_CLOSE * MOR_RELAX_CLOSE && j != i ? 1.0 : 0.0;
-            }
-        }
-        for (int a = 0; a < 4; ++a) {
-            double total = 0.0;
-            for (int l = 0; l < MOR_RELAX_LANES; ++l) {
-                total += sum[a][l];
-            }
-            out[i - first][a] = total;
-        }
-    }
-}
-
 /* A direction for two particles at one place, by their numbers: opposite for the other of the two. */
 static void draw_direction(int64_t i, int64_t j, int dimension, double *direction)
 {
@@ -256,11 +216,13 @@ static void find_moves(mor_context *context, relaxation *it)
 {
     const double factor = it->volume * mor_kernel_gradient_factor(MOR_RELAX_SMOOTHING, it->frame.dimension);
     enum { CHUNK = 64 };
+    static const mor_relax_push push_apart[MOR_ISA_COUNT] = MOR_ISA_VARIANTS(mor_relax_push);
+    const int isa = mor_isa_select(NULL);
     MOR_PARALLEL_FOR (context, chunk, (it->n + CHUNK - 1) / CHUNK, 1) {
         const int64_t first = chunk * CHUNK;
         const int64_t end = first + CHUNK < it->n ? first + CHUNK : it->n;
         double pushes[CHUNK][4];
-        push_apart(&it->neighbors, it->x, first, end, pushes);
+        push_apart[isa](&it->neighbors, it->x, first, end, pushes);
         for (int64_t i = first; i < end; ++i) {
             const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
             double push[3];

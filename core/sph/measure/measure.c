@@ -5,6 +5,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/sph/measure/measure_fill.h"
 #include "core/sph/measure/measure_sum.h"
 
 #include <stdlib.h>
@@ -146,43 +147,10 @@ mor_status mor_measure_percentile(mor_context *context, const double *values, co
     return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
 }
 
-/* Where a distance or a component is measured, for the terms of particles. */
-typedef struct frame_job {
-    const mor_measure_points *points;
-    const mor_measure_frame *frame;
-    const double *vectors; /* shape [n, 3] */
-    double along[3];
-} frame_job;
-
-/* As mor_measure_frame_distance, for many at once. */
-MOR_TARGET_CLONES static void fill_distances(const void *argument, int64_t first, int64_t n, double *terms)
-{
-    const frame_job *job = argument;
-    const mor_measure_frame frame = *job->frame;
-    const double *position = job->points->position + 3 * first;
-    for (int64_t i = 0; i < n; ++i) {
-        double offset[3];
-        subtract(position + 3 * i, frame.origin, offset);
-        const double height = mor_vector_dot(offset, frame.is_radial ? frame.up : frame.direction);
-        for (int a = 0; a < 3; ++a) {
-            offset[a] -= height * frame.up[a];
-        }
-        terms[i] = frame.is_radial ? mor_vector_length(offset) : height;
-    }
-}
-
 void mor_measure_distances(const mor_measure_points *points, const mor_measure_frame *frame, double *distances)
 {
-    const frame_job job = {.points = points, .frame = frame};
-    mor_fill_over(points->n_points, points->n_threads, fill_distances, &job, distances);
-}
-
-MOR_TARGET_CLONES static void fill_speeds(const void *argument, int64_t first, int64_t n, double *terms)
-{
-    const double *velocity = ((const frame_job *)argument)->vectors + 3 * first;
-    for (int64_t i = 0; i < n; ++i) {
-        terms[i] = mor_vector_length(velocity + 3 * i);
-    }
+    const mor_measure_job job = {.points = points, .frame = frame};
+    mor_fill_over(points->n_points, points->n_threads, mor_measure_fills()->distances, &job, distances);
 }
 
 static bool is_one_mass(const mor_measure_points *points)
@@ -229,10 +197,10 @@ mor_status mor_measure_share(mor_context *context, const mor_measure_points *poi
 mor_status mor_measure_run_out(mor_context *context, const mor_measure_points *points, const mor_measure_frame *frame,
                                double percent, double *run_out)
 {
-    const frame_job job = {.points = points, .frame = frame};
+    const mor_measure_job job = {.points = points, .frame = frame};
     double center = 0.0;
     MOR_TRY(context, mor_measure_check_frame(context, frame));
-    MOR_TRY(context, find_percentile_of(context, points, fill_distances, &job, true, percent, &center));
+    MOR_TRY(context, find_percentile_of(context, points, mor_measure_fills()->distances, &job, true, percent, &center));
     *run_out = center + 0.5 * points->spacing;
     return MOR_OK;
 }
@@ -250,67 +218,28 @@ mor_status mor_measure_height(mor_context *context, const mor_measure_points *po
 mor_status mor_measure_speed(mor_context *context, const mor_measure_points *points, const double *velocity,
                              double percent, double *speed)
 {
-    const frame_job job = {.points = points, .vectors = velocity};
-    MOR_TRY(context, find_percentile_of(context, points, fill_speeds, &job, true, percent, speed));
+    const mor_measure_job job = {.points = points, .vectors = velocity};
+    MOR_TRY(context, find_percentile_of(context, points, mor_measure_fills()->speeds, &job, true, percent, speed));
     return MOR_OK;
 }
 
-MOR_TARGET_CLONES static void fill_masses(const void *argument, int64_t first, int64_t n, double *terms)
-{
-    const double *mass = ((const frame_job *)argument)->points->mass + first;
-    for (int64_t i = 0; i < n; ++i) {
-        terms[i] = mass[i];
-    }
-}
-
-MOR_TARGET_CLONES static void fill_components(const void *argument, int64_t first, int64_t n, double *terms)
-{
-    const frame_job *job = argument;
-    const double *mass = job->points->mass + first;
-    const double *vectors = job->vectors + 3 * first;
-    for (int64_t i = 0; i < n; ++i) {
-        terms[i] = mass[i] * mor_vector_dot(vectors + 3 * i, job->along);
-    }
-}
-
-MOR_TARGET_CLONES static void fill_kinetic(const void *argument, int64_t first, int64_t n, double *terms)
-{
-    const frame_job *job = argument;
-    const double *mass = job->points->mass + first;
-    const double *velocity = job->vectors + 3 * first;
-    for (int64_t i = 0; i < n; ++i) {
-        terms[i] = 0.5 * mass[i] * mor_vector_dot(velocity + 3 * i, velocity + 3 * i);
-    }
-}
-
-MOR_TARGET_CLONES static void fill_potential(const void *argument, int64_t first, int64_t n, double *terms)
-{
-    const frame_job *job = argument;
-    const double *mass = job->points->mass + first;
-    for (int64_t i = 0; i < n; ++i) {
-        double offset[3];
-        subtract(job->points->position + 3 * (first + i), job->frame->origin, offset);
-        terms[i] = -mass[i] * mor_vector_dot(job->along, offset);
-    }
-}
-
-static double sum_over(const mor_measure_points *points, mor_sum_fill fill, const frame_job *job)
+static double sum_over(const mor_measure_points *points, mor_sum_fill fill, const mor_measure_job *job)
 {
     return mor_sum_over(points->n_points, points->n_threads, fill, job);
 }
 
 double mor_measure_mass(const mor_measure_points *points)
 {
-    return sum_over(points, fill_masses, &(frame_job){.points = points});
+    return sum_over(points, mor_measure_fills()->masses, &(mor_measure_job){.points = points});
 }
 
 /* Writes the sum of mass times a vector per particle. */
 static void sum_vectors(const mor_measure_points *points, const double *vectors, double *out)
 {
     for (int a = 0; a < 3; ++a) {
-        frame_job job = {.points = points, .vectors = vectors};
+        mor_measure_job job = {.points = points, .vectors = vectors};
         job.along[a] = 1.0;
-        out[a] = sum_over(points, fill_components, &job);
+        out[a] = sum_over(points, mor_measure_fills()->components, &job);
     }
 }
 
@@ -330,12 +259,12 @@ void mor_measure_momentum(const mor_measure_points *points, const double *veloci
 
 double mor_measure_kinetic_energy(const mor_measure_points *points, const double *velocity)
 {
-    return sum_over(points, fill_kinetic, &(frame_job){.points = points, .vectors = velocity});
+    return sum_over(points, mor_measure_fills()->kinetic, &(mor_measure_job){.points = points, .vectors = velocity});
 }
 
 double mor_measure_potential_energy(const mor_measure_points *points, const double *gravity, const double *datum)
 {
     const mor_measure_frame frame = {.origin = {datum[0], datum[1], datum[2]}};
-    const frame_job job = {.points = points, .frame = &frame, .along = {gravity[0], gravity[1], gravity[2]}};
-    return sum_over(points, fill_potential, &job);
+    const mor_measure_job job = {.points = points, .frame = &frame, .along = {gravity[0], gravity[1], gravity[2]}};
+    return sum_over(points, mor_measure_fills()->potential, &job);
 }

@@ -3,45 +3,23 @@
 #include "core/sph/measure/measure_sum.h"
 
 #include "core/base/parallel.h"
+#include "core/sph/measure/measure_fill.h"
 
 /* Chunks are so many whatever the number of threads, so that no sum depends on that. */
-enum { CHUNKS = 64, LANES = 8, BATCH = 256, FEW = 4 * MOR_BLOCK };
-
-/* Several sums side by side, which processors take at once. */
-typedef struct lane_sums {
-    double high[LANES];
-    double low[LANES];
-} lane_sums;
-
-MOR_TARGET_CLONES static void add_batch(lane_sums *sums, double *terms, int64_t n)
-{
-    for (int64_t i = n; i % LANES != 0; ++i) {
-        terms[i] = 0.0;
-    }
-    lane_sums kept = *sums; /* in registers */
-    for (int64_t i = 0; i < n; i += LANES) {
-        for (int k = 0; k < LANES; ++k) {
-            const double term = terms[i + k];
-            const double total = kept.high[k] + term;
-            const double taken = total - kept.high[k];
-            kept.low[k] += (kept.high[k] - (total - taken)) + (term - taken);
-            kept.high[k] = total;
-        }
-    }
-    *sums = kept;
-}
+enum { CHUNKS = 64, BATCH = 256, FEW = 4 * MOR_BLOCK };
 
 static mor_sum sum_chunk(int64_t first, int64_t last, mor_sum_fill fill, const void *job)
 {
-    lane_sums sums = {{0.0}, {0.0}};
+    mor_measure_lanes sums = {{0.0}, {0.0}};
     mor_sum sum = {0.0, 0.0};
     double terms[BATCH];
+    const mor_measure_fill_table *fills = mor_measure_fills();
     for (int64_t i = first; i < last; i += BATCH) {
         const int64_t n = last - i < BATCH ? last - i : BATCH;
         fill(job, i, n, terms);
-        add_batch(&sums, terms, n);
+        fills->add(&sums, terms, n);
     }
-    for (int k = 0; k < LANES; ++k) {
+    for (int k = 0; k < MOR_MEASURE_LANES; ++k) {
         mor_sum_add(&sum, sums.high[k]);
         mor_sum_add(&sum, sums.low[k]);
     }
