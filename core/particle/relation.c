@@ -56,6 +56,11 @@ void mor_relation_clear(mor_context *context, mor_relation *relation)
     memset(relation, 0, sizeof *relation);
 }
 
+/* Its variants, see core/base/isa.h. */
+MOR_ISA_DECLARE(int64_t, mor_relation_list,
+                (mor_relation * relation, const mor_relation_points *source, const mor_relation_points *target,
+                 int buffer, int64_t first, int64_t last));
+
 /* One attempt; used[b] becomes the entries buffer b needs, whether or not they fit. */
 static void list_all(mor_context *context, mor_relation *relation, const mor_relation_points *source,
                      const mor_relation_points *target, int64_t *used)

@@ -3,7 +3,6 @@
 #ifndef MOR_CORE_PARTICLE_RELATION_LIST_H
 #define MOR_CORE_PARTICLE_RELATION_LIST_H
 
-#include "core/base/isa.h"
 #include "core/particle/relation.h"
 
 /** @file
@@ -16,10 +15,5 @@
  *  Returns: the entries it needs, whether or not they fit. */
 typedef int64_t (*mor_relation_list_loop)(mor_relation *relation, const mor_relation_points *source,
                                           const mor_relation_points *target, int buffer, int64_t first, int64_t last);
-
-/* Its variants, see core/base/isa.h. */
-MOR_ISA_DECLARE(int64_t, mor_relation_list,
-                (mor_relation * relation, const mor_relation_points *source, const mor_relation_points *target,
-                 int buffer, int64_t first, int64_t last));
 
 #endif

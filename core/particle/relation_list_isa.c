@@ -3,6 +3,8 @@
 /* Neighbor lists of a range of clusters. Compiled once per instruction set; MOR_ISA is its name. */
 #include "core/particle/relation_list.h"
 
+#include "core/base/isa.h"
+
 #include <math.h>
 #include <string.h>
 
