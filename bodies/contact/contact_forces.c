@@ -150,26 +150,6 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     }
 }
 
-int mor_contact_find_part(const mor_contact *contact, int leader, const double *place)
-{
-    int nearest = leader;
-    double least = INFINITY;
-    for (int w = leader; w < contact->n_walls && contact->walls[leader].whole != NULL; ++w) {
-        const mor_contact_wall *wall = &contact->walls[w];
-        double point[3];
-        if (w != leader && wall->joined_to != leader + 1) {
-            continue;
-        }
-        mor_contact_wall_place(contact, wall, place, point);
-        const double distance = mor_shape_distance(wall->shape, point);
-        if (distance < least) {
-            least = distance;
-            nearest = w;
-        }
-    }
-    return nearest;
-}
-
 static void push_wall(mor_contact *contact, const mor_contact_near *near, const double *place, const double *force)
 {
     const mor_contact_work *work = contact->work;

@@ -26,16 +26,6 @@ static void normalize(int dimension, double *vector)
     }
 }
 
-void mor_contact_wall_place(const mor_contact *contact, const mor_contact_wall *wall, const double *point,
-                            double *place)
-{
-    double offset[3];
-    for (int a = 0; a < 3; ++a) {
-        offset[a] = point[a] - wall->velocity[a] * contact->time - wall->translation[a];
-    }
-    mor_matrix_apply_transposed(wall->rotation, offset, place);
-}
-
 /* Whether the surface around the node may touch; then normal and curvature are filled in. */
 static bool look_at_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
                          bool is_whole, mor_contact_touch *touch)
@@ -59,71 +49,18 @@ static bool look_at_wall(const mor_contact *contact, const mor_contact_near *nea
     return true;
 }
 
-void mor_contact_shape_place(const mor_body *body, const double *reference, double *place)
-{
-    double offset[3];
-    for (int a = 0; a < 3; ++a) {
-        offset[a] = reference[a] - body->shape_translation[a];
-    }
-    mor_matrix_apply_transposed(body->shape_rotation, offset, place);
-}
-
-/* Gap of a point of the reference configuration; unless NULL, the normal in that configuration and the curvature. */
-static double reference_gap(const mor_body_group *group, const mor_body *body, const double *reference, double *normal,
-                            double *curvature)
-{
-    double place[3], own[3];
-    mor_contact_shape_place(body, reference, place);
-    const double gap =
-        mor_contact_shape_gap(body->shape, group->dimension, place, group->spacing, normal != NULL ? own : NULL);
-    if (normal != NULL) {
-        mor_matrix_apply(body->shape_rotation, own, normal);
-    }
-    if (curvature != NULL) {
-        *curvature = mor_contact_curvature(body->shape, group->dimension, place, gap, own, group->spacing);
-    }
-    return gap;
-}
-
-/* Where a point now was in the reference configuration of a rigid body. */
-static void find_reference(const mor_body *body, const double *point, double *reference)
-{
-    double offset[3];
-    for (int a = 0; a < 3; ++a) {
-        offset[a] = point[a] - body->center[a];
-    }
-    mor_matrix_apply_transposed(body->rotation, offset, reference);
-    for (int a = 0; a < 3; ++a) {
-        reference[a] += body->geometry.center[a];
-    }
-}
-
-double mor_contact_gap(const mor_contact *contact, const mor_body_group *asking, int other, const double *point)
-{
-    double reference[3];
-    if (other < contact->work->n_bodies) {
-        const mor_contact_body *partner = &contact->work->bodies[other];
-        const mor_body *body = &partner->group->bodies[partner->body];
-        find_reference(body, point, reference);
-        return reference_gap(partner->group, body, reference, NULL, NULL);
-    }
-    const mor_contact_wall *wall = &contact->walls[other - contact->work->n_bodies];
-    mor_contact_wall_place(contact, wall, point, reference);
-    return mor_contact_shape_gap(mor_contact_wall_shape(wall), asking->dimension, reference, asking->spacing, NULL);
-}
-
 static bool look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,
                           bool is_whole, mor_contact_touch *touch)
 {
     const mor_body *body = &partner->group->bodies[partner->body];
     double reference[3], normal[3];
-    find_reference(body, touch->place, reference);
-    touch->gap = reference_gap(partner->group, body, reference, NULL, NULL);
+    mor_contact_find_reference(body, touch->place, reference);
+    touch->gap = mor_contact_reference_gap(partner->group, body, reference, NULL, NULL);
     if (!is_whole || !(touch->gap < mor_contact_reach(contact, near, touch, partner->curvature))) {
         return false;
     }
     double curvature;
-    reference_gap(partner->group, body, reference, normal, &curvature);
+    mor_contact_reference_gap(partner->group, body, reference, normal, &curvature);
     mor_matrix_apply(body->rotation, normal, touch->normal);
     normalize(partner->group->dimension, touch->normal);
     mor_contact_meet(contact, near, touch, curvature);
@@ -176,7 +113,7 @@ static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *
             reference[a] += weights[k] * group->reference[3 * (int64_t)particles[k] + a];
         }
     }
-    const double gap = reference_gap(group, body, reference, normal, NULL);
+    const double gap = mor_contact_reference_gap(group, body, reference, normal, NULL);
     mor_matrix_apply_transposed(gradient, normal, touch->normal);
     /* The level set falls with the slope |gradient^T normal| per length of the present configuration. */
     const double slope = mor_vector_length(touch->normal);

@@ -17,11 +17,6 @@
 /* A pair limits the step when it could meet within so many such steps. */
 #define STEPS_AHEAD 256.0
 
-double mor_contact_gravity(const mor_contact_body *c)
-{
-    return mor_vector_length(c->group->gravity);
-}
-
 void mor_contact_find_boxes(const mor_contact *contact, double *speeds)
 {
     mor_contact_work *work = contact->work;

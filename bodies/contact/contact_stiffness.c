@@ -44,20 +44,6 @@ static exponents exponents_of(int dimension)
     return dimension == 3 ? (exponents){ENERGY_SPACE, 5.0 / 6.0, 0.4} : (exponents){ENERGY_PLANE, 0.8, 0.5};
 }
 
-double mor_contact_spacing(const mor_contact *contact, int first, int second)
-{
-    const mor_body_group *group = mor_contact_group(contact, second);
-    const double own = contact->work->bodies[first].group->spacing;
-    return group == NULL ? own : fmax(own, group->spacing);
-}
-
-bool mor_contact_is_hertzian(const mor_contact *contact, int first, int second)
-{
-    const mor_body_group *group = mor_contact_group(contact, second);
-    return !contact->work->bodies[first].group->operations->is_deformable &&
-           (group == NULL || !group->operations->is_deformable);
-}
-
 static bool is_edged(const mor_contact *contact, int first, int second)
 {
     const mor_contact_work *work = contact->work;

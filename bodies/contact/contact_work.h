@@ -225,6 +225,18 @@ double mor_contact_reach(const mor_contact *contact, const mor_contact_near *nea
  *  @param place     [out]  shape [3], unit m */
 void mor_contact_shape_place(const mor_body *body, const double *reference, double *place);
 
+/** Gap of a point of the reference configuration of a body, unit m.
+ *  @param reference [in]   shape [3], unit m
+ *  @param normal    [out]  shape [3]; in that configuration, unit 1; may be NULL
+ *  @param curvature [out]  one number, unit 1/m; may be NULL; asks for a normal */
+double mor_contact_reference_gap(const mor_body_group *group, const mor_body *body, const double *reference,
+                                 double *normal, double *curvature);
+
+/** Where a point now was in the reference configuration of a body that moves as a whole.
+ *  @param point     [in]   shape [3], unit m
+ *  @param reference [out]  shape [3], unit m */
+void mor_contact_find_reference(const mor_body *body, const double *point, double *reference);
+
 /** Inverts the inertia of a rigid body, for mor_contact_response. */
 void mor_contact_measure_inertia(mor_contact_body *c);
 
