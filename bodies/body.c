@@ -52,8 +52,9 @@ static mor_status allocate_group(mor_context *context, mor_body_group *group, in
     group->boundary.mean_velocity = group->mean_velocity;
     MOR_TRY(context, MOR_NEW(context, &group->bodies, group->n_bodies, "bodies"));
     MOR_TRY(context, MOR_NEW(context, &group->pieces, group->n_pieces, "pieces of bodies"));
-    MOR_TRY(context,
-            MOR_NEW(context, &group->piece_values, group->n_pieces * MOR_BODY_PIECE_VALUES, "sums over bodies"));
+    MOR_TRY(context, MOR_NEW(context, &group->piece_sums, group->n_pieces, "sums over bodies"));
+    MOR_TRY(context, MOR_NEW(context, &group->piece_speed2, group->n_pieces, "speeds of bodies"));
+    MOR_TRY(context, MOR_NEW(context, &group->piece_stray, group->n_pieces, "bodies outside the domain"));
     MOR_TRY(context, MOR_NEW(context, &group->reference_centers, 3 * (int64_t)group->n_bodies, "centers of bodies"));
     MOR_TRY(context, MOR_NEW(context, &group->reference_spreads, 9 * (int64_t)group->n_bodies, "spreads of bodies"));
     MOR_TRY(context, MOR_NEW(context, &boundary->records, n_padded * MOR_BOUNDARY_RECORD, "bodies as soil sees them"));
@@ -236,7 +237,9 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group)
     MOR_FREE(context, &group->mean_velocity);
     MOR_FREE(context, &group->bodies);
     MOR_FREE(context, &group->pieces);
-    MOR_FREE(context, &group->piece_values);
+    MOR_FREE(context, &group->piece_sums);
+    MOR_FREE(context, &group->piece_speed2);
+    MOR_FREE(context, &group->piece_stray);
     MOR_FREE(context, &group->reference_centers);
     MOR_FREE(context, &group->reference_spreads);
     MOR_FREE(context, &group->boundary.records);
@@ -290,27 +293,22 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
             }
             fastest = fmax(fastest, fmax(mor_vector_dot(seen, seen), mor_vector_dot(v, v)));
         }
-        group->piece_values[p * MOR_BODY_PIECE_VALUES] = fastest;
+        group->piece_speed2[p] = fastest;
     }
     double fastest = 0.0;
     for (int64_t p = 0; p < group->n_pieces; ++p) {
-        fastest = fmax(fastest, group->piece_values[p * MOR_BODY_PIECE_VALUES]);
+        fastest = fmax(fastest, group->piece_speed2[p]);
     }
     group->boundary.largest_speed = sqrt(fastest);
 }
 
-/* Sums over particles, all relative to the first particle of the body: d current place, w velocity, and D place in the
- * reference configuration relative to its mean. */
-enum { SUM_PLACE = 0, SUM_VELOCITY = 3, SUM_MOMENT = 6, SUM_MAP = 9, SUM_SPREAD = 18 };
-_Static_assert(SUM_SPREAD + 6 <= MOR_BODY_PIECE_VALUES, "room for the sums of a piece");
-
-static void sum_piece(const mor_body_group *group, const mor_body_piece *piece, double *sums)
+static void sum_piece(const mor_body_group *group, const mor_body_piece *piece, mor_body_sums *sums)
 {
     const int64_t first = group->bodies[piece->body].first;
     const double *position = group->set.data[MOR_FIELD_POSITION];
     const double *velocity = group->set.data[MOR_FIELD_VELOCITY];
     const double *center = group->reference_centers + 3 * (int64_t)piece->body;
-    double s[MOR_BODY_PIECE_VALUES] = {0.0};
+    mor_body_sums s = {.place = {0.0}};
     for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
         double d[3];
         double w[3];
@@ -319,36 +317,36 @@ static void sum_piece(const mor_body_group *group, const mor_body_piece *piece, 
             d[a] = position[3 * i + a] - position[3 * first + a];
             w[a] = velocity[3 * i + a] - velocity[3 * first + a];
             reference[a] = group->reference[3 * i + a] - center[a];
-            s[SUM_PLACE + a] += d[a];
-            s[SUM_VELOCITY + a] += w[a];
+            s.place[a] += d[a];
+            s.velocity[a] += w[a];
         }
-        mor_vector_cross_add(1.0, d, w, s + SUM_MOMENT);
+        mor_vector_cross_add(1.0, d, w, s.moment);
         for (int a = 0; a < 3; ++a) {
             for (int b = 0; b < 3; ++b) {
-                s[SUM_MAP + 3 * a + b] += d[a] * reference[b];
+                s.map[3 * a + b] += d[a] * reference[b];
             }
-            s[SUM_SPREAD + a] += d[a] * d[a];
-            s[SUM_SPREAD + 3 + a] += d[a] * d[(a + 1) % 3];
+            s.spread[a] += d[a] * d[a];
+            s.spread[3 + a] += d[a] * d[(a + 1) % 3];
         }
     }
-    memcpy(sums, s, sizeof s);
+    *sums = s;
 }
 
 /* Angular momentum over inertia, both per mass of a particle and about the mean. */
-static void find_spin(const mor_body_group *group, const double *sums, double n, double *spin)
+static void find_spin(const mor_body_group *group, const mor_body_sums *sums, double n, double *spin)
 {
-    const double *d = sums + SUM_PLACE;
-    double moment[3] = {sums[SUM_MOMENT], sums[SUM_MOMENT + 1], sums[SUM_MOMENT + 2]};
+    const double *d = sums->place;
+    double moment[3] = {sums->moment[0], sums->moment[1], sums->moment[2]};
     double inertia[9];
     double inverse[9];
     double trace = 0.0;
-    mor_vector_cross_add(-1.0 / n, d, sums + SUM_VELOCITY, moment);
+    mor_vector_cross_add(-1.0 / n, d, sums->velocity, moment);
     for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3;
-        const double square = sums[SUM_SPREAD + a] - d[a] * d[a] / n;
+        const double square = sums->spread[a] - d[a] * d[a] / n;
         trace += square;
         inertia[4 * a] = -square;
-        inertia[3 * a + b] = inertia[3 * b + a] = d[a] * d[b] / n - sums[SUM_SPREAD + 3 + a];
+        inertia[3 * a + b] = inertia[3 * b + a] = d[a] * d[b] / n - sums->spread[3 + a];
     }
     memset(spin, 0, 3 * sizeof *spin);
     if (group->dimension == 2) {
@@ -389,7 +387,7 @@ static void find_rotation(const double *map, double *rotation)
     memcpy(rotation, r, sizeof r);
 }
 
-static void observe_body(mor_body_group *group, int b, const double *sums, double length)
+static void observe_body(mor_body_group *group, int b, const mor_body_sums *sums, double length)
 {
     mor_body *body = &group->bodies[b];
     const double n = (double)body->n_particles;
@@ -397,8 +395,8 @@ static void observe_body(mor_body_group *group, int b, const double *sums, doubl
     double spin[3];
     double map[9] = {0.0};
     for (int a = 0; a < 3; ++a) {
-        body->center[a] = group->set.data[MOR_FIELD_POSITION][3 * body->first + a] + sums[SUM_PLACE + a] / n;
-        body->velocity[a] = group->set.data[MOR_FIELD_VELOCITY][3 * body->first + a] + sums[SUM_VELOCITY + a] / n;
+        body->center[a] = group->set.data[MOR_FIELD_POSITION][3 * body->first + a] + sums->place[a] / n;
+        body->velocity[a] = group->set.data[MOR_FIELD_VELOCITY][3 * body->first + a] + sums->velocity[a] / n;
     }
     find_spin(group, sums, n, spin);
     for (int a = 0; a < 3; ++a) {
@@ -406,7 +404,7 @@ static void observe_body(mor_body_group *group, int b, const double *sums, doubl
         body->angular_velocity[a] = spin[a];
         for (int c = 0; c < 3; ++c) {
             for (int k = 0; k < 3; ++k) {
-                map[3 * a + c] += sums[SUM_MAP + 3 * a + k] * spread[3 * k + c];
+                map[3 * a + c] += sums->map[3 * a + k] * spread[3 * k + c];
             }
         }
     }
@@ -416,21 +414,34 @@ static void observe_body(mor_body_group *group, int b, const double *sums, doubl
     find_rotation(map, body->rotation);
 }
 
+static void add_sums(const mor_body_sums *part, mor_body_sums *sums)
+{
+    for (int a = 0; a < 3; ++a) {
+        sums->place[a] += part->place[a];
+        sums->velocity[a] += part->velocity[a];
+        sums->moment[a] += part->moment[a];
+    }
+    for (int k = 0; k < 9; ++k) {
+        sums->map[k] += part->map[k];
+    }
+    for (int k = 0; k < 6; ++k) {
+        sums->spread[k] += part->spread[k];
+    }
+}
+
 void mor_body_group_observe(mor_context *context, mor_body_group *group, double length)
 {
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
-        sum_piece(group, &group->pieces[p], group->piece_values + p * MOR_BODY_PIECE_VALUES);
+        sum_piece(group, &group->pieces[p], &group->piece_sums[p]);
     }
     int64_t p = 0;
     for (int b = 0; b < group->n_bodies; ++b) {
-        double sums[MOR_BODY_PIECE_VALUES] = {0.0};
+        mor_body_sums sums = {.place = {0.0}};
         for (; p < group->n_pieces && group->pieces[p].body == b; ++p) {
-            for (int k = 0; k < MOR_BODY_PIECE_VALUES; ++k) {
-                sums[k] += group->piece_values[p * MOR_BODY_PIECE_VALUES + k];
-            }
+            add_sums(&group->piece_sums[p], &sums);
         }
-        observe_body(group, b, sums, length);
+        observe_body(group, b, &sums, length);
     }
 }
 

@@ -106,7 +106,15 @@ typedef struct mor_body_piece {
     int body;                   /* index of the body */
 } mor_body_piece;
 
-enum { MOR_BODY_PIECE_VALUES = 24 };
+/** Sums over particles of one body, by which its motion as a whole is observed. All are relative to its first particle:
+ *  d is the current place, w the velocity, and D the place in the reference configuration relative to its mean. */
+typedef struct mor_body_sums {
+    double place[3];    /* d, m */
+    double velocity[3]; /* w, m/s */
+    double moment[3];   /* d x w, m2/s */
+    double map[9];      /* shape [3,3]; d (x) D, m2 */
+    double spread[6];   /* d_a d_a, then d_a d_(a+1), m2 */
+} mor_body_sums;
 
 /** All bodies of one material, or of one kind without. Owner: the solver of the group. */
 typedef struct mor_body_group {
@@ -145,7 +153,10 @@ typedef struct mor_body_group {
     const void *contact;    /* first argument of longest_contact_step; borrowed */
     mor_body_piece *pieces; /* shape [n_pieces]; by rising range, without gaps */
     int64_t n_pieces;
-    double *piece_values;      /* shape [n_pieces, MOR_BODY_PIECE_VALUES]; scratch of sums over pieces, any unit */
+    /* Scratch of loops over pieces. */
+    mor_body_sums *piece_sums; /* shape [n_pieces] */
+    double *piece_speed2;      /* shape [n_pieces]; largest squared speed, m2/s2 */
+    int64_t *piece_stray;      /* shape [n_pieces]; first particle outside the domain, -1: none */
     double *reference_centers; /* shape [n_bodies, 3]; mean of a body's reference positions, m */
     double *reference_spreads; /* shape [n_bodies, 9]; inverse of the sum of (X - center) (x) (X - center) over a body's
                                 * particles, zero when they lie in a plane (on a line); 1/m2 */

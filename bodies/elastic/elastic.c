@@ -179,6 +179,7 @@ void mor_elastic_clear(mor_context *context, mor_elastic *elastic)
         MOR_FREE(context, &work->constants);
         MOR_FREE(context, &work->chunk_status);
         MOR_FREE(context, &work->chunk_power);
+        MOR_FREE(context, &work->piece_kicks);
         MOR_FREE(context, &work->chunk_failed);
     }
     MOR_FREE(context, &elastic->work);

@@ -45,6 +45,14 @@ typedef struct mor_elastic_constants {
     double hourglass;       /* strength c of the hourglass control, 1/s2 */
 } mor_elastic_constants;
 
+/** What the particles of a piece have after a kick. */
+typedef struct mor_elastic_kick_sums {
+    double speed2;     /* largest squared speed, m2/s2; a value that is not a number wins */
+    double strength2;  /* largest squared acceleration, m2/s4; likewise */
+    double soil[3];    /* force of the soil, N (N/m) */
+    double contact[3]; /* force of contact, N (N/m) */
+} mor_elastic_kick_sums;
+
 /** Slots: particle "lane" of cluster c has slot 8 c + lane. Owner: the group. */
 typedef struct mor_elastic_work {
     int64_t n_clusters;
@@ -53,16 +61,17 @@ typedef struct mor_elastic_work {
     float *weights;                /* shape [n_rows, 8]; k of each lane, no row twice, 1 */
     int64_t n_rows;
     /* What the loops read of a neighbor, in records as short as can be; d is the dimension. */
-    double *stressed;                 /* shape [n_slots, 2 d + d d]; X [m], c x [m/s2], T [1/s2] */
-    double *moving;                   /* shape [n_slots, 2 d]; X [m] and v [m/s] */
-    double *inverses;                 /* shape [n_clusters, 6, 8]; m^-1, 1/m2 */
-    double *sums;                     /* shape [n_clusters, 3, 8]; sum k r, m */
-    mor_elastic_constants *constants; /* shape [n_bodies] */
-    mor_status *chunk_status;         /* shape [n_chunks]; what the material returned */
-    double *chunk_power;              /* shape [n_chunks]; lost to damping, W (W/m) */
-    int64_t *chunk_failed;            /* shape [n_chunks]; particle that the material refused */
-    double energy;                    /* strain energy of all bodies, J (J/m) */
-    bool is_energy_known;             /* since particles moved last */
+    double *stressed;                   /* shape [n_slots, 2 d + d d]; X [m], c x [m/s2], T [1/s2] */
+    double *moving;                     /* shape [n_slots, 2 d]; X [m] and v [m/s] */
+    double *inverses;                   /* shape [n_clusters, 6, 8]; m^-1, 1/m2 */
+    double *sums;                       /* shape [n_clusters, 3, 8]; sum k r, m */
+    mor_elastic_constants *constants;   /* shape [n_bodies] */
+    mor_elastic_kick_sums *piece_kicks; /* shape [n_pieces] */
+    mor_status *chunk_status;           /* shape [n_chunks]; what the material returned */
+    double *chunk_power;                /* shape [n_chunks]; lost to damping, W (W/m) */
+    int64_t *chunk_failed;              /* shape [n_chunks]; particle that the material refused */
+    double energy;                      /* strain energy of all bodies, J (J/m) */
+    bool is_energy_known;               /* since particles moved last */
     const struct mor_elastic_table *table;
     int state_fields[MOR_MATERIAL_STATES_MAX]; /* indices of the material's state variables in the set */
 } mor_elastic_work;

@@ -57,6 +57,7 @@ static mor_status allocate_work(mor_context *context, mor_elastic *elastic, int6
     MOR_TRY(context, MOR_NEW(context, &work->moving, n_slots * 2 * d, "records of body particles"));
     MOR_TRY(context, MOR_NEW(context, &work->inverses, n_slots * 6, "correction matrices of bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->sums, n_slots * 3, "kernel sums of bodies"));
+    MOR_TRY(context, MOR_NEW(context, &work->piece_kicks, elastic->group.n_pieces, "forces on bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->chunk_status, n_chunks, "results of chunks of bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->chunk_power, n_chunks, "results of chunks of bodies"));
     MOR_TRY(context, MOR_NEW(context, &work->chunk_failed, n_chunks, "results of chunks of bodies"));

@@ -162,9 +162,6 @@ mor_status mor_elastic_sum_forces(mor_context *context, void *owner, mor_view *v
     return MOR_OK;
 }
 
-/* Values of a piece after the kick. */
-enum { KICK_SPEED = 0, KICK_STRENGTH = 1, KICK_SOIL = 2, KICK_CONTACT = 5 };
-
 /* What the kick of a piece needs. */
 typedef struct kick {
     const double *mass;
@@ -175,20 +172,21 @@ typedef struct kick {
 } kick;
 
 /* Largest squared speed and acceleration of a piece, where a value that is not a number wins; forces from outside. */
-static void kick_piece(const mor_elastic *elastic, const kick *job, const mor_body_piece *piece, double *values)
+static void kick_piece(const mor_elastic *elastic, const kick *job, const mor_body_piece *piece,
+                       mor_elastic_kick_sums *sums_out)
 {
     const mor_body_group *group = &elastic->group;
     const double damping = group->damping;
     const double inverse_mass = 1.0 / job->mass[piece->first];
-    double sums[8] = {0.0};
+    mor_elastic_kick_sums sums = {0.0, 0.0, {0.0}, {0.0}};
     for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
         double *v = job->velocity + 3 * i;
         double *a = job->acceleration + 3 * i;
         for (int k = 0; k < 3; ++k) {
             const double soil = group->boundary.force[3 * i + k];
             const double contact = group->contact_force[3 * i + k];
-            sums[KICK_SOIL + k] += soil;
-            sums[KICK_CONTACT + k] += contact;
+            sums.soil[k] += soil;
+            sums.contact[k] += contact;
             a[k] += inverse_mass * (soil + contact) + job->gravity[k] - damping * v[k];
             if (elastic->held[i]) {
                 a[k] = 0.0;
@@ -197,15 +195,13 @@ static void kick_piece(const mor_elastic *elastic, const kick *job, const mor_bo
         }
         const double speed2 = mor_vector_dot(v, v);
         const double strength2 = mor_vector_dot(a, a);
-        sums[KICK_SPEED] = sums[KICK_SPEED] >= speed2 ? sums[KICK_SPEED] : speed2;
-        sums[KICK_STRENGTH] = sums[KICK_STRENGTH] >= strength2 ? sums[KICK_STRENGTH] : strength2;
+        sums.speed2 = sums.speed2 >= speed2 ? sums.speed2 : speed2;
+        sums.strength2 = sums.strength2 >= strength2 ? sums.strength2 : strength2;
     }
-    for (int k = 0; k < 8; ++k) {
-        values[k] = sums[k];
-    }
+    *sums_out = sums;
 }
 
-/* Names the first particle that is not a number or faster than sound, where the method has lost its ground. */
+/* Names the first particle that is not a number or faster than sound, outside the weakly compressible range. */
 static mor_status report_runaway(mor_context *context, const mor_elastic *elastic, const mor_view *view,
                                  const mor_step *step)
 {
@@ -236,13 +232,13 @@ static void finish_kick(mor_elastic *elastic, double length)
     double fastest = 0.0;
     double strongest = 0.0;
     for (int64_t p = 0; p < group->n_pieces; ++p) {
-        const double *values = group->piece_values + p * MOR_BODY_PIECE_VALUES;
+        const mor_elastic_kick_sums *sums = &elastic->work->piece_kicks[p];
         mor_body *body = &group->bodies[group->pieces[p].body];
-        fastest = fastest >= values[KICK_SPEED] ? fastest : values[KICK_SPEED];
-        strongest = strongest >= values[KICK_STRENGTH] ? strongest : values[KICK_STRENGTH];
+        fastest = fastest >= sums->speed2 ? fastest : sums->speed2;
+        strongest = strongest >= sums->strength2 ? strongest : sums->strength2;
         for (int a = 0; a < 3; ++a) {
-            body->soil_impulse[a] += length * values[KICK_SOIL + a];
-            body->contact_impulse[a] += length * values[KICK_CONTACT + a];
+            body->soil_impulse[a] += length * sums->soil[a];
+            body->contact_impulse[a] += length * sums->contact[a];
         }
     }
     elastic->largest_speed = sqrt(fastest);
@@ -262,7 +258,7 @@ mor_status mor_elastic_kick(mor_context *context, void *owner, mor_view *view, c
                       step->length};
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
-        kick_piece(elastic, &job, &group->pieces[p], group->piece_values + p * MOR_BODY_PIECE_VALUES);
+        kick_piece(elastic, &job, &group->pieces[p], &elastic->work->piece_kicks[p]);
     }
     mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &elastic->largest_speed);
     finish_kick(elastic, step->length);
@@ -331,15 +327,15 @@ static mor_status check_domain(mor_context *context, const mor_elastic *elastic,
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
-        double stray = -1.0;
+        int64_t stray = -1;
         for (int64_t i = piece->first + piece->n_particles - 1; i >= piece->first; --i) {
-            stray = is_inside(group, position + 3 * i) ? stray : (double)i;
+            stray = is_inside(group, position + 3 * i) ? stray : i;
         }
-        group->piece_values[p * MOR_BODY_PIECE_VALUES] = stray;
+        group->piece_stray[p] = stray;
     }
     for (int64_t p = 0; p < group->n_pieces; ++p) {
-        if (group->piece_values[p * MOR_BODY_PIECE_VALUES] >= 0.0) {
-            const int64_t i = (int64_t)group->piece_values[p * MOR_BODY_PIECE_VALUES];
+        if (group->piece_stray[p] >= 0) {
+            const int64_t i = group->piece_stray[p];
             double x[3];
             mor_domain_localize(group->placement, position + 3 * i, x);
             const mor_status status = MOR_FAIL(

@@ -8,9 +8,6 @@
 
 #include <string.h>
 
-/* Columns of piece_values that the placement uses. */
-enum { STRAY = 0 };
-
 static bool is_in_domain(const mor_body_group *group, const double *x)
 {
     double local[3];
@@ -32,14 +29,14 @@ static bool is_well_inside(const mor_body_group *group, const mor_body *body, do
 }
 
 /* First particle of a piece outside the domain, or -1. */
-static double find_stray(const mor_body_group *group, const mor_body_piece *piece, const double *position)
+static int64_t find_stray(const mor_body_group *group, const mor_body_piece *piece, const double *position)
 {
     for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
         if (!is_in_domain(group, position + 3 * i)) {
-            return (double)i;
+            return i;
         }
     }
-    return -1.0;
+    return -1;
 }
 
 /* Particles of a piece follow their body. */
@@ -98,8 +95,8 @@ void mor_rigid_place(mor_context *context, mor_rigid *rigid, mor_view *view)
         const mor_body_piece *piece = &group->pieces[p];
         const double radius = rigid->work->constants[piece->body].outermost;
         place_piece(group, piece, position, velocity);
-        group->piece_values[p * MOR_BODY_PIECE_VALUES + STRAY] =
-            is_well_inside(group, &group->bodies[piece->body], radius) ? -1.0 : find_stray(group, piece, position);
+        group->piece_stray[p] =
+            is_well_inside(group, &group->bodies[piece->body], radius) ? -1 : find_stray(group, piece, position);
     }
 }
 
@@ -194,9 +191,8 @@ mor_status mor_rigid_drift_second(mor_context *context, void *owner, mor_view *v
     }
     mor_rigid_place(context, rigid, view);
     for (int64_t p = 0; p < group->n_pieces; ++p) {
-        const double stray = group->piece_values[p * MOR_BODY_PIECE_VALUES + STRAY];
-        if (stray >= 0.0) {
-            return report_stray(context, rigid, view, (int64_t)stray, step);
+        if (group->piece_stray[p] >= 0) {
+            return report_stray(context, rigid, view, group->piece_stray[p], step);
         }
     }
     return MOR_OK;
