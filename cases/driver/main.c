@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/command/command.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
@@ -12,7 +13,7 @@ enum { PATH_BYTES = 4096 };
 /* A step may go on for so long after a signal, in microseconds. */
 enum { PATIENCE = 700000 };
 
-static mor_stop stop;
+static mor_session *volatile session; /* what a signal handler must know of */
 
 static void say(const char *text)
 {
@@ -26,11 +27,11 @@ static void request_stop(int number)
 {
     static const struct itimerval patience = {.it_value = {.tv_usec = PATIENCE}};
     (void)number;
-    if (stop.is_requested || stop.phase == MOR_STOP_AT_ONCE) {
+    if (session == NULL || mor_session_is_stopping(session) || mor_session_find_phase(session) == MOR_SESSION_IDLE) {
         say("moraine: stopped by a signal\n");
         _exit(MOR_EXIT_INTERRUPTED);
     }
-    stop.is_requested = 1;
+    mor_session_request_stop(session);
     setitimer(ITIMER_REAL, &patience, NULL);
 }
 
@@ -38,7 +39,7 @@ static void request_stop(int number)
 static void lose_patience(int number)
 {
     (void)number;
-    if (stop.phase == MOR_STOP_AFTER_STEP) {
+    if (session != NULL && mor_session_find_phase(session) == MOR_SESSION_STEPPING) {
         say("moraine: stopped by a signal within a long step; go on from the last checkpoint with --resume\n");
         _exit(MOR_EXIT_INTERRUPTED);
     }
@@ -80,6 +81,15 @@ static void shorten_waiting(char **argv)
 int main(int argc, char **argv)
 {
     shorten_waiting(argv);
+    mor_session *made = NULL;
+    if (mor_session_new(&made) != MOR_OK) {
+        say("moraine: there is not enough memory to begin\n");
+        return MOR_EXIT_FAILED;
+    }
+    session = made;
     handle_signals();
-    return mor_command_main(argc, argv, &stop);
+    const int exit_code = mor_command_main(argc, argv, mor_commands, made);
+    session = NULL; /* there is nothing left to keep */
+    mor_session_free(&made);
+    return exit_code;
 }

@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_BASE_CONTEXT_H
 #define MOR_CORE_BASE_CONTEXT_H
 
+#include "core/base/log.h"
 #include "core/base/status.h"
 
 #include <stdbool.h>
@@ -15,15 +16,6 @@
  *  Not a place for simulation data. */
 
 enum { MOR_CONTEXT_MESSAGE_BYTES = 2048, MOR_CONTEXT_FRAMES = 8, MOR_CONTEXT_NAME_BYTES = 64 };
-
-/** Severity of a log line. */
-typedef enum mor_log_level { MOR_LOG_DEBUG, MOR_LOG_INFO, MOR_LOG_WARNING, MOR_LOG_ERROR } mor_log_level;
-
-/** Receives one finished log line.
- *  @param user  [in,out]  what the installer of the sink passed; owned by the installer
- *  @param level [in]      severity
- *  @param text  [in]      zero-terminated line without a newline; valid during the call only */
-typedef void (*mor_log_sink)(void *user, mor_log_level level, const char *text);
 
 /** Where an error passed through. */
 typedef struct mor_frame {
@@ -43,6 +35,8 @@ typedef struct mor_context {
     mor_log_sink log_sink;                     /* NULL: log lines are dropped */
     void *log_user;                            /* passed to log_sink; owned by the installer */
     int n_threads;                             /* threads a parallel loop uses, >= 1 */
+    const char *cache_folder;                  /* where relaxed particles are kept, zero-terminated; NULL or "":
+                                                  nowhere; owned by the installer */
     uint64_t seed;                             /* seed of all counter-based random numbers */
     bool is_checked;                           /* the run proves what stages and materials declare; slow */
     size_t memory_bytes;                       /* bytes now held by mor_memory_new */

@@ -22,16 +22,28 @@
     X(ERROR_UNSUPPORTED, -7, "not supported")                                                                          \
     X(ERROR_INTERNAL, -8, "internal error")
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum mor_status {
 #define MOR_STATUS_ENUM(name, code, text) MOR_##name = code,
     MOR_STATUS_LIST(MOR_STATUS_ENUM)
 #undef MOR_STATUS_ENUM
 } mor_status;
 
+#pragma GCC visibility push(default) /* the shared library shows it */
+
 /** Returns the text of a status code.
  *  @param status [in]  any code; unknown codes give "unknown status"
  *  Returns: a static string, never NULL.
  *  Threads: safe to call concurrently. */
 const char *mor_status_text(mor_status status);
+
+#pragma GCC visibility pop
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

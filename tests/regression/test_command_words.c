@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/command/command_table.h"
+#include "cases/driver/command/command.h"
 #include "tests/common/program.h"
 
 /* Help of each command once was that of all; manual page and completion say what the tables say. */
@@ -31,7 +31,8 @@ static bool has_option(const char *text, const mor_command_option *option)
 static void help_of_a_command_is_its_own(void **state)
 {
     run_folder *folder = *state;
-    for (const mor_command_info *info = mor_commands; info->name != NULL; ++info) {
+    for (int c = 0; mor_commands[c] != NULL; ++c) {
+        const mor_command_info *info = mor_commands[c];
         char usage[128];
         char *text = ask(folder, info->name, "--help");
         const char *end = strstr(text, "\nExamples\n");
@@ -79,7 +80,8 @@ static void the_manual_page_and_the_completion_name_every_option_of_every_comman
     run_folder *folder = *state;
     char *man = ask(folder, "list", "man");
     char *completion = ask(folder, "list", "completion");
-    for (const mor_command_info *info = mor_commands; info->name != NULL; ++info) {
+    for (int c = 0; mor_commands[c] != NULL; ++c) {
+        const mor_command_info *info = mor_commands[c];
         char head[128];
         snprintf(head, sizeof head, ".SS %s%s %s\n",
                  strcmp(info->name, "check-material") == 0 ? "check\\-material" : info->name, "", info->subject);

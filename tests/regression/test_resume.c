@@ -1,8 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/run/run.h"
-#include "materials/builtin.h"
-#include "tests/common/finished_run.h"
+#include "tests/common/session_run.h"
 
 #include <math.h>
 
@@ -39,31 +37,16 @@ enum { N_VARIANTS = sizeof variants / sizeof *variants };
 static void run_case(run_folder *folder, const char *name, const variant *it, double stop_at, bool is_resume)
 {
     char case_path[MOR_PATH_BYTES];
-    char run_path[MOR_PATH_BYTES];
-    mor_registry *registry = NULL;
-    mor_run_outcome outcome;
-    FILE *output = tmpfile();
-    assert_non_null(output);
     finished_run_store_case(folder, case_path);
-    const mor_run_options options = {.case_path = case_path,
-                                     .folder = run_folder_file(folder, run_path, name),
-                                     .settings = it->settings,
-                                     .n_settings = it->n_settings,
-                                     .is_resume = is_resume,
-                                     .stop_at = stop_at,
-                                     .command = "test_resume",
-                                     .version = "0",
-                                     .commit = "",
-                                     .output = output};
-    assert_int_equal(mor_registry_new(&folder->context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&folder->context, registry, mor_materials_builtin(NULL)), MOR_OK);
-    if (mor_run(&folder->context, &options, registry, &outcome) != MOR_OK) {
-        fail_msg("'%s': %s", it->name, folder->context.message);
-    }
-    assert_int_equal(outcome.is_finished, isnan(stop_at));
-    assert_false(outcome.is_interrupted);
-    mor_registry_free(&folder->context, &registry);
-    fclose(output);
+    const session_run run = {.case_path = case_path,
+                             .name = name,
+                             .settings = it->settings,
+                             .n_settings = it->n_settings,
+                             .stop_at = stop_at,
+                             .is_resume = is_resume,
+                             .n_threads = folder->context.n_threads};
+    assert_int_equal(session_run_do(folder, &run, it->name),
+                     isnan(stop_at) ? MOR_SESSION_FINISHED : MOR_SESSION_STOPPED);
 }
 
 static void run_stopped_at_a_third_ends_as_if_never_stopped(void **state)

@@ -1,10 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tests/common/body_variant.h"
-#include "tests/common/finished_run.h"
 #include "tests/common/sanitized.h"
-
-#include "cases/driver/run/run.h"
+#include "tests/common/session_run.h"
 
 #include <math.h>
 
@@ -30,13 +28,8 @@ static void run_case(run_folder *folder, const char *text, const char *name, con
                      bool is_resume)
 {
     char case_path[MOR_PATH_BYTES];
-    char run_path[MOR_PATH_BYTES];
     char *settings[SCENE_VARIANT_SETTINGS + N_OUTPUTS];
     int n_settings = 0;
-    mor_registry *registry = NULL;
-    mor_run_outcome outcome;
-    FILE *output = tmpfile();
-    assert_non_null(output);
     finished_run_store_text(folder, text, case_path);
     for (int k = 0; k < N_OUTPUTS; ++k) {
         char *setting = scene_quote(outputs[k]);
@@ -48,27 +41,18 @@ static void run_case(run_folder *folder, const char *text, const char *name, con
     for (int k = 0; it->settings[k] != NULL; ++k) {
         settings[n_settings++] = scene_quote(it->settings[k]);
     }
-    const mor_run_options options = {.case_path = case_path,
-                                     .folder = run_folder_file(folder, run_path, name),
-                                     .settings = (const char *const *)settings,
-                                     .n_settings = n_settings,
-                                     .is_resume = is_resume,
-                                     .stop_at = stop_at,
-                                     .command = "test_resume_bodies",
-                                     .version = "0",
-                                     .commit = "",
-                                     .output = output};
-    assert_int_equal(mor_registry_new(&folder->context, &registry), MOR_OK);
-    assert_int_equal(mor_registry_add_list(&folder->context, registry, mor_materials_builtin(NULL)), MOR_OK);
-    if (mor_run(&folder->context, &options, registry, &outcome) != MOR_OK) {
-        fail_msg("'%s': %s", it->name, folder->context.message);
-    }
-    assert_int_equal(outcome.is_finished, isnan(stop_at));
-    mor_registry_free(&folder->context, &registry);
+    const session_run run = {.case_path = case_path,
+                             .name = name,
+                             .settings = (const char *const *)settings,
+                             .n_settings = n_settings,
+                             .stop_at = stop_at,
+                             .is_resume = is_resume,
+                             .n_threads = folder->context.n_threads};
+    assert_int_equal(session_run_do(folder, &run, it->name),
+                     isnan(stop_at) ? MOR_SESSION_FINISHED : MOR_SESSION_STOPPED);
     for (int k = 0; k < n_settings; ++k) {
         free(settings[k]);
     }
-    fclose(output);
 }
 
 /* Stops twice and goes on with another number of threads each time; stops before the first step and resumes what has

@@ -144,20 +144,20 @@ static void warnings_are_read_from_a_log_each_once(void **state)
                               "fast\nerror: no\nwarning: deep\n";
     mor_run_warnings warnings = {.n = 0};
     run_folder_store(run_folder_file(folder, path, "log.txt"), log, strlen(log));
-    assert_true(mor_run_warnings_add(&warnings, "fast"));
-    mor_run_warnings_load(&warnings, path);
-    mor_run_warnings_load(&warnings, "/nowhere/log.txt");
+    assert_true(mor_run_warnings_add(&folder->context, &warnings, "fast"));
+    mor_run_warnings_load(&folder->context, &warnings, path);
+    mor_run_warnings_load(&folder->context, &warnings, "/nowhere/log.txt");
     assert_int_equal(warnings.n, 2);
     assert_string_equal(warnings.texts[0], "fast");
     assert_string_equal(warnings.texts[1], "deep");
     for (int k = 0; k < 2 * MOR_RUN_WARNINGS_MAX; ++k) {
         char text[16];
         snprintf(text, sizeof text, "number %d", k);
-        mor_run_warnings_add(&warnings, text);
+        mor_run_warnings_add(&folder->context, &warnings, text);
     }
     assert_int_equal(warnings.n, MOR_RUN_WARNINGS_MAX);
     program_expect_text(warnings.texts[MOR_RUN_WARNINGS_MAX - 1], "there are more warnings: see log.txt");
-    mor_run_warnings_clear(&warnings);
+    mor_run_warnings_clear(&folder->context, &warnings);
     assert_int_equal(warnings.n, 0);
 }
 

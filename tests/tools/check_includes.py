@@ -34,19 +34,22 @@ LIBC = re.compile(
     r"|tgmath|threads|time|uchar|unistd|wchar|wctype|ftw|getopt|malloc"
     r"|sys/(ioctl|mman|random|resource|stat|time|times|types|uio|utsname|wait))\.h")
 
-GENERATED = {"moraine_build.h": "cases/driver"}
+GENERATED = {"moraine_build.h": "cases/driver/library"}
 # A user's project in the tree: it may include what that room may.
 KITS = {"materials/template": "materials"}
-MAINS = ("cases/driver/main.c",)
+# The program is its commands and the library behind cases/moraine.h.
+MAINS = {"cases/driver/main.c": ("cases", "cases/driver/command")}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 OPENMP = re.compile(r'#[ \t]*pragma[ \t]+omp\b|_Pragma[ \t]*\([ \t]*"[ \t]*omp\b|MOR_PRAGMA_\([ \t]*omp\b')
 
 
 def may_include(path, header, rooms):
-    """Tests and main.c see everything; a room sees itself and what it depends on; nobody else sees anything."""
+    """Tests see everything; a room sees itself and what it depends on; nobody else sees anything but main.c."""
     room, other = posixpath.dirname(path), posixpath.dirname(header)
-    if path.startswith("tests/") or path in MAINS:
-        return other in rooms or path.startswith("tests/") and header.startswith("tests/")
+    if path.startswith("tests/"):
+        return other in rooms or header.startswith("tests/")
+    if path in MAINS:
+        return other in MAINS[path]
     return room == other or other in rooms.get(KITS.get(room, room), ())
 
 
@@ -58,7 +61,8 @@ def check_project_header(path, header, known, rooms):
     if header not in known:
         return f'"{header}" is no file of the project; write the path from the top folder, as "core/base/context.h"'
     if not may_include(path, header, rooms):
-        allowed = ", ".join(rooms.get(KITS.get(posixpath.dirname(path), posixpath.dirname(path)), ())) or "nothing else"
+        room = KITS.get(posixpath.dirname(path), posixpath.dirname(path))
+        allowed = ", ".join(MAINS.get(path) or rooms.get(room, ())) or "nothing else"
         return f'"{header}": {posixpath.dirname(path) or "this folder"} may include its own headers and {allowed}'
     return None
 

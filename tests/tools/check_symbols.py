@@ -33,7 +33,7 @@ FORBIDDEN_CALLS = {
 }
 
 # The program: it may print, read the environment, and map a status to an exit code.
-PROGRAM_LIBRARIES = ("libmor_cases_driver_command.a", "libmor_cases_driver_run.a", "libmor_cases_driver_scene_build.a")
+PROGRAM_LIBRARIES = ("libmor_cases_driver_command.a",)
 
 
 def matches(place, patterns):
@@ -71,14 +71,37 @@ def check_library(library):
     return problems
 
 
-def check(build):
+def check_exports(shared, headers):
+    """The shared library shows the functions that these headers declare, and nothing else."""
+    done = subprocess.run(["nm", "-D", "--defined-only", shared], capture_output=True, text=True, check=True)
+    shown = {line.split()[-1] for line in done.stdout.splitlines() if not re.search(r" _\w+$", line)}
+    declared = set()
+    for header in headers:
+        with open(header, encoding="utf-8") as file:
+            public = re.findall(r"visibility push\(default\)(.*?)visibility pop", file.read(), re.DOTALL)
+        code = source.without_comments("".join(public))
+        declared |= set(re.findall(r"\b(mor_\w+)\(", code))
+    name = os.path.basename(shared)
+    return ([f"{name}: shows {symbol}, which no public header declares; hide it" for symbol in sorted(shown - declared)]
+            + [f"{name}: does not show {symbol}, which a public header declares"
+               for symbol in sorted(declared - shown)])
+
+
+# What the shared library is to show is declared in them, between the pragmas of visibility.
+PUBLIC_HEADERS = ("cases/moraine.h", "core/base/status.h")
+
+
+def check(build, root=None):
     libraries = sorted(glob.glob(os.path.join(build, "**", "libmor_*.a"), recursive=True))
     if not libraries:
         return [f"{build}: there is no libmor_*.a in it; build first"]
-    return [problem for library in libraries for problem in check_library(library)]
+    problems = [problem for library in libraries for problem in check_library(library)]
+    for shared in glob.glob(os.path.join(build, "lib", "libmoraine.so")):
+        problems.extend(check_exports(shared, [os.path.join(root, header) for header in PUBLIC_HEADERS]))
+    return problems
 
 
 if __name__ == "__main__":
     options = source.parse_root([("build", "folder of an optimized build")])
-    sys.exit(source.report("Hidden state and forbidden calls", check(options.build),
+    sys.exit(source.report("Hidden state and forbidden calls", check(options.build, options.root),
                            "A library must leave the process to the program."))

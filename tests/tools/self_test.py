@@ -132,8 +132,18 @@ class Includes(Sample):
 
     def test_nobody_includes_cases(self):
         self.write("cases/driver/case/case.h", TAG)
-        self.write("cases/driver/main.c", TAG + '#include "cases/driver/case/case.h"\n')
         self.refuse("bodies/bad.c", '#include "cases/driver/case/case.h"', "bodies may include")
+
+    def test_the_program_sees_its_commands_and_the_library_only(self):
+        self.write("CMakeLists.txt", source.read_text(self.root, "CMakeLists.txt") + "mor_add_room(cases)\n"
+                   "mor_add_room(cases/driver/run)\nmor_add_room(cases/driver/command DEPENDS cases)\n")
+        self.write("cases/moraine.h", TAG)
+        self.write("cases/driver/run/run.h", TAG)
+        self.write("cases/driver/command/good.c", TAG + '#include "cases/moraine.h"\n')
+        self.write("cases/driver/main.c", TAG + '#include "cases/moraine.h"\n')
+        self.refuse("cases/driver/command/bad.c", '#include "cases/driver/run/run.h"', "headers and cases")
+        self.write("cases/driver/command/bad.c", TAG)
+        self.refuse("cases/driver/main.c", '#include "cases/driver/run/run.h"', "cases, cases/driver/command")
 
     def test_nobody_includes_tests(self):
         self.write("tests/common/tools.h", TAG)
@@ -271,6 +281,17 @@ class Symbols(Sample):
 
     def test_empty_build_is_refused(self):
         self.expect(check_symbols.check(self.root), "build first")
+
+    def test_the_shared_library_shows_what_the_public_header_declares(self):
+        self.write("moraine.h", "#pragma GCC visibility push(default)\nint mor_a(void); /* mor_c( */\n"
+                   "int mor_b(int n);\n#pragma GCC visibility pop\nint mor_d(void);\n")
+        public = [os.path.join(self.root, "moraine.h")]
+        shared = os.path.join(self.root, "libmoraine.so")
+        for names, fragments in ((("mor_a", "mor_b"), ()), (("mor_a", "mor_b", "mor_c"), ("shows mor_c",)),
+                                 (("mor_a",), ("does not show mor_b",))):
+            self.write("code.c", "".join(f"int {name}(void);\nint {name}(void) {{ return 0; }}\n" for name in names))
+            subprocess.run([COMPILER, "-shared", "-fPIC", os.path.join(self.root, "code.c"), "-o", shared], check=True)
+            self.expect(check_symbols.check_exports(shared, public), *fragments)
 
 
 class Docstrings(Sample):

@@ -165,26 +165,6 @@ static void folder_that_cannot_be_written_is_done_without(void **state)
     mor_shape_free(&scratch->context, &ball.shape);
 }
 
-static void environment_names_the_folder(void **state)
-{
-    mor_point_cache cache;
-    assert_int_equal(setenv("MORAINE_CACHE", "/somewhere", 1), 0);
-    mor_point_cache_init(&cache, NULL);
-    assert_string_equal(cache.folder, "/somewhere");
-    assert_int_equal(setenv("MORAINE_CACHE", "", 1), 0);
-    mor_point_cache_init(&cache, NULL);
-    assert_string_equal(cache.folder, "");
-    assert_int_equal(unsetenv("MORAINE_CACHE"), 0);
-    assert_int_equal(setenv("XDG_CACHE_HOME", "/shared", 1), 0);
-    mor_point_cache_init(&cache, NULL);
-    assert_string_equal(cache.folder, "/shared/moraine");
-    assert_int_equal(unsetenv("XDG_CACHE_HOME"), 0);
-    assert_int_equal(setenv("HOME", "/me", 1), 0);
-    mor_point_cache_init(&cache, NULL);
-    assert_string_equal(cache.folder, "/me/.cache/moraine");
-    (void)state;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -196,7 +176,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(file_of_another_request_is_not_taken, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(folder_that_cannot_be_written_is_done_without, run_folder_setup,
                                         run_folder_teardown),
-        cmocka_unit_test(environment_names_the_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,12 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/command/command_table.h"
+#include "cases/driver/command/command.h"
 
 #include "core/base/nearest.h"
-#include "core/base/parallel.h"
 #include "core/base/units.h"
-#include "moraine_build.h"
-#include "relaxation/mesh/mesh.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -31,8 +28,7 @@ static mor_status set_threads(mor_command *command, const char *text)
     const long n = strtol(text, &end, 10);
     MOR_CHECK(command->context, *text != '\0' && *end == '\0' && n >= 1 && n <= 1024, MOR_ERROR_CONFIG,
               "found --threads '%s'; allowed are whole numbers from 1 to 1024", text);
-    command->context->n_threads = (int)n;
-    return MOR_OK;
+    return mor_session_set_threads(command->session, (int)n);
 }
 
 static mor_status set_stop(mor_command *command, const char *text)
@@ -49,9 +45,16 @@ static mor_status set_stop(mor_command *command, const char *text)
     return MOR_OK;
 }
 
+static mor_status add_setting(mor_command *command, const char *setting)
+{
+    const mor_status status = mor_session_override(command->session, setting);
+    MOR_CHECK(command->context, status != MOR_ERROR_ARGUMENT, MOR_ERROR_CONFIG, "found --set '%s': %s", setting,
+              mor_session_message(command->session));
+    return status;
+}
+
 static mor_status take_option(mor_command *command, mor_command_option_kind kind, const char *value)
 {
-    mor_context *context = command->context;
     command->given |= 1u << kind;
     switch (kind) {
     case MOR_OPTION_OUTPUT:
@@ -60,10 +63,7 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
     case MOR_OPTION_THREADS:
         return set_threads(command, value);
     case MOR_OPTION_SET:
-        MOR_CHECK(context, command->n_settings < MOR_COMMAND_SETTINGS_MAX, MOR_ERROR_CONFIG,
-                  "found more than %d --set options; put some of them into the case file", MOR_COMMAND_SETTINGS_MAX);
-        command->settings[command->n_settings++] = value;
-        return MOR_OK;
+        return add_setting(command, value);
     case MOR_OPTION_RESUME:
         command->is_resume = true;
         return MOR_OK;
@@ -71,13 +71,13 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
         command->spacing = value;
         return MOR_OK;
     case MOR_OPTION_LENGTH:
-        command->sizes[MOR_MESH_LENGTH] = value;
+        command->sizes[MOR_SESSION_SIZE_LENGTH] = value;
         return MOR_OK;
     case MOR_OPTION_VOLUME:
-        command->sizes[MOR_MESH_VOLUME] = value;
+        command->sizes[MOR_SESSION_SIZE_VOLUME] = value;
         return MOR_OK;
     case MOR_OPTION_DIAMETER:
-        command->sizes[MOR_MESH_DIAMETER] = value;
+        command->sizes[MOR_SESSION_SIZE_DIAMETER] = value;
         return MOR_OK;
     case MOR_OPTION_STOP_AT:
         return set_stop(command, value);
@@ -125,20 +125,21 @@ static mor_status read_options(mor_command *command, int argc, char **argv)
     return MOR_OK;
 }
 
-static mor_status find_command(mor_context *context, const char *name, const mor_command_info **found)
+static mor_status find_command(const mor_command *command, const char *name, const mor_command_info **found)
 {
     enum { NAMES_MAX = 32 };
     const char *names[NAMES_MAX];
     int n = 0;
-    for (const mor_command_info *info = mor_commands; info->name != NULL && n < NAMES_MAX; ++info) {
-        names[n++] = info->name;
-        if (strcmp(name, info->name) == 0) {
-            *found = info;
+    for (; command->table[n] != NULL && n < NAMES_MAX; ++n) {
+        names[n] = command->table[n]->name;
+        if (strcmp(name, names[n]) == 0) {
+            *found = command->table[n];
             return MOR_OK;
         }
     }
     const int near = mor_nearest_find(name, names, n);
-    return MOR_FAIL(context, MOR_ERROR_CONFIG, "found command '%s', which is not known%s%s; see moraine --help", name,
+    return MOR_FAIL(command->context, MOR_ERROR_CONFIG,
+                    "found command '%s', which is not known%s%s; see moraine --help", name,
                     near >= 0 ? "; did you mean " : "", near >= 0 ? names[near] : "");
 }
 
@@ -164,7 +165,8 @@ static mor_status check_options(const mor_command *command, const mor_command_in
             continue;
         }
         char owners[256] = "";
-        for (const mor_command_info *other = mor_commands; other->name != NULL; ++other) {
+        for (int c = 0; command->table[c] != NULL; ++c) {
+            const mor_command_info *other = command->table[c];
             if (mor_command_takes(other, (mor_command_option_kind)k)) {
                 const size_t n = strlen(owners);
                 snprintf(owners + n, sizeof owners - n, "%s%s", n > 0 ? ", " : "", other->name);
@@ -183,12 +185,12 @@ static mor_status answer_question(mor_command *command, const char *name)
 {
     const mor_command_info *info = NULL;
     if ((command->given >> MOR_OPTION_VERSION & 1u) != 0) {
-        fprintf(command->output, "moraine %s (commit %s)\n", MOR_VERSION, MOR_COMMIT);
+        fprintf(command->output, "moraine %s (commit %s)\n", mor_version(), mor_commit());
     } else if (name == NULL) {
-        mor_command_print_usage(command->output);
+        mor_command_print_usage(command->table, command->output);
     } else {
-        MOR_TRY(command->context, find_command(command->context, name, &info));
-        mor_command_print_help(command->output, info);
+        MOR_TRY(command->context, find_command(command, name, &info));
+        mor_command_print_help(info, command->output);
     }
     return MOR_OK;
 }
@@ -201,11 +203,11 @@ static mor_status run_command(mor_command *command, int argc, char **argv, int *
         return answer_question(command, optind < argc ? argv[optind] : NULL);
     }
     if (optind >= argc) {
-        mor_command_print_usage(command->errors);
+        mor_command_print_usage(command->table, command->errors);
         *exit_code = MOR_EXIT_BAD_INPUT;
         return MOR_OK;
     }
-    MOR_TRY(command->context, find_command(command->context, argv[optind], &info));
+    MOR_TRY(command->context, find_command(command, argv[optind], &info));
     command->subject = optind + 1 < argc ? argv[optind + 1] : NULL;
     MOR_CHECK(command->context, optind + 2 >= argc, MOR_ERROR_CONFIG,
               "found '%s' behind '%s'; allowed is one %s; see moraine %s --help", argv[optind + 2], command->subject,
@@ -216,25 +218,47 @@ static mor_status run_command(mor_command *command, int argc, char **argv, int *
     return info->run(command, exit_code);
 }
 
-int mor_command_main(int argc, char **argv, mor_stop *stop)
+/* What the session is to know whatever the command. */
+static mor_status prepare_session(const mor_command *command)
+{
+    char cache[MOR_COMMAND_PATH_BYTES];
+    mor_session *session = command->session;
+    mor_command_find_cache(cache);
+    mor_session_set_log(session, show_log, command->errors);
+    mor_session_set_output(session, command->output);
+    mor_session_set_command(session, command->line);
+    MOR_TRY(command->context, mor_session_set_cache(session, cache));
+    return mor_session_set_threads(session, 0);
+}
+
+/* Says what went wrong; returns the exit code. */
+static int report_error(const mor_command *command, mor_status status)
+{
+    const mor_context *context = command->context;
+    fflush(command->output); /* as for the log */
+    fprintf(command->errors, "moraine: %s\n",
+            context->status != MOR_OK ? context->message : mor_session_message(command->session));
+    return status == MOR_ERROR_CONFIG ? MOR_EXIT_BAD_INPUT : MOR_EXIT_FAILED;
+}
+
+int mor_command_main(int argc, char **argv, const mor_command_info *const *table, mor_session *session)
 {
     mor_context context;
-    mor_context_init(&context);
-    context.n_threads = mor_parallel_cores();
-    context.log_sink = show_log;
-    context.log_user = stderr;
     mor_command *command = calloc(1, sizeof *command);
     if (command == NULL) {
         return MOR_EXIT_FAILED;
     }
-    *command = (mor_command){.context = &context, .stop_at = NAN, .stop = stop, .output = stdout, .errors = stderr};
+    mor_context_init(&context);
+    *command = (mor_command){
+        .table = table, .session = session, .context = &context, .stop_at = NAN, .output = stdout, .errors = stderr};
     join_words(command, argc, argv);
     int exit_code = MOR_EXIT_OK;
-    const mor_status status = run_command(command, argc, argv, &exit_code);
+    mor_status status = prepare_session(command);
+    if (status == MOR_OK) {
+        status = run_command(command, argc, argv, &exit_code);
+    }
     if (status != MOR_OK) {
-        fflush(stdout); /* as for the log */
-        fprintf(stderr, "moraine: %s\n", context.message);
-        exit_code = status == MOR_ERROR_CONFIG ? MOR_EXIT_BAD_INPUT : MOR_EXIT_FAILED;
+        exit_code = report_error(command, status);
     }
     free(command);
     if (fflush(stdout) != 0 || ferror(stdout)) {

@@ -1,12 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/command/command_table.h"
-
-#include "moraine_build.h"
+#include "cases/driver/command/command.h"
 
 #include <string.h>
 
-/* Help, manual page and completion, printed from the tables of commands and options. */
+/* Help, manual page and completion, printed from the lists of commands and options. */
 
 enum { COLUMN = 24, LINE = 80, LABEL_BYTES = 64 };
 
@@ -61,12 +59,13 @@ static int count_codes(const mor_command_info *info)
     return n;
 }
 
-void mor_command_print_usage(FILE *out)
+void mor_command_print_usage(const mor_command_info *const *table, FILE *out)
 {
     fprintf(out, "Moraine simulates mixtures of soil and rocks.\n\nUsage: moraine COMMAND SUBJECT [OPTION]...\n"
                  "       moraine COMMAND --help says what a command does, with its defaults and examples\n\n"
                  "Commands\n");
-    for (const mor_command_info *info = mor_commands; info->name != NULL; ++info) {
+    for (int c = 0; table[c] != NULL; ++c) {
+        const mor_command_info *info = table[c];
         char label[LABEL_BYTES];
         snprintf(label, sizeof label, "%-14s %s", info->name, info->subject);
         print_entry(out, label, info->text);
@@ -76,14 +75,14 @@ void mor_command_print_usage(FILE *out)
         print_option(out, &mor_command_options[k], false);
     }
     fprintf(out, "\nExit codes of moraine run\n");
-    for (int k = 0; k < count_codes(&mor_commands[0]); ++k) {
+    for (int k = 0; k < count_codes(table[0]); ++k) {
         char label[LABEL_BYTES];
-        snprintf(label, sizeof label, "%d", mor_commands[0].codes[k].code);
-        print_entry(out, label, mor_commands[0].codes[k].text);
+        snprintf(label, sizeof label, "%d", table[0]->codes[k].code);
+        print_entry(out, label, table[0]->codes[k].text);
     }
 }
 
-void mor_command_print_help(FILE *out, const mor_command_info *info)
+void mor_command_print_help(const mor_command_info *info, FILE *out)
 {
     fprintf(out, "moraine %s: %s\n\nUsage: moraine %s %s [OPTION]...\n\n", info->name, info->text, info->name,
             info->subject);
@@ -169,7 +168,7 @@ static void print_man_command(FILE *out, const mor_command_info *info)
     fprintf(out, ".fi\n");
 }
 
-void mor_command_print_man(FILE *out)
+void mor_command_print_man(const mor_command_info *const *table, FILE *out)
 {
     fprintf(out,
             ".TH MORAINE 1 \"\" \"Moraine %s\" \"User Commands\"\n.SH NAME\nmoraine \\- simulate mixtures of soil and "
@@ -177,13 +176,13 @@ void mor_command_print_man(FILE *out)
             "Moraine computes how mixtures of soil and rocks fail, flow and come to rest, by smoothed particle "
             "hydrodynamics.\nA case is described in a text file with units; a run writes pictures, tables and files "
             "for ParaView.\n.SH OPTIONS\nWhich command takes which is said with the commands.\n",
-            MOR_VERSION);
+            mor_version());
     for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
         print_man_option(out, &mor_command_options[k], false);
     }
     fprintf(out, ".SH COMMANDS\n");
-    for (const mor_command_info *info = mor_commands; info->name != NULL; ++info) {
-        print_man_command(out, info);
+    for (int c = 0; table[c] != NULL; ++c) {
+        print_man_command(out, table[c]);
     }
     fprintf(out, ".SH ENVIRONMENT\n.TP\n.B MORAINE_CACHE\nFolder that relaxed particles are kept in; empty: they are "
                  "not kept. Default: ~/.cache/moraine\n");
@@ -225,17 +224,18 @@ static void print_value_cases(FILE *out)
     fprintf(out, "    esac\n");
 }
 
-static void print_command_cases(FILE *out)
+static void print_command_cases(const mor_command_info *const *table, FILE *out)
 {
     static const char *const ways[] = {
         [MOR_WORD_NONE] = "", [MOR_WORD_FILE] = "-f", [MOR_WORD_FOLDER] = "-d", [MOR_WORD_LIST] = "-W"};
     fprintf(out, "    case \"$command\" in\n");
-    for (const mor_command_info *info = mor_commands; info->name != NULL; ++info) {
+    for (int c = 0; table[c] != NULL; ++c) {
+        const mor_command_info *info = table[c];
         fprintf(out, "    %s) options='", info->name);
         print_option_words(out, info);
         fprintf(out, "'; way=(%s", ways[info->word]);
-        for (int k = 0; info->word == MOR_WORD_LIST && mor_command_list_word(k) != NULL; ++k) {
-            fprintf(out, "%s%s", k == 0 ? " '" : " ", mor_command_list_word(k));
+        for (int k = 0; info->list_word != NULL && info->list_word(k) != NULL; ++k) {
+            fprintf(out, "%s%s", k == 0 ? " '" : " ", info->list_word(k));
         }
         fprintf(out, "%s) ;;\n", info->word == MOR_WORD_LIST ? "'" : "");
     }
@@ -244,18 +244,18 @@ static void print_command_cases(FILE *out)
     fprintf(out, "'; way=(-W \"$commands\") ;;\n    esac\n");
 }
 
-void mor_command_print_completion(FILE *out)
+void mor_command_print_completion(const mor_command_info *const *table, FILE *out)
 {
     fprintf(out, "# Completion of moraine for bash; printed by 'moraine list completion'.\n_moraine() {\n"
                  "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
                  "    local command='' options way word commands='");
-    for (const mor_command_info *info = mor_commands; info->name != NULL; ++info) {
-        fprintf(out, "%s%s", info == mor_commands ? "" : " ", info->name);
+    for (int c = 0; table[c] != NULL; ++c) {
+        fprintf(out, "%s%s", c == 0 ? "" : " ", table[c]->name);
     }
     fprintf(out, "'\n    COMPREPLY=()\n    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n"
                  "        case \" $commands \" in *\" $word \"*) command=$word; break ;; esac\n    done\n");
     print_value_cases(out);
-    print_command_cases(out);
+    print_command_cases(table, out);
     fprintf(out, "    case \"$current\" in\n"
                  "    -*) mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$current\") ;;\n"
                  "    *) mapfile -t COMPREPLY < <(compgen \"${way[@]}\" -- \"$current\") ;;\n    esac\n}\n"

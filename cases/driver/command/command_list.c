@@ -1,217 +1,61 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Commands about what there is: list, check-material. */
-#include "cases/driver/command/command_table.h"
-
-#include "cases/driver/case/schema/case_schema.h"
-#include "core/base/nearest.h"
-#include "core/material/conformance/conformance.h"
-#include "core/material/params.h"
-#include "core/material/plugin.h"
-#include "core/particle/field.h"
-#include "core/sph/soil.h"
-#include "materials/builtin.h"
+#include "cases/driver/command/command.h"
 
 #include <string.h>
-#include <unistd.h>
 
-static mor_status list_materials(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    (void)context;
-    for (int k = 0; k < mor_registry_count(registry); ++k) {
-        const mor_material *material = mor_registry_get(registry, k);
-        fprintf(out, "%s %s: %s\n  from %s\n", material->name, material->version, material->text, material->literature);
-        for (const mor_schema *p = material->parameters; p->key != NULL; ++p) {
-            fprintf(out, "  %-20s [%s] %s%s%s%s\n", p->key, strcmp(p->unit, "1") == 0 ? "-" : p->unit, p->text,
-                    p->is_required ? "" : " (has a default)", p->role != MOR_ROLE_NONE ? "; role: " : "",
-                    mor_role_text(p->role));
-        }
-    }
-    return MOR_OK;
-}
-
-static mor_status list_probes(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    (void)context;
-    (void)registry;
-    for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
-        fprintf(out, "%-20s [%s; %s in plane strain] %s%s\n", type->name, type->unit, type->unit_plane, type->text,
-                (type->traits & MOR_CASE_PROBE_OF_FORCE) != 0 ? "; has an impulse [N s; N s/m in plane strain]" : "");
-    }
-    fprintf(out,
-            "\nOf each probe a run keeps maximum and minimum, when they were, mean and, where it says so, impulse, in\n"
-            "the window of the probe: of every step, of contact of every sub-step of the bodies.\n");
-    return MOR_OK;
-}
-
-/* The stages of soil, which are the same whatever it is made of; only what mor_soil_stepper reads of it is there. */
-static mor_stepper soil_stepper(mor_soil *soil)
-{
-    mor_stepper stepper;
-    uint64_t evolving = 0;
-    *soil = (mor_soil){.set = {.name = "soil"}};
-    mor_soil_stepper(soil, &stepper, &evolving);
-    return stepper;
-}
-
-static mor_status list_fields(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    mor_soil soil;
-    const mor_stepper stepper = soil_stepper(&soil);
-    (void)context;
-    for (int id = 0; id < MOR_FIELD_CORE_COUNT; ++id) {
-        const mor_field_info *info = mor_field_core_info((mor_field_id)id);
-        char writers[256];
-        mor_stage_list_writers(stepper.stages, stepper.n_stages, id, writers, sizeof writers);
-        fprintf(out, "%-20s %d x [%s]%s %s; written by '%s'\n", info->name, info->n_components, info->unit,
-                (info->flags & MOR_FIELD_OUTPUT) != 0 ? " in snapshots;" : "", info->text, writers);
-    }
-    for (int k = 0; k < mor_registry_count(registry); ++k) {
-        const mor_material *material = mor_registry_get(registry, k);
-        for (const mor_schema *state = material->state; state->key != NULL; ++state) {
-            fprintf(out, "%-20s %d x [%s] in snapshots; %s; state of %s\n", state->key, state->n_components,
-                    state->unit, state->text, material->name);
-        }
-    }
-    return MOR_OK;
-}
-
-static mor_status list_stages(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    mor_soil soil;
-    const mor_stepper stepper = soil_stepper(&soil);
-    (void)context;
-    (void)registry;
-    for (int k = 0; k < stepper.n_stages; ++k) {
-        fprintf(out, "%2d %-20s %s\n", k + 1, stepper.stages[k].name, stepper.stages[k].text);
-    }
-    return MOR_OK;
-}
-
-static mor_status list_shapes(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    (void)context;
-    (void)registry;
-    for (int kind = 0; kind < MOR_CASE_SHAPE_COUNT; ++kind) {
-        const mor_case_group *group = &mor_case_shape_groups[kind];
-        fprintf(out, "%s: %s\n", group->name, group->text);
-    }
-    return MOR_OK;
-}
-
-static mor_status list_keys(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    return mor_case_schema_print(context, registry, out);
-}
-
-static mor_status list_man(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    (void)context;
-    (void)registry;
-    mor_command_print_man(out);
-    return MOR_OK;
-}
-
-static mor_status list_completion(mor_context *context, const mor_registry *registry, FILE *out)
-{
-    (void)context;
-    (void)registry;
-    mor_command_print_completion(out);
-    return MOR_OK;
-}
-
+/* Lists of the program itself, behind those of the library. */
 static const struct {
     const char *word;
-    mor_status (*print)(mor_context *context, const mor_registry *registry, FILE *out);
-} lists[] = {
-    {"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields}, {"stages", list_stages},
-    {"shapes", list_shapes},       {"keys", list_keys},     {"man", list_man},       {"completion", list_completion}};
+    void (*print)(const mor_command_info *const *table, FILE *out);
+} own_lists[] = {{"man", mor_command_print_man}, {"completion", mor_command_print_completion}};
 
-enum { N_LISTS = sizeof lists / sizeof *lists };
+enum { N_OWN_LISTS = sizeof own_lists / sizeof *own_lists };
 
-const char *mor_command_list_word(int index)
+static const char *list_word(int index)
 {
-    return index < N_LISTS ? lists[index].word : NULL;
-}
-
-static mor_status make_registry(mor_context *context, mor_registry **registry)
-{
-    MOR_TRY(context, mor_registry_new(context, registry));
-    return mor_registry_add_list(context, *registry, mor_materials_builtin(NULL));
-}
-
-mor_status mor_command_list(mor_command *command, int *exit_code)
-{
-    mor_context *context = command->context;
-    (void)exit_code;
-    for (int k = 0; k < N_LISTS; ++k) {
-        if (strcmp(lists[k].word, command->subject) == 0) {
-            mor_registry *registry = NULL;
-            mor_status status = make_registry(context, &registry);
-            if (status == MOR_OK) {
-                status = lists[k].print(context, registry, command->output);
-            }
-            mor_registry_free(context, &registry);
-            return status;
-        }
+    int n = 0;
+    while (mor_list_name(n) != NULL) {
+        ++n;
     }
+    return index < n ? mor_list_name(index) : index < n + N_OWN_LISTS ? own_lists[index - n].word : NULL;
+}
+
+static mor_status list(mor_command *command, int *exit_code)
+{
     char words[256] = "";
-    for (int k = 0; k < N_LISTS; ++k) {
-        const size_t n = strlen(words);
-        snprintf(words + n, sizeof words - n, "%s%s", k == 0 ? "" : k + 1 < N_LISTS ? ", " : " and ", lists[k].word);
-    }
-    return MOR_FAIL(context, MOR_ERROR_CONFIG, "found '%s' behind list; allowed are %s", command->subject, words);
-}
-
-/* Tries one model; prints its table. */
-static mor_status try_material(mor_command *command, const mor_material *material, int *n_failed)
-{
-    enum { LINE = 1024 };
-    const double density = 2000.0; /* kg/m3, of a common soil; the laws hold for any */
-    char line[LINE];
-    mor_conformance_report report;
-    MOR_TRY(command->context, mor_conformance_run(command->context, material, NULL, density, &report));
-    fprintf(command->output, "%s %s\n", material->name, material->version);
-    for (int k = 0; k < report.n_rows; ++k) {
-        mor_conformance_format(&report.rows[k], line, sizeof line);
-        fprintf(command->output, "  %s\n", line);
-    }
-    *n_failed += report.n_failed;
-    return MOR_OK;
-}
-
-static mor_status try_plugin(mor_command *command, int *n_failed)
-{
-    mor_plugin *plugin = NULL;
-    mor_status status = mor_plugin_load(command->context, command->subject, &plugin);
-    for (int k = 0; status == MOR_OK && k < mor_plugin_count(plugin); ++k) {
-        status = try_material(command, mor_plugin_get(plugin, k), n_failed);
-    }
-    mor_plugin_unload(command->context, &plugin);
-    return status;
-}
-
-mor_status mor_command_check_material(mor_command *command, int *exit_code)
-{
-    mor_registry *registry = NULL;
-    int n_failed = 0;
-    mor_status status = make_registry(command->context, &registry);
-    if (status == MOR_OK) {
-        const mor_material *material = mor_registry_find(registry, command->subject);
-        const char *near = mor_registry_nearest(registry, command->subject);
-        if (material == NULL && access(command->subject, F_OK) != 0) {
-            status = MOR_FAIL(command->context, MOR_ERROR_CONFIG,
-                              "found '%s', which is neither a material nor a file%s%s; allowed are the names that "
-                              "'moraine list materials' prints and paths of plug-ins",
-                              command->subject, near != NULL ? "; did you mean " : "", near != NULL ? near : "");
-        } else {
-            status = material != NULL ? try_material(command, material, &n_failed) : try_plugin(command, &n_failed);
+    (void)exit_code;
+    for (int k = 0; k < N_OWN_LISTS; ++k) {
+        if (strcmp(own_lists[k].word, command->subject) == 0) {
+            own_lists[k].print(command->table, command->output);
+            return MOR_OK;
         }
     }
-    mor_registry_free(command->context, &registry);
-    if (status == MOR_OK && n_failed > 0) {
-        fprintf(command->output, "%d laws failed\n", n_failed);
-        *exit_code = MOR_EXIT_FAILED;
+    for (int k = 0; list_word(k) != NULL; ++k) {
+        const size_t n = strlen(words);
+        if (strcmp(list_word(k), command->subject) == 0) {
+            return mor_session_print_list(command->session, command->subject);
+        }
+        snprintf(words + n, sizeof words - n, "%s%s",
+                 k == 0                     ? ""
+                 : list_word(k + 1) != NULL ? ", "
+                                            : " and ",
+                 list_word(k));
     }
-    return status;
+    return MOR_FAIL(command->context, MOR_ERROR_CONFIG, "found '%s' behind list; allowed are %s", command->subject,
+                    words);
 }
+
+const mor_command_info mor_command_list = {
+    .name = "list",
+    .subject = "WHAT",
+    .word = MOR_WORD_LIST,
+    .list_word = list_word,
+    .text = "list materials, probes, fields, stages, shapes, keys, or print man or completion",
+    .details =
+        "The lists are those that the reference holds. 'man' prints the manual page, 'completion' the completion "
+        "for bash.",
+    .options = MOR_OPTION_BIT(HELP),
+    .examples = {"moraine list probes", "moraine list completion > moraine.bash; . ./moraine.bash"},
+    .codes = {MOR_COMMAND_CODES_COMMON},
+    .run = list};

@@ -1,21 +1,20 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/run/run_files.h"
+#include "cases/driver/run/run.h"
 
-#include "cases/driver/case/sections/case_read.h"
 #include "cases/driver/picture/pictures.h"
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/probe/probe.h"
 #include "cases/driver/run/clock.h"
 #include "cases/driver/run/run_failure.h"
 #include "cases/driver/run/run_settle.h"
+#include "cases/driver/run/run_step.h"
 #include "cases/driver/run/run_warnings.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
 #include "core/base/math.h"
 #include "core/material/params.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The clockwork of a run beside the simulation itself. */
@@ -29,13 +28,6 @@ typedef struct pace {
     double fastest;        /* largest speed of the soil in these steps, m/s */
     double fastest_time;   /* when that was, s */
 } pace;
-
-static int64_t snapshot_tick(const mor_simulation *s, int64_t number)
-{
-    const int n = s->the_case->output.n_snapshots;
-    /* In floating point: the product of ticks and number does not fit into 64 bits. */
-    return number >= n ? s->schedule.end : (int64_t)llround((double)s->schedule.end * ((double)number / n));
-}
 
 /* Rows closer than ticks would be a row in each step all the same. */
 static double row_interval(const mor_simulation *s)
@@ -55,10 +47,7 @@ static void find_next_outputs(const mor_simulation *s, pace *p)
     while (row_tick(s, p->next_row) <= s->schedule.now) {
         ++p->next_row;
     }
-    while (p->next_snapshot < s->the_case->output.n_snapshots &&
-           snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
-        ++p->next_snapshot;
-    }
+    p->next_snapshot = mor_run_find_snapshot(s, p->next_snapshot);
 }
 
 static void show_progress(mor_run_progress *progress, const mor_simulation *s, const pace *p)
@@ -87,7 +76,7 @@ static mor_status write_outputs(mor_context *context, mor_run_files *files, pace
     if (row_tick(s, p->next_row) <= s->schedule.now || s->schedule.now >= s->schedule.end) {
         MOR_TRY(context, mor_run_files_add_row(context, files));
     }
-    if (snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
+    if (mor_run_snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
         MOR_TRY(context, mor_run_files_add_snapshot(context, files));
     }
     find_next_outputs(s, p);
@@ -104,28 +93,6 @@ static bool is_stopping(const mor_run_options *options, const mor_simulation *s)
            (!isnan(options->stop_at) && mor_schedule_time(&s->schedule) >= options->stop_at);
 }
 
-/* Springs that are loaded before anything has moved throw bodies apart. */
-static void warn_of_overlap(mor_context *context, const mor_simulation *s)
-{
-    const double advisable = 0.01;
-    double kinetic = 0.0;
-    double potential = 0.0;
-    double elastic = 0.0;
-    if (s->schedule.n_steps != 1 || !s->bodies.has_contact) {
-        return;
-    }
-    mor_simulation_bodies_energy(&s->bodies, (const double[3]){0.0, 0.0, 0.0}, &kinetic, &potential, &elastic);
-    const double stored = s->bodies.contact.spring_energy;
-    if (stored > advisable * (kinetic + mor_simulation_bodies_lift(&s->bodies))) {
-        mor_context_log(
-            context, MOR_LOG_WARNING,
-            "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts hold %.3g "
-            "%s, which throws them apart: leave them a gap (surfaces of meshes bulge beside edges by up to a 25th of a "
-            "spacing)",
-            s->bodies.contact.deepest, stored, s->the_case->dimension == 2 ? "J/m" : "J");
-    }
-}
-
 /* Steps until the end or until the user stops. Snapshots fall on their times exactly; rows of the series are written at
  * the first step at or after theirs, so that they do not change the steps. */
 static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
@@ -137,10 +104,10 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
         }
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_STEP);
         const double before = mor_clock_now();
-        MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p->next_snapshot)));
+        MOR_TRY(context, mor_schedule_step(context, &s->schedule, mor_run_snapshot_tick(s, p->next_snapshot)));
         p->loop_seconds += mor_clock_now() - before;
         p->n_loop_steps += 1;
-        warn_of_overlap(context, s);
+        mor_run_warn_of_overlap(context, s);
         p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
         if (s->soil.largest_speed > p->fastest) {
             p->fastest = s->soil.largest_speed;
@@ -157,13 +124,8 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
 /* A step without its files. */
 static mor_status retake_step(mor_context *context, mor_simulation *s, int64_t *next_snapshot)
 {
-    pace p = {.next_snapshot = *next_snapshot};
-    MOR_TRY(context, mor_schedule_step(context, &s->schedule, snapshot_tick(s, p.next_snapshot)));
-    MOR_TRY(context, mor_probe_follow(context, s));
-    while (p.next_snapshot < s->the_case->output.n_snapshots && snapshot_tick(s, p.next_snapshot) <= s->schedule.now) {
-        ++p.next_snapshot;
-    }
-    *next_snapshot = p.next_snapshot;
+    MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, *next_snapshot)));
+    *next_snapshot = mor_run_find_snapshot(s, *next_snapshot);
     return MOR_OK;
 }
 
@@ -434,38 +396,9 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     return status;
 }
 
-mor_status mor_run(mor_context *context, const mor_run_options *options, const mor_registry *registry,
-                   mor_run_outcome *outcome)
+mor_status mor_run(mor_context *context, mor_run_files *files, const mor_registry *registry, mor_run_outcome *outcome)
 {
     memset(outcome, 0, sizeof *outcome);
-    mor_case *the_case = calloc(1, sizeof *the_case);
-    mor_simulation *simulation = calloc(1, sizeof *simulation);
-    mor_run_files *files = calloc(1, sizeof *files);
-    mor_status status = MOR_OK;
-    if (the_case == NULL || simulation == NULL || files == NULL) {
-        status = MOR_FAIL(context, MOR_ERROR_MEMORY, "no memory for a run");
-        goto out;
-    }
-    status = mor_run_files_listen(context, files);
-    if (status == MOR_OK) {
-        status = mor_case_read(context, options->case_path, options->settings, options->n_settings, registry, the_case);
-    }
-    if (status == MOR_OK) {
-        status = mor_run_files_open(context, files, options);
-    }
-    if (status == MOR_OK) {
-        files->the_case = the_case;
-        files->simulation = simulation;
-        status = run_simulation(context, files, registry, outcome);
-    }
-    mor_run_files_close(context, files);
-    mor_simulation_clear(context, simulation);
-out:
-    if (the_case != NULL) {
-        mor_case_clear(context, the_case);
-    }
-    free(files);
-    free(simulation);
-    free(the_case);
-    return status;
+    MOR_TRY(context, mor_run_files_open(context, files));
+    return run_simulation(context, files, registry, outcome);
 }

@@ -5,7 +5,6 @@
 #include "cases/driver/case/sections/case_read.h"
 #include "cases/driver/case/write/case_write.h"
 #include "cases/driver/run/run_files.h"
-#include "core/base/hash.h"
 #include "core/base/memory.h"
 
 #include <stdlib.h>
@@ -70,12 +69,14 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
     char path[MOR_PATH_BYTES];
     mor_case_difference first;
     const char *folder = files->options->folder;
-    MOR_TRY(context, mor_hash_file(context, files->options->case_path, &files->case_hash));
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_RUN_CASE_FILE));
-    MOR_TRY(context, print_case(context, files, registry));
+    if (files->case_text == NULL) {
+        MOR_TRY(context, print_case(context, files, registry));
+    }
     if (!files->options->is_resume) {
         return store_case(context, files, path);
     }
+    MOR_FREE(context, &files->saved_text);
     MOR_TRY(context, find_saved(context, files, path));
     if (files->saved_text[0] == '\0') {
         return store_case(context, files, path);
@@ -85,7 +86,7 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
         context, !first.is_found, MOR_ERROR_CONFIG,
         "the case '%s' with its --set values is not the one that '%s' was started with; first difference: %s, was "
         "%s%s; resume with the same case and values, or start a new run in another folder",
-        files->options->case_path, folder, first.found, first.expected, first.reason);
+        files->the_case->path, folder, first.found, first.expected, first.reason);
     return MOR_OK;
 }
 

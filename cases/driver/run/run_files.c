@@ -19,7 +19,7 @@
 #define LOG_FILE "log.txt"
 #define IMAGES_FOLDER "images"
 
-/* Everything goes into log.txt; warnings and errors reach the terminal as well. */
+/* Everything goes into log.txt, and to the sink that was there before. */
 static void log_line(void *user, mor_log_level level, const char *text)
 {
     static const char *const names[] = {"debug", "info", "warning", "error"};
@@ -27,9 +27,9 @@ static void log_line(void *user, mor_log_level level, const char *text)
     fprintf(files->log, "%s: %s\n", names[level], text);
     fflush(files->log);
     if (level == MOR_LOG_WARNING) {
-        mor_run_warnings_add(&files->warnings, text);
+        mor_run_warnings_add(files->context, &files->warnings, text);
     }
-    if (level >= MOR_LOG_WARNING && files->previous_sink != NULL) {
+    if (files->previous_sink != NULL) {
         files->previous_sink(files->previous_user, level, text);
     }
 }
@@ -77,6 +77,7 @@ mor_status mor_run_files_listen(mor_context *context, mor_run_files *files)
     memset(files, 0, sizeof *files);
     files->log = open_memstream(&files->early_text, &files->n_early_bytes);
     MOR_CHECK(context, files->log != NULL, MOR_ERROR_MEMORY, "no memory for the log of a run");
+    files->context = context;
     files->previous_sink = context->log_sink;
     files->previous_user = context->log_user;
     context->log_sink = log_line;
@@ -98,10 +99,10 @@ static void begin_log(mor_context *context, mor_run_files *files, FILE *log)
     files->early_text = NULL;
 }
 
-mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options)
+mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
 {
     char path[MOR_PATH_BYTES];
-    files->options = options;
+    const mor_run_options *options = files->options;
     if (!options->is_resume) {
         MOR_TRY(context, mor_run_files_refuse_run(context, options->folder,
                                                   "add --resume to go on with it, or choose another folder with -o"));
@@ -112,7 +113,7 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const 
     MOR_TRY(context, make_folder(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
     if (options->is_resume) {
-        mor_run_warnings_load(&files->warnings, path);
+        mor_run_warnings_load(context, &files->warnings, path);
     }
     FILE *log = fopen(path, "a");
     MOR_CHECK(context, log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
@@ -200,7 +201,7 @@ void mor_run_files_close(mor_context *context, mor_run_files *files)
     }
     free(files->early_text);
     files->early_text = NULL;
-    mor_run_warnings_clear(&files->warnings);
+    mor_run_warnings_clear(context, &files->warnings);
     free(files->case_text);
     files->case_text = NULL;
     MOR_FREE(context, &files->saved_text);
@@ -233,7 +234,9 @@ mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
 {
     const mor_checkpoint checkpoint = {&files->simulation->state, files->case_text};
-    MOR_TRY(context, mor_table_sync(context, &files->series));
+    if (files->series.stream != NULL) { /* a state may be saved without a series */
+        MOR_TRY(context, mor_table_sync(context, &files->series));
+    }
     return mor_checkpoint_write(context, files->options->folder, &checkpoint);
 }
 

@@ -3,9 +3,10 @@
 #ifndef MOR_CASES_DRIVER_RUN_RUN_FILES_H
 #define MOR_CASES_DRIVER_RUN_RUN_FILES_H
 
-#include "cases/driver/run/run.h"
 #include "cases/driver/run/run_progress.h"
 #include "cases/driver/run/run_warnings.h"
+#include "cases/driver/run/stop.h"
+#include "cases/driver/scene/build/simulation_build.h"
 #include "core/io/checkpoint.h"
 #include "core/io/snapshot.h"
 #include "core/io/summary.h"
@@ -20,6 +21,20 @@
 
 enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16 };
 
+/** What was asked for. All strings are zero-terminated and borrowed. */
+typedef struct mor_run_options {
+    const char *folder;  /* of the run; made when missing */
+    bool is_resume;      /* go on from the folder's checkpoint */
+    double stop_at;      /* stop with a checkpoint once this time is reached, s; NaN: at the end */
+    const char *command; /* command line, for the provenance */
+    const char *version; /* of the program */
+    const char *commit;  /* the program was built from */
+    mor_stop *stop;      /* asked whether the user wants to stop, told what the run is at; NULL: never */
+    FILE *output;        /* where the final table goes */
+    FILE *progress;      /* where progress is shown; NULL: nowhere */
+    bool is_terminal;    /* it can write over the line before */
+} mor_run_options;
+
 /** A state of the run in memory, to which a run that fails can go back. */
 typedef struct mor_run_kept {
     char *bytes;           /* a copy of the state, see mor_state_store */
@@ -29,6 +44,7 @@ typedef struct mor_run_kept {
 
 /** Open files of a run and the numbers that go into them. Owner: the run. */
 typedef struct mor_run_files {
+    mor_context *context;           /* borrowed; that it listens to */
     const mor_run_options *options; /* borrowed */
     const mor_case *the_case;       /* borrowed */
     mor_simulation *simulation;     /* borrowed */
@@ -44,7 +60,7 @@ typedef struct mor_run_files {
     int n_facts;
     char seed_text[24]; /* seed as text, for the provenance */
     char hash_text[24]; /* hash of the case file as text */
-    uint64_t case_hash; /* of the case file */
+    uint64_t case_hash; /* of the case file; told by whoever reads it */
     char *case_text;    /* zero-terminated; the case as it is used, which every checkpoint carries; freed by close */
     char *saved_text;   /* zero-terminated; the case the folder was started with; NULL: a new run; likewise */
     mor_run_kept kept;
@@ -62,10 +78,9 @@ typedef struct mor_run_files {
 mor_status mor_run_files_listen(mor_context *context, mor_run_files *files);
 
 /** Makes the folder and opens its log, which begins with what was collected.
- *  @param files   [in,out]  listening
- *  @param options [in]      borrowed
+ *  @param files   [in,out]  listening, with options
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_CONFIG when a new run would overwrite an old one. */
-mor_status mor_run_files_open(mor_context *context, mor_run_files *files, const mor_run_options *options);
+mor_status mor_run_files_open(mor_context *context, mor_run_files *files);
 
 /** Prints the case. Of a new run it becomes case.resolved.cfg; on a resume it is compared with the case that the
  *  newest checkpoint carries, or, before the first checkpoint, with case.resolved.cfg: what a resume may not change
@@ -134,6 +149,9 @@ mor_status mor_run_files_recall(mor_context *context, mor_run_files *files);
  *  @param is_restored [out]     one flag; false when the folder has no checkpoint yet
  *  Returns: MOR_OK; MOR_ERROR_IO naming the damaged files; MOR_ERROR_CONFIG for the state of another case. */
 mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, bool *is_restored);
+
+/** Returns the hash of the state that stands in the summary. */
+uint64_t mor_run_state_hash(mor_simulation *simulation);
 
 /** Evaluates all probes and expectations, prints the table, writes summary.json. Of a run that failed no expectation is
  *  reached, and a probe that cannot be evaluated is not a number.

@@ -69,16 +69,21 @@ static int compare(const mor_case *c, const mor_summary_result *results, bool is
     return n_missed;
 }
 
-static void fill_summary(mor_run_files *files, mor_summary *summary)
+uint64_t mor_run_state_hash(mor_simulation *simulation)
 {
-    mor_simulation *simulation = files->simulation;
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     uint64_t hashes[MOR_BODY_GROUPS_MAX + 2];
     const int n_sets = mor_simulation_sets(simulation, true, sets);
     for (int k = 0; k < n_sets; ++k) {
         hashes[k] = mor_set_checksum(sets[k]);
     }
-    summary->state_hash = n_sets == 1 ? hashes[0] : mor_hash_bytes(hashes, (size_t)n_sets * sizeof *hashes);
+    return n_sets == 1 ? hashes[0] : mor_hash_bytes(hashes, (size_t)n_sets * sizeof *hashes);
+}
+
+static void fill_summary(mor_run_files *files, mor_summary *summary)
+{
+    mor_simulation *simulation = files->simulation;
+    summary->state_hash = mor_run_state_hash(simulation);
     summary->bytes_per_fine_particle = simulation->has_soil ? mor_soil_bytes_per_particle(&simulation->soil) : NAN;
     summary->version = files->options->version;
     summary->commit = files->options->commit;

@@ -2,13 +2,29 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/run/run_warnings.h"
 
+#include "core/base/memory.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char line_start[] = "warning: ";
 
-bool mor_run_warnings_add(mor_run_warnings *warnings, const char *text)
+/* Without memory there is no copy: the log has the text. What is being reported meanwhile stays the last error. */
+static char *copy_text(mor_context *context, const char *text)
+{
+    const mor_context before = *context;
+    const int64_t n_bytes = (int64_t)strlen(text) + 1;
+    char *copy = NULL;
+    if (MOR_NEW(context, &copy, n_bytes, "warning of a run") != MOR_OK) {
+        mor_context_restore_error(context, &before);
+        return NULL;
+    }
+    memcpy(copy, text, (size_t)n_bytes);
+    return copy;
+}
+
+bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, const char *text)
 {
     for (int k = 0; k < warnings->n; ++k) {
         if (strcmp(warnings->texts[k], text) == 0) {
@@ -19,15 +35,15 @@ bool mor_run_warnings_add(mor_run_warnings *warnings, const char *text)
         return false;
     }
     const bool is_last = warnings->n == MOR_RUN_WARNINGS_MAX - 1;
-    char *copy = strdup(is_last ? "there are more warnings: see log.txt" : text);
+    char *copy = copy_text(context, is_last ? "there are more warnings: see log.txt" : text);
     if (copy == NULL) {
-        return false; /* the log has it */
+        return false;
     }
     warnings->texts[warnings->n++] = copy;
     return !is_last;
 }
 
-void mor_run_warnings_load(mor_run_warnings *warnings, const char *path)
+void mor_run_warnings_load(mor_context *context, mor_run_warnings *warnings, const char *path)
 {
     char *line = NULL;
     size_t room = 0;
@@ -37,7 +53,7 @@ void mor_run_warnings_load(mor_run_warnings *warnings, const char *path)
         if (strncmp(line, line_start, sizeof line_start - 1) == 0 &&
             strncmp(text, MOR_RUN_WARNING_AT_END, sizeof MOR_RUN_WARNING_AT_END - 1) != 0) {
             line[strcspn(line, "\n")] = '\0';
-            mor_run_warnings_add(warnings, text);
+            mor_run_warnings_add(context, warnings, text);
         }
     }
     free(line);
@@ -46,10 +62,10 @@ void mor_run_warnings_load(mor_run_warnings *warnings, const char *path)
     }
 }
 
-void mor_run_warnings_clear(mor_run_warnings *warnings)
+void mor_run_warnings_clear(mor_context *context, mor_run_warnings *warnings)
 {
     for (int k = 0; k < warnings->n; ++k) {
-        free(warnings->texts[k]);
+        MOR_FREE(context, &warnings->texts[k]);
     }
     memset(warnings, 0, sizeof *warnings);
 }

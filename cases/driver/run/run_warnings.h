@@ -3,6 +3,8 @@
 #ifndef MOR_CASES_DRIVER_RUN_RUN_WARNINGS_H
 #define MOR_CASES_DRIVER_RUN_RUN_WARNINGS_H
 
+#include "core/base/context.h"
+
 #include <stdbool.h>
 
 /** @file
@@ -23,14 +25,14 @@ typedef struct mor_run_warnings {
 /** Adds a text unless it is there already. The last place says that log.txt has more.
  *  @param text     [in]      zero-terminated
  *  Returns: whether the text was new and had room. */
-bool mor_run_warnings_add(mor_run_warnings *warnings, const char *text);
+bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, const char *text);
 
 /** Adds the warnings that a log of an earlier part of the run tells, but for those of its end.
  *  @param path     [in]      zero-terminated; of the log; one that is missing tells none */
-void mor_run_warnings_load(mor_run_warnings *warnings, const char *path);
+void mor_run_warnings_load(mor_context *context, mor_run_warnings *warnings, const char *path);
 
 /** Frees the texts.
  *  @param warnings [in,out]  becomes zeroed */
-void mor_run_warnings_clear(mor_run_warnings *warnings);
+void mor_run_warnings_clear(mor_context *context, mor_run_warnings *warnings);
 
 #endif

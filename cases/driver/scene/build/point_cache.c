@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -33,31 +32,10 @@ static size_t file_bytes(int64_t n_points)
     return MOR_SEAL_BYTES + sizeof(point_record) + (size_t)(3 * n_points) * sizeof(double);
 }
 
-/* Where programs keep what can be made again. */
-static void choose_folder(mor_point_cache *cache)
-{
-    const char *own = getenv("MORAINE_CACHE");
-    const char *shared = getenv("XDG_CACHE_HOME");
-    const char *home = getenv("HOME");
-    int n = 0;
-    if (own != NULL) {
-        n = snprintf(cache->folder, sizeof cache->folder, "%s", own);
-    } else if (shared != NULL && shared[0] == '/') {
-        n = snprintf(cache->folder, sizeof cache->folder, "%s/moraine", shared);
-    } else if (home != NULL && home[0] == '/') {
-        n = snprintf(cache->folder, sizeof cache->folder, "%s/.cache/moraine", home);
-    }
-    if (n < 0 || (size_t)n >= sizeof cache->folder) {
-        cache->folder[0] = '\0';
-    }
-}
-
 void mor_point_cache_init(mor_point_cache *cache, const char *folder)
 {
     memset(cache, 0, sizeof *cache);
-    if (folder == NULL) {
-        choose_folder(cache);
-    } else if (strlen(folder) < sizeof cache->folder) {
+    if (folder != NULL && strlen(folder) < sizeof cache->folder) {
         snprintf(cache->folder, sizeof cache->folder, "%s", folder);
     }
 }

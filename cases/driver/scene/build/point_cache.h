@@ -29,8 +29,7 @@ typedef struct mor_point_cache {
 } mor_point_cache;
 
 /** Makes the cache ready. Touches no file.
- *  @param folder [in]   zero-terminated; "": none; NULL: $MORAINE_CACHE, which may be empty, else
- *                       $XDG_CACHE_HOME/moraine, else $HOME/.cache/moraine */
+ *  @param folder [in]   zero-terminated; NULL or "": none */
 void mor_point_cache_init(mor_point_cache *cache, const char *folder);
 
 /** Frees what is kept for the run; accepts a zeroed cache. */

@@ -388,7 +388,7 @@ static mor_status make_groups(mor_context *context, mor_simulation_bodies *bodie
     group_builder *builder = NULL;
     MOR_TRY(context, MOR_NEW(context, &builder, 1, "groups of bodies"));
     builder->registry = registry;
-    mor_point_cache_init(&builder->cache, NULL);
+    mor_point_cache_init(&builder->cache, context->cache_folder);
     mor_status status = try_thinnest(context, c, &builder->cache);
     for (const mor_body_kind *kind = mor_body_kinds; kind->make != NULL; ++kind) {
         for (int b = 0; b < c->n_bodies && status == MOR_OK; ++b) {

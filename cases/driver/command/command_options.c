@@ -1,0 +1,37 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/command/command.h"
+
+/* The one list of options. */
+const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
+    [MOR_OPTION_OUTPUT] = {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
+                           "run: runs/NAME; preview: runs/NAME-preview; relax: runs/relax-NAME"},
+    [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE, "threads; results do not depend on their number",
+                            "as many as the machine has cores"},
+    [MOR_OPTION_SET] =
+        {"set", 's', "KEY=VALUE", MOR_WORD_NONE,
+         "overrides a key of the case; may be given many times, such as --set spacing='2 mm' or --set "
+         "'soil[0].material.cohesion=1 kPa'; a group, as --set 'numerics={xsph=0.1;}', replaces all of it",
+         "what the case says"},
+    [MOR_OPTION_RESUME] = {"resume", '\0', NULL, MOR_WORD_NONE, "go on from the last good checkpoint of the folder",
+                           "a new run; a folder that holds one is refused"},
+    [MOR_OPTION_STOP_AT] = {"stop-at", '\0', "T", MOR_WORD_NONE,
+                            "stop with a checkpoint once the simulated time reaches T, such as 0.5 or '20 ms'",
+                            "the end of the case"},
+    [MOR_OPTION_SPACING] = {"spacing", '\0', "L", MOR_WORD_NONE, "spacing of the particles, such as 0.05 or '5 cm'",
+                            "it must be given"},
+    [MOR_OPTION_DIAMETER] = {"diameter", '\0', "L", MOR_WORD_NONE,
+                             "scale the mesh to the diameter of the ball (disc) of the same volume (area)",
+                             "lengths are those of the file, in meters"},
+    [MOR_OPTION_LENGTH] = {"length", '\0', "L", MOR_WORD_NONE, "scale the mesh to its longest side",
+                           "as of --diameter"},
+    [MOR_OPTION_VOLUME] = {"volume", '\0', "V", MOR_WORD_NONE, "scale the mesh to its volume (area)",
+                           "as of --diameter"},
+    [MOR_OPTION_HELP] = {"help", 'h', NULL, MOR_WORD_NONE, "what there is; behind a command, what that command does",
+                         NULL},
+    [MOR_OPTION_VERSION] = {"version", '\0', NULL, MOR_WORD_NONE, "version and commit", NULL}};
+
+bool mor_command_takes(const mor_command_info *info, mor_command_option_kind kind)
+{
+    return (info->options >> kind & 1u) != 0;
+}

@@ -1,0 +1,70 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_LIBRARY_SESSION_INTERNAL_H
+#define MOR_CASES_DRIVER_LIBRARY_SESSION_INTERNAL_H
+
+#include "cases/driver/run/run_files.h"
+#include "cases/moraine.h"
+#include "core/io/durable_file.h"
+#include "core/material/plugin.h"
+
+/** @file
+ *  What is behind a mor_session. */
+
+enum { MOR_SESSION_OVERRIDES_MAX = 256, MOR_SESSION_PLUGINS_MAX = 16, MOR_SESSION_COMMAND_BYTES = 4096 };
+
+/** How far a case is. */
+typedef enum mor_session_stage {
+    MOR_SESSION_EMPTY,  /* no case */
+    MOR_SESSION_LOADED, /* a case that was read */
+    MOR_SESSION_BUILT,  /* particles in their places */
+    MOR_SESSION_READY,  /* settled or resumed: it can step */
+    MOR_SESSION_ENDED   /* by a run, or broken down: results can be read */
+} mor_session_stage;
+
+struct mor_session {
+    mor_context context;
+    mor_registry *registry;
+    mor_plugin *plugins[MOR_SESSION_PLUGINS_MAX]; /* shape [n_plugins]; unloaded last */
+    int n_plugins;
+    char *overrides[MOR_SESSION_OVERRIDES_MAX]; /* shape [n_overrides] of "key=value"; owned */
+    int n_overrides;
+    char cache_folder[MOR_PATH_BYTES];
+    char command[MOR_SESSION_COMMAND_BYTES];
+    FILE *output;  /* borrowed, or silence */
+    FILE *silence; /* swallows what is written to it; owned */
+    FILE *progress;
+    bool is_terminal;
+    mor_stop stop;
+    mor_session_stage stage;
+    bool is_failed; /* a step or a run failed: probes tell what was measured last */
+    mor_case the_case;
+    mor_simulation simulation;
+    mor_run_options options; /* of files */
+    mor_run_files files;     /* listening as soon as a case is loaded */
+    int64_t next_snapshot;   /* number of the next snapshot of a run */
+};
+
+/** Forgets the last error and refuses what comes too early or too late.
+ *  @param first [in]  stage that is needed
+ *  @param last  [in]  stage that may not be passed
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT saying what to call. */
+mor_status mor_session_enter(mor_session *session, mor_session_stage first, mor_session_stage last);
+
+/** Frees the simulation; a case that was loaded stays. */
+void mor_session_clear_simulation(mor_session *session);
+
+/** Frees case and simulation and stops listening. */
+void mor_session_clear_case(mor_session *session);
+
+/** Sets what a folder of results is made with.
+ *  @param folder [in]  zero-terminated; borrowed */
+void mor_session_set_folder(mor_session *session, const char *folder, bool is_resume);
+
+/** Writes particle sets as the only snapshot of a folder.
+ *  @param folder [in]  zero-terminated; there already
+ *  @param sets   [in]  shape [n_sets]
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_write_snapshot(mor_session *session, const char *folder, mor_set *const *sets, int n_sets);
+
+#endif

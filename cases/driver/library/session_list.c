@@ -1,0 +1,180 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* What there is: lists, and the check of a material. */
+#include "cases/driver/library/session_internal.h"
+
+#include "cases/driver/case/schema/case_schema.h"
+#include "core/material/conformance/conformance.h"
+#include "core/material/params.h"
+#include "core/material/plugin.h"
+#include "core/particle/field.h"
+#include "core/sph/soil.h"
+
+#include <string.h>
+#include <unistd.h>
+
+static mor_status list_materials(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    (void)context;
+    for (int k = 0; k < mor_registry_count(registry); ++k) {
+        const mor_material *material = mor_registry_get(registry, k);
+        fprintf(out, "%s %s: %s\n  from %s\n", material->name, material->version, material->text, material->literature);
+        for (const mor_schema *p = material->parameters; p->key != NULL; ++p) {
+            fprintf(out, "  %-20s [%s] %s%s%s%s\n", p->key, strcmp(p->unit, "1") == 0 ? "-" : p->unit, p->text,
+                    p->is_required ? "" : " (has a default)", p->role != MOR_ROLE_NONE ? "; role: " : "",
+                    mor_role_text(p->role));
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status list_probes(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    (void)context;
+    (void)registry;
+    for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
+        fprintf(out, "%-20s [%s; %s in plane strain] %s%s\n", type->name, type->unit, type->unit_plane, type->text,
+                (type->traits & MOR_CASE_PROBE_OF_FORCE) != 0 ? "; has an impulse [N s; N s/m in plane strain]" : "");
+    }
+    fprintf(out,
+            "\nOf each probe a run keeps maximum and minimum, when they were, mean and, where it says so, impulse, in\n"
+            "the window of the probe: of every step, of contact of every sub-step of the bodies.\n");
+    return MOR_OK;
+}
+
+/* The stages of soil, which are the same whatever it is made of; only what mor_soil_stepper reads of it is there. */
+static mor_stepper soil_stepper(mor_soil *soil)
+{
+    mor_stepper stepper;
+    uint64_t evolving = 0;
+    *soil = (mor_soil){.set = {.name = "soil"}};
+    mor_soil_stepper(soil, &stepper, &evolving);
+    return stepper;
+}
+
+static mor_status list_fields(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    mor_soil soil;
+    const mor_stepper stepper = soil_stepper(&soil);
+    (void)context;
+    for (int id = 0; id < MOR_FIELD_CORE_COUNT; ++id) {
+        const mor_field_info *info = mor_field_core_info((mor_field_id)id);
+        char writers[256];
+        mor_stage_list_writers(stepper.stages, stepper.n_stages, id, writers, sizeof writers);
+        fprintf(out, "%-20s %d x [%s]%s %s; written by '%s'\n", info->name, info->n_components, info->unit,
+                (info->flags & MOR_FIELD_OUTPUT) != 0 ? " in snapshots;" : "", info->text, writers);
+    }
+    for (int k = 0; k < mor_registry_count(registry); ++k) {
+        const mor_material *material = mor_registry_get(registry, k);
+        for (const mor_schema *state = material->state; state->key != NULL; ++state) {
+            fprintf(out, "%-20s %d x [%s] in snapshots; %s; state of %s\n", state->key, state->n_components,
+                    state->unit, state->text, material->name);
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status list_stages(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    mor_soil soil;
+    const mor_stepper stepper = soil_stepper(&soil);
+    (void)context;
+    (void)registry;
+    for (int k = 0; k < stepper.n_stages; ++k) {
+        fprintf(out, "%2d %-20s %s\n", k + 1, stepper.stages[k].name, stepper.stages[k].text);
+    }
+    return MOR_OK;
+}
+
+static mor_status list_shapes(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    (void)context;
+    (void)registry;
+    for (int kind = 0; kind < MOR_CASE_SHAPE_COUNT; ++kind) {
+        const mor_case_group *group = &mor_case_shape_groups[kind];
+        fprintf(out, "%s: %s\n", group->name, group->text);
+    }
+    return MOR_OK;
+}
+
+static mor_status list_keys(mor_context *context, const mor_registry *registry, FILE *out)
+{
+    return mor_case_schema_print(context, registry, out);
+}
+
+static const struct {
+    const char *name;
+    mor_status (*print)(mor_context *context, const mor_registry *registry, FILE *out);
+} lists[] = {{"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields},
+             {"stages", list_stages},       {"shapes", list_shapes}, {"keys", list_keys}};
+
+enum { N_LISTS = sizeof lists / sizeof *lists };
+
+const char *mor_list_name(int index)
+{
+    return index >= 0 && index < N_LISTS ? lists[index].name : NULL;
+}
+
+mor_status mor_session_print_list(mor_session *session, const char *name)
+{
+    mor_context *context = &session->context;
+    char names[256] = "";
+    mor_context_clear_error(context);
+    for (int k = 0; k < N_LISTS; ++k) {
+        const size_t n = strlen(names);
+        if (strcmp(lists[k].name, name) == 0) {
+            return lists[k].print(context, session->registry, session->output);
+        }
+        snprintf(names + n, sizeof names - n, "%s%s", k == 0 ? "" : k + 1 < N_LISTS ? ", " : " and ", lists[k].name);
+    }
+    return MOR_FAIL(context, MOR_ERROR_ARGUMENT, "found '%s', which is no list; allowed are %s", name, names);
+}
+
+/* ---- Check of a material ----------------------------------------------------------------------------------------- */
+
+/* Tries one model; prints its table. */
+static mor_status try_material(mor_session *session, const mor_material *material, int *n_failed)
+{
+    enum { LINE = 1024 };
+    const double density = 2000.0; /* kg/m3, of a common soil; the laws hold for any */
+    char line[LINE];
+    mor_conformance_report report;
+    MOR_TRY(&session->context, mor_conformance_run(&session->context, material, NULL, density, &report));
+    fprintf(session->output, "%s %s\n", material->name, material->version);
+    for (int k = 0; k < report.n_rows; ++k) {
+        mor_conformance_format(&report.rows[k], line, sizeof line);
+        fprintf(session->output, "  %s\n", line);
+    }
+    *n_failed += report.n_failed;
+    return MOR_OK;
+}
+
+static mor_status try_plugin(mor_session *session, const char *path, int *n_failed)
+{
+    mor_plugin *plugin = NULL;
+    mor_status status = mor_plugin_load(&session->context, path, &plugin);
+    for (int k = 0; status == MOR_OK && k < mor_plugin_count(plugin); ++k) {
+        status = try_material(session, mor_plugin_get(plugin, k), n_failed);
+    }
+    mor_plugin_unload(&session->context, &plugin);
+    return status;
+}
+
+mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed)
+{
+    mor_context *context = &session->context;
+    const mor_material *material = mor_registry_find(session->registry, name);
+    const char *near = mor_registry_nearest(session->registry, name);
+    *n_failed = 0;
+    mor_context_clear_error(context);
+    MOR_CHECK(context, material != NULL || access(name, F_OK) == 0, MOR_ERROR_CONFIG,
+              "found '%s', which is neither a material nor a file%s%s; allowed are the names that 'moraine list "
+              "materials' prints and paths of plug-ins",
+              name, near != NULL ? "; did you mean " : "", near != NULL ? near : "");
+    MOR_TRY(context,
+            material != NULL ? try_material(session, material, n_failed) : try_plugin(session, name, n_failed));
+    if (*n_failed > 0) {
+        fprintf(session->output, "%d laws failed\n", *n_failed);
+    }
+    return MOR_OK;
+}

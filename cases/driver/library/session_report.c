@@ -1,0 +1,326 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* What a session says of a case: its sizes, and what a run would do. */
+#include "cases/driver/library/session_internal.h"
+
+#include "bodies/contact/contact.h"
+#include "cases/driver/case/schema/contact_report.h"
+#include "cases/driver/picture/rocks_report.h"
+#include "cases/driver/run/clock.h"
+#include "cases/driver/scene/check/simulation_warnings.h"
+#include "relaxation/terrain/terrain.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *set)
+{
+    fprintf(out, "\nStages of a step of '%s'\n", stepper->name);
+    for (int k = 0; k < stepper->n_stages; ++k) {
+        const mor_stage *stage = &stepper->stages[k];
+        fprintf(out, "  %2d %-20s %s\n", k + 1, stage->name, stage->text);
+        const uint64_t bits[3] = {stage->reads, stage->writes, stage->accumulates};
+        static const char *const verbs[3] = {"reads", "writes", "updates"};
+        for (int verb = 0; verb < 3; ++verb) {
+            if (bits[verb] == 0) {
+                continue;
+            }
+            fprintf(out, "       %-8s", verbs[verb]);
+            for (int bit = 0; bit < 64; ++bit) {
+                if (bits[verb] >> bit & 1u) {
+                    fprintf(out, " %s", mor_stage_bit_name(set, bit));
+                }
+            }
+            fprintf(out, "\n");
+        }
+    }
+}
+
+/* What is to be warned of, to be printed later: the steps that are timed spoil the state. The caller frees the text. */
+static mor_status find_warnings(mor_context *context, const mor_simulation *s, char **text)
+{
+    size_t n_bytes = 0;
+    FILE *stream = open_memstream(text, &n_bytes);
+    MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
+    const mor_status status = mor_simulation_print_warnings(context, s, stream);
+    MOR_CHECK(context, fclose(stream) == 0, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
+    return status;
+}
+
+/* One step; a run of fewer steps than are timed begins anew. */
+static mor_status take_step(mor_context *context, mor_schedule *schedule)
+{
+    if (schedule->now >= schedule->end) {
+        schedule->now = 0;
+    }
+    return mor_schedule_step(context, schedule, schedule->end);
+}
+
+/* Times a few steps on a state that is thrown away. */
+static mor_status time_steps(mor_context *context, mor_simulation *s, double *seconds_per_step)
+{
+    enum { WARM_UP = 2, TIMED = 4 };
+    for (int k = 0; k < WARM_UP; ++k) {
+        MOR_TRY(context, take_step(context, &s->schedule));
+    }
+    const double before = mor_clock_now();
+    for (int k = 0; k < TIMED; ++k) {
+        MOR_TRY(context, take_step(context, &s->schedule));
+    }
+    *seconds_per_step = (mor_clock_now() - before) / TIMED;
+    return MOR_OK;
+}
+
+/* The ground of a wall in the frame of the case. */
+static void print_ground(FILE *out, const mor_case_wall *wall)
+{
+    const mor_terrain *it = mor_terrain_view(wall->shape);
+    if (it == NULL) {
+        return;
+    }
+    double lowest;
+    double highest;
+    double from[2];
+    double to[2];
+    mor_terrain_range(it, &lowest, &highest);
+    mor_terrain_reach(it, from, to);
+    fprintf(out, "  ground '%s': %.0f x %.0f nodes of %g m", wall->name, (to[0] - from[0]) / it->cell[0] + 1.0,
+            (to[1] - from[1]) / it->cell[1] + 1.0, it->cell[0]);
+    if (it->cell[1] != it->cell[0]) {
+        fprintf(out, " x %g m", it->cell[1]);
+    }
+    fprintf(out, ", x %g to %g m, y %g to %g m, z %g to %g m; subtracted (%.10g, %.10g, %.10g) m; %s%s\n", from[0],
+            to[0], from[1], to[1], lowest, highest, it->offset[0], it->offset[1], it->offset[2],
+            it->datum[0] != '\0' ? it->datum : "no reference system named, meters assumed",
+            wall->outline.ground.extends_edge ? "; beyond it level from its edge on" : "");
+}
+
+static void print_sizes(FILE *out, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    int64_t n_walls = 0;
+    for (int w = 0; w < s->soil.n_walls; ++w) {
+        n_walls += s->soil.walls[w].n_points;
+    }
+    fprintf(out, "%s\n", c->title);
+    fprintf(out, "  dimension               %d\n", c->dimension);
+    fprintf(out, "  spacing                 %g m\n", c->spacing);
+    if (s->has_soil) {
+        fprintf(out, "  soil                    %lld particles, smoothing length %g m, sound speed %.4g m/s\n",
+                (long long)s->soil.set.n_particles, s->soil.smoothing_length, s->soil.sound_speed);
+    }
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        const mor_body_group *group = s->bodies.groups[g];
+        fprintf(out, "  %-23s %d bod%s, %lld particles, %lld surface nodes", group->set.name, group->n_bodies,
+                group->n_bodies == 1 ? "y" : "ies", (long long)group->set.n_particles, (long long)group->n_nodes);
+        if (group->operations->describe != NULL) {
+            char text[160];
+            group->operations->describe(group, text, sizeof text);
+            fprintf(out, ", %s", text);
+        }
+        fprintf(out, "\n");
+    }
+    fprintf(out, "  walls                   %d", c->n_walls);
+    if (s->has_soil) { /* bodies touch the shapes themselves */
+        fprintf(out, ", %lld particles", (long long)n_walls);
+    }
+    fprintf(out, "\n");
+    for (int w = 0; w < c->n_walls; ++w) {
+        print_ground(out, &c->walls[w]);
+    }
+    mor_contact_report_print(c, out);
+    mor_rocks_report_print(c, out);
+}
+
+/* What a step is like: as the scene begins, or once bodies touch. */
+typedef struct pace {
+    double length;  /* s */
+    double seconds; /* of waiting for one */
+    int substeps[MOR_SCHEDULE_STEPPERS_MAX];
+} pace;
+
+static mor_status find_pace(mor_context *context, mor_simulation *s, pace *found)
+{
+    MOR_TRY(context, mor_schedule_preview(context, &s->schedule, &found->length));
+    memcpy(found->substeps, s->schedule.substeps, sizeof found->substeps);
+    return MOR_OK;
+}
+
+/* Lets bodies step as if they touched, or as they lie. */
+static void let_touch(mor_simulation *s, bool is_touching)
+{
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        mor_body_group *group = s->bodies.groups[g];
+        if (group->longest_contact_step != NULL) {
+            group->longest_contact_step = is_touching ? mor_contact_touching_step : mor_contact_longest_step;
+        }
+    }
+}
+
+/* The body that drags along most soil for its own mass, where that shortens the steps. */
+static void print_lightest(FILE *out, const mor_simulation *s)
+{
+    const mor_body *lightest = NULL;
+    double ratio = 1.0;
+    for (int g = 0; g < s->bodies.n_groups; ++g) {
+        const mor_body_group *group = s->bodies.groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            if (group->bodies[b].added_mass_ratio > ratio) {
+                lightest = &group->bodies[b];
+                ratio = lightest->added_mass_ratio;
+            }
+        }
+    }
+    if (lightest != NULL) {
+        fprintf(out,
+                "  lightest body           '%s' drags along up to %.3g times its own mass of soil: steps %.2g times "
+                "shorter\n",
+                lightest->name, ratio, sqrt(ratio));
+    }
+}
+
+/* The longest step of each stepper, and how often it moves in a common step. */
+static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, const pace *touching)
+{
+    const mor_schedule *schedule = &s->schedule;
+    const double length = now->length;
+    fprintf(out, "  time step               about %.4g s, limited by %s%s\n", length, schedule->limit,
+            schedule->is_single_rate ? " (single rate)" : "");
+    fprintf(out, "  steps                   about %.0f for %g s\n", ceil(s->the_case->end / length), s->the_case->end);
+    print_lightest(out, s);
+    for (int k = 0; k < schedule->n_steppers; ++k) {
+        fprintf(out, "  clock of %-14s ", schedule->steppers[k].name);
+        if (schedule->proposals[k] < INFINITY) {
+            fprintf(out, "longest step %.4g s, limited by %s; ", schedule->proposals[k], schedule->limits[k]);
+        } else {
+            fprintf(out, "any step; ");
+        }
+        fprintf(out, "%d sub-step%s per step", now->substeps[k], now->substeps[k] == 1 ? "" : "s");
+        if (touching->substeps[k] > now->substeps[k]) {
+            fprintf(out, " now, up to about %d when touching a body or wall", touching->substeps[k]);
+        }
+        fprintf(out, "\n");
+    }
+    if (touching->length < 0.99 * length) {
+        fprintf(out, "  when bodies touch       steps of about %.4g s, %.0f for %g s\n", touching->length,
+                ceil(s->the_case->end / touching->length), s->the_case->end);
+    }
+}
+
+/* The set that a stepper works on; steppers stand in the order of the sets. */
+static const mor_set *set_of(const mor_simulation *s, int stepper)
+{
+    const int g = stepper - (s->has_soil ? 1 : 0);
+    return g < 0 ? &s->soil.set : &s->bodies.groups[g]->set;
+}
+
+static void print_duration(FILE *out, double seconds)
+{
+    static const double sizes[3] = {1.0, 60.0, 3600.0};
+    static const char *const units[3] = {"s", "min", "h"};
+    const int unit = seconds < 60.0 ? 0 : seconds < 5400.0 ? 1 : 2;
+    fprintf(out, "%.1f %s", seconds / sizes[unit], units[unit]);
+}
+
+/* What contacts will cost cannot be timed before there are any. */
+static void print_expected_time(FILE *out, const mor_simulation *s, const pace *now, const pace *touching, bool is_same)
+{
+    const double end = s->the_case->end;
+    const double least = ceil(end / now->length) * now->seconds;
+    const double later = ceil(end / touching->length) * touching->seconds;
+    fprintf(out, "  expected time           %s", is_same ? "" : "at least ");
+    print_duration(out, is_same ? least : fmin(least, later));
+    if (!is_same) {
+        fprintf(out, ", or ");
+        print_duration(out, fmax(least, later));
+        fprintf(out, " with the steps of bodies that touch; the contacts themselves come on top");
+    }
+    fprintf(out, "\n");
+}
+
+static mor_status time_paces(mor_context *context, mor_simulation *s, pace *now, pace *touching, bool is_same)
+{
+    MOR_TRY(context, time_steps(context, s, &now->seconds));
+    touching->seconds = now->seconds;
+    if (!is_same) {
+        let_touch(s, true);
+        const mor_status status = time_steps(context, s, &touching->seconds);
+        let_touch(s, false);
+        MOR_TRY(context, status);
+    }
+    return MOR_OK;
+}
+
+/* Speed and expected time. A scene that comes to grief within the steps that are timed is told so: to explain it is
+ * still what was asked for. */
+static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s, pace *now, pace *touching,
+                              bool is_same)
+{
+    const mor_status status = time_paces(context, s, now, touching, is_same);
+    fprintf(out, "  memory                  %.1f MiB", (double)context->memory_peak_bytes / 1048576.0);
+    if (s->has_soil) {
+        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+    }
+    fprintf(out, "\n");
+    if (status == MOR_ERROR_NUMERIC) {
+        fprintf(out, "  speed now               not measured\nwarning: a run would stop within its first steps: %s\n",
+                context->message);
+        mor_context_clear_error(context);
+        return MOR_OK;
+    }
+    MOR_TRY(context, status);
+    fprintf(out, "  speed now               %.2f M %s/s with %d thread%s (%s)\n",
+            1e-6 * (double)mor_simulation_counted_particles(s) / now->seconds, mor_simulation_counted_unit(s),
+            context->n_threads, context->n_threads == 1 ? "" : "s", mor_pair_select(NULL)->instruction_set);
+    print_expected_time(out, s, now, touching, is_same);
+    return MOR_OK;
+}
+
+static mor_status print_explanation(mor_context *context, FILE *out, mor_simulation *s)
+{
+    pace now;
+    pace touching;
+    let_touch(s, true);
+    MOR_TRY(context, find_pace(context, s, &touching));
+    let_touch(s, false);
+    MOR_TRY(context, find_pace(context, s, &now));
+    const bool is_same =
+        touching.length == now.length && memcmp(touching.substeps, now.substeps, sizeof now.substeps) == 0;
+    print_sizes(out, s);
+    print_clocks(out, s, &now, &touching);
+    char *warnings = NULL;
+    MOR_TRY(context, find_warnings(context, s, &warnings));
+    const mor_status status = print_speed(context, out, s, &now, &touching, is_same);
+    fputs(status == MOR_OK ? warnings : "", out);
+    free(warnings);
+    MOR_TRY(context, status);
+    for (int k = 0; k < s->schedule.n_steppers; ++k) {
+        print_stages(out, &s->schedule.steppers[k], set_of(s, k));
+    }
+    return MOR_OK;
+}
+
+mor_status mor_session_explain(mor_session *session)
+{
+    MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
+    const mor_status status = print_explanation(&session->context, session->output, &session->simulation);
+    mor_session_clear_simulation(session); /* the steps that were timed have spoiled it */
+    return status;
+}
+
+mor_status mor_session_print_check(mor_session *session)
+{
+    const mor_case *c = &session->the_case;
+    const mor_simulation *s = &session->simulation;
+    FILE *out = session->output;
+    MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
+    fprintf(out, "%s: ok. %lld soil particles, ", c->path, (long long)s->soil.set.n_particles);
+    if (c->n_bodies > 0) {
+        fprintf(out, "%d bod%s of %lld particles, ", c->n_bodies, c->n_bodies == 1 ? "y" : "ies",
+                (long long)(mor_simulation_particles(s) - s->soil.set.n_particles));
+    }
+    fprintf(out, "%d wall%s, %d probe%s, %d expectation%s\n", c->n_walls, c->n_walls == 1 ? "" : "s", c->n_probes,
+            c->n_probes == 1 ? "" : "s", c->n_expectations, c->n_expectations == 1 ? "" : "s");
+    return mor_simulation_print_warnings(&session->context, s, out);
+}

@@ -1,0 +1,52 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/run/run_step.h"
+
+#include "cases/driver/probe/probe.h"
+
+#include <math.h>
+
+int64_t mor_run_snapshot_tick(const mor_simulation *simulation, int64_t number)
+{
+    const int n = simulation->the_case->output.n_snapshots;
+    const mor_schedule *schedule = &simulation->schedule;
+    /* In floating point: the product of ticks and number does not fit into 64 bits. */
+    return number >= n ? schedule->end : (int64_t)llround((double)schedule->end * ((double)number / n));
+}
+
+int64_t mor_run_find_snapshot(const mor_simulation *simulation, int64_t number)
+{
+    while (number < simulation->the_case->output.n_snapshots &&
+           mor_run_snapshot_tick(simulation, number) <= simulation->schedule.now) {
+        ++number;
+    }
+    return number;
+}
+
+mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until)
+{
+    MOR_TRY(context, mor_schedule_step(context, &simulation->schedule, until));
+    return mor_probe_follow(context, simulation);
+}
+
+/* Springs that are loaded before anything has moved throw bodies apart. */
+void mor_run_warn_of_overlap(mor_context *context, const mor_simulation *simulation)
+{
+    const double advisable = 0.01;
+    double kinetic = 0.0;
+    double potential = 0.0;
+    double elastic = 0.0;
+    if (simulation->schedule.n_steps != 1 || !simulation->bodies.has_contact) {
+        return;
+    }
+    mor_simulation_bodies_energy(&simulation->bodies, (const double[3]){0.0, 0.0, 0.0}, &kinetic, &potential, &elastic);
+    const double stored = simulation->bodies.contact.spring_energy;
+    if (stored > advisable * (kinetic + mor_simulation_bodies_lift(&simulation->bodies))) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts hold %.3g "
+            "%s, which throws them apart: leave them a gap (surfaces of meshes bulge beside edges by up to a 25th of a "
+            "spacing)",
+            simulation->bodies.contact.deepest, stored, simulation->the_case->dimension == 2 ? "J/m" : "J");
+    }
+}

@@ -1,0 +1,28 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_DRIVER_RUN_RUN_STEP_H
+#define MOR_CASES_DRIVER_RUN_RUN_STEP_H
+
+#include "cases/driver/scene/simulation.h"
+
+/** @file
+ *  One step of a run without its files: whoever steps a case by itself takes the very steps of a run. */
+
+/** Returns the tick of a snapshot; the end for those behind the last one.
+ *  @param number [in]  of the snapshot; 0: at the start */
+int64_t mor_run_snapshot_tick(const mor_simulation *simulation, int64_t number);
+
+/** Returns the first snapshot that is still to come; the number of snapshots of the case behind the last one.
+ *  @param number [in]  of a snapshot that is not behind it */
+int64_t mor_run_find_snapshot(const mor_simulation *simulation, int64_t number);
+
+/** Takes a step and lets the probes follow.
+ *  @param until [in]  tick not to be passed, > now
+ *  Returns: MOR_OK; what mor_schedule_step and mor_probe_follow return. */
+mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until);
+
+/** Warns of bodies that overlap; to be called after the first step.
+ *  @param context [in,out]  logs the warning */
+void mor_run_warn_of_overlap(mor_context *context, const mor_simulation *simulation);
+
+#endif

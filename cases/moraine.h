@@ -1,0 +1,348 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CASES_MORAINE_H
+#define MOR_CASES_MORAINE_H
+
+#include "core/base/log.h"
+#include "core/base/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/** @file
+ *  The library: a case is loaded, built, settled and stepped; probes and fields are read; states are saved and resumed.
+ *  The program `moraine` uses nothing else. Guide: docs/guide/use_as_library.md.
+ *
+ *      #include <moraine.h>
+ *
+ *      int main(void)
+ *      {
+ *          mor_session *session = NULL;
+ *          double run_out = 0.0;
+ *          const char *unit = "";
+ *          mor_status status = mor_session_new(&session);
+ *          if (status == MOR_OK) status = mor_session_override(session, "spacing=10 mm");
+ *          if (status == MOR_OK) status = mor_session_load_file(session, "case.cfg");
+ *          if (status == MOR_OK) status = mor_session_build(session);
+ *          if (status == MOR_OK) status = mor_session_settle(session);
+ *          if (status == MOR_OK) status = mor_session_step_to(session, 0.1);
+ *          if (status == MOR_OK) status = mor_session_read_probe(session, "run_out", &run_out, &unit);
+ *          if (status == MOR_OK) printf("run-out %g %s at t = %g s\n", run_out, unit, mor_session_time(session));
+ *          else fprintf(stderr, "%s\n", mor_session_message(session));
+ *          mor_session_free(&session);
+ *          return status == MOR_OK ? 0 : 1;
+ *      }
+ *
+ *  Errors are values: every function that can fail returns a mor_status, and mor_session_message says what was found,
+ *  what is allowed and what to do; what is wrong in a case is told with file and line. The library never ends the
+ *  process, prints only to streams that it was given, and does not read the environment. A program may have many
+ *  sessions; each is used by one thread at a time and computes with as many threads as it is told. Results do not
+ *  depend on their number. Signals and the locale are left alone. Numbers are in SI units; stress is positive in
+ *  tension. */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** One case from its text to its results. Opaque. Owner: the caller, who ends it with mor_session_free. */
+typedef struct mor_session mor_session;
+
+struct mor_material; /* core/material/kit/material.h */
+
+/* ---- The library ------------------------------------------------------------------------------------------------- */
+
+/** Returns the version of the library, as "0.1.0", a static string. Within a minor version (0.1) what stands in this
+ *  header keeps its meaning, and programs need not be compiled anew. */
+const char *mor_version(void);
+
+/** Returns the commit that the library was built from, a static string; "unknown" outside a repository. */
+const char *mor_commit(void);
+
+/* ---- A session --------------------------------------------------------------------------------------------------- */
+
+/** Makes a session that knows the built-in materials, computes with one thread, keeps nothing for later sessions and
+ *  prints nothing.
+ *  @param session [out]  the address of one pointer; NULL after a failure
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_session_new(mor_session **session);
+
+/** Frees a session and sets the pointer to NULL; NULL is accepted.
+ *  @param session [in,out]  the address of one pointer */
+void mor_session_free(mor_session **session);
+
+/** Returns the message of the last function that failed, zero-terminated, "" when none has; valid until the next
+ *  call. */
+const char *mor_session_message(const mor_session *session);
+
+/** Chooses who receives log lines: everything of level MOR_LOG_INFO and above, from loading on.
+ *  @param sink [in]      NULL: nobody
+ *  @param user [in,out]  handed to sink; owned by the caller */
+void mor_session_set_log(mor_session *session, mor_log_sink sink, void *user);
+
+/** Chooses the number of threads.
+ *  @param n_threads [in]  1 to 1024; 0: as many as this process may use cores
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_session_set_threads(mor_session *session, int n_threads);
+
+/** Chooses a folder where relaxed particles are kept for later sessions; results do not depend on it.
+ *  @param folder [in]  zero-terminated; copied; made when missing; NULL or "": none
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a path that is too long. */
+mor_status mor_session_set_cache(mor_session *session, const char *folder);
+
+/** Chooses the stream for what functions below print: tables, paths of pictures.
+ *  @param output [in,out]  an open file, borrowed until the session ends; NULL: nothing is printed */
+void mor_session_set_output(mor_session *session, FILE *output);
+
+/** Chooses the stream for the progress of mor_session_run.
+ *  @param progress    [in,out]  an open file, borrowed until the session ends; NULL: none is shown
+ *  @param is_terminal [in]      lines are written over one another, twice a second; else one every half a minute */
+void mor_session_set_progress(mor_session *session, FILE *progress, bool is_terminal);
+
+/** Chooses what stands as command in the provenance of results.
+ *  @param command [in]  zero-terminated; copied, cut when it is longer than 4095 bytes */
+void mor_session_set_command(mor_session *session, const char *command);
+
+/** Adds a material law, which cases that are loaded afterwards may name.
+ *  @param material [in]  borrowed, outlives the session; see core/material/kit/material.h
+ *  Returns: MOR_OK; MOR_ERROR_PLUGIN when the descriptor is wrong or another law has its name; MOR_ERROR_MEMORY. */
+mor_status mor_session_add_material(mor_session *session, const struct mor_material *material);
+
+/** Adds the laws of a plug-in, which stays loaded as long as the session.
+ *  @param path [in]  zero-terminated; of the shared object
+ *  Returns: MOR_OK; MOR_ERROR_IO when there is no such file; MOR_ERROR_PLUGIN saying what is wrong with it;
+ *  MOR_ERROR_ARGUMENT beyond 16 plug-ins; MOR_ERROR_MEMORY. */
+mor_status mor_session_add_plugin(mor_session *session, const char *path);
+
+/* ---- Stopping: may be called from another thread or a signal handler while a function below runs ----------------- */
+
+/** What a session is at. */
+typedef enum mor_session_phase {
+    MOR_SESSION_IDLE,     /* nothing that a checkpoint would keep: it may be given up */
+    MOR_SESSION_STEPPING, /* a step: it is finished and, in mor_session_run, saved */
+    MOR_SESSION_WRITING   /* files of a run: they are finished */
+} mor_session_phase;
+
+/** Asks what runs to end in an orderly way: settling, stepping and running end after the step at hand. The request
+ *  stays until mor_session_clear_stop. Async-signal-safe. */
+void mor_session_request_stop(mor_session *session);
+
+/** Takes the request back. */
+void mor_session_clear_stop(mor_session *session);
+
+/** Whether a stop is requested. Async-signal-safe. */
+bool mor_session_is_stopping(const mor_session *session);
+
+/** Returns what the session is at. Async-signal-safe. */
+mor_session_phase mor_session_find_phase(const mor_session *session);
+
+/* ---- A case ------------------------------------------------------------------------------------------------------ */
+
+/** Overrides a key of the cases that are loaded afterwards, as --set of the program does.
+ *  @param setting [in]  zero-terminated "key=value", as "soil[0].material.cohesion=1 kPa"; copied
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT beyond 256 of them; MOR_ERROR_MEMORY. A wrong key is found by loading. */
+mor_status mor_session_override(mor_session *session, const char *setting);
+
+/** Reads a case file, in place of the case before.
+ *  @param path [in]  zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with a message "file:line: found ...; allowed ...; do ..."; MOR_ERROR_IO;
+ *  MOR_ERROR_MEMORY. */
+mor_status mor_session_load_file(mor_session *session, const char *path);
+
+/** Reads a case from memory, in place of the case before.
+ *  @param name [in]  zero-terminated; stands for the file in messages; files that the case names are looked for in its
+ *                    folder
+ *  @param text [in]  zero-terminated
+ *  Returns: as mor_session_load_file. */
+mor_status mor_session_load_text(mor_session *session, const char *name, const char *text);
+
+/** Builds the case that was loaded: particles, walls, bodies, initial stress; checks that pictures can be colored.
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line; MOR_ERROR_ARGUMENT when no case is loaded or one is built
+ *  already; MOR_ERROR_MEMORY. */
+mor_status mor_session_build(mor_session *session);
+
+/** Brings the soil to rest where the case asks for it, logs what the method cannot resolve, and records the energy at
+ *  the start. To be called once between building and the first step, unless a state is resumed.
+ *  Returns: MOR_OK; MOR_NOT_CONVERGED when the soil does not come to rest, or a stop was requested: the session then is
+ *  to be built anew; MOR_ERROR_ARGUMENT when nothing is built; what a step returns. */
+mor_status mor_session_settle(mor_session *session);
+
+/** Takes the next step of a run: not beyond its next snapshot nor its end. Stepping to the end computes, bit for bit,
+ *  what mor_session_run computes.
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT before settling and at the end of the case; MOR_ERROR_NUMERIC when the
+ *  computation broke down: the state is then worthless, and the case is to be built anew. */
+mor_status mor_session_step(mor_session *session);
+
+/** Steps until a time is reached, exactly: the last step is cut there, which a run would not have done, unless a
+ *  snapshot or the end falls on it. A requested stop ends it earlier.
+ *  @param time [in]  unit s; not before the present one, not beyond the end of the case
+ *  Returns: as mor_session_step. */
+mor_status mor_session_step_to(mor_session *session, double time);
+
+/** Returns the present time, unit s; 0 before building. */
+double mor_session_time(const mor_session *session);
+
+/** Returns the end of the case, unit s; 0 before loading. */
+double mor_session_end(const mor_session *session);
+
+/** Returns the number of steps so far. */
+int64_t mor_session_n_steps(const mor_session *session);
+
+/** Returns a hash of the state, as summary.json tells it; 0 before building. Equal states have equal hashes. */
+uint64_t mor_session_state_hash(mor_session *session);
+
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
+
+/** Returns the number of probes of the case. */
+int mor_session_n_probes(const mor_session *session);
+
+/** Returns the name of a probe, zero-terminated, owned by the session; NULL outside.
+ *  @param index [in]  0 <= index < mor_session_n_probes */
+const char *mor_session_probe_name(const mor_session *session, int index);
+
+/** Reads a probe on the state as it is.
+ *  @param name  [in]   zero-terminated
+ *  @param value [out]  one number, in the unit told; NaN where there is nothing to measure
+ *  @param unit  [out]  one pointer to a static string, as "m"; NULL: not wanted
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a name that the case does not have, with those that it has, or before
+ *  settling; what the measurement returns. */
+mor_status mor_session_read_probe(mor_session *session, const char *name, double *value, const char **unit);
+
+/** Returns the number of particle sets: the soil, named "soil", and groups of bodies; 0 before building. */
+int mor_session_n_sets(const mor_session *session);
+
+/** Returns the name of a particle set, zero-terminated, owned by the session; NULL outside.
+ *  @param index [in]  0 <= index < mor_session_n_sets */
+const char *mor_session_name_of_set(const mor_session *session, int index);
+
+/** Returns the number of particles of a set, which falls when particles leave the domain; -1 when there is no such set.
+ *  @param set [in]  zero-terminated name; NULL: all sets */
+int64_t mor_session_n_particles(const mor_session *session, const char *set);
+
+/** Returns the number of fields of a set that are state or output; -1 when there is no such set.
+ *  @param set [in]  zero-terminated name */
+int mor_session_n_fields(const mor_session *session, const char *set);
+
+/** Describes a field.
+ *  @param set          [in]   zero-terminated name
+ *  @param index        [in]   0 <= index < mor_session_n_fields
+ *  @param name         [out]  one pointer; zero-terminated, owned by the session
+ *  @param n_components [out]  one number; 1 scalar, 3 vector, 6 symmetric tensor (xx, yy, zz, xy, yz, zx), 9 matrix
+ *  @param unit         [out]  one pointer; zero-terminated, owned by the session
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_session_describe_field(mor_session *session, const char *set, int index, const char **name,
+                                      int *n_components, const char **unit);
+
+/** Copies a field, particles in the order of their numbers, which stays the same while particles move.
+ *  @param set      [in]   zero-terminated name
+ *  @param field    [in]   zero-terminated name, as "velocity"
+ *  @param values   [out]  shape [n_particles, n_components]; unit: of the field
+ *  @param capacity [in]   numbers that values has room for
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an unknown name, with those that there are, and for too little room;
+ *  MOR_ERROR_MEMORY. */
+mor_status mor_session_read_field(mor_session *session, const char *set, const char *field, double *values,
+                                  int64_t capacity);
+
+/** Copies the numbers of the particles, given when they were made, rising: gaps are of particles that left the domain.
+ *  @param set      [in]   zero-terminated name
+ *  @param numbers  [out]  shape [n_particles], >= 0
+ *  @param capacity [in]   numbers that the array has room for
+ *  Returns: as mor_session_read_field. */
+mor_status mor_session_read_numbers(mor_session *session, const char *set, int64_t *numbers, int64_t capacity);
+
+/* ---- Folders ----------------------------------------------------------------------------------------------------- */
+
+/** Saves the state as the checkpoint of a folder, with the case as it was used; the checkpoint before is kept as well.
+ *  @param folder [in]  zero-terminated; made when missing
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT before settling; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_save(mor_session *session, const char *folder);
+
+/** Takes up the newest state of a folder, in place of settling: stepping then gives the bits it would have given.
+ *  @param folder [in]  zero-terminated; written by mor_session_save, mor_session_run or the program
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for the state of another case, naming the first difference; MOR_ERROR_IO when
+ *  there is none; MOR_ERROR_ARGUMENT when nothing is built or stepping has begun; MOR_ERROR_MEMORY. */
+mor_status mor_session_resume(mor_session *session, const char *folder);
+
+/** How a run went. */
+typedef enum mor_session_outcome {
+    MOR_SESSION_FINISHED,   /* to its end, and every expectation of the case is met */
+    MOR_SESSION_MISSED,     /* to its end, and an expectation was missed */
+    MOR_SESSION_STOPPED,    /* at the time asked for, with a checkpoint */
+    MOR_SESSION_INTERRUPTED /* by a requested stop, with a checkpoint */
+} mor_session_outcome;
+
+/** Computes the case that was loaded to its end, as the program does: builds and settles it, and writes snapshots,
+ *  series, checkpoints, summary and pictures into a folder. Then only results can be read; load again for more.
+ *  @param folder    [in]   zero-terminated; made when missing
+ *  @param is_resume [in]   go on from the folder's checkpoint; else a folder that holds a run is refused
+ *  @param stop_time [in]   stop with a checkpoint at the first step at or after this time, unit s; NaN: at the end
+ *  @param outcome   [out]  one word
+ *  Returns: MOR_OK, also when stopped; MOR_ERROR_ARGUMENT when no case is loaded, or it is built already;
+ *  MOR_ERROR_CONFIG; MOR_ERROR_NUMERIC when the computation broke down: results of the last finished step are written;
+ *  MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_run(mor_session *session, const char *folder, bool is_resume, double stop_time,
+                           mor_session_outcome *outcome);
+
+/** Writes the state that was built as a snapshot into a folder and draws it; prints the paths.
+ *  @param folder [in]  zero-terminated; made when missing; one that holds a run is refused
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when nothing is built; MOR_ERROR_CONFIG; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_preview(mor_session *session, const char *folder);
+
+/** Draws all snapshots and the series of the folder of a run, whose case is loaded, with overrides; prints the paths.
+ *  @param folder [in]  zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when it is not the folder of a run; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_render(mor_session *session, const char *folder);
+
+/* ---- Reports: printed to the stream of mor_session_set_output ---------------------------------------------------- */
+
+/** Prints how many particles, bodies, walls and probes were built, and warns of what the method cannot resolve.
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when nothing is built; MOR_ERROR_MEMORY. */
+mor_status mor_session_print_check(mor_session *session);
+
+/** Prints what a run would do: sizes, clocks, memory, time, warnings, stages. Takes a few steps to measure the speed;
+ *  the case is to be built anew afterwards.
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT unless the case is built and not settled; what a step returns. */
+mor_status mor_session_explain(mor_session *session);
+
+/** Returns the name of a list, a static string; NULL behind the last one.
+ *  @param index [in]  >= 0 */
+const char *mor_list_name(int index);
+
+/** Prints a list: materials (with those added), probes, fields, stages, shapes or keys of a case.
+ *  @param name [in]  zero-terminated; one of mor_list_name
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_session_print_list(mor_session *session, const char *name);
+
+/** Tries the laws of mechanics on a material and prints a table of them.
+ *  @param name     [in]   zero-terminated; of a material, or of the file of a plug-in
+ *  @param n_failed [out]  one number; laws that do not hold
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when it is neither; as mor_session_add_plugin. */
+mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed);
+
+/** Which length or volume of a mesh is given. */
+typedef enum mor_session_size {
+    MOR_SESSION_SIZE_OF_FILE,  /* none: lengths are those of the file, in meters */
+    MOR_SESSION_SIZE_LENGTH,   /* of its longest side, m */
+    MOR_SESSION_SIZE_VOLUME,   /* its volume, m3 (area of an outline, m2) */
+    MOR_SESSION_SIZE_DIAMETER, /* of the ball (disc) of the same volume (area), m */
+    MOR_SESSION_SIZES
+} mor_session_size;
+
+/** Fills a mesh, or an outline in a file *.txt, with evenly spaced particles; prints how even they are; writes
+ *  particles.csv, a snapshot and a picture.
+ *  @param path    [in]  zero-terminated; of the mesh
+ *  @param spacing [in]  of the particles, > 0; unit m
+ *  @param kind    [in]  what size is
+ *  @param size    [in]  that the mesh is scaled to, > 0; unit of kind; of no meaning with MOR_SESSION_SIZE_OF_FILE
+ *  @param folder  [in]  zero-terminated; made when missing; one that holds a run is refused
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for a file that cannot be used; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_relax(mor_session *session, const char *path, double spacing, mor_session_size kind, double size,
+                             const char *folder);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+
+#endif

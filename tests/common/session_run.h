@@ -1,0 +1,51 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_TESTS_COMMON_SESSION_RUN_H
+#define MOR_TESTS_COMMON_SESSION_RUN_H
+
+#include "cases/moraine.h"
+#include "tests/common/finished_run.h"
+
+#include <math.h>
+
+/** @file
+ *  A run of a case through the library. */
+
+/** How a case is to be run. Strings are zero-terminated. */
+typedef struct session_run {
+    const char *case_path;
+    const char *name;            /* of the folder of results in the scratch folder */
+    const char *const *settings; /* shape [n_settings] of "key=value" */
+    int n_settings;
+    double stop_at; /* s; NaN: at the end */
+    bool is_resume;
+    int n_threads;
+    FILE *output; /* NULL: nothing is printed */
+} session_run;
+
+/** Runs it and fails, saying which, unless that succeeds; returns how it went. */
+static inline mor_session_outcome session_run_do(run_folder *folder, const session_run *it, const char *which)
+{
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    mor_session_outcome outcome = MOR_SESSION_FINISHED;
+    mor_status status = mor_session_new(&session);
+    assert_int_equal(status, MOR_OK);
+    mor_session_set_output(session, it->output);
+    assert_int_equal(mor_session_set_threads(session, it->n_threads), MOR_OK);
+    for (int k = 0; k < it->n_settings; ++k) {
+        assert_int_equal(mor_session_override(session, it->settings[k]), MOR_OK);
+    }
+    status = mor_session_load_file(session, it->case_path);
+    if (status == MOR_OK) {
+        status =
+            mor_session_run(session, run_folder_file(folder, path, it->name), it->is_resume, it->stop_at, &outcome);
+    }
+    if (status != MOR_OK) {
+        fail_msg("'%s': %s", which, mor_session_message(session));
+    }
+    mor_session_free(&session);
+    return outcome;
+}
+
+#endif

@@ -1,0 +1,406 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/library/session_internal.h"
+#include "core/base/hash.h"
+#include "tests/common/laws.h"
+#include "tests/common/program.h"
+#include "tests/common/session_run.h"
+
+/* The library: what goes wrong is a value with a message, what is right has the bits of a run, nothing is printed. */
+
+enum { N_VALUES = 100000 };
+
+/* A session with the small case of finished_run.h loaded, to be freed by the caller. */
+static mor_session *load(run_folder *folder)
+{
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    finished_run_store_case(folder, path);
+    if (mor_session_load_file(session, path) != MOR_OK) {
+        fail_msg("%s", mor_session_message(session));
+    }
+    return session;
+}
+
+static void expect(const mor_session *session, mor_status found, mor_status wanted, const char *part)
+{
+    if (found != wanted) {
+        fail_msg("found status %d, not %d: %s", found, wanted, mor_session_message(session));
+    }
+    const char *message = mor_session_message(session);
+    if (message == NULL || strstr(message, part) == NULL) {
+        fail_msg("the message is '%s'; it does not hold '%s'", message != NULL ? message : "", part);
+    }
+}
+
+static void make_ready(mor_session *session)
+{
+    expect(session, mor_session_build(session), MOR_OK, "");
+    expect(session, mor_session_settle(session), MOR_OK, "");
+}
+
+/* ---- Errors ------------------------------------------------------------------------------------------------------ */
+
+static void a_bad_file_is_told_by_name(void **state)
+{
+    mor_session *session = load(*state);
+    expect(session, mor_session_load_file(session, "/nowhere/case.cfg"), MOR_ERROR_CONFIG, "/nowhere/case.cfg");
+    expect(session, mor_session_build(session), MOR_ERROR_ARGUMENT, "no case is loaded");
+    expect(session, mor_session_load_text(session, "mine.cfg", "title = ;"), MOR_ERROR_CONFIG, "mine.cfg:1");
+    expect(session, mor_session_add_plugin(session, "/nowhere/law.so"), MOR_ERROR_IO, "/nowhere/law.so");
+    mor_session_free(&session);
+    assert_null(session);
+    mor_session_free(&session);
+}
+
+static void a_bad_override_is_found_by_loading(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *session = load(folder);
+    expect(session, mor_session_override(session, "numerics.corant=0.2"), MOR_OK, "");
+    expect(session, mor_session_load_file(session, run_folder_file(folder, path, "case.cfg")), MOR_ERROR_CONFIG,
+           "did you mean 'courant'");
+    mor_session_free(&session);
+}
+
+static void what_comes_too_early_or_too_late_is_refused(void **state)
+{
+    mor_session *session = load(*state);
+    double value = 0.0;
+    expect(session, mor_session_step(session), MOR_ERROR_ARGUMENT, "call mor_session_build first");
+    expect(session, mor_session_build(session), MOR_OK, "");
+    expect(session, mor_session_build(session), MOR_ERROR_ARGUMENT, "built already");
+    expect(session, mor_session_step(session), MOR_ERROR_ARGUMENT, "call mor_session_settle");
+    expect(session, mor_session_read_probe(session, "height", &value, NULL), MOR_ERROR_ARGUMENT, "mor_session_settle");
+    expect(session, mor_session_settle(session), MOR_OK, "");
+    expect(session, mor_session_settle(session), MOR_ERROR_ARGUMENT, "under way");
+    expect(session, mor_session_set_threads(session, -1), MOR_ERROR_ARGUMENT, "found -1 threads");
+    mor_session_free(&session);
+}
+
+static void an_unknown_name_is_told_with_those_there_are(void **state)
+{
+    mor_session *session = load(*state);
+    double values[3];
+    const char *text = NULL;
+    int n = 0;
+    make_ready(session);
+    expect(session, mor_session_read_probe(session, "hight", values, NULL), MOR_ERROR_ARGUMENT, "'height'");
+    expect(session, mor_session_read_field(session, "sand", "velocity", values, 3), MOR_ERROR_ARGUMENT,
+           "it has 'soil'");
+    expect(session, mor_session_read_field(session, "soil", "speed", values, 3), MOR_ERROR_ARGUMENT, "'velocity'");
+    expect(session, mor_session_describe_field(session, "soil", 99, &text, &n, &text), MOR_ERROR_ARGUMENT,
+           "allowed: 0");
+    expect(session, mor_session_print_list(session, "ghosts"), MOR_ERROR_ARGUMENT, "materials");
+    assert_int_equal(mor_session_n_particles(session, "sand"), -1);
+    assert_int_equal(mor_session_n_fields(session, "sand"), -1);
+    assert_null(mor_session_probe_name(session, 99));
+    assert_null(mor_session_name_of_set(session, -1));
+    mor_session_free(&session);
+}
+
+static void an_array_too_small_is_left_alone(void **state)
+{
+    mor_session *session = load(*state);
+    double values[3] = {1.0, 2.0, 3.0};
+    int64_t number = 7;
+    make_ready(session);
+    expect(session, mor_session_read_field(session, "soil", "velocity", values, 3), MOR_ERROR_ARGUMENT,
+           "found room for 3 numbers");
+    expect(session, mor_session_read_numbers(session, "soil", &number, 1), MOR_ERROR_ARGUMENT, "are needed");
+    assert_true(values[0] == 1.0 && values[2] == 3.0 && number == 7);
+    mor_session_free(&session);
+}
+
+static void no_step_goes_past_the_end(void **state)
+{
+    mor_session *session = load(*state);
+    make_ready(session);
+    expect(session, mor_session_step_to(session, 0.061), MOR_ERROR_ARGUMENT, "the end of the case at 0.06 s");
+    expect(session, mor_session_step_to(session, NAN), MOR_ERROR_ARGUMENT, "found t = ");
+    expect(session, mor_session_step_to(session, mor_session_end(session)), MOR_OK, "");
+    assert_true(mor_session_time(session) == 0.06); /* exact: the end is a whole number of ticks */
+    expect(session, mor_session_step(session), MOR_ERROR_ARGUMENT, "t = 0.06 s, is reached");
+    expect(session, mor_session_step_to(session, 0.01), MOR_ERROR_ARGUMENT, "from the present 0.06 s");
+    mor_session_free(&session);
+}
+
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
+
+/* Fails unless a field has the bits of the last snapshot of a run, in which particles stand in any order. */
+static void compare_field(run_folder *folder, mor_session *session, const mor_snapshot *snapshot, const char *name)
+{
+    static double values[N_VALUES];
+    static double saved[N_VALUES];
+    static int64_t ids[N_VALUES];
+    const mor_snapshot_set *set = &snapshot->sets[0];
+    const mor_snapshot_field *field = mor_snapshot_find_field(set, name);
+    assert_non_null(field);
+    const int n = field->n_components;
+    assert_int_equal(mor_session_n_particles(session, "soil"), set->n_particles);
+    expect(session, mor_session_read_field(session, "soil", name, values, N_VALUES), MOR_OK, "");
+    assert_int_equal(mor_snapshot_read_field(&folder->context, snapshot, set, field, saved), MOR_OK);
+    assert_int_equal(mor_snapshot_read_ids(&folder->context, snapshot, set, ids), MOR_OK);
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        assert_memory_equal(saved + n * i, values + n * ids[i], (size_t)n * sizeof(double));
+    }
+}
+
+static void stepping_gives_the_bits_of_a_run(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char hash[32];
+    char own_hash[MOR_HASH_TEXT_BYTES];
+    mor_snapshot_list list;
+    mor_snapshot last;
+    double value = 0.0;
+    const char *unit = NULL;
+    mor_session *session = load(folder);
+    const session_run run = {
+        .case_path = run_folder_file(folder, path, "case.cfg"), .name = "run", .stop_at = NAN, .n_threads = 2};
+    assert_int_equal(session_run_do(folder, &run, "whole"), MOR_SESSION_FINISHED);
+    make_ready(session);
+    while (mor_session_time(session) < mor_session_end(session)) {
+        expect(session, mor_session_step(session), MOR_OK, "");
+    }
+    finished_run_read_hash(folder, "run", hash);
+    mor_hash_print(mor_session_state_hash(session), own_hash);
+    assert_string_equal(own_hash, hash);
+    run_folder_file(folder, path, "run");
+    assert_int_equal(mor_snapshot_list_init(&folder->context, &list, path), MOR_OK);
+    assert_int_equal(mor_session_n_steps(session), list.items[list.n - 1].step);
+    assert_int_equal(mor_snapshot_open(&folder->context, &last, path, list.items[list.n - 1].step), MOR_OK);
+    compare_field(folder, session, &last, "velocity");
+    compare_field(folder, session, &last, "stress");
+    compare_field(folder, session, &last, "plastic_strain");
+    mor_snapshot_close(&folder->context, &last);
+    mor_snapshot_list_clear(&folder->context, &list);
+    for (int k = 0; k < mor_session_n_probes(session); ++k) {
+        mor_table_data rows;
+        const char *name = mor_session_probe_name(session, k);
+        expect(session, mor_session_read_probe(session, name, &value, &unit), MOR_OK, "");
+        assert_int_equal(
+            mor_table_data_read(&folder->context, &rows, finished_run_file(folder, path, "run", MOR_TABLE_SERIES_FILE)),
+            MOR_OK);
+        assert_memory_equal(&value, &rows.values[rows.n_rows * rows.n_columns - mor_session_n_probes(session) + k],
+                            sizeof value);
+        assert_true(strlen(unit) > 0);
+        mor_table_data_clear(&folder->context, &rows);
+    }
+    mor_session_free(&session);
+}
+
+static void fields_are_described_and_particles_numbered(void **state)
+{
+    mor_session *session = load(*state);
+    static int64_t numbers[N_VALUES];
+    const char *name = NULL;
+    const char *unit = NULL;
+    int n = 0;
+    int n_found = 0;
+    make_ready(session);
+    assert_int_equal(mor_session_n_sets(session), 1);
+    assert_string_equal(mor_session_name_of_set(session, 0), "soil");
+    assert_int_equal(mor_session_n_particles(session, NULL), mor_session_n_particles(session, "soil"));
+    for (int k = 0; k < mor_session_n_fields(session, "soil"); ++k) {
+        expect(session, mor_session_describe_field(session, "soil", k, &name, &n, &unit), MOR_OK, "");
+        n_found += strcmp(name, "stress") == 0 && n == 6 && strcmp(unit, "Pa") == 0;
+        assert_string_not_equal(name, "acceleration"); /* scratch means nothing between steps */
+    }
+    assert_int_equal(n_found, 1);
+    expect(session, mor_session_read_numbers(session, "soil", numbers, N_VALUES), MOR_OK, "");
+    for (int64_t i = 0; i < mor_session_n_particles(session, "soil"); ++i) {
+        assert_int_equal(numbers[i], i);
+    }
+    mor_session_free(&session);
+}
+
+static void a_saved_state_goes_on_as_if_never_saved(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *first = load(folder);
+    mor_session *second = load(folder);
+    make_ready(first);
+    expect(first, mor_session_step_to(first, 0.03), MOR_OK, "");
+    run_folder_file(folder, path, "kept/state");
+    expect(first, mor_session_save(first, path), MOR_OK, "");
+    expect(first, mor_session_save(first, path), MOR_OK, "");
+    expect(first, mor_session_step_to(first, 0.06), MOR_OK, "");
+    expect(second, mor_session_build(second), MOR_OK, "");
+    expect(second, mor_session_resume(second, "/nowhere"), MOR_ERROR_IO, "no checkpoint in '/nowhere'");
+    expect(second, mor_session_resume(second, path), MOR_OK, "");
+    assert_true(mor_session_time(second) == mor_session_time(second));
+    expect(second, mor_session_step_to(second, 0.06), MOR_OK, "");
+    assert_true(mor_session_state_hash(first) == mor_session_state_hash(second));
+    expect(second, mor_session_override(second, "spacing=20 mm"), MOR_OK, "");
+    char case_path[MOR_PATH_BYTES];
+    expect(second, mor_session_load_file(second, run_folder_file(folder, case_path, "case.cfg")), MOR_OK, "");
+    expect(second, mor_session_build(second), MOR_OK, "");
+    expect(second, mor_session_resume(second, path), MOR_ERROR_CONFIG, "spacing");
+    mor_session_free(&first);
+    mor_session_free(&second);
+}
+
+static void two_sessions_do_not_know_of_each_other(void **state)
+{
+    run_folder *folder = *state;
+    mor_session *alone = load(folder);
+    mor_session *first = load(folder);
+    mor_session *second = load(folder);
+    make_ready(alone);
+    make_ready(first);
+    make_ready(second);
+    expect(alone, mor_session_step_to(alone, 0.02), MOR_OK, "");
+    expect(second, mor_session_set_threads(second, 2), MOR_OK, "");
+    for (int k = 1; k <= 6; ++k) { /* in turn, by the steps that snapshots cut */
+        expect(first, mor_session_step_to(first, 0.01 * (k < 2 ? k : 2)), MOR_OK, "");
+        expect(second, mor_session_step_to(second, 0.01 * k), MOR_OK, "");
+    }
+    assert_true(mor_session_state_hash(first) == mor_session_state_hash(alone));
+    assert_true(mor_session_time(second) == 0.06);
+    expect(second, mor_session_step(second), MOR_ERROR_ARGUMENT, "is reached");
+    assert_string_equal(mor_session_message(first), "");
+    mor_session_free(&alone);
+    mor_session_free(&first);
+    mor_session_free(&second);
+}
+
+static void a_case_in_memory_is_as_good_as_a_file(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    mor_session *first = load(folder);
+    mor_session *second = NULL;
+    char *text = (char *)run_folder_load(run_folder_file(folder, path, "case.cfg"), &n_bytes);
+    assert_int_equal(mor_session_new(&second), MOR_OK);
+    expect(second, mor_session_load_text(second, "heap", text), MOR_OK, "");
+    free(text);
+    make_ready(first);
+    make_ready(second);
+    expect(first, mor_session_step(first), MOR_OK, "");
+    expect(second, mor_session_step(second), MOR_OK, "");
+    assert_true(mor_session_state_hash(first) == mor_session_state_hash(second));
+    mor_session_free(&first);
+    mor_session_free(&second);
+}
+
+/* ---- Laws, stopping, streams ------------------------------------------------------------------------------------- */
+
+static void a_law_of_ones_own_gives_the_bits_of_the_built_in_one(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_material law = *law_named("drucker_prager");
+    mor_session *first = load(folder);
+    mor_session *second = load(folder);
+    law.name = "my_law";
+    expect(second, mor_session_override(second, "soil[0].material.model=my_law"), MOR_OK, "");
+    run_folder_file(folder, path, "case.cfg");
+    expect(second, mor_session_load_file(second, path), MOR_ERROR_CONFIG, "my_law");
+    expect(second, mor_session_add_material(second, &law), MOR_OK, "");
+    expect(second, mor_session_load_file(second, path), MOR_OK, "");
+    make_ready(first);
+    make_ready(second);
+    expect(first, mor_session_step_to(first, 0.005), MOR_OK, "");
+    expect(second, mor_session_step_to(second, 0.005), MOR_OK, "");
+    assert_true(mor_session_state_hash(first) == mor_session_state_hash(second));
+    mor_session_free(&first);
+    mor_session_free(&second);
+}
+
+static void a_requested_stop_ends_stepping_early(void **state)
+{
+    mor_session *session = load(*state);
+    make_ready(session);
+    mor_session_request_stop(session);
+    assert_true(mor_session_is_stopping(session));
+    expect(session, mor_session_step_to(session, 0.06), MOR_OK, "");
+    assert_true(mor_session_time(session) == 0.0);
+    mor_session_clear_stop(session);
+    expect(session, mor_session_step_to(session, 0.001), MOR_OK, "");
+    assert_true(mor_session_n_steps(session) > 0);
+    assert_int_equal(mor_session_find_phase(session), MOR_SESSION_IDLE);
+    mor_session_free(&session);
+}
+
+static void count_line(void *user, mor_log_level level, const char *text)
+{
+    int *n = user;
+    *n += level >= MOR_LOG_INFO && text[0] != '\0';
+}
+
+/* Standard output and error go into files while all that prints is called. */
+static void nothing_is_printed(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes[2];
+    const int kept[2] = {dup(STDOUT_FILENO), dup(STDERR_FILENO)};
+    int n_logged = 0;
+    mor_session_outcome outcome = MOR_SESSION_FINISHED;
+    mor_session *session = load(folder);
+    fflush(stdout);
+    program_redirect(run_folder_file(folder, path, "out.txt"), STDOUT_FILENO);
+    program_redirect(run_folder_file(folder, path, "err.txt"), STDERR_FILENO);
+    mor_session_set_log(session, count_line, &n_logged);
+    mor_status worst = mor_session_run(session, run_folder_file(folder, path, "run"), false, 0.01, &outcome);
+    for (int k = 0; mor_list_name(k) != NULL && worst == MOR_OK; ++k) {
+        worst = mor_session_print_list(session, mor_list_name(k));
+    }
+    const mor_status refused = mor_session_load_file(session, "/nowhere");
+    fflush(stdout);
+    dup2(kept[0], STDOUT_FILENO);
+    dup2(kept[1], STDERR_FILENO);
+    assert_int_equal(worst, MOR_OK);
+    assert_int_equal(outcome, MOR_SESSION_STOPPED);
+    assert_int_equal(refused, MOR_ERROR_CONFIG);
+    free(run_folder_load(run_folder_file(folder, path, "out.txt"), &n_bytes[0]));
+    free(run_folder_load(run_folder_file(folder, path, "err.txt"), &n_bytes[1]));
+    assert_int_equal(n_bytes[0] + n_bytes[1], 0);
+    assert_true(n_logged > 0);
+    mor_session_free(&session);
+    close(kept[0]);
+    close(kept[1]);
+}
+
+static void nothing_is_left_in_memory(void **state)
+{
+    mor_session *session = load(*state);
+    mor_session_clear_case(session);
+    const size_t n_bytes = session->context.memory_bytes;
+    char path[MOR_PATH_BYTES];
+    expect(session, mor_session_load_file(session, run_folder_file(*state, path, "case.cfg")), MOR_OK, "");
+    make_ready(session);
+    expect(session, mor_session_step(session), MOR_OK, "");
+    expect(session, mor_session_save(session, run_folder_file(*state, path, "kept")), MOR_OK, "");
+    mor_session_clear_case(session);
+    assert_int_equal(session->context.memory_bytes, n_bytes);
+    mor_session_free(&session);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {TEST(a_bad_file_is_told_by_name),
+                                       TEST(a_bad_override_is_found_by_loading),
+                                       TEST(what_comes_too_early_or_too_late_is_refused),
+                                       TEST(an_unknown_name_is_told_with_those_there_are),
+                                       TEST(an_array_too_small_is_left_alone),
+                                       TEST(no_step_goes_past_the_end),
+                                       TEST(stepping_gives_the_bits_of_a_run),
+                                       TEST(fields_are_described_and_particles_numbered),
+                                       TEST(a_saved_state_goes_on_as_if_never_saved),
+                                       TEST(two_sessions_do_not_know_of_each_other),
+                                       TEST(a_case_in_memory_is_as_good_as_a_file),
+                                       TEST(a_law_of_ones_own_gives_the_bits_of_the_built_in_one),
+                                       TEST(a_requested_stop_ends_stepping_early),
+                                       TEST(nothing_is_printed),
+                                       TEST(nothing_is_left_in_memory)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
