@@ -107,8 +107,10 @@ bool mor_state_has_field(const mor_set *set, int field)
 
 void mor_state_gather(const mor_state_array *array, void *packed)
 {
-    const size_t n_bytes = (size_t)array->n_columns * NUMBER;
-    for (int64_t row = 0; row < array->n_rows; ++row) {
+    const bool is_dense = array->stride == array->n_columns; /* then all rows are as one */
+    const int64_t n_rows = is_dense && array->n_rows > 1 ? 1 : array->n_rows;
+    const size_t n_bytes = (size_t)(is_dense ? array->n_rows * array->n_columns : array->n_columns) * NUMBER;
+    for (int64_t row = 0; row < n_rows; ++row) {
         memcpy((char *)packed + (size_t)row * n_bytes, (const char *)array->data + row * array->stride * NUMBER,
                n_bytes);
     }
@@ -116,8 +118,10 @@ void mor_state_gather(const mor_state_array *array, void *packed)
 
 void mor_state_scatter(const mor_state_array *array, const void *packed)
 {
-    const size_t n_bytes = (size_t)array->n_columns * NUMBER;
-    for (int64_t row = 0; row < array->n_rows; ++row) {
+    const bool is_dense = array->stride == array->n_columns; /* then all rows are as one */
+    const int64_t n_rows = is_dense && array->n_rows > 1 ? 1 : array->n_rows;
+    const size_t n_bytes = (size_t)(is_dense ? array->n_rows * array->n_columns : array->n_columns) * NUMBER;
+    for (int64_t row = 0; row < n_rows; ++row) {
         memcpy((char *)array->data + row * array->stride * NUMBER, (const char *)packed + (size_t)row * n_bytes,
                n_bytes);
     }
