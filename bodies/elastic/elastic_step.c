@@ -4,6 +4,7 @@
 #include "bodies/elastic/elastic_internal.h"
 
 #include "core/base/parallel.h"
+#include "core/material/checked.h"
 
 /* Particles of a chunk, with room for the vectors to read behind the last. */
 enum { CHUNK_PARTICLES = MOR_ELASTIC_CHUNK * MOR_CLUSTER };
@@ -108,6 +109,7 @@ static mor_status report_refusal(mor_context *context, const mor_elastic *elasti
     const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
     const double *f = mor_view_quote(view, elastic->field_gradient, i);
     const double determinant = mor_matrix_determinant(f);
+    MOR_TRY(context, mor_checked_report(context, elastic->material, group->set.name, step->time));
     const mor_status told =
         MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
                  "material '%s' gives no stress for " PARTICLE " at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu: its "

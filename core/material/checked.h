@@ -33,4 +33,17 @@ mor_status mor_checked_create(mor_context *context, mor_material_instance **inne
  *  Threads: after the parallel loop. */
 int mor_checked_fault(const mor_material_instance *instance, char *text, size_t text_bytes);
 
+/** Wraps the instance of a run that proves what it declares; leaves it as it is in other runs.
+ *  @param instance [in,out]  the address of one pointer; afterwards the instance to be used and destroyed
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_checked_wrap(mor_context *context, mor_material_instance **instance);
+
+/** Reports the first breach that an instance has seen.
+ *  @param set  [in]  zero-terminated name of the particles it worked on
+ *  @param time [in]  of the run, unit s
+ *  Returns: MOR_OK when there was none, also for an instance that is not wrapped; MOR_ERROR_PLUGIN naming the model,
+ *  the operation and the array. Threads: after the parallel loop. */
+mor_status mor_checked_report(mor_context *context, const mor_material_instance *instance, const char *set,
+                              double time);
+
 #endif

@@ -34,6 +34,7 @@ typedef struct mor_relation {
     int64_t n_occupied;   /* clusters with a list that is not empty */
     int32_t *occupied;    /* shape [n_clusters]; those clusters, ascending */
     uint64_t n_builds;    /* how often it was built */
+    uint64_t generation;  /* of the source set when it was built; whoever builds it sets this */
 } mor_relation;
 
 /** Returns the short list of a cluster, shape [near_counts[cluster]], with room for all of its list, which it follows.

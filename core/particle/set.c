@@ -11,6 +11,9 @@
 /* Room behind the last particle, so that vector code may read whole clusters. */
 enum { PADDING = 8 };
 
+/* Components and bytes of the widest field. */
+enum { COMPONENTS_MAX = 9, FIELD_BYTES_MAX = COMPONENTS_MAX * sizeof(double) };
+
 mor_status mor_set_init(mor_context *context, mor_set *set, const char *name, int64_t n_particles, uint64_t field_mask)
 {
     memset(set, 0, sizeof *set);
@@ -58,8 +61,8 @@ mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field
     MOR_CHECK(context, mor_set_find_field(set, info->name) < 0, MOR_ERROR_ARGUMENT,
               "field '%s' is already declared in set '%s'; rename the material's state variable", info->name,
               set->name);
-    MOR_CHECK(context, info->n_components >= 1 && info->n_components <= 9, MOR_ERROR_ARGUMENT,
-              "field '%s' has %d components; 1 to 9 are allowed", info->name, info->n_components);
+    MOR_CHECK(context, info->n_components >= 1 && info->n_components <= COMPONENTS_MAX, MOR_ERROR_ARGUMENT,
+              "field '%s' has %d components; 1 to %d are allowed", info->name, info->n_components, COMPONENTS_MAX);
     const int field = set->n_fields;
     MOR_TRY(context, MOR_NEW(context, &set->data[field], (set->n_particles + PADDING) * info->n_components,
                              "a material's state variable"));
@@ -92,28 +95,42 @@ int mor_set_find_field(const mor_set *set, const char *name)
     return -1;
 }
 
-void mor_set_permute(mor_set *set, const int32_t *order, double *scratch)
+/* Moves rows of n_bytes along the cycles of a permutation. A place that is done is marked by the complement of its
+ * entry; the second sweep takes the marks away. */
+static void permute_rows(void *rows, size_t n_bytes, int64_t n, int32_t *order)
+{
+    char *bytes = rows;
+    char kept[FIELD_BYTES_MAX];
+    for (int64_t start = 0; start < n; ++start) {
+        if (order[start] < 0) {
+            continue;
+        }
+        memcpy(kept, bytes + (size_t)start * n_bytes, n_bytes);
+        int64_t place = start;
+        int64_t from = order[place];
+        while (from != start) {
+            memcpy(bytes + (size_t)place * n_bytes, bytes + (size_t)from * n_bytes, n_bytes);
+            order[place] = ~order[place];
+            place = from;
+            from = order[place];
+        }
+        memcpy(bytes + (size_t)place * n_bytes, kept, n_bytes);
+        order[place] = ~order[place];
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        order[i] = ~order[i];
+    }
+}
+
+void mor_set_permute(mor_set *set, int32_t *order)
 {
     const int64_t n = set->n_particles;
     for (int field = 0; field < set->n_fields; ++field) {
-        double *data = set->data[field];
-        if (data == NULL || (set->fields[field].flags & MOR_FIELD_EVOLVES) == 0) {
-            continue;
+        if (set->data[field] != NULL && (set->fields[field].flags & MOR_FIELD_EVOLVES) != 0) {
+            permute_rows(set->data[field], (size_t)set->fields[field].n_components * sizeof(double), n, order);
         }
-        const int n_components = set->fields[field].n_components;
-        for (int64_t i = 0; i < n; ++i) {
-            const double *from = data + (int64_t)order[i] * n_components;
-            for (int a = 0; a < n_components; ++a) {
-                scratch[i * n_components + a] = from[a];
-            }
-        }
-        memcpy(data, scratch, (size_t)(n * n_components) * sizeof *data);
     }
-    int64_t *id_scratch = (int64_t *)scratch;
-    for (int64_t i = 0; i < n; ++i) {
-        id_scratch[i] = set->id[order[i]];
-    }
-    memcpy(set->id, id_scratch, (size_t)n * sizeof *set->id);
+    permute_rows(set->id, sizeof *set->id, n, order);
     set->generation += 1;
 }
 

@@ -57,10 +57,10 @@ mor_status mor_set_add_state(mor_context *context, mor_set *set, const mor_schem
 int mor_set_find_field(const mor_set *set, const char *name);
 
 /** Reorders the particles: new place i holds what was at order[i]. Scratch fields are left as they are.
- *  @param order   [in]      shape [n_particles]; a permutation of 0 .. n_particles - 1
- *  @param scratch [in,out]  shape [9 * n_particles]; overwritten; holds values of every field in turn, any unit
+ *  @param order [in,out]  shape [n_particles]; a permutation of 0 .. n_particles - 1; marked meanwhile, and the same
+ *                         afterwards
  *  Gives: generation + 1. Cost: O(n), allocates nothing. */
-void mor_set_permute(mor_set *set, const int32_t *order, double *scratch);
+void mor_set_permute(mor_set *set, int32_t *order);
 
 /** Removes particles; the others keep their order and their ids. All fields follow, scratch included.
  *  @param removed   [in]      shape [n_removed]; indices of particles, rising

@@ -5,68 +5,121 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/material/checked.h"
 #include "core/particle/kernel.h"
 
 #include <string.h>
 
 #define BIT(name) MOR_BIT(MOR_FIELD_##name)
-#define RECORDS MOR_BIT(MOR_RESOURCE_RECORDS)
-#define LISTS MOR_BIT(MOR_RESOURCE_LISTS)
-#define WALL_SUMS MOR_BIT(MOR_RESOURCE_WALL_SUMS)
-#define SHORT_LISTS MOR_BIT(MOR_RESOURCE_SHORT_LISTS)
+#define SHARED(name) MOR_BIT(MOR_RESOURCE_##name)
 
 /* Diameters of the sphere and of the disc whose volume is one: (6 / pi)^(1/3) and 2 / sqrt(pi). */
 #define SPHERE_DIAMETER 1.2407009817988
 #define DISC_DIAMETER 1.1283791670955126
 
 /* One step, Zhang et al. (2024) eqs. 54-56: positions to the middle, forces there, velocity, positions, stress. */
+static bool has_artificial_stress(const void *owner)
+{
+    return ((const mor_soil *)owner)->settings.scheme.artificial_stress;
+}
+
+static bool has_angular_momentum(const void *owner)
+{
+    return ((const mor_soil *)owner)->settings.scheme.angular_momentum;
+}
+
+static bool has_correction(const void *owner)
+{
+    return ((const mor_soil *)owner)->settings.scheme.gradient_correction;
+}
+
+static bool has_strain_rate(const void *owner)
+{
+    return ((const mor_soil *)owner)->set.data[MOR_FIELD_STRAIN_RATE] != NULL;
+}
+
+static bool has_regularization(const void *owner)
+{
+    return ((const mor_soil *)owner)->regularization != NULL;
+}
+
+static bool has_audit(const void *owner)
+{
+    return ((const mor_soil *)owner)->energy != NULL;
+}
+
 static const mor_stage soil_stages[] = {
-    {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
+    {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
+     BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDARIES) | SHARED(BOUNDS),
      "positions and densities to the middle of the step", NULL},
-    {"neighbors", mor_soil_find_neighbors, BIT(POSITION), LISTS, 0,
-     "sort at an interval; lists when the skin is used up", NULL},
-    {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), RECORDS, 0,
+    {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES), SHARED(LISTS),
+     SHARED(ORDER) | SHARED(BOUNDS), "sort at an interval; lists when the skin is used up", NULL},
+    {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), SHARED(RECORDS), 0,
      "one record per particle for the pair loops", NULL},
-    {"wall sums", mor_soil_sum_walls, RECORDS | LISTS, WALL_SUMS, 0, "kernel sums over walls and rocks in reach", NULL},
-    {"density", mor_soil_reinitialize_density, RECORDS | LISTS | WALL_SUMS | BIT(MASS), 0,
-     BIT(DENSITY) | BIT(DENSITY_RATE) | RECORDS, "density by summation at an interval", NULL},
+    {"wall sums", mor_soil_sum_walls, SHARED(RECORDS) | SHARED(LISTS) | SHARED(BOUNDARIES), SHARED(WALL_SUMS), 0,
+     "kernel sums over walls and rocks in reach", NULL},
+    {"density", mor_soil_reinitialize_density, SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(MASS), 0,
+     BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
-     "against tensile instability, when switched on", NULL},
-    {"momentum", mor_soil_sum_momentum, RECORDS | LISTS | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
-     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHORT_LISTS, 0, "acceleration and stress diffusion by the neighbors",
-     NULL},
-    {"angular momentum", mor_soil_keep_angular_momentum, RECORDS | LISTS | SHORT_LISTS, 0, BIT(ACCELERATION),
-     "takes out what turns the soil by itself, when switched on", NULL},
-    {"wall push", mor_soil_sum_boundary_forces, RECORDS | SHORT_LISTS | WALL_SUMS, 0, BIT(ACCELERATION),
-     "acceleration by walls and rocks, and the forces on them", NULL},
-    {"kick", mor_soil_kick, BIT(ACCELERATION), 0, BIT(VELOCITY) | RECORDS, "velocities to the end of the step", NULL},
-    {"velocity gradient", mor_soil_sum_gradient, RECORDS | SHORT_LISTS, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0,
-     "velocity gradient and density rate by the neighbors", NULL},
-    {"wall drag", mor_soil_sum_boundary_gradient, RECORDS | WALL_SUMS, 0, BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
-     "the part of walls and rocks in both", NULL},
+     "against tensile instability, when switched on", has_artificial_stress},
+    {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
+     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS), 0,
+     "acceleration and stress diffusion by the neighbors", NULL},
+    {"angular momentum", mor_soil_keep_angular_momentum, SHARED(RECORDS) | SHARED(LISTS) | SHARED(SHORT_LISTS),
+     SHARED(MOMENTS) | SHARED(SPIN_STRESS), BIT(ACCELERATION),
+     "takes out what turns the soil by itself, when switched on", has_angular_momentum},
+    {"wall push", mor_soil_sum_boundary_forces,
+     SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES), SHARED(WALL_FORCES),
+     BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
+    {"kick", mor_soil_kick, 0, 0,
+     BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
+     "velocities to the end of the step", NULL},
+    {"velocity gradient", mor_soil_sum_gradient, SHARED(RECORDS) | SHARED(SHORT_LISTS),
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0, "velocity gradient and density rate by the neighbors", NULL},
+    {"wall drag", mor_soil_sum_boundary_gradient, SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES), 0,
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(WALL_SUMS), "the part of walls and rocks in both", NULL},
     {"energy of forces", mor_soil_audit_forces,
-     RECORDS | LISTS | WALL_SUMS | BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) |
-         BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS),
-     0, 0, "what forces take beside what stress gets, at an interval, when a probe asks", NULL},
-    {"gradient correction", mor_soil_correct_gradient, RECORDS | LISTS | WALL_SUMS, 0,
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on", NULL},
-    {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), 0, BIT(STRAIN_RATE),
-     "kept for the next step's reconstruction, when switched on", NULL},
-    {"regularization", mor_soil_regularize, RECORDS | SHORT_LISTS | BIT(VELOCITY_GRADIENT), 0,
-     BIT(POSITION) | BIT(VELOCITY), "XSPH and shifting, when switched on", NULL},
-    {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0, BIT(POSITION) | BIT(DENSITY),
-     "positions and densities to the end of the step", NULL},
-    {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0, BIT(STRESS),
-     "the material's update", NULL},
+     SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(SPIN_STRESS) | BIT(MASS) |
+         BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(STRAIN_RATE) |
+         BIT(ARTIFICIAL_STRESS),
+     0, SHARED(ENERGY_SUMS) | SHARED(RECORDS) | SHARED(SHORT_LISTS),
+     "what forces take beside what stress gets, at an interval, when a probe asks", has_audit},
+    {"gradient correction", mor_soil_correct_gradient,
+     SHARED(RECORDS) | SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(DENSITY), SHARED(MOMENTS),
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "exact for linear fields, when switched on", has_correction},
+    {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), BIT(STRAIN_RATE), 0,
+     "kept for the next step's reconstruction, when switched on", has_strain_rate},
+    {"regularization", mor_soil_regularize, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(VELOCITY_GRADIENT),
+     SHARED(REGULARIZATION), BIT(POSITION) | BIT(VELOCITY) | SHARED(BOUNDS), "XSPH and shifting, when switched on",
+     has_regularization},
+    {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
+     BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDS), "positions and densities to the end of the step", NULL},
+    {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
+     BIT(STRESS) | SHARED(STATE), "the material's update", NULL},
     {"energy of stress", mor_soil_audit_stress,
-     RECORDS | BIT(VELOCITY) | BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS), 0, 0,
-     "what the stress update takes, likewise", NULL},
-    {"outflow", mor_soil_remove_outflow, BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS), 0, 0,
+     SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
+         BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
+     0, SHARED(ENERGY_SUMS), "what the stress update takes, likewise", has_audit},
+    {"outflow", mor_soil_remove_outflow,
+     BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS) | SHARED(STATE), 0, SHARED(ORDER),
      "takes out what has left the domain, when that does not stop the run", NULL},
 };
 
 static const uint64_t evolving_fields = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
-                                        BIT(STRESS) | BIT(STRAIN_RATE) | MOR_BIT(MOR_RESOURCE_STATE);
+                                        BIT(STRESS) | BIT(STRAIN_RATE) | SHARED(STATE) | SHARED(BOUNDARIES) |
+                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER);
+
+/* Arrays of numbers that stages hand on, for the checks of a run that proves its declarations. Those of walls are not
+ * among them: they make room anew with the lists, and have lanes without particles. */
+static void visit_shared(void *owner, mor_shared_visit visit, void *job)
+{
+    mor_soil *soil = owner;
+    const int64_t n = soil->set.n_particles;
+    visit(job, MOR_RESOURCE_RECORDS, soil->records, n * MOR_RECORD_SIZE);
+    visit(job, MOR_RESOURCE_MOMENTS, soil->moments, 6 * n);
+    visit(job, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress, 3 * n);
+    visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
+}
 
 /* Sums over the lattice the soil starts from: of V W, and of V (r_j - r_i) (x) grad_i W, one diagonal entry. */
 static void sum_lattice(const mor_soil_settings *settings, double smoothing_length, double *value, double *moment)
@@ -167,8 +220,10 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.angular_momentum) {
         MOR_TRY(context, MOR_NEW(context, &soil->spin_stress, padded * 3, "skew stresses"));
     }
-    MOR_TRY(context, MOR_NEW(context, &soil->block_values, n_particles / 128 + 2, "reduction blocks"));
-    return MOR_OK;
+    if (mor_soil_has_density_sums(soil)) {
+        MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
+    }
+    return mor_reduce_room_init(context, &soil->room, n_particles / MOR_SOIL_BATCH + 1, MOR_SOIL_BLOCK_VALUES);
 }
 
 mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name, const mor_soil_settings *settings,
@@ -217,7 +272,8 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     mor_soil_clear_energy(context, soil);
     mor_relation_clear(context, &soil->inner);
     mor_tree_clear(context, &soil->tree);
-    MOR_FREE(context, &soil->block_values);
+    mor_reduce_room_clear(context, &soil->room);
+    MOR_FREE(context, &soil->density_sums);
     MOR_FREE(context, &soil->moments);
     MOR_FREE(context, &soil->spin_stress);
     MOR_FREE(context, &soil->regularization);
@@ -283,8 +339,10 @@ static mor_status limit_by_material(mor_context *context, const mor_soil *soil, 
                                  .density = soil->set.data[MOR_FIELD_DENSITY] + first,
                                  .stress_in = soil->set.data[MOR_FIELD_STRESS] + 6 * first,
                                  .state_in = state};
-        MOR_CHECK(context, soil->material->operations.max_step(soil->material, &batch, steps) == MOR_OK,
-                  MOR_ERROR_NUMERIC, "material '%s' could not tell its longest step", soil->material->material->name);
+        const mor_status status = soil->material->operations.max_step(soil->material, &batch, steps);
+        MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
+        MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' could not tell its longest step",
+                  soil->material->material->name);
         for (int64_t i = 0; i < batch.n; ++i) {
             if (!(steps[i] >= *step_length)) {
                 *step_length = steps[i];
@@ -346,7 +404,8 @@ void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
                              .n_before = n_stages,
                              .n_particles = soil->set.n_particles,
                              .is_leader = true,
-                             .set = &soil->set};
+                             .set = &soil->set,
+                             .visit_shared = visit_shared};
     /* Forces on walls and rocks are known once the walls have pushed. */
     for (int k = 0; k < n_stages; ++k) {
         stepper->n_before = soil_stages[k].run == mor_soil_sum_boundary_forces ? k + 1 : stepper->n_before;

@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_SPH_SOIL_H
 #define MOR_CORE_SPH_SOIL_H
 
+#include "core/base/reduce.h"
 #include "core/geometry/domain.h"
 #include "core/material/kit/material.h"
 #include "core/particle/set.h"
@@ -54,7 +55,8 @@ typedef struct mor_soil {
     double *regularization;  /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;         /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
     double *spin_stress;     /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
-    double *block_values;    /* shape [n_particles / 128 + 2]; partial results of reductions, any unit */
+    double *density_sums;    /* shape [n_particles]; densities by summation, kg/m3; or NULL */
+    mor_reduce_room room;    /* of reductions over particles */
     int32_t *order;          /* shape [n_particles]; scratch of the sort */
     mor_soil_energy *energy; /* the audit; NULL: none */
     mor_tree tree;

@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/base/reduce.h"
 
 #include <string.h>
 
@@ -21,7 +22,7 @@ static mor_status prepare_contact(mor_context *context, mor_soil_contact *contac
     MOR_TRY(context, mor_relation_init(context, &contact->relation, MOR_CONFIGURATION_CURRENT, n_soil_clusters));
     MOR_TRY(context, MOR_NEW(context, &contact->first_slot, n_soil_clusters + 1, "slots of soil clusters"));
     MOR_TRY(context, MOR_NEW(context, &contact->first_of_patch, contact->boundary->n_patches + 1, "slots of patches"));
-    MOR_TRY(context, MOR_NEW(context, &contact->block_values, mor_block_count(n) + 1, "blocks of boundary points"));
+    MOR_TRY(context, MOR_NEW(context, &contact->farthest, mor_block_count(n) + 1, "blocks of boundary points"));
     if (!contact->is_wall || contact->base != NULL) {
         MOR_TRY(context, MOR_NEW(context, &contact->built, 3 * n, "boundary points of the lists"));
     }
@@ -154,7 +155,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
     }
     MOR_FREE(context, &contact->base);
     MOR_FREE(context, &contact->built);
-    MOR_FREE(context, &contact->block_values);
+    MOR_FREE(context, &contact->farthest);
     MOR_FREE(context, &contact->first_slot);
     MOR_FREE(context, &contact->first_of_patch);
     mor_tree_clear(context, &contact->tree);
@@ -176,29 +177,28 @@ double mor_soil_contact_speed(const mor_soil_contact *contact)
     return contact->is_wall ? mor_vector_length(contact->velocity) : contact->boundary->largest_speed;
 }
 
+static void find_farthest(void *job, int64_t first, int64_t last, double *values)
+{
+    const mor_soil_contact *contact = job;
+    const double *records = contact->boundary->records;
+    for (int64_t i = first; i < last; ++i) {
+        double translation[3];
+        for (int a = 0; a < 3; ++a) {
+            translation[a] = records[RECORD * i + a] - contact->built[3 * i + a];
+        }
+        values[0] = mor_larger(values[0], mor_vector_dot(translation, translation));
+    }
+}
+
 double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact)
 {
+    const mor_blocks blocks = {.n_items = contact->n_points, .block_items = MOR_BLOCK, .grain = 1};
+    double farthest = 0.0;
     if (contact->built == NULL) {
         return 0.0;
     }
-    const double *records = contact->boundary->records;
-    const int64_t n = contact->n_points;
-    MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
-        double farthest = 0.0;
-        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
-            double translation[3];
-            for (int a = 0; a < 3; ++a) {
-                translation[a] = records[RECORD * i + a] - contact->built[3 * i + a];
-            }
-            const double distance2 = mor_vector_dot(translation, translation);
-            farthest = farthest >= distance2 ? farthest : distance2; /* not a number wins */
-        }
-        contact->block_values[block] = farthest;
-    }
-    double farthest = 0.0;
-    for (int64_t block = 0; block < mor_block_count(n); ++block) {
-        farthest = farthest >= contact->block_values[block] ? farthest : contact->block_values[block];
-    }
+    mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 1, find_farthest, contact, contact->farthest,
+               &farthest);
     return sqrt(farthest);
 }
 

@@ -50,7 +50,7 @@ typedef struct mor_soil_contact {
     bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
     double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
     double *built;          /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
-    double *block_values;   /* shape [n_points / 1024 + 1]; partial results of reductions, any unit */
+    double *farthest;       /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     mor_tree tree;
     mor_relation relation;   /* soil -> boundary */
     mor_pair_slot *slots;    /* shape [capacity]; by rising cluster, then patch */
@@ -67,7 +67,7 @@ typedef struct mor_soil_contact {
                                * NULL with uniform stress */
     double *given;           /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
     double *repulsion;       /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
-    double *barrier_steps;   /* shape [capacity]; longest step by the barrier in each slot, s; NULL without */
+    double *barrier_steps;   /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
     int64_t capacity;        /* slots that the arrays above have room for */
     int dimension;           /* 2 or 3 */
     mor_wall_stress stress;

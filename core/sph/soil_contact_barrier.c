@@ -4,7 +4,7 @@
 #include "core/sph/soil_contact_internal.h"
 
 #include "core/base/math.h"
-#include "core/base/parallel.h"
+#include "core/base/reduce.h"
 
 #include <float.h>
 #include <string.h>
@@ -103,24 +103,35 @@ static double repel_particle(const mor_soil_contact *contact, const mor_pair_slo
     return by_slope < longest ? by_slope : longest;
 }
 
+/* What the barrier reads and writes. */
+typedef struct repulsion {
+    const mor_soil_contact *contact;
+    const double *records;
+    int64_t n_particles;
+} repulsion;
+
+/* The barrier on the particles of some slots, and the longest step that they allow. */
+static void repel_slots(void *job, int64_t first_slot, int64_t last_slot, double *longest)
+{
+    const repulsion *it = job;
+    for (int64_t place = first_slot; place < last_slot; ++place) {
+        const mor_pair_slot *slot = &it->contact->slots[place];
+        const double *first = it->records + (int64_t)slot->cluster * MOR_CLUSTER * MOR_RECORD_SIZE;
+        for (int64_t k = 0; k < mor_soil_contact_lanes(slot, it->n_particles); ++k) {
+            const double step = repel_particle(it->contact, slot, first + k * MOR_RECORD_SIZE,
+                                               it->contact->repulsion + (place * MOR_CLUSTER + k) * 3);
+            longest[0] = step < longest[0] ? step : longest[0];
+        }
+    }
+}
+
 void mor_soil_contact_repel(mor_context *context, mor_soil_contact *contact, const double *records, int64_t n_particles)
 {
-    MOR_PARALLEL_FOR (context, place, contact->n_slots, MOR_CONTACT_GRAIN) {
-        const mor_pair_slot *slot = &contact->slots[place];
-        const double *first = records + (int64_t)slot->cluster * MOR_CLUSTER * MOR_RECORD_SIZE;
-        double longest = INFINITY;
-        for (int64_t k = 0; k < mor_soil_contact_lanes(slot, n_particles); ++k) {
-            const double step = repel_particle(contact, slot, first + k * MOR_RECORD_SIZE,
-                                               contact->repulsion + (place * MOR_CLUSTER + k) * 3);
-            longest = step < longest ? step : longest;
-        }
-        contact->barrier_steps[place] = longest;
-    }
+    const mor_blocks blocks = {.n_items = contact->n_slots, .block_items = MOR_CONTACT_GRAIN, .grain = 1};
+    repulsion job = {contact, records, n_particles};
     contact->longest_step = INFINITY;
-    for (int64_t place = 0; place < contact->n_slots; ++place) {
-        const double step = contact->barrier_steps[place];
-        contact->longest_step = step < contact->longest_step ? step : contact->longest_step;
-    }
+    mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SMALLEST, 1, repel_slots, &job, contact->barrier_steps,
+               &contact->longest_step);
 }
 
 void mor_soil_contact_repel_points(const mor_soil_contact *contact, const mor_pair_slot *slot, const double *records,

@@ -7,12 +7,13 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/material/checked.h"
 #include "core/sph/soil_internal.h"
 
 #include <string.h>
 
 /* Particles handed to a material at once; a block is a whole number of them. */
-enum { BATCH = 128, PARTS = MOR_SOIL_ENERGY_PARTS };
+enum { BATCH = MOR_SOIL_BATCH, PARTS = MOR_SOIL_ENERGY_PARTS };
 
 /* By how much one line between samples may be wrong, over the energy turned over so far. */
 #define LARGEST_ERROR 1.0e-3
@@ -63,20 +64,11 @@ bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step)
     return soil->energy != NULL && (int64_t)step->number >= soil->energy->next;
 }
 
-void mor_soil_energy_add(mor_context *context, mor_soil *soil, mor_soil_energy_block block, const mor_step *step)
+void mor_soil_energy_add(mor_context *context, mor_soil_powers *job, mor_reduce_block block)
 {
-    mor_soil_energy *energy = soil->energy;
-    const int64_t n = soil->set.n_particles;
-    const int64_t n_blocks = mor_block_count(n);
-    memset(energy->block_sums, 0, (size_t)(n_blocks * PARTS) * sizeof *energy->block_sums);
-    MOR_PARALLEL_FOR (context, k, n_blocks, 1) {
-        block(soil, step, k * MOR_BLOCK, mor_block_end(k, n), energy->block_sums + k * PARTS);
-    }
-    for (int64_t k = 0; k < n_blocks; ++k) {
-        for (int part = 0; part < PARTS; ++part) {
-            energy->fresh[part] += energy->block_sums[k * PARTS + part];
-        }
-    }
+    mor_soil_energy *energy = job->soil->energy;
+    const mor_blocks blocks = mor_soil_blocks(job->soil, MOR_BLOCK, 1);
+    mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SUM, PARTS, block, job, energy->block_sums, energy->fresh);
 }
 
 double mor_soil_stress_power(const double *stress, const double *gradient)
@@ -94,15 +86,14 @@ static double double_dot(const double *a, const double *b)
 }
 
 /* Stored energy of n stresses by the material, J/m3; NaN when it cannot tell. */
-static void find_stored(const mor_soil *soil, int64_t first, int64_t n, const double *stress, double *stored)
+static void find_stored(const mor_soil_powers *job, int64_t first, int64_t n, const double *stress, double *stored)
 {
+    const mor_soil *soil = job->soil;
     const double *state[MOR_MATERIAL_STATES_MAX];
     for (int k = 0; k < soil->material->n_state; ++k) {
-        const int field = soil->state_fields[k];
-        state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
+        state[k] = job->state[k] + first * soil->set.fields[soil->state_fields[k]].n_components;
     }
-    const mor_batch batch = {
-        .n = n, .density = soil->set.data[MOR_FIELD_DENSITY] + first, .stress_in = stress, .state_in = state};
+    const mor_batch batch = {.n = n, .density = job->density + first, .stress_in = stress, .state_in = state};
     const bool is_known = soil->material->operations.energy(soil->material, &batch, stored) == MOR_OK;
     for (int64_t i = 0; i < n && !is_known; ++i) {
         stored[i] = NAN;
@@ -114,29 +105,29 @@ static void find_stored(const mor_soil *soil, int64_t first, int64_t n, const do
 enum { START, END, LOW, HIGH, N_STRESSES };
 
 /* (E4), (E5): what a stress between start and end of the step does over its strain, less what is stored of it. */
-static void find_stress_batch(const mor_soil *soil, double length, int64_t first, int64_t n, double *sums)
+static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t n, double *sums)
 {
-    double *const *data = soil->set.data;
+    const double length = job->step->length;
     double stress[N_STRESSES][BATCH * 6];
     double stored[N_STRESSES][BATCH];
     double middle[BATCH * 6];
     for (int64_t k = 0; k < 6 * n; ++k) {
-        const double *record = soil->records + (first + k / 6) * MOR_RECORD_SIZE;
-        const double *diffusion = data[MOR_FIELD_STRESS_DIFFUSION];
+        const double *record = job->records + (first + k / 6) * MOR_RECORD_SIZE;
+        const double *diffusion = job->stress_diffusion;
         const double half = diffusion != NULL ? 0.5 * length * diffusion[6 * first + k] : 0.0;
         stress[START][k] = record[MOR_RECORD_STRESS + k % 6];
-        stress[END][k] = data[MOR_FIELD_STRESS][6 * first + k];
+        stress[END][k] = job->stress[6 * first + k];
         middle[k] = 0.5 * (stress[START][k] + stress[END][k]);
         stress[LOW][k] = middle[k] - half;
         stress[HIGH][k] = middle[k] + half;
     }
     for (int s = 0; s < N_STRESSES; ++s) {
-        find_stored(soil, first, n, stress[s], stored[s]);
+        find_stored(job, first, n, stress[s], stored[s]);
     }
     for (int64_t i = 0; i < n; ++i) {
-        const double volume = soil->records[(first + i) * MOR_RECORD_SIZE + MOR_RECORD_VOLUME];
-        const double work = mor_soil_stress_power(middle + 6 * i, data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * (first + i));
-        const double *strains = soil->energy->strains + 12 * (first + i);
+        const double volume = job->records[(first + i) * MOR_RECORD_SIZE + MOR_RECORD_VOLUME];
+        const double work = mor_soil_stress_power(middle + 6 * i, job->velocity_gradient + 9 * (first + i));
+        const double *strains = job->soil->energy->strains + 12 * (first + i);
         const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
         sums[MOR_SOIL_ENERGY_PLASTIC] += volume * (work + spread - (stored[END][i] - stored[START][i]) / length);
         sums[MOR_SOIL_ENERGY_DIFFUSION] -= volume * spread;
@@ -146,32 +137,35 @@ static void find_stress_batch(const mor_soil *soil, double length, int64_t first
 }
 
 /* What XSPH and shifting moved without a force: their work against gravity, and the change of velocity. */
-static double find_regularization(const mor_soil *soil, double length, int64_t i)
+static double find_regularization(const mor_soil_powers *job, int64_t i)
 {
-    const double *before = soil->records + i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY;
-    const double *after = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+    const mor_soil *soil = job->soil;
+    const double length = job->step->length;
+    const double *before = job->records + i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY;
+    const double *after = job->velocity + 3 * i;
     const double *sums = soil->regularization + 6 * i;
     const double shifting = soil->settings.scheme.shifting ? mor_vector_length(before) : 0.0;
     double gained = 0.5 * (mor_vector_dot(after, after) - mor_vector_dot(before, before)) / length;
     for (int a = 0; a < 3; ++a) {
         gained -= soil->settings.gravity[a] * (soil->settings.scheme.xsph * sums[a] + shifting * sums[3 + a]);
     }
-    return -soil->set.data[MOR_FIELD_MASS][i] * gained;
+    return -job->mass[i] * gained;
 }
 
-static void find_stress_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+static void find_stress_block(void *powers, int64_t first, int64_t last, double *sums)
 {
+    const mor_soil_powers *job = powers;
     for (int64_t start = first; start < last; start += BATCH) {
-        find_stress_batch(soil, step->length, start, last - start < BATCH ? last - start : BATCH, sums);
+        find_stress_batch(job, start, last - start < BATCH ? last - start : BATCH, sums);
     }
-    for (int64_t i = first; i < last && soil->regularization != NULL; ++i) {
-        sums[MOR_SOIL_ENERGY_REGULARIZATION] += find_regularization(soil, step->length, i);
+    for (int64_t i = first; i < last && job->soil->regularization != NULL; ++i) {
+        sums[MOR_SOIL_ENERGY_REGULARIZATION] += find_regularization(job, i);
     }
-    for (int64_t i = first; i < last && soil->settings.scheme.gradient_correction; ++i) {
-        const double *record = soil->records + i * MOR_RECORD_SIZE;
+    for (int64_t i = first; i < last && job->soil->settings.scheme.gradient_correction; ++i) {
+        const double *record = job->records + i * MOR_RECORD_SIZE;
         sums[MOR_SOIL_ENERGY_CORRECTION] -=
             record[MOR_RECORD_VOLUME] *
-            mor_soil_stress_power(record + MOR_RECORD_STRESS, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i);
+            mor_soil_stress_power(record + MOR_RECORD_STRESS, job->velocity_gradient + 9 * i);
     }
 }
 
@@ -215,12 +209,25 @@ mor_status mor_soil_list_energy(mor_context *context, mor_soil *soil, mor_state_
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
-    if (mor_soil_energy_is_due(soil, step)) {
-        mor_soil_energy_add(context, soil, find_stress_block, step);
-        integrate(soil->energy, step);
-    } else if (soil->energy != NULL) {
-        soil->energy->span += step->length;
+    mor_soil_energy *energy = mor_view_write_shared(view, MOR_RESOURCE_ENERGY_SUMS, soil->energy);
+    if (!mor_soil_energy_is_due(soil, step)) {
+        energy->span += step->length;
+        return MOR_OK;
     }
-    return MOR_OK;
+    /* The records are only read here. */
+    mor_soil_powers job = {.soil = soil,
+                           .step = step,
+                           .records = soil->records,
+                           .mass = mor_view_read(view, MOR_FIELD_MASS),
+                           .density = mor_view_read(view, MOR_FIELD_DENSITY),
+                           .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
+                           .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
+                           .stress = mor_view_read(view, MOR_FIELD_STRESS),
+                           .stress_diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION)};
+    mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    mor_view_read_shared(view, MOR_RESOURCE_REGULARIZATION, soil->regularization);
+    mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
+    mor_soil_energy_add(context, &job, find_stress_block);
+    integrate(energy, step);
+    return mor_checked_report(context, soil->material, soil->set.name, step->time + step->length);
 }

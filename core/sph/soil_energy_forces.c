@@ -13,11 +13,10 @@ enum { LOST, GIVEN, GRAIN = MOR_CONTACT_GRAIN };
 
 /* Velocity in the middle of the kick: with it force times velocity is the change of kinetic energy exactly, and that of
  * gravity the change of potential energy. */
-static void find_middle_velocity(const mor_soil *soil, double half_step, int64_t i, double *velocity)
+static void find_middle_velocity(const mor_soil_powers *job, int64_t i, double *velocity)
 {
     for (int64_t a = 0; a < 3; ++a) {
-        velocity[a] = soil->set.data[MOR_FIELD_VELOCITY][3 * i + a] -
-                      half_step * soil->set.data[MOR_FIELD_ACCELERATION][3 * i + a];
+        velocity[a] = job->velocity[3 * i + a] - 0.5 * job->step->length * job->acceleration[3 * i + a];
     }
 }
 
@@ -64,17 +63,18 @@ static void audit_lane(const mor_soil_contact *contact, int64_t slot, int64_t k,
 }
 
 /* Adds what a boundary takes to the particles that see it, slot by slot in fixed order. */
-static void audit_contact(mor_context *context, mor_soil *soil, const mor_soil_contact *contact, double half_step)
+static void audit_contact(mor_context *context, const mor_soil_powers *job, const mor_soil_contact *contact)
 {
-    const int64_t n = soil->set.n_particles;
+    const mor_soil_energy *energy = job->soil->energy;
+    const int64_t n = job->soil->set.n_particles;
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n); ++k) {
                 double middle[3];
-                find_middle_velocity(soil, half_step, first + k, middle);
-                audit_lane(contact, slot, k, soil->records + (first + k) * MOR_RECORD_SIZE, middle,
-                           soil->energy->scratch + 3 * (first + k), soil->energy->strains + 12 * (first + k));
+                find_middle_velocity(job, first + k, middle);
+                audit_lane(contact, slot, k, job->records + (first + k) * MOR_RECORD_SIZE, middle,
+                           energy->scratch + 3 * (first + k), energy->strains + 12 * (first + k));
             }
         }
     }
@@ -98,18 +98,19 @@ static void audit_rocks(mor_soil *soil, const mor_boundary *boundary)
     }
 }
 
-static void find_motion_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+static void find_motion_block(void *powers, int64_t first, int64_t last, double *sums)
 {
+    const mor_soil_powers *job = powers;
+    const mor_soil *soil = job->soil;
     const mor_soil_settings *s = &soil->settings;
     for (int64_t i = first; i < last; ++i) {
         const double *taken = soil->energy->scratch + 3 * i;
-        const double *record = soil->records + i * MOR_RECORD_SIZE;
-        const double mass = soil->set.data[MOR_FIELD_MASS][i];
+        const double *record = job->records + i * MOR_RECORD_SIZE;
+        const double mass = job->mass[i];
         double middle[3];
-        find_middle_velocity(soil, 0.5 * step->length, i, middle);
+        find_middle_velocity(job, i, middle);
         for (int a = 0; a < 3; ++a) {
-            const double before =
-                record[MOR_RECORD_VELOCITY + a] - step->length * soil->set.data[MOR_FIELD_ACCELERATION][3 * i + a];
+            const double before = record[MOR_RECORD_VELOCITY + a] - job->step->length * job->acceleration[3 * i + a];
             sums[MOR_SOIL_ENERGY_DAMPING] += s->scheme.damping * mass * before * middle[a];
             sums[MOR_SOIL_ENERGY_RAMP] += mass * (s->gravity[a] - soil->gravity[a]) * middle[a];
         }
@@ -118,54 +119,54 @@ static void find_motion_block(mor_soil *soil, const mor_step *step, int64_t firs
         if (s->scheme.gradient_correction) {
             sums[MOR_SOIL_ENERGY_CORRECTION] +=
                 record[MOR_RECORD_VOLUME] *
-                mor_soil_stress_power(record + MOR_RECORD_STRESS, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i);
+                mor_soil_stress_power(record + MOR_RECORD_STRESS, job->velocity_gradient + 9 * i);
         }
     }
 }
 
 /* What the accelerations in the scratch take, into a part. */
-static void add_scratch(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sum)
+static void add_scratch(const mor_soil_powers *job, int64_t first, int64_t last, double *sum)
 {
     for (int64_t i = first; i < last; ++i) {
         double middle[3];
-        find_middle_velocity(soil, 0.5 * step->length, i, middle);
-        *sum -= soil->set.data[MOR_FIELD_MASS][i] * mor_vector_dot(soil->energy->scratch + 3 * i, middle);
+        find_middle_velocity(job, i, middle);
+        *sum -= job->mass[i] * mor_vector_dot(job->soil->energy->scratch + 3 * i, middle);
     }
 }
 
-static void find_riemann_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+static void find_riemann_block(void *job, int64_t first, int64_t last, double *sums)
 {
-    add_scratch(soil, step, first, last, sums + MOR_SOIL_ENERGY_RIEMANN);
+    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_RIEMANN);
 }
 
-static void find_artificial_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+static void find_artificial_block(void *job, int64_t first, int64_t last, double *sums)
 {
-    add_scratch(soil, step, first, last, sums + MOR_SOIL_ENERGY_ARTIFICIAL);
+    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_ARTIFICIAL);
 }
 
-static void find_spin_block(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums)
+static void find_spin_block(void *job, int64_t first, int64_t last, double *sums)
 {
-    add_scratch(soil, step, first, last, sums + MOR_SOIL_ENERGY_CORRECTION);
+    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_CORRECTION);
 }
 
 /* Records as the momentum loop saw them, but without stress. */
-static void strip_records(mor_context *context, mor_soil *soil, double length)
+static void strip_records(mor_context *context, const mor_soil_powers *job)
 {
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        double *record = soil->records + i * MOR_RECORD_SIZE;
+    MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
+        double *record = job->records + i * MOR_RECORD_SIZE;
         for (int a = 0; a < 3; ++a) {
-            record[MOR_RECORD_VELOCITY + a] -= length * soil->set.data[MOR_FIELD_ACCELERATION][3 * i + a];
+            record[MOR_RECORD_VELOCITY + a] -= job->step->length * job->acceleration[3 * i + a];
         }
         memset(record + MOR_RECORD_STRESS, 0, 6 * sizeof *record);
     }
 }
 
-static void restore_records(mor_context *context, mor_soil *soil)
+static void restore_records(mor_context *context, const mor_soil_powers *job)
 {
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        double *record = soil->records + i * MOR_RECORD_SIZE;
-        memcpy(record + MOR_RECORD_VELOCITY, soil->set.data[MOR_FIELD_VELOCITY] + 3 * i, 3 * sizeof *record);
-        memcpy(record + MOR_RECORD_STRESS, soil->set.data[MOR_FIELD_STRESS] + 6 * i, 6 * sizeof *record);
+    MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
+        double *record = job->records + i * MOR_RECORD_SIZE;
+        memcpy(record + MOR_RECORD_VELOCITY, job->velocity + 3 * i, 3 * sizeof *record);
+        memcpy(record + MOR_RECORD_STRESS, job->stress + 6 * i, 6 * sizeof *record);
     }
 }
 
@@ -178,51 +179,68 @@ static bool is_calm(const mor_soil *soil, const mor_step *step)
 
 /* (E6): the momentum loop once more with what is not stress, and once with the artificial stress alone. Particles are
  * where they were, so that the short lists come out the same. */
-static void audit_pairs(mor_context *context, mor_soil *soil, const mor_step *step)
+static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *view)
 {
-    mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
+    mor_soil *soil = job->soil;
+    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
     mor_pair_constants constants = soil->constants;
     const mor_pair_loop momentum = soil->table->momentum[soil->settings.dimension - 2];
+    mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
+    arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
+    arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
+    arrays.spin_stress = mor_view_read_shared(view, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress);
     arrays.acceleration = soil->energy->scratch;
     constants.diffusion_rate = 0.0;
     constants.has_artificial_stress = false;
-    strip_records(context, soil, step->length);
+    strip_records(context, job);
     mor_soil_run_pairs(context, &constants, &arrays, momentum);
-    mor_soil_energy_add(context, soil, find_riemann_block, step);
-    if (soil->settings.scheme.artificial_stress && is_calm(soil, step)) {
+    mor_soil_energy_add(context, job, find_riemann_block);
+    if (soil->settings.scheme.artificial_stress && is_calm(soil, job->step)) {
         soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] = soil->energy->power[MOR_SOIL_ENERGY_ARTIFICIAL];
     } else if (soil->settings.scheme.artificial_stress) {
         const double riemann = soil->energy->fresh[MOR_SOIL_ENERGY_RIEMANN];
         constants.has_artificial_stress = true;
         mor_soil_run_pairs(context, &constants, &arrays, momentum);
-        mor_soil_energy_add(context, soil, find_artificial_block, step);
+        mor_soil_energy_add(context, job, find_artificial_block);
         soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] -= riemann;
     }
-    restore_records(context, soil);
+    restore_records(context, job);
     if (soil->settings.scheme.angular_momentum) {
         memset(soil->energy->scratch, 0, (size_t)(3 * soil->set.n_particles) * sizeof(double));
         mor_soil_run_pairs(context, &constants, &arrays, soil->table->spin);
-        mor_soil_energy_add(context, soil, find_spin_block, step);
+        mor_soil_energy_add(context, job, find_spin_block);
     }
 }
 
 mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     if (!mor_soil_energy_is_due(soil, step)) {
         return MOR_OK;
     }
-    memset(soil->energy->fresh, 0, sizeof soil->energy->fresh);
-    memset(soil->energy->scratch, 0, (size_t)(3 * soil->set.n_particles) * sizeof(double));
-    memset(soil->energy->strains, 0, (size_t)(12 * soil->set.n_particles) * sizeof(double));
+    const size_t n = (size_t)soil->set.n_particles;
+    mor_soil_energy *energy = mor_view_write_shared(view, MOR_RESOURCE_ENERGY_SUMS, soil->energy);
+    mor_soil_powers job = {.soil = soil,
+                           .step = step,
+                           .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                           .mass = mor_view_read(view, MOR_FIELD_MASS),
+                           .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
+                           .acceleration = mor_view_read(view, MOR_FIELD_ACCELERATION),
+                           .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
+                           .stress = mor_view_read(view, MOR_FIELD_STRESS)};
+    mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
+    mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
+    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
+    memset(energy->fresh, 0, sizeof energy->fresh);
+    memset(energy->scratch, 0, 3 * n * sizeof *energy->scratch);
+    memset(energy->strains, 0, 12 * n * sizeof *energy->strains);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        audit_contact(context, soil, mor_soil_contact_at(soil, k), 0.5 * step->length);
+        audit_contact(context, &job, mor_soil_contact_at(soil, k));
     }
-    mor_soil_energy_add(context, soil, find_motion_block, step);
+    mor_soil_energy_add(context, &job, find_motion_block);
     for (int k = 0; k < soil->n_boundaries; ++k) {
         audit_rocks(soil, soil->boundaries[k].boundary);
     }
-    audit_pairs(context, soil, step);
+    audit_pairs(context, &job, view);
     return MOR_OK;
 }

@@ -5,13 +5,14 @@
 
 #include "core/base/eigen.h"
 #include "core/base/parallel.h"
+#include "core/material/checked.h"
 
 #include <stdbool.h>
 #include <string.h>
 
 /* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once.
  * HALVINGS: how often a batch may ask for a smaller step before the run stops. */
-enum { CLUSTERS = 32, BATCH = 128, HALVINGS = 8 };
+enum { CLUSTERS = 32, BATCH = MOR_SOIL_BATCH, HALVINGS = 8 };
 
 void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
                         mor_pair_loop loop)
@@ -23,19 +24,16 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
     }
 }
 
-static void run_loop(mor_context *context, const mor_soil *soil, mor_pair_loop loop)
-{
-    const mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
-    mor_soil_run_pairs(context, &soil->constants, &arrays, loop);
-}
-
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
+    const double *records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        mor_soil_contact_sum(context, mor_soil_contact_at(soil, k), soil->table, &soil->constants, soil->records);
+        mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
+        mor_view_compare(view, MOR_RESOURCE_LISTS, contact->relation.generation);
+        mor_soil_contact_sum(context, contact, soil->table, &soil->constants, records);
     }
     return MOR_OK;
 }
@@ -79,13 +77,9 @@ static void find_artificial(const double *stress, double factor, double *artific
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
-    if (!soil->settings.scheme.artificial_stress) {
-        return MOR_OK;
-    }
-    const double *stress = soil->set.data[MOR_FIELD_STRESS];
-    double *artificial = soil->set.data[MOR_FIELD_ARTIFICIAL_STRESS];
+    const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
+    double *artificial = mor_view_write(view, MOR_FIELD_ARTIFICIAL_STRESS);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, BATCH) {
         find_artificial(stress + 6 * i, soil->settings.scheme.artificial_stress_factor, artificial + 6 * i);
     }
@@ -95,7 +89,6 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mo
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     const mor_soil_settings *s = &soil->settings;
     const double part = mor_soil_gravity_part(soil, step);
     const double weight = part * s->reference_density * mor_vector_length(s->gravity);
@@ -106,22 +99,30 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
         soil->constants.rest_gradient[a] = weight * (lateral + (1.0 - lateral) * g[a] * g[a]);
         soil->constants.rest_gradient[3 + a] = weight * (1.0 - lateral) * g[a] * g[(a + 1) % 3];
     }
-    run_loop(context, soil, soil->table->momentum[s->dimension - 2]);
+    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
+    arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
+    arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
+    arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
+    arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
+    mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
+    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
     return MOR_OK;
 }
 
 mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
+    const mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
+    double *acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
+    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
+    mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        mor_soil_contact *contact = mor_soil_contact_at(soil, k);
-        mor_soil_contact_continue(context, contact, soil->table, &soil->constants, soil->records, &soil->inner);
+        mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
+        mor_soil_contact_continue(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner);
         mor_soil_contact_sum_forces(context, contact, (mor_dissipation)soil->settings.scheme.wall_dissipation,
-                                    soil->constants.limiter_rate, soil->records, soil->set.n_particles,
-                                    soil->set.data[MOR_FIELD_ACCELERATION]);
-        mor_soil_contact_share(context, contact, soil->table, &soil->constants, soil->records, soil->set.n_particles);
+                                    soil->constants.limiter_rate, arrays.records, arrays.n_particles, acceleration);
+        mor_soil_contact_share(context, contact, soil->table, &soil->constants, arrays.records, arrays.n_particles);
     }
     return MOR_OK;
 }
@@ -129,24 +130,28 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
-    run_loop(context, soil, soil->table->gradient[soil->settings.dimension - 2]);
+    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
+    arrays.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
+    arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
+    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
     return MOR_OK;
 }
 
 mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
+    const double *records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    double *gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
+    double *rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
+    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
+    mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         /* Rocks have moved since the push; their velocity is now the mean over this step, eq. 60. */
-        mor_soil_contact_follow(context, contact, soil->table, &soil->constants, soil->records);
-        mor_soil_contact_sum_gradient(context, contact, soil->records, soil->set.n_particles,
-                                      soil->set.data[MOR_FIELD_VELOCITY_GRADIENT],
-                                      soil->set.data[MOR_FIELD_DENSITY_RATE]);
+        mor_soil_contact_follow(context, contact, soil->table, &soil->constants, records);
+        mor_soil_contact_sum_gradient(context, contact, records, soil->set.n_particles, gradient, rate);
     }
     return MOR_OK;
 }
@@ -157,38 +162,49 @@ typedef struct batch_start {
     double state[MOR_MATERIAL_STATES_MAX][BATCH * 9];
 } batch_start;
 
-/* Copies the evolving values of a batch into the store or back. */
-static void copy_start(const mor_soil *soil, int64_t first, int64_t n, batch_start *start, bool is_restore)
+/* What the update reads and writes. */
+typedef struct update {
+    const mor_soil *soil;
+    double length; /* of the step, s */
+    const double *density, *velocity_gradient, *diffusion;
+    double *stress;
+    double *state[MOR_MATERIAL_STATES_MAX];
+} update;
+
+/* Components of a state variable. */
+static int64_t state_width(const mor_soil *soil, int k)
 {
-    for (int k = -1; k < soil->material->n_state; ++k) {
-        const int field = k < 0 ? MOR_FIELD_STRESS : soil->state_fields[k];
-        const int64_t n_components = soil->set.fields[field].n_components;
-        double *data = soil->set.data[field] + first * n_components;
+    return soil->set.fields[soil->state_fields[k]].n_components;
+}
+
+/* Copies the evolving values of a batch into the store or back. */
+static void copy_start(const update *it, int64_t first, int64_t n, batch_start *start, bool is_restore)
+{
+    for (int k = -1; k < it->soil->material->n_state; ++k) {
+        const int64_t n_components = k < 0 ? 6 : state_width(it->soil, k);
+        double *data = (k < 0 ? it->stress : it->state[k]) + first * n_components;
         double *kept = k < 0 ? start->stress : start->state[k];
         memcpy(is_restore ? data : kept, is_restore ? kept : data, (size_t)(n * n_components) * sizeof *data);
     }
 }
 
 /* Updates a batch in place over n_steps equal steps. */
-static mor_status advance_equal_steps(const mor_soil *soil, int64_t first, int64_t n, double length, int n_steps,
-                                      int64_t *failed)
+static mor_status advance_equal_steps(const update *it, int64_t first, int64_t n, int n_steps, int64_t *failed)
 {
-    double *const *data = soil->set.data;
+    const mor_soil *soil = it->soil;
     double *state[MOR_MATERIAL_STATES_MAX];
     const double *state_in[MOR_MATERIAL_STATES_MAX];
     for (int k = 0; k < soil->material->n_state; ++k) {
-        const int field = soil->state_fields[k];
-        state[k] = data[field] + first * soil->set.fields[field].n_components;
+        state[k] = it->state[k] + first * state_width(soil, k);
         state_in[k] = state[k];
     }
-    const double *diffusion = data[MOR_FIELD_STRESS_DIFFUSION];
     const mor_batch batch = {.n = n,
-                             .time_step = length / n_steps,
-                             .density = data[MOR_FIELD_DENSITY] + first,
-                             .velocity_gradient = data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * first,
-                             .extra_stress_rate = diffusion != NULL ? diffusion + 6 * first : NULL,
-                             .stress_in = data[MOR_FIELD_STRESS] + 6 * first,
-                             .stress_out = data[MOR_FIELD_STRESS] + 6 * first,
+                             .time_step = it->length / n_steps,
+                             .density = it->density + first,
+                             .velocity_gradient = it->velocity_gradient + 9 * first,
+                             .extra_stress_rate = it->diffusion != NULL ? it->diffusion + 6 * first : NULL,
+                             .stress_in = it->stress + 6 * first,
+                             .stress_out = it->stress + 6 * first,
                              .state_in = state_in,
                              .state_out = state,
                              .failed = failed};
@@ -201,30 +217,37 @@ static mor_status advance_equal_steps(const mor_soil *soil, int64_t first, int64
 
 /* A material that asks for a smaller step gets its batch divided in time; the velocity gradient is constant over the
  * step, so nothing but the law's own integration changes. On failure the start values are back in place. */
-static mor_status advance_batch(const mor_soil *soil, int64_t first, double length, int64_t *failed)
+static mor_status advance_batch(const update *it, int64_t first, int64_t last, int64_t *failed)
 {
-    const int64_t left = soil->set.n_particles - first;
-    const int64_t n = left < BATCH ? left : BATCH;
     batch_start start;
-    copy_start(soil, first, n, &start, false);
+    copy_start(it, first, last - first, &start, false);
     mor_status status = MOR_RETRY_SMALLER_STEP;
     for (int halving = 0; halving <= HALVINGS && status > MOR_OK; ++halving) {
-        status = advance_equal_steps(soil, first, n, length, 1 << halving, failed);
+        status = advance_equal_steps(it, first, last - first, 1 << halving, failed);
         if (status != MOR_OK) {
-            copy_start(soil, first, n, &start, true);
+            copy_start(it, first, last - first, &start, true);
         }
     }
     return status;
 }
 
-/* Does the failed batch again to learn which particle it was. */
-static mor_status report_stress(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t first)
+static mor_status advance_block(void *job, int64_t first, int64_t last)
 {
+    return advance_batch(job, first, last, NULL);
+}
+
+/* Does the failed batch again to learn which particle it was. */
+static mor_status report_stress(mor_context *context, const update *it, const mor_view *view, const mor_step *step,
+                                int64_t first)
+{
+    const mor_soil *soil = it->soil;
+    const int64_t left = soil->set.n_particles - first;
     int64_t failed = 0;
-    const mor_status status = advance_batch(soil, first, step->length, &failed);
+    MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time + step->length));
+    const mor_status status = advance_batch(it, first, first + (left < BATCH ? left : BATCH), &failed);
     const int64_t i = first + failed;
-    const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
-    const double *s = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
+    const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
+    const double *s = mor_view_quote(view, MOR_FIELD_STRESS, i);
     const mor_status told =
         MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
                  "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
@@ -239,15 +262,14 @@ static mor_status report_stress(mor_context *context, const mor_soil *soil, cons
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
-    const int64_t n_batches = (soil->set.n_particles + BATCH - 1) / BATCH;
-    MOR_PARALLEL_FOR (context, k, n_batches, 4) {
-        soil->block_values[k] = advance_batch(soil, k * BATCH, step->length, NULL);
-    }
-    for (int64_t k = 0; k < n_batches; ++k) {
-        if (soil->block_values[k] != MOR_OK) {
-            return report_stress(context, soil, step, k * BATCH);
-        }
-    }
-    return MOR_OK;
+    update job = {.soil = soil,
+                  .length = step->length,
+                  .density = mor_view_read(view, MOR_FIELD_DENSITY),
+                  .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
+                  .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
+                  .stress = mor_view_write(view, MOR_FIELD_STRESS)};
+    mor_view_write_state(view, soil->state_fields, soil->material->n_state, job.state);
+    const mor_blocks blocks = mor_soil_blocks(soil, BATCH, 4);
+    const int64_t failed = mor_reduce_status(&blocks, context->n_threads, advance_block, &job, soil->room.statuses);
+    return failed < 0 ? MOR_OK : report_stress(context, &job, view, step, failed * BATCH);
 }

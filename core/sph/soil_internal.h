@@ -30,10 +30,24 @@ mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *vi
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 
+/** Sizes of reductions over particles: particles handed to a material at once, most values of a block. */
+enum { MOR_SOIL_BATCH = 128, MOR_SOIL_BLOCK_VALUES = 2 };
+
+/** Blocks of particles for reductions.
+ *  @param block_items [in]  particles of a block, at least MOR_SOIL_BATCH
+ *  @param grain       [in]  blocks a thread takes at once */
+static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_items, int64_t grain)
+{
+    return (mor_blocks){.n_items = soil->set.n_particles, .block_items = block_items, .grain = grain};
+}
+
+/** Whether the density is made anew by summation at an interval. */
+bool mor_soil_has_density_sums(const void *owner);
+
 /** Looks for particles outside the domain, with a position that is not a number, or without density.
  *  @param soil    [in,out]  is told whether particles are to be removed
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC naming the first particle that stops the run. */
-mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, const mor_step *step);
+mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step);
 
 /** Part of gravity that acts in a step, 1: that of the ramp at the middle of the step. */
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
@@ -50,21 +64,35 @@ static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
     return index < soil->n_walls ? &soil->walls[index] : &soil->boundaries[index - soil->n_walls];
 }
 
-/** Arrays of the soil as the pair loops want them; borrowed until the next resize or permute. */
-mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil);
+/** What all pair loops want, without fields; borrowed until the next resize or permute.
+ *  @param lists [in]  MOR_RESOURCE_LISTS or MOR_RESOURCE_SHORT_LISTS, which the loop reads */
+mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int lists);
 
 /** Runs a pair loop over all clusters.
  *  @param loop      [in]      which */
 void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
                         mor_pair_loop loop);
 
-/** Adds the powers of the particles [first, last) to sums, shape [MOR_SOIL_ENERGY_PARTS], unit W (W/m). */
-typedef void (*mor_soil_energy_block)(mor_soil *soil, const mor_step *step, int64_t first, int64_t last, double *sums);
+/** What the audit reads; NULL what the stage does not declare. */
+typedef struct mor_soil_powers {
+    mor_soil *soil;
+    const mor_step *step;
+    double *records;                              /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const double *mass;                           /* shape [n], kg (kg/m) */
+    const double *density;                        /* shape [n], kg/m3 */
+    const double *velocity;                       /* shape [n, 3], m/s */
+    const double *acceleration;                   /* shape [n, 3], m/s2 */
+    const double *velocity_gradient;              /* shape [n, 9], 1/s */
+    const double *stress;                         /* shape [n, 6], Pa */
+    const double *stress_diffusion;               /* shape [n, 6], Pa/s; NULL without */
+    const double *state[MOR_MATERIAL_STATES_MAX]; /* state variables of the material */
+} mor_soil_powers;
 
 /** Adds the powers of all particles, block by block, to those of the present sample of the audit.
- *  @param soil    [in,out]  with an audit
- *  @param block   [in]      finds those of a block */
-void mor_soil_energy_add(mor_context *context, mor_soil *soil, mor_soil_energy_block block, const mor_step *step);
+ *  @param job     [in,out]  of a soil with an audit
+ *  @param block   [in]      finds those of a block, shape [MOR_SOIL_ENERGY_PARTS], unit W (W/m); job is its first
+ *                           argument */
+void mor_soil_energy_add(mor_context *context, mor_soil_powers *job, mor_reduce_block block);
 
 /** Whether there is an audit and a step is one of its samples. */
 bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step);

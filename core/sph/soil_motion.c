@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/material/checked.h"
 #include "core/particle/kernel.h"
 
 #include <string.h>
@@ -12,29 +13,22 @@
 /* Particles a thread takes at once, and how many the host hands a material for a pressure. */
 enum { GRAIN = 256 };
 
-mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil)
+mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int lists)
 {
-    double *const *data = soil->set.data;
-    return (mor_pair_arrays){soil->set.n_particles,
-                             soil->records,
-                             &soil->inner,
-                             data[MOR_FIELD_ARTIFICIAL_STRESS],
-                             data[MOR_FIELD_ACCELERATION],
-                             data[MOR_FIELD_STRESS_DIFFUSION],
-                             data[MOR_FIELD_VELOCITY_GRADIENT],
-                             data[MOR_FIELD_DENSITY_RATE],
-                             soil->regularization,
-                             soil->spin_stress,
-                             data[MOR_FIELD_STRAIN_RATE]};
+    mor_view_compare(view, lists, soil->inner.generation);
+    return (mor_pair_arrays){.n_particles = soil->set.n_particles,
+                             .records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                             .inner = mor_view_read_shared(view, lists, &soil->inner)};
 }
 
 /* Positions and densities over half a step, eqs. 54 and 56. */
-static void drift_half(mor_context *context, mor_soil *soil, double half_step)
+static void drift_half(mor_context *context, mor_soil *soil, mor_view *view, double half_step)
 {
-    double *position = soil->set.data[MOR_FIELD_POSITION];
-    double *density = soil->set.data[MOR_FIELD_DENSITY];
-    const double *velocity = soil->set.data[MOR_FIELD_VELOCITY];
-    const double *rate = soil->set.data[MOR_FIELD_DENSITY_RATE];
+    double *position = mor_view_write(view, MOR_FIELD_POSITION);
+    double *density = mor_view_write(view, MOR_FIELD_DENSITY);
+    const double *velocity = mor_view_read(view, MOR_FIELD_VELOCITY);
+    const double *rate = mor_view_read(view, MOR_FIELD_DENSITY_RATE);
+    double *drift = mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->drift);
     const int64_t n = soil->set.n_particles;
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         const int64_t first = block * MOR_BLOCK;
@@ -46,17 +40,16 @@ static void drift_half(mor_context *context, mor_soil *soil, double half_step)
             density[i] += half_step * rate[i];
         }
     }
-    soil->drift += half_step * soil->largest_speed;
+    *drift += half_step * soil->largest_speed;
 }
 
 mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
-    drift_half(context, soil, 0.5 * step->length);
+    drift_half(context, soil, view, 0.5 * step->length);
     const double middle = step->time + 0.5 * step->length;
     for (int w = 0; w < soil->n_walls; ++w) {
-        mor_soil_contact *wall = &soil->walls[w];
+        mor_soil_contact *wall = mor_view_write_shared(view, MOR_RESOURCE_BOUNDARIES, &soil->walls[w]);
         const double speed = mor_vector_length(wall->velocity);
         if (speed > 0.0) {
             const double displacement[3] = {middle * wall->velocity[0], middle * wall->velocity[1],
@@ -70,28 +63,38 @@ mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *vie
 mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
-    drift_half(context, soil, 0.5 * step->length);
-    return mor_soil_check_domain(context, soil, step);
+    drift_half(context, soil, view, 0.5 * step->length);
+    return mor_soil_check_domain(context, soil, view, step);
+}
+
+static void sort_particles(mor_soil *soil, mor_view *view)
+{
+    int32_t *order = mor_view_write_shared(view, MOR_RESOURCE_ORDER, soil->order);
+    mor_tree_order(mor_view_read(view, MOR_FIELD_POSITION), 3, soil->set.n_particles, order);
+    mor_set_permute(&soil->set, order);
+    mor_view_renew(view);
+    soil->has_lists = false;
 }
 
 void mor_soil_sort(mor_soil *soil)
 {
-    mor_tree_order(soil->set.data[MOR_FIELD_POSITION], 3, soil->set.n_particles, soil->order);
-    /* The velocity gradient is scratch, has room for nine numbers a particle and is written anew in each step. */
-    mor_set_permute(&soil->set, soil->order, soil->set.data[MOR_FIELD_VELOCITY_GRADIENT]);
-    soil->has_lists = false;
+    mor_view view = mor_view_open(&soil->set, NULL);
+    sort_particles(soil, &view);
 }
 
-static mor_status build_lists(mor_context *context, mor_soil *soil)
+static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view)
 {
     const double reach =
         MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
-    const mor_relation_points points = {&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3};
+    const mor_relation_points points = {&soil->tree, mor_view_read(view, MOR_FIELD_POSITION), 3};
+    mor_relation *inner = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
     mor_tree_fit(&soil->tree, points.records, 3);
-    MOR_TRY(context, mor_relation_build(context, &soil->inner, &points, &points, reach));
+    MOR_TRY(context, mor_relation_build(context, inner, &points, &points, reach));
+    inner->generation = soil->set.generation;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        MOR_TRY(context, mor_soil_contact_build(context, mor_soil_contact_at(soil, k), &points, reach));
+        mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        MOR_TRY(context, mor_soil_contact_build(context, contact, &points, reach));
+        contact->relation.generation = soil->set.generation;
     }
     soil->drift = 0.0;
     soil->has_lists = true;
@@ -101,35 +104,43 @@ static mor_status build_lists(mor_context *context, mor_soil *soil)
 mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
+    const double *drift = mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->drift);
+    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     if (step->number > 0 && step->number % (uint64_t)soil->settings.scheme.sort_interval == 0) {
-        mor_soil_sort(soil);
+        sort_particles(soil, view);
     }
     /* Two particles that each move by the drift change their distance by twice as much. */
-    double other = soil->drift;
+    double other = *drift;
     for (int k = 0; k < mor_soil_contact_count(soil) && soil->has_lists; ++k) {
         const double moved = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
         other = other >= moved ? other : moved;
     }
-    const bool is_fit = soil->drift + other <= soil->settings.scheme.skin_ratio * soil->settings.spacing;
-    return soil->has_lists && is_fit ? MOR_OK : build_lists(context, soil);
+    const bool is_fit = *drift + other <= soil->settings.scheme.skin_ratio * soil->settings.spacing;
+    return soil->has_lists && is_fit ? MOR_OK : build_lists(context, soil, view);
 }
 
-static mor_status pack_range(const mor_soil *soil, int64_t first, int64_t last)
+/* What packing reads and writes. */
+typedef struct packing {
+    const mor_soil *soil;
+    const double *position, *velocity, *density, *stress, *mass;
+    double *records;
+} packing;
+
+static mor_status pack_range(void *job, int64_t first, int64_t last)
 {
-    double *const *data = soil->set.data;
+    const packing *p = job;
+    const mor_soil *soil = p->soil;
     double pressure[GRAIN];
-    const mor_batch batch = {
-        .n = last - first, .density = data[MOR_FIELD_DENSITY] + first, .stress_in = data[MOR_FIELD_STRESS] + 6 * first};
+    const mor_batch batch = {.n = last - first, .density = p->density + first, .stress_in = p->stress + 6 * first};
     const mor_status status = soil->material->operations.pressure(soil->material, &batch, pressure);
     for (int64_t i = first; i < last; ++i) {
-        double *record = soil->records + i * MOR_RECORD_SIZE;
-        const double density = data[MOR_FIELD_DENSITY][i];
-        memcpy(record + MOR_RECORD_POSITION, data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof *record);
-        record[MOR_RECORD_VOLUME] = data[MOR_FIELD_MASS][i] / density;
-        memcpy(record + MOR_RECORD_VELOCITY, data[MOR_FIELD_VELOCITY] + 3 * i, 3 * sizeof *record);
+        double *record = p->records + i * MOR_RECORD_SIZE;
+        const double density = p->density[i];
+        memcpy(record + MOR_RECORD_POSITION, p->position + 3 * i, 3 * sizeof *record);
+        record[MOR_RECORD_VOLUME] = p->mass[i] / density;
+        memcpy(record + MOR_RECORD_VELOCITY, p->velocity + 3 * i, 3 * sizeof *record);
         record[MOR_RECORD_IMPEDANCE] = density * soil->sound_speed;
-        memcpy(record + MOR_RECORD_STRESS, data[MOR_FIELD_STRESS] + 6 * i, 6 * sizeof *record);
+        memcpy(record + MOR_RECORD_STRESS, p->stress + 6 * i, 6 * sizeof *record);
         record[MOR_RECORD_PRESSURE] = pressure[i - first];
         record[MOR_RECORD_DENSITY] = density;
     }
@@ -139,21 +150,27 @@ static mor_status pack_range(const mor_soil *soil, int64_t first, int64_t last)
 mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     const int64_t n = soil->set.n_particles;
-    MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 4) {
-        const int64_t last = (chunk + 1) * GRAIN;
-        soil->block_values[chunk] = pack_range(soil, chunk * GRAIN, last < n ? last : n);
-    }
-    for (int64_t chunk = 0; chunk < (n + GRAIN - 1) / GRAIN; ++chunk) {
-        MOR_CHECK(context, soil->block_values[chunk] == (double)MOR_OK, MOR_ERROR_NUMERIC,
-                  "material '%s' gives no pressure for one of the particles %lld to %lld of set '%s' at t = %.6g s",
-                  soil->material->material->name, (long long)(chunk * GRAIN), (long long)((chunk + 1) * GRAIN - 1),
-                  soil->set.name, step->time);
+    packing job = {.soil = soil,
+                   .position = mor_view_read(view, MOR_FIELD_POSITION),
+                   .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
+                   .density = mor_view_read(view, MOR_FIELD_DENSITY),
+                   .stress = mor_view_read(view, MOR_FIELD_STRESS),
+                   .mass = mor_view_read(view, MOR_FIELD_MASS),
+                   .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
+    const mor_blocks blocks = mor_soil_blocks(soil, GRAIN, 4);
+    const int64_t chunk = mor_reduce_status(&blocks, context->n_threads, pack_range, &job, soil->room.statuses);
+    if (chunk >= 0) {
+        MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time));
+        return MOR_FAIL(context, MOR_ERROR_NUMERIC,
+                        "material '%s' gives no pressure for one of the particles %lld to %lld of set '%s' at t = %.6g "
+                        "s",
+                        soil->material->material->name, (long long)(chunk * GRAIN),
+                        (long long)((chunk + 1) * GRAIN - 1), soil->set.name, step->time);
     }
     /* The lanes behind the last particle repeat it; their sums are thrown away. */
     for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
-        memcpy(soil->records + i * MOR_RECORD_SIZE, soil->records + (n - 1) * MOR_RECORD_SIZE,
+        memcpy(job.records + i * MOR_RECORD_SIZE, job.records + (n - 1) * MOR_RECORD_SIZE,
                MOR_RECORD_SIZE * sizeof(double));
     }
     return MOR_OK;
@@ -174,39 +191,46 @@ static void set_gravity(mor_soil *soil, const mor_step *step)
     }
 }
 
+/* What the kick reads and writes. */
+typedef struct kick {
+    const mor_soil *soil;
+    double length;
+    double *velocity, *acceleration, *records;
+} kick;
+
+enum { KICK_SPEED, KICK_STRENGTH };
+
 /* Largest squared speed and acceleration of a block; a value that is not a number wins. */
-static void kick_block(mor_soil *soil, int64_t block, double length)
+static void kick_block(void *job, int64_t first, int64_t last, double *values)
 {
-    double *velocity = soil->set.data[MOR_FIELD_VELOCITY];
-    double *acceleration = soil->set.data[MOR_FIELD_ACCELERATION];
+    const kick *it = job;
+    const mor_soil *soil = it->soil;
     const double damping = soil->settings.scheme.damping;
     double fastest = 0.0;
     double strongest = 0.0;
-    for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, soil->set.n_particles); ++i) {
-        double *v = velocity + 3 * i;
-        double *a = acceleration + 3 * i;
+    for (int64_t i = first; i < last; ++i) {
+        double *v = it->velocity + 3 * i;
+        double *a = it->acceleration + 3 * i;
         for (int k = 0; k < 3; ++k) {
             a[k] += soil->gravity[k] - damping * v[k];
-            v[k] += length * a[k];
-            soil->records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + k] = v[k];
+            v[k] += it->length * a[k];
+            it->records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + k] = v[k];
         }
-        const double speed2 = mor_vector_dot(v, v);
-        const double strength2 = mor_vector_dot(a, a);
-        fastest = fastest >= speed2 ? fastest : speed2;
-        strongest = strongest >= strength2 ? strongest : strength2;
+        fastest = mor_larger(fastest, mor_vector_dot(v, v));
+        strongest = mor_larger(strongest, mor_vector_dot(a, a));
     }
-    soil->block_values[2 * block] = fastest;
-    soil->block_values[2 * block + 1] = strongest;
+    values[KICK_SPEED] = fastest;
+    values[KICK_STRENGTH] = strongest;
 }
 
 /* Names the first particle that is not a number or faster than sound, where the method has lost its ground. */
-static mor_status report_runaway(mor_context *context, const mor_soil *soil, const mor_step *step)
+static mor_status report_runaway(mor_context *context, const mor_soil *soil, const mor_view *view, const mor_step *step)
 {
     for (int64_t i = 0; i < soil->set.n_particles; ++i) {
-        const double *v = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+        const double *v = mor_view_quote(view, MOR_FIELD_VELOCITY, i);
         const double speed = mor_vector_length(v);
         if (!(speed < soil->sound_speed)) {
-            const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+            const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
             const mor_status status =
                 MOR_FAIL(context, MOR_ERROR_NUMERIC,
                          "particle %lld of set '%s' has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, "
@@ -233,24 +257,19 @@ static void give_impulse(mor_boundary *boundary, double length)
 mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
-    const int64_t n_blocks = mor_block_count(soil->set.n_particles);
+    double largest[2] = {0.0, 0.0};
     set_gravity(soil, step);
-    MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
-        kick_block(soil, block, step->length);
-    }
-    double fastest = 0.0;
-    double strongest = 0.0;
-    for (int64_t block = 0; block < n_blocks; ++block) {
-        const double speed2 = soil->block_values[2 * block];
-        const double strength2 = soil->block_values[2 * block + 1];
-        fastest = fastest >= speed2 ? fastest : speed2;
-        strongest = strongest >= strength2 ? strongest : strength2;
-    }
-    soil->largest_speed = sqrt(fastest);
-    soil->largest_acceleration = sqrt(strongest);
+    kick job = {soil, step->length, mor_view_write(view, MOR_FIELD_VELOCITY),
+                mor_view_write(view, MOR_FIELD_ACCELERATION),
+                mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
+    const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
+    mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 2, kick_block, &job, soil->room.values, largest);
+    mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->largest_speed);
+    mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, soil->wall_force);
+    soil->largest_speed = sqrt(largest[KICK_SPEED]);
+    soil->largest_acceleration = sqrt(largest[KICK_STRENGTH]);
     if (!(soil->largest_speed < soil->sound_speed) || !isfinite(soil->largest_acceleration)) {
-        return report_runaway(context, soil, step);
+        return report_runaway(context, soil, view, step);
     }
     for (int w = 0; w < soil->n_walls; ++w) {
         for (int a = 0; a < 3; ++a) {

@@ -18,15 +18,17 @@ enum { CLUSTERS = 16 };
 /* Calls use(soil, particle, sums of that particle) for the kernel sums over the soil itself. */
 typedef void (*kernel_use)(mor_soil *soil, int64_t i, const double *sums);
 
-static void sum_kernels(mor_context *context, mor_soil *soil, kernel_use use)
+static void sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, const double *records, kernel_use use)
 {
     const int64_t n_particles = soil->set.n_particles;
     const int64_t n = soil->tree.n_clusters;
+    const mor_relation *inner = mor_view_read_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
+    mor_view_compare(view, MOR_RESOURCE_LISTS, inner->generation);
     MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
         double sums[CLUSTERS * MOR_CLUSTER * MOR_KERNEL_SUMS];
         const int64_t first = chunk * CLUSTERS;
         const int64_t last = first + CLUSTERS < n ? first + CLUSTERS : n;
-        const mor_pair_kernel_job job = {soil->records, soil->records, MOR_RECORD_SIZE, &soil->inner, sums, NULL};
+        const mor_pair_kernel_job job = {records, records, MOR_RECORD_SIZE, inner, sums, NULL};
         soil->table->kernel(&soil->constants, &job, first, last);
         for (int64_t i = first * MOR_CLUSTER; i < last * MOR_CLUSTER && i < n_particles; ++i) {
             use(soil, i, sums + (i - first * MOR_CLUSTER) * MOR_KERNEL_SUMS);
@@ -35,12 +37,13 @@ static void sum_kernels(mor_context *context, mor_soil *soil, kernel_use use)
 }
 
 /* Adds a run of the sums over walls and rocks to a field: out[i * n + a] += scale(i) * sums[first_sum + a]. */
-static void add_wall_sums(mor_context *context, mor_soil *soil, int first_sum, int n_sums, const double *scale,
-                          double *out)
+static void add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view, int first_sum, int n_sums,
+                          const double *scale, double *out)
 {
     const int64_t n_particles = soil->set.n_particles;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        const mor_soil_contact *contact =
+            mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, CLUSTERS) {
             for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
                 const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
@@ -58,7 +61,12 @@ static void add_wall_sums(mor_context *context, mor_soil *soil, int first_sum, i
 
 static void keep_density(mor_soil *soil, int64_t i, const double *sums)
 {
-    soil->set.data[MOR_FIELD_DENSITY_RATE][i] = sums[MOR_KERNEL_SUM_VALUE];
+    soil->density_sums[i] = sums[MOR_KERNEL_SUM_VALUE];
+}
+
+bool mor_soil_has_density_sums(const void *owner)
+{
+    return ((const mor_soil *)owner)->settings.scheme.density_reinitialization > 0;
 }
 
 /* Density by summation over soil and walls, in units of the lattice's own sum. Where the sum falls short of the
@@ -66,27 +74,26 @@ static void keep_density(mor_soil *soil, int64_t i, const double *sums)
 mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     const int interval = soil->settings.scheme.density_reinitialization;
-    if (interval == 0 || step->number == 0 || step->number % (uint64_t)interval != 0) {
+    if (step->number == 0 || step->number % (uint64_t)interval != 0) {
         return MOR_OK;
     }
-    const double *mass = soil->set.data[MOR_FIELD_MASS];
-    double *density = soil->set.data[MOR_FIELD_DENSITY];
-    /* The density rate is written anew later in the step and serves as scratch here. */
-    double *sum = soil->set.data[MOR_FIELD_DENSITY_RATE];
+    const double *mass = mor_view_read(view, MOR_FIELD_MASS);
+    double *density = mor_view_write(view, MOR_FIELD_DENSITY);
+    double *records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    double *sum = soil->density_sums;
     const int64_t n = soil->set.n_particles;
     for (int64_t i = 0; i < n; ++i) {
-        soil->records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i];
+        records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i];
     }
-    sum_kernels(context, soil, keep_density);
-    add_wall_sums(context, soil, MOR_KERNEL_SUM_VALUE, 1, density, sum);
+    sum_kernels(context, soil, view, records, keep_density);
+    add_wall_sums(context, soil, view, MOR_KERNEL_SUM_VALUE, 1, density, sum);
     const double reference = soil->settings.reference_density;
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {
         const double summed = sum[i] / soil->lattice_sum;
         const double missing = density[i] - summed;
         density[i] = missing > 0.0 ? summed + missing * reference / density[i] : summed;
-        double *record = soil->records + i * MOR_RECORD_SIZE;
+        double *record = records + i * MOR_RECORD_SIZE;
         record[MOR_RECORD_VOLUME] = mass[i] / density[i];
         record[MOR_RECORD_IMPEDANCE] = density[i] * soil->sound_speed;
         record[MOR_RECORD_DENSITY] = density[i];
@@ -122,10 +129,9 @@ static bool invert_moments(const double *m, int dimension, double *inverse)
 }
 
 /* Hu et al. (2021), the correction matrix before their eq. 8, applied to the finished sums. */
-static void correct_particle(mor_soil *soil, int64_t i)
+static void correct_particle(const mor_soil *soil, double density, int64_t i, double *gradient, double *density_rate)
 {
     double inverse[9];
-    double *gradient = soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i;
     if (!invert_moments(soil->moments + 6 * i, soil->settings.dimension, inverse)) {
         return;
     }
@@ -137,22 +143,22 @@ static void correct_particle(mor_soil *soil, int64_t i)
         }
     }
     const double change = corrected[0] + corrected[4] + corrected[8] - gradient[0] - gradient[4] - gradient[8];
-    soil->set.data[MOR_FIELD_DENSITY_RATE][i] -= soil->set.data[MOR_FIELD_DENSITY][i] * change;
+    *density_rate -= density * change;
     memcpy(gradient, corrected, sizeof corrected);
 }
 
 mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
-    if (!soil->settings.scheme.gradient_correction) {
-        return MOR_OK;
-    }
-    sum_kernels(context, soil, keep_moments);
-    add_wall_sums(context, soil, MOR_KERNEL_SUM_MOMENT, 6, NULL, soil->moments);
+    const double *density = mor_view_read(view, MOR_FIELD_DENSITY);
+    double *gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
+    double *rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
+    double *moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    sum_kernels(context, soil, view, mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records), keep_moments);
+    add_wall_sums(context, soil, view, MOR_KERNEL_SUM_MOMENT, 6, NULL, moments);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        correct_particle(soil, i);
+        correct_particle(soil, density[i], i, gradient + 9 * i, rate + i);
     }
     return MOR_OK;
 }
@@ -160,13 +166,9 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
 mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
-    double *kept = soil->set.data[MOR_FIELD_STRAIN_RATE];
-    const double *gradient = soil->set.data[MOR_FIELD_VELOCITY_GRADIENT];
-    if (kept == NULL) {
-        return MOR_OK;
-    }
+    double *kept = mor_view_write(view, MOR_FIELD_STRAIN_RATE);
+    const double *gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         const double *l = gradient + 9 * i;
         double *d = kept + 6 * i;
@@ -184,11 +186,8 @@ mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_vie
  * kernel's moment over the soil. A skew stress A beside sigma_i takes that away: M A + A M = M sigma - sigma M, which
  * for the axial vector a of A reads (tr M - M) a = axial vector of the right side. In the frame of M its components
  * are sigma_ab (m_a - m_b) / (m_a + m_b): never larger than the stress, and none where the kernel is full. */
-static void find_spin_stress(mor_soil *soil, int64_t i)
+static void find_spin_stress(const double *m, const double *s, double *spin)
 {
-    const double *m = soil->moments + 6 * i;
-    const double *s = soil->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS;
-    double *spin = soil->spin_stress + 3 * i;
     double values[3];
     double axes[9];
     mor_symmetric_eigen(m, values, axes);
@@ -210,16 +209,16 @@ static void find_spin_stress(mor_soil *soil, int64_t i)
 mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     (void)step;
-    if (!soil->settings.scheme.angular_momentum) {
-        return MOR_OK;
+    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
+    const double *moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    double *spin = mor_view_write_shared(view, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress);
+    arrays.spin_stress = spin;
+    arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
+    sum_kernels(context, soil, view, arrays.records, keep_moments);
+    MOR_PARALLEL_FOR (context, i, arrays.n_particles, MOR_BLOCK) {
+        find_spin_stress(moments + 6 * i, arrays.records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS, spin + 3 * i);
     }
-    sum_kernels(context, soil, keep_moments);
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        find_spin_stress(soil, i);
-    }
-    const mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
     const int64_t n = soil->tree.n_clusters;
     MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
         const int64_t last = (chunk + 1) * CLUSTERS;
@@ -228,68 +227,61 @@ mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, mor
     return MOR_OK;
 }
 
-/* Largest of a pair of values over the blocks of a loop. */
-static void find_largest(const mor_soil *soil, int64_t n_blocks, double *first, double *second)
-{
-    *first = 0.0;
-    *second = 0.0;
-    for (int64_t block = 0; block < n_blocks; ++block) {
-        *first = fmax(*first, soil->block_values[2 * block]);
-        *second = fmax(*second, soil->block_values[2 * block + 1]);
-    }
-}
+/* What XSPH and shifting read and write. */
+typedef struct regularization {
+    double xsph, shifting; /* parts of the sums, times the length of the step where they are velocities */
+    const double *sums, *velocity_gradient;
+    double *position, *velocity;
+} regularization;
 
-/* Hu et al. (2021) eqs. 13 and 16; the velocity follows a shifted particle to first order. Returns through
- * block_values the largest squared displacement and speed. */
-static void regularize_block(mor_soil *soil, int64_t block, double xsph, double shifting)
+enum { FARTHEST, FASTEST };
+
+/* Hu et al. (2021) eqs. 13 and 16; the velocity follows a shifted particle to first order. Finds the largest squared
+ * displacement and speed. */
+static void regularize_block(void *job, int64_t first, int64_t last, double *values)
 {
-    double farthest = 0.0;
-    double fastest = 0.0;
-    for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, soil->set.n_particles); ++i) {
-        const double *sums = soil->regularization + 6 * i;
-        const double *gradient = soil->set.data[MOR_FIELD_VELOCITY_GRADIENT] + 9 * i;
-        double *velocity = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+    const regularization *it = job;
+    for (int64_t i = first; i < last; ++i) {
+        const double *sums = it->sums + 6 * i;
+        const double *gradient = it->velocity_gradient + 9 * i;
+        double *velocity = it->velocity + 3 * i;
         const double speed = mor_vector_length(velocity);
         double shift[3];
         double translation[3];
         for (int a = 0; a < 3; ++a) {
-            shift[a] = shifting * speed * sums[3 + a];
-            translation[a] = xsph * sums[a] + shift[a];
-            soil->set.data[MOR_FIELD_POSITION][3 * i + a] += translation[a];
+            shift[a] = it->shifting * speed * sums[3 + a];
+            translation[a] = it->xsph * sums[a] + shift[a];
+            it->position[3 * i + a] += translation[a];
         }
         for (int a = 0; a < 3; ++a) {
             velocity[a] += mor_vector_dot(gradient + 3 * a, shift);
         }
-        farthest = fmax(farthest, mor_vector_dot(translation, translation));
-        fastest = fmax(fastest, mor_vector_dot(velocity, velocity));
+        values[FARTHEST] = mor_larger(values[FARTHEST], mor_vector_dot(translation, translation));
+        values[FASTEST] = mor_larger(values[FASTEST], mor_vector_dot(velocity, velocity));
     }
-    soil->block_values[2 * block] = farthest;
-    soil->block_values[2 * block + 1] = fastest;
 }
 
 mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
-    if (soil->regularization == NULL) {
-        return MOR_OK;
-    }
-    const mor_pair_arrays arrays = mor_soil_pair_arrays(soil);
+    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
+    arrays.regularization = mor_view_write_shared(view, MOR_RESOURCE_REGULARIZATION, soil->regularization);
     const int64_t n = soil->tree.n_clusters;
     MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
         const int64_t last = (chunk + 1) * CLUSTERS;
         soil->table->regularize(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
     }
-    const int64_t n_blocks = mor_block_count(soil->set.n_particles);
-    const double xsph = step->length * soil->settings.scheme.xsph;
-    const double shifting = soil->settings.scheme.shifting ? step->length : 0.0;
-    MOR_PARALLEL_FOR (context, block, n_blocks, 1) {
-        regularize_block(soil, block, xsph, shifting);
-    }
-    double farthest = 0.0;
-    double fastest = 0.0;
-    find_largest(soil, n_blocks, &farthest, &fastest);
-    soil->drift += sqrt(farthest);
-    soil->largest_speed = sqrt(fastest);
+    regularization job = {.xsph = step->length * soil->settings.scheme.xsph,
+                          .shifting = soil->settings.scheme.shifting ? step->length : 0.0,
+                          .sums = arrays.regularization,
+                          .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
+                          .position = mor_view_write(view, MOR_FIELD_POSITION),
+                          .velocity = mor_view_write(view, MOR_FIELD_VELOCITY)};
+    double largest[2] = {0.0, 0.0};
+    const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
+    mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 2, regularize_block, &job, soil->room.values, largest);
+    double *drift = mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->drift);
+    *drift += sqrt(largest[FARTHEST]);
+    soil->largest_speed = sqrt(largest[FASTEST]);
     return MOR_OK;
 }

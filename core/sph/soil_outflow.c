@@ -13,23 +13,25 @@ static bool is_inside(const mor_soil_settings *s, const double *x)
     return mor_domain_holds(s->domain_minimum, s->domain_maximum, 3, local);
 }
 
-static mor_status report_density(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t i)
+static mor_status report_density(mor_context *context, const mor_soil *soil, const mor_view *view, const mor_step *step,
+                                 int64_t i)
 {
-    const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+    const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
     const mor_status status =
         MOR_FAIL(context, MOR_ERROR_NUMERIC,
                  "particle %lld of set '%s' has density %.4g kg/m3 at (%.6g, %.6g, %.6g) m, t = %.6g s, step %llu; it "
                  "must be positive. A smaller 'courant' or 'density_reinitialization' more often may help",
-                 (long long)soil->set.id[i], soil->set.name, soil->set.data[MOR_FIELD_DENSITY][i], x[0], x[1], x[2],
-                 step->time + step->length, (unsigned long long)step->number);
+                 (long long)soil->set.id[i], soil->set.name, mor_view_quote(view, MOR_FIELD_DENSITY, i)[0], x[0], x[1],
+                 x[2], step->time + step->length, (unsigned long long)step->number);
     return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
 }
 
-static mor_status report_stray(mor_context *context, const mor_soil *soil, const mor_step *step, int64_t i)
+static mor_status report_stray(mor_context *context, const mor_soil *soil, const mor_view *view, const mor_step *step,
+                               int64_t i)
 {
     const mor_soil_settings *s = &soil->settings;
     double x[3];
-    mor_domain_localize(s->placement, soil->set.data[MOR_FIELD_POSITION] + 3 * i, x);
+    mor_domain_localize(s->placement, mor_view_quote(view, MOR_FIELD_POSITION, i), x);
     const mor_status status = MOR_FAIL(
         context, MOR_ERROR_NUMERIC,
         "particle %lld of set '%s' left the domain: position (%.6g, %.6g, %.6g) m%s at t = %.6g s, step "
@@ -41,20 +43,25 @@ static mor_status report_stray(mor_context *context, const mor_soil *soil, const
     return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
 }
 
+/* What is looked at to find particles that are not where they should be. */
+typedef struct patrol {
+    const mor_soil_settings *settings;
+    const double *position, *density;
+} patrol;
+
 /* Sorts out what the quick look found, from one particle on: what stops the run, and what leaves. */
-static mor_status judge_particles(mor_context *context, mor_soil *soil, const mor_step *step, int64_t first)
+static mor_status judge_particles(mor_context *context, mor_soil *soil, const patrol *job, const mor_view *view,
+                                  const mor_step *step, int64_t first)
 {
-    const double *position = soil->set.data[MOR_FIELD_POSITION];
-    const double *density = soil->set.data[MOR_FIELD_DENSITY];
     for (int64_t i = first; i < soil->set.n_particles; ++i) {
-        const double *x = position + 3 * i;
-        if (!(density[i] > 0.0)) {
-            return report_density(context, soil, step, i);
+        const double *x = job->position + 3 * i;
+        if (!(job->density[i] > 0.0)) {
+            return report_density(context, soil, view, step, i);
         }
         if (!is_inside(&soil->settings, x)) {
             const bool is_place = isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
             if (!soil->settings.removes_outflow || !is_place) {
-                return report_stray(context, soil, step, i);
+                return report_stray(context, soil, view, step, i);
             }
             soil->has_outflow = true;
         }
@@ -62,54 +69,58 @@ static mor_status judge_particles(mor_context *context, mor_soil *soil, const mo
     return MOR_OK;
 }
 
-mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, const mor_step *step)
+static int64_t find_stray(const void *job, int64_t first, int64_t last)
 {
-    const double *position = soil->set.data[MOR_FIELD_POSITION];
-    const double *density = soil->set.data[MOR_FIELD_DENSITY];
-    const int64_t n = soil->set.n_particles;
-    MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
-        double stray = -1.0;
-        for (int64_t i = mor_block_end(block, n) - 1; i >= block * MOR_BLOCK; --i) {
-            stray = is_inside(&soil->settings, position + 3 * i) && density[i] > 0.0 ? stray : (double)i;
-        }
-        soil->block_values[block] = stray;
-    }
-    soil->has_outflow = false;
-    for (int64_t block = 0; block < mor_block_count(n); ++block) {
-        if (soil->block_values[block] >= 0.0) {
-            return judge_particles(context, soil, step, (int64_t)soil->block_values[block]);
+    const patrol *it = job;
+    for (int64_t i = first; i < last; ++i) {
+        if (!(is_inside(it->settings, it->position + 3 * i) && it->density[i] > 0.0)) {
+            return i;
         }
     }
-    return MOR_OK;
+    return -1;
 }
 
-/* Stored energy of a particle by the material's own operation; NaN when the model cannot tell. */
-static double find_stored(const mor_soil *soil, int64_t i)
+mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step)
 {
-    double *const *data = soil->set.data;
+    const patrol job = {&soil->settings, mor_view_read(view, MOR_FIELD_POSITION),
+                        mor_view_read(view, MOR_FIELD_DENSITY)};
+    const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
+    const int64_t stray = mor_reduce_first(&blocks, context->n_threads, find_stray, &job, soil->room.indices);
+    soil->has_outflow = false;
+    return stray < 0 ? MOR_OK : judge_particles(context, soil, &job, view, step, stray);
+}
+
+/* What those that leave take along is read from here. */
+typedef struct leaving {
+    const double *position, *velocity, *mass, *density, *stress;
+    const double *state[MOR_MATERIAL_STATES_MAX];
+} leaving;
+
+/* Stored energy of a particle by the material's own operation; NaN when the model cannot tell. */
+static double find_stored(const mor_soil *soil, const leaving *from, int64_t i)
+{
     const double *state[MOR_MATERIAL_STATES_MAX];
     double stored = NAN;
     for (int k = 0; k < soil->material->n_state; ++k) {
-        const int field = soil->state_fields[k];
-        state[k] = data[field] + i * soil->set.fields[field].n_components;
+        state[k] = from->state[k] + i * soil->set.fields[soil->state_fields[k]].n_components;
     }
     const mor_batch batch = {
-        .n = 1, .density = data[MOR_FIELD_DENSITY] + i, .stress_in = data[MOR_FIELD_STRESS] + 6 * i, .state_in = state};
+        .n = 1, .density = from->density + i, .stress_in = from->stress + 6 * i, .state_in = state};
     const bool is_known = soil->material->operations.energy(soil->material, &batch, &stored) == MOR_OK;
-    return is_known ? stored * data[MOR_FIELD_MASS][i] / data[MOR_FIELD_DENSITY][i] : NAN;
+    return is_known ? stored * from->mass[i] / from->density[i] : NAN;
 }
 
 /* Adds what a particle takes along. */
-static void count_out(mor_soil *soil, int64_t i)
+static void count_out(mor_soil *soil, const leaving *from, int64_t i)
 {
-    const double mass = soil->set.data[MOR_FIELD_MASS][i];
-    const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
-    const double *v = soil->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+    const double mass = from->mass[i];
+    const double *x = from->position + 3 * i;
+    const double *v = from->velocity + 3 * i;
     double *out = soil->outflow;
     soil->n_outflow += 1;
     out[MOR_SOIL_OUTFLOW_MASS] += mass;
     out[MOR_SOIL_OUTFLOW_KINETIC] += 0.5 * mass * mor_vector_dot(v, v);
-    out[MOR_SOIL_OUTFLOW_ELASTIC] += find_stored(soil, i);
+    out[MOR_SOIL_OUTFLOW_ELASTIC] += find_stored(soil, from, i);
     for (int a = 0; a < 3; ++a) {
         out[MOR_SOIL_OUTFLOW_MOMENTUM + a] += mass * v[a];
         out[MOR_SOIL_OUTFLOW_MOMENT + a] += mass * x[a];
@@ -129,14 +140,20 @@ void mor_soil_fit(mor_soil *soil)
 mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)view;
     int64_t n_out = 0;
     if (!soil->has_outflow) {
         return MOR_OK;
     }
+    leaving from = {.position = mor_view_read(view, MOR_FIELD_POSITION),
+                    .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
+                    .mass = mor_view_read(view, MOR_FIELD_MASS),
+                    .density = mor_view_read(view, MOR_FIELD_DENSITY),
+                    .stress = mor_view_read(view, MOR_FIELD_STRESS)};
+    mor_view_read_state(view, soil->state_fields, soil->material->n_state, from.state);
+    int32_t *removed = mor_view_write_shared(view, MOR_RESOURCE_ORDER, soil->order);
     for (int64_t i = 0; i < soil->set.n_particles; ++i) {
-        if (!is_inside(&soil->settings, soil->set.data[MOR_FIELD_POSITION] + 3 * i)) {
-            soil->order[n_out++] = (int32_t)i; /* scratch of the sort */
+        if (!is_inside(&soil->settings, from.position + 3 * i)) {
+            removed[n_out++] = (int32_t)i;
         }
     }
     MOR_CHECK(context, n_out < soil->set.n_particles, MOR_ERROR_NUMERIC,
@@ -144,9 +161,10 @@ mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *
               "Enlarge 'domain', or let the run end before",
               soil->set.name, step->time + step->length, (unsigned long long)step->number);
     for (int64_t k = 0; k < n_out; ++k) {
-        count_out(soil, soil->order[k]);
+        count_out(soil, &from, removed[k]);
     }
-    mor_set_remove(&soil->set, soil->order, n_out);
+    mor_set_remove(&soil->set, removed, n_out);
+    mor_view_renew(view);
     mor_soil_fit(soil);
     soil->has_outflow = false;
     return MOR_OK;

@@ -27,7 +27,6 @@
     X(BOUNDARIES, "boundaries")         /* points of walls and rocks */                                                \
     X(WALL_SUMS, "wall sums")           /* kernel sums over walls and rocks */                                         \
     X(WALL_FORCES, "wall forces")       /* forces between soil and walls or rocks, and where they stick */             \
-    X(DENSITY_SUMS, "density sums")     /* densities by summation */                                                   \
     X(MOMENTS, "moments")               /* moments of the kernel gradient */                                           \
     X(SPIN_STRESS, "skew stresses")     /* that keep angular momentum */                                               \
     X(REGULARIZATION, "regularization") /* sums of XSPH and shifting */                                                \

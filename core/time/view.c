@@ -72,6 +72,7 @@ void *mor_view_write_shared(mor_view *view, int resource, void *data)
 
 void mor_view_compare(mor_view *view, int resource, uint64_t generation)
 {
+    note_read(view, resource);
     view->stale |= generation != view->set->generation ? MOR_BIT(resource) : 0;
 }
 

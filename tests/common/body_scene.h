@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/geometry/shape_moments.h"
+#include "core/material/checked.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
 #include "tests/common/laws.h"
@@ -130,6 +131,7 @@ static inline void body_scene_open(body_scene *it, const body_scene_request *req
     const double values[MOR_HOOKE_COUNT] = {request->youngs, request->poisson};
     const mor_material *model = request->material != NULL ? request->material : law_named("neo_hookean");
     body_scene_require(it, mor_material_create(&it->context, model, request->density, values, &it->material));
+    body_scene_require(it, mor_checked_wrap(&it->context, &it->material));
     body_scene_make_shape(it, request);
     mor_body_request body = {.name = "body",
                              .shape = it->shape,

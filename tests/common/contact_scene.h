@@ -10,6 +10,7 @@
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/geometry/shape_moments.h"
+#include "core/material/checked.h"
 #include "core/time/schedule.h"
 #include "materials/hooke.h"
 #include "tests/common/laws.h"
@@ -213,6 +214,7 @@ static inline void contact_scene_make_groups(contact_scene *it)
                                      .hourglass = 0.0};
         contact_scene_require(
             it, mor_material_create(&it->context, law_named("neo_hookean"), request->density, values, &it->material));
+        contact_scene_require(it, mor_checked_wrap(&it->context, &it->material));
         contact_scene_require(it, mor_elastic_init(&it->context, &it->elastic, "rubber", &settings, it->material,
                                                    request->dimension, request->spacing, asks[0], it->n_elastic));
     }

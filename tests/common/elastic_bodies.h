@@ -8,6 +8,7 @@
 #include "core/base/memory.h"
 #include "core/base/random.h"
 #include "core/geometry/shape_analytic.h"
+#include "core/material/checked.h"
 #include "core/time/schedule.h"
 #include "tests/common/laws.h"
 
@@ -157,6 +158,7 @@ static inline mor_status elastic_try_open(elastic_bodies *it, const elastic_requ
     it->context.n_threads = r->n_threads > 0 ? r->n_threads : 1;
     elastic_require(it,
                     mor_material_create(&it->context, law_named("neo_hookean"), r->density, parameters, &it->material));
+    elastic_require(it, mor_checked_wrap(&it->context, &it->material));
     for (int b = 0; b < r->n_pieces; ++b) {
         elastic_describe(it, r, b, &bodies[b], &points[b]);
     }

@@ -3,6 +3,7 @@
 #ifndef MOR_TESTS_COMMON_ROCK_SCENE_H
 #define MOR_TESTS_COMMON_ROCK_SCENE_H
 
+#include "core/material/checked.h"
 #include "core/sph/soil.h"
 #include "core/time/schedule.h"
 #include "materials/drucker_prager.h"
@@ -113,6 +114,7 @@ static inline void rock_scene_build(rock_scene *it)
     const double density = it->settings.reference_density;
     rock_scene_require(
         it, mor_material_create(&it->context, law_named("drucker_prager"), density, it->parameters, &it->sand));
+    rock_scene_require(it, mor_checked_wrap(&it->context, &it->sand));
     rock_scene_require(it, mor_soil_init(&it->context, &it->soil, "sand", &it->settings, it->sand, it->n_points));
     double *const *data = it->soil.set.data;
     memcpy(data[MOR_FIELD_POSITION], it->points, (size_t)(3 * it->n_points) * sizeof(double));

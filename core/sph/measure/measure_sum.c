@@ -8,22 +8,30 @@
 /* Chunks are so many whatever the number of threads, so that no sum depends on that. */
 enum { CHUNKS = 64, BATCH = 256, FEW = 4 * MOR_BLOCK };
 
-static mor_sum sum_chunk(int64_t first, int64_t last, mor_sum_fill fill, const void *job)
+/* Whose terms are summed. */
+typedef struct summation {
+    mor_sum_fill fill;
+    const void *job;
+} summation;
+
+static void sum_chunk(void *job, int64_t first, int64_t last, double *values)
 {
+    const summation *it = job;
     mor_measure_lanes sums = {{0.0}, {0.0}};
     mor_sum sum = {0.0, 0.0};
     double terms[BATCH];
     const mor_measure_fill_table *fills = mor_measure_fills();
     for (int64_t i = first; i < last; i += BATCH) {
         const int64_t n = last - i < BATCH ? last - i : BATCH;
-        fill(job, i, n, terms);
+        it->fill(it->job, i, n, terms);
         fills->add(&sums, terms, n);
     }
     for (int k = 0; k < MOR_MEASURE_LANES; ++k) {
         mor_sum_add(&sum, sums.high[k]);
         mor_sum_add(&sum, sums.low[k]);
     }
-    return sum;
+    values[0] = sum.high;
+    values[1] = sum.low;
 }
 
 mor_measure_team mor_measure_team_for(int64_t n, int n_threads)
@@ -33,17 +41,13 @@ mor_measure_team mor_measure_team_for(int64_t n, int n_threads)
 
 double mor_sum_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job)
 {
-    const mor_measure_team team = mor_measure_team_for(n, n_threads);
-    mor_sum sums[CHUNKS];
-    mor_sum sum = {0.0, 0.0};
-    MOR_PARALLEL_FOR (&team, chunk, CHUNKS, 1) {
-        sums[chunk] = sum_chunk(chunk * n / CHUNKS, (chunk + 1) * n / CHUNKS, fill, job);
-    }
-    for (int chunk = 0; chunk < CHUNKS; ++chunk) {
-        mor_sum_add(&sum, sums[chunk].high);
-        mor_sum_add(&sum, sums[chunk].low);
-    }
-    return mor_sum_value(sum);
+    const mor_blocks blocks = {.n_items = n, .n_blocks = CHUNKS, .grain = 1};
+    summation terms = {fill, job};
+    double sums[2 * CHUNKS];
+    double sum[2] = {0.0, 0.0};
+    mor_reduce(&blocks, mor_measure_team_for(n, n_threads).n_threads, MOR_REDUCE_COMPENSATED, 2, sum_chunk, &terms,
+               sums, sum);
+    return mor_sum_value((mor_sum){sum[0], sum[1]});
 }
 
 void mor_fill_over(int64_t n, int n_threads, mor_sum_fill fill, const void *job, double *values)

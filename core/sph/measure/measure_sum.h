@@ -7,29 +7,8 @@
  *  Compensated sums and the volume of a particle, shared by the measurements. Needs strict floating point: it must not
  *  be compiled with -ffast-math. */
 
+#include "core/base/reduce.h"
 #include "core/sph/measure/measure.h"
-
-/** A sum that remembers what rounding took away (Knuth's two-sum). Start from zero. */
-typedef struct mor_sum {
-    double high; /* the rounded sum; unit: that of the terms, 1 for numbers */
-    double low;  /* what is missing from it; same unit, 1 for numbers */
-} mor_sum;
-
-/** Adds a term; term in the unit of the sum, 1 for numbers.
- *  @param term [in]      unit 1 or that of the sum */
-static inline void mor_sum_add(mor_sum *sum, double term)
-{
-    const double total = sum->high + term;
-    const double taken = total - sum->high;
-    sum->low += (sum->high - (total - taken)) + (term - taken);
-    sum->high = total;
-}
-
-/** Returns the value of a sum, in the unit of its terms, 1 for numbers. */
-static inline double mor_sum_value(mor_sum sum)
-{
-    return sum.high + sum.low;
-}
 
 /** Threads that share one measurement. */
 typedef struct mor_measure_team {

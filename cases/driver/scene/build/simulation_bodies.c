@@ -12,6 +12,7 @@
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/geometry/shape_moments.h"
+#include "core/material/checked.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -182,6 +183,7 @@ static mor_status finish_group(mor_context *context, mor_simulation_bodies *bodi
     name_group(bodies, first->model, name, sizeof name);
     if (material != NULL) {
         MOR_TRY(context, mor_material_create(context, material, first->density, first->parameters, instance));
+        MOR_TRY(context, mor_checked_wrap(context, instance));
     }
     MOR_TRY(
         context,

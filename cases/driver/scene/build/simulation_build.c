@@ -11,6 +11,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
+#include "core/material/checked.h"
 #include "core/material/params.h"
 #include "core/sph/measure/measure.h"
 
@@ -362,6 +363,9 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation, c
     MOR_TRY(context, check_materials(context, c, material));
     mor_status status =
         mor_material_create(context, material, c->soils[0].density, c->soils[0].parameters, &simulation->material);
+    if (status == MOR_OK) {
+        status = mor_checked_wrap(context, &simulation->material);
+    }
     if (status != MOR_OK) {
         return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: %s", c->soils[0].place.file, c->soils[0].place.line,
                         context->message);
