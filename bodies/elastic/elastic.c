@@ -31,7 +31,7 @@ static const mor_stage elastic_stages[] = {
      "acceleration by the neighbors, hourglass control included", NULL},
     {"kick", mor_elastic_kick, BIT(MASS), 0, BIT(VELOCITY) | BIT(ACCELERATION) | RECORDS | BODIES | BOUNDS,
      "soil, contact, gravity; velocities to the end of the sub-step", NULL},
-    {"deformation rate", mor_elastic_find_rate, RECORDS, RATE | BIT(DENSITY), GRADIENT,
+    {"deformation rate", mor_elastic_find_rate, RECORDS, BIT(DENSITY), GRADIENT | RATE,
      "rate of the deformation gradient; deformation gradients and densities to the end of the sub-step", NULL},
     {"second drift", mor_elastic_drift_second, BIT(VELOCITY), 0, BIT(POSITION), "positions to the end of the sub-step",
      NULL},

@@ -81,8 +81,7 @@ void mor_reduce(const mor_blocks *blocks, int n_threads, mor_reduce_kind kind, i
     }
 }
 
-int64_t mor_reduce_first(const mor_blocks *blocks, int n_threads,
-                         int64_t (*find)(const void *job, int64_t first, int64_t last), const void *job,
+int64_t mor_reduce_first(const mor_blocks *blocks, int n_threads, mor_reduce_find find, const void *job,
                          int64_t *partial)
 {
     const team t = {n_threads};
@@ -98,8 +97,7 @@ int64_t mor_reduce_first(const mor_blocks *blocks, int n_threads,
     return -1;
 }
 
-int64_t mor_reduce_status(const mor_blocks *blocks, int n_threads,
-                          mor_status (*run)(void *job, int64_t first, int64_t last), void *job, mor_status *partial)
+int64_t mor_reduce_status(const mor_blocks *blocks, int n_threads, mor_reduce_work run, void *job, mor_status *partial)
 {
     const team t = {n_threads};
     const int64_t n_blocks = mor_blocks_count(blocks);

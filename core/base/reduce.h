@@ -52,8 +52,8 @@ typedef enum mor_reduce_kind {
     MOR_REDUCE_SMALLEST     /* the smaller one; not a number wins */
 } mor_reduce_kind;
 
-/** Combines the values of the items [first, last) into values, shape [n_values], which hold the start values of the
- *  kind: zero, -INFINITY or INFINITY. */
+/** Combines the values of the items [first, last) into values, shape [n_values] and any unit, which hold the
+ *  start values of the kind: zero, -INFINITY or INFINITY. */
 typedef void (*mor_reduce_block)(void *job, int64_t first, int64_t last, double *values);
 
 /** Reduces numbers.
@@ -67,22 +67,28 @@ typedef void (*mor_reduce_block)(void *job, int64_t first, int64_t last, double 
 void mor_reduce(const mor_blocks *blocks, int n_threads, mor_reduce_kind kind, int n_values, mor_reduce_block run,
                 void *job, double *partial, double *results);
 
+/** Returns the first item of a kind among [first, last), 1, or -1. */
+typedef int64_t (*mor_reduce_find)(const void *job, int64_t first, int64_t last);
+
 /** Finds the first item of a kind.
- *  @param find    [in]   returns the first such item in [first, last), or -1
- *  @param job     [in]   first argument of find
- *  @param partial [out]  shape [blocks]
+ *  @param n_threads [in]   threads there are, >= 1
+ *  @param find      [in]   finds the first of a block
+ *  @param job       [in]   first argument of find
+ *  @param partial   [out]  shape [blocks]
  *  Returns: its index; -1 when there is none. */
-int64_t mor_reduce_first(const mor_blocks *blocks, int n_threads,
-                         int64_t (*find)(const void *job, int64_t first, int64_t last), const void *job,
+int64_t mor_reduce_first(const mor_blocks *blocks, int n_threads, mor_reduce_find find, const void *job,
                          int64_t *partial);
 
+/** Works on the items [first, last). Returns: MOR_OK, or why it failed. */
+typedef mor_status (*mor_reduce_work)(void *job, int64_t first, int64_t last);
+
 /** Does something to all items and finds the first block in which it failed.
- *  @param run     [in]      works on the items [first, last)
- *  @param job     [in,out]  first argument of run
- *  @param partial [out]     shape [blocks]; what run returned for each block
+ *  @param n_threads [in]      threads there are, >= 1
+ *  @param run       [in]      works on a block
+ *  @param job       [in,out]  first argument of run
+ *  @param partial   [out]     shape [blocks]; what run returned for each block
  *  Returns: index of the block; -1 when all went well. */
-int64_t mor_reduce_status(const mor_blocks *blocks, int n_threads,
-                          mor_status (*run)(void *job, int64_t first, int64_t last), void *job, mor_status *partial);
+int64_t mor_reduce_status(const mor_blocks *blocks, int n_threads, mor_reduce_work run, void *job, mor_status *partial);
 
 /** Returns the larger of two numbers, or the one that is not a number; any unit. */
 static inline double mor_larger(double a, double b)

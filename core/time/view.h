@@ -63,7 +63,7 @@ const void *mor_view_read_shared(mor_view *view, int resource, const void *data)
  *  Returns: data. */
 void *mor_view_write_shared(mor_view *view, int resource, void *data);
 
-/** Notes the reading of shared data, and a fault when shared data with indices of particles was made for another order of the particles.
+/** Notes the reading of shared data with indices of particles, and a fault when it was made for another order of them.
  *  @param resource   [in]  MOR_RESOURCE_...
  *  @param generation [in]  of the set when the data was made */
 void mor_view_compare(mor_view *view, int resource, uint64_t generation);

@@ -17,6 +17,7 @@ import check_includes
 import check_reference
 import check_rooms_drawing
 import check_sizes
+import check_stages
 import check_symbols
 import check_tests
 import check_roles
@@ -194,6 +195,19 @@ class Headers(Sample):
     def test_missing_guard_is_refused(self):
         self.write("core/base/bad.h", TAG + "int mor_bad(void);\n")
         self.expect(check_headers.check(self.root, COMPILER), "no guard MOR_CORE_BASE_BAD_H")
+
+
+class Stages(Sample):
+    STAGE = "mor_status mor_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step)\n{\n%s\n}\n"
+
+    def test_good_source_passes(self):
+        self.write("core/base/kick.c", TAG + self.STAGE % "    double *v = mor_view_write(view, 1);")
+        self.write("core/base/setup.c", TAG + "void f(mor_set *set)\n{\n    set->data[0] = NULL;\n}\n")
+        self.expect(check_stages.check(self.root))
+
+    def test_stage_past_its_view_is_refused(self):
+        self.write("core/base/kick.c", TAG + self.STAGE % "    double *v = soil->set.data[1];")
+        self.expect(check_stages.check(self.root), "core/base/kick.c:5: 'set.data' goes past the view of a stage")
 
 
 class Sizes(Sample):

@@ -1,0 +1,40 @@
+#!/bin/sh
+# Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+# SPDX-License-Identifier: Apache-2.0
+#
+# checked.sh: a few dozen steps of three cases in the checked build, which stops at the first stage or material that
+# does not keep to what it declares. The state at the end is that of the optimized program, bit for bit. Needs both
+# programs.
+set -eu
+release=build/release/moraine
+checked=build/checked/moraine
+results=$(mktemp -d)
+trap 'rm -rf "$results"' EXIT
+
+state_of() { # state_of PROGRAM ARGUMENT...: runs a case and prints the hash of its state
+    program=$1
+    shift
+    "$program" run "$@" -o "$results/run" --set output.pictures=false >"$results/log" 2>&1 || {
+        code=$?
+        # 3: what the case expects comes later than its end here
+        [ "$code" = 3 ] || { cat "$results/log" >&2; return 1; }
+    }
+    python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["state_hash"])' "$results/run/summary.json"
+    rm -rf "$results/run"
+}
+
+compare() { # compare NAME ARGUMENT...
+    name=$1
+    shift
+    expected=$(state_of "$release" "$@")
+    found=$(state_of "$checked" "$@") || { echo "checked.sh: $name stops in the checked build, see above" >&2; exit 1; }
+    [ "$found" = "$expected" ] || {
+        echo "checked.sh: $name ends with state $found; allowed is $expected, that of the release build" >&2
+        exit 1
+    }
+    echo "$name: passes, state $found"
+}
+
+compare "soil in plane strain" cases/column-2d/case.cfg --set 'spacing=8 mm' --set 'end=0.02 s'
+compare "soil, walls and elastic bodies" cases/srm-slope/case.cfg --set 'end=2 ms'
+compare "soil, walls and rigid rocks" cases/blocks/case.cfg --set 'end=1 ms'
