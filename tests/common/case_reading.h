@@ -6,6 +6,7 @@
 #include "cases/driver/case/schema/case_schema.h"
 #include "cases/driver/case/sections/case_read.h"
 #include "cases/driver/case/write/case_write.h"
+#include "cases/driver/probe/probe.h"
 #include "core/material/params.h"
 #include "materials/builtin.h"
 
@@ -68,6 +69,7 @@ static inline mor_status case_reading_try(case_reading *f, const char *text, siz
                                  .settings = settings,
                                  .n_settings = n_settings,
                                  .registry = f->registry,
+                                 .probe_types = mor_probe_type_at,
                                  .units = f->units};
     mor_case_clear(&f->context, out);
     return mor_case_read_text(&f->context, &given, out);

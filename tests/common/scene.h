@@ -82,14 +82,15 @@ static inline void scene_read(scene *it, const scene_request *request)
     const size_t length = strlen(text);
     if (length > 4 && strcmp(text + length - 4, ".cfg") == 0) {
         scene_require(it, mor_case_read(&it->context, text, (const char *const *)settings, n_settings, it->registry,
-                                        &it->the_case));
+                                        mor_probe_type_at, &it->the_case));
     } else {
         const mor_case_text source = {.name = "scene",
                                       .text = text,
                                       .n_bytes = (int64_t)length,
                                       .settings = (const char *const *)settings,
                                       .n_settings = n_settings,
-                                      .registry = it->registry};
+                                      .registry = it->registry,
+                                      .probe_types = mor_probe_type_at};
         scene_require(it, mor_case_read_text(&it->context, &source, &it->the_case));
     }
     for (int k = 0; k < n_settings; ++k) {

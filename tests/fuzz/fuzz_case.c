@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case/sections/case_read.h"
 #include "cases/driver/case/write/case_write.h"
+#include "cases/driver/probe/probe.h"
 #include "materials/builtin.h"
 
 #include <stdint.h>
@@ -94,6 +95,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes)
                                 .settings = settings,
                                 .n_settings = take_setting(data, n_bytes, setting),
                                 .registry = registry,
+                                .probe_types = mor_probe_type_at,
                                 .units = get_units()};
     const mor_status status = mor_case_read_text(&context, &text, &the_case);
     if (status == MOR_OK) {

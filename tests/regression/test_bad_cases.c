@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/probe/probe.h"
 #include "materials/builtin.h"
 
 #include <dirent.h>
@@ -245,7 +246,8 @@ static void every_bad_case_is_refused_with_place_finding_and_advice(void **state
         char path[PATH_BYTES];
         snprintf(path, sizeof path, "%s/%s.cfg", FOLDER, bad_cases[k].name);
         mor_context_clear_error(&f->context);
-        const mor_status status = mor_case_read(&f->context, path, NULL, 0, f->registry, &f->the_case);
+        const mor_status status =
+            mor_case_read(&f->context, path, NULL, 0, f->registry, mor_probe_type_at, &f->the_case);
         const char *fault = judge(f, &bad_cases[k], status, path);
         if (fault != NULL) {
             print_error("%s: %s\n  message: %s\n", bad_cases[k].name, fault, f->context.message);
@@ -262,7 +264,8 @@ static void the_bases_of_the_bad_cases_are_good(void **state)
     for (int k = 0; k < N_BASES; ++k) {
         char path[PATH_BYTES];
         snprintf(path, sizeof path, "%s/%s", FOLDER, bases[k]);
-        const mor_status status = mor_case_read(&f->context, path, NULL, 0, f->registry, &f->the_case);
+        const mor_status status =
+            mor_case_read(&f->context, path, NULL, 0, f->registry, mor_probe_type_at, &f->the_case);
         if (status != MOR_OK) {
             fail_msg("%s", f->context.message);
         }

@@ -3,6 +3,7 @@
 /* Cases that read well but cannot be built: each is refused with file, line, what was found and what to do. */
 #include "cases/driver/case/sections/case_read.h"
 #include "cases/driver/picture/pictures.h"
+#include "cases/driver/probe/probe.h"
 #include "cases/driver/scene/build/simulation_build.h"
 #include "materials/builtin.h"
 #include "tests/common/program.h"
@@ -189,8 +190,8 @@ static mor_status build_scene(const char *source, const char *setting, char *mes
     mor_context_init(&context);
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
     assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
-    const mor_case_text text = {"scene.cfg", source, (int64_t)strlen(source), &setting, setting != NULL,
-                                registry,    NULL};
+    const mor_case_text text = {"scene.cfg",     source,   (int64_t)strlen(source), &setting,
+                                setting != NULL, registry, mor_probe_type_at,       NULL};
     mor_status status = mor_case_read_text(&context, &text, &the_case);
     if (status == MOR_OK) {
         status = mor_simulation_init(&context, &simulation, &the_case, registry);
@@ -268,7 +269,8 @@ static void geostatic_stress_counts_all_soil_straight_above(void **state)
     mor_context_init(&context);
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
     assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
-    const mor_case_text text = {"scene.cfg", base, (int64_t)strlen(base), settings, 1, registry, NULL};
+    const mor_case_text text = {"scene.cfg", base,     (int64_t)strlen(base), settings,
+                                1,           registry, mor_probe_type_at,     NULL};
     assert_int_equal(mor_case_read_text(&context, &text, &the_case), MOR_OK);
     assert_int_equal(mor_simulation_init(&context, &simulation, &the_case, registry), MOR_OK);
     const mor_set *set = &simulation.soil.set;

@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/probe/probe.h"
 #include "tests/common/scene.h"
 
 #include <stdio.h>
@@ -104,8 +105,11 @@ static mor_status build(const char *text, char *said)
     assert_int_equal(mor_registry_new(&context, &registry), MOR_OK);
     assert_int_equal(mor_registry_add_list(&context, registry, mor_materials_builtin(NULL)), MOR_OK);
     char *quoted = scene_quote(text);
-    const mor_case_text source = {
-        .name = "scene", .text = quoted, .n_bytes = (int64_t)strlen(quoted), .registry = registry};
+    const mor_case_text source = {.name = "scene",
+                                  .text = quoted,
+                                  .n_bytes = (int64_t)strlen(quoted),
+                                  .registry = registry,
+                                  .probe_types = mor_probe_type_at};
     mor_status status = mor_case_read_text(&context, &source, &the_case);
     if (status == MOR_OK) {
         status = mor_simulation_init(&context, &simulation, &the_case, registry);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* The mass of particles against that of their shape, and the particles across a body that meets soil. */
 #include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/probe/probe.h"
 #include "cases/driver/scene/build/simulation_build.h"
 #include "cases/driver/scene/check/simulation_resolution.h"
 #include "core/base/math.h"
@@ -39,7 +40,8 @@ static double find_volume(run_folder *folder, const char *source, const char *se
     finished_run_store_text(folder, source, path);
     assert_int_equal(mor_registry_new(context, &registry), MOR_OK);
     assert_int_equal(mor_registry_add_list(context, registry, mor_materials_builtin(NULL)), MOR_OK);
-    assert_int_equal(mor_case_read(context, path, settings, setting != NULL, registry, &the_case), MOR_OK);
+    assert_int_equal(mor_case_read(context, path, settings, setting != NULL, registry, mor_probe_type_at, &the_case),
+                     MOR_OK);
     assert_int_equal(mor_simulation_init(context, &simulation, &the_case, registry), MOR_OK);
     assert_int_equal(mor_simulation_find_volume(context, &simulation, 0, &volume), MOR_OK);
     mor_simulation_clear(context, &simulation);

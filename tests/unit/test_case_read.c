@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/probe/probe.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 #include "tests/common/case_reading.h"
@@ -355,7 +356,7 @@ static void a_case_is_written_to_a_file_or_not_with_a_reason(void **state)
     case_reading_read(f, least_text, NULL, &f->first);
     const mor_status written = mor_case_write(&f->context, &f->first, f->registry, path);
     mor_case_clear(&f->context, &f->second);
-    const mor_status again = mor_case_read(&f->context, path, NULL, 0, f->registry, &f->second);
+    const mor_status again = mor_case_read(&f->context, path, NULL, 0, f->registry, mor_probe_type_at, &f->second);
     assert_int_equal(written, MOR_OK);
     assert_int_equal(again, MOR_OK);
     assert_string_equal(f->second.path, path);

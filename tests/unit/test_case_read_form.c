@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case/reader/case_inputs.h"
+#include "cases/driver/probe/probe.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 #include "tests/common/case_reading.h"
@@ -256,7 +257,8 @@ static void path_is_taken_from_the_folder_of_the_case(void **state)
     store_file(f, "case.cfg", text);
     free(text);
     snprintf(path, sizeof path, "%s/case.cfg", f->folder);
-    const mor_status status = mor_case_read(&f->reading.context, path, NULL, 0, f->reading.registry, &f->reading.first);
+    const mor_status status =
+        mor_case_read(&f->reading.context, path, NULL, 0, f->reading.registry, mor_probe_type_at, &f->reading.first);
     if (status != MOR_OK) {
         fail_msg("%s", f->reading.context.message);
     }

@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/probe/probe.h"
 #include "core/base/units.h"
 #include "core/material/params.h"
 #include "materials/builtin.h"
@@ -116,7 +117,8 @@ static void the_tables_are_sound(void **state)
     for (int k = 0; k < n_groups; ++k) {
         check_table(f, groups[k]);
     }
-    for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
+    const mor_case_probe_type *type = NULL;
+    for (int n = 0; (type = mor_probe_type_at(n)) != NULL; ++n) {
         assert_int_equal(mor_units_dimension(&f->context, f->units, type->unit, &dimension), MOR_OK);
         assert_int_equal(mor_units_dimension(&f->context, f->units, type->unit_plane, &dimension), MOR_OK);
         assert_int_equal(type->required & ~type->allowed, 0);
@@ -127,7 +129,7 @@ static void the_tables_are_sound(void **state)
         const unsigned named = MOR_CASE_PROBE_BODY | MOR_CASE_PROBE_WALL;
         assert_int_equal(type->allowed & named, type->required & named);
         assert_true((type->allowed & MOR_CASE_PROBE_BODY) == 0 || (type->traits & MOR_CASE_PROBE_OF_BODIES) != 0);
-        assert_ptr_equal(mor_case_probe_type_find(type->name), type);
+        assert_ptr_equal(mor_case_probe_type_find(mor_probe_type_at, type->name), type);
     }
     for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
         assert_true(mor_case_key_find(mor_case_probe_group.keys, mor_case_probe_key_names[k]) >= 0);
@@ -167,7 +169,7 @@ static void the_printed_reference_names_every_key(void **state)
     size_t n_bytes = 0;
     FILE *stream = open_memstream(&text, &n_bytes);
     assert_non_null(stream);
-    assert_int_equal(mor_case_schema_print(&f->context, f->registry, stream), MOR_OK);
+    assert_int_equal(mor_case_schema_print(&f->context, f->registry, mor_probe_type_at, stream), MOR_OK);
     fclose(stream);
     const mor_case_group *groups[GROUPS_MAX];
     const int n_groups = list_groups(groups);

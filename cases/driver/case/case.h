@@ -260,11 +260,51 @@ typedef struct mor_case_contact {
     uint64_t written;
 } mor_case_contact;
 
+/** Keys of a probe that only some types take. */
+enum {
+    MOR_CASE_PROBE_WALL = 1,
+    MOR_CASE_PROBE_MEASURE = 2,
+    MOR_CASE_PROBE_PERCENTILE = 4,
+    MOR_CASE_PROBE_THICKNESS = 8,
+    MOR_CASE_PROBE_ORIGIN = 16,
+    MOR_CASE_PROBE_DIRECTION = 32,
+    MOR_CASE_PROBE_RADIAL = 64,
+    MOR_CASE_PROBE_BODY = 128
+};
+
+/** What sets a type of probe apart, beside its keys. */
+enum {
+    MOR_CASE_PROBE_OF_SOIL = 1,    /* makes sense in a case with soil only */
+    MOR_CASE_PROBE_OF_BODIES = 2,  /* makes sense in a case with bodies only */
+    MOR_CASE_PROBE_OF_TURN = 4,    /* direction is an axis, in plane strain always z */
+    MOR_CASE_PROBE_OF_AUDIT = 8,   /* needs the audit of the soil's energy */
+    MOR_CASE_PROBE_OF_STEP = 16,   /* holds over a step, as a force; others have a value at each instant */
+    MOR_CASE_PROBE_OF_FORCE = 32,  /* a force, which has an impulse */
+    MOR_CASE_PROBE_OF_CONTACT = 64 /* changes with each sub-step of the bodies */
+};
+
+/** What a type of probe measures. */
+typedef struct mor_case_probe_type {
+    const char *name;
+    const char *unit;       /* SI unit of the value in three dimensions */
+    const char *unit_plane; /* in plane strain, where extensive values are per meter of thickness */
+    unsigned allowed;       /* MOR_CASE_PROBE_ bits of the keys it takes */
+    unsigned required;      /* and of those it cannot do without; see mor_case_probe_required */
+    unsigned traits;        /* MOR_CASE_PROBE_OF_ bits */
+    double percentile;      /* default of that key, percent */
+    const char *text;       /* one line for people */
+} mor_case_probe_type;
+
+/** Returns the types of probes one after the other, NULL behind the last one.
+ *  @param index [in]  >= 0 */
+typedef const mor_case_probe_type *(*mor_case_probe_catalog)(int index);
+
 /** One probe: a named result. */
 typedef struct mor_case_probe {
     char name[MOR_CASE_NAME_BYTES];
     mor_case_place place;
     char type[MOR_CASE_NAME_BYTES];    /* "run_out", "height", "repose_angle", "kinetic_energy", ... */
+    const mor_case_probe_type *kind;   /* the type of that name */
     char measure[MOR_CASE_NAME_BYTES]; /* of a run-out: "mass_percentile" or "thickness" */
     char wall[MOR_CASE_NAME_BYTES];    /* of a wall force */
     char body[MOR_CASE_NAME_BYTES];    /* of a probe of one body */
@@ -344,6 +384,7 @@ typedef struct mor_case {
     int n_rocks;
     mor_case_contact contact;
     mor_scheme numerics;
+    mor_case_probe_catalog probe_types; /* that the case was read with; NULL: none */
     mor_case_probe probes[MOR_CASE_PROBES_MAX];
     int n_probes;
     mor_case_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];

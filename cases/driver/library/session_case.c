@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* A case is loaded, built, settled and stepped. */
 #include "cases/driver/library/session_internal.h"
+#include "cases/driver/probe/probe.h"
 
 #include "cases/driver/case/sections/case_read.h"
 #include "cases/driver/picture/pictures.h"
@@ -39,7 +40,7 @@ mor_status mor_session_load_file(mor_session *session, const char *path)
     mor_context *context = &session->context;
     MOR_TRY(context, begin_case(session));
     mor_status status = mor_case_read(context, path, (const char *const *)session->overrides, session->n_overrides,
-                                      session->registry, &session->the_case);
+                                      session->registry, mor_probe_type_at, &session->the_case);
     if (status == MOR_OK) {
         status = mor_hash_file(context, path, &session->files.case_hash);
     }
@@ -53,7 +54,8 @@ mor_status mor_session_load_text(mor_session *session, const char *name, const c
                                  .n_bytes = (int64_t)strlen(text),
                                  .settings = (const char *const *)session->overrides,
                                  .n_settings = session->n_overrides,
-                                 .registry = session->registry};
+                                 .registry = session->registry,
+                                 .probe_types = mor_probe_type_at};
     MOR_TRY(&session->context, begin_case(session));
     session->files.case_hash = mor_hash_bytes(text, strlen(text));
     return end_loading(session, mor_case_read_text(&session->context, &given, &session->the_case));

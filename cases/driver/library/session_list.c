@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* What there is: lists, and the check of a material. */
 #include "cases/driver/library/session_internal.h"
+#include "cases/driver/probe/probe.h"
 
 #include "cases/driver/case/schema/case_schema.h"
 #include "core/material/conformance/conformance.h"
@@ -32,7 +33,8 @@ static mor_status list_probes(mor_context *context, const mor_registry *registry
 {
     (void)context;
     (void)registry;
-    for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
+    const mor_case_probe_type *type = NULL;
+    for (int k = 0; (type = mor_probe_type_at(k)) != NULL; ++k) {
         fprintf(out, "%-20s [%s; %s in plane strain] %s%s\n", type->name, type->unit, type->unit_plane, type->text,
                 (type->traits & MOR_CASE_PROBE_OF_FORCE) != 0 ? "; has an impulse [N s; N s/m in plane strain]" : "");
     }
@@ -99,7 +101,7 @@ static mor_status list_shapes(mor_context *context, const mor_registry *registry
 
 static mor_status list_keys(mor_context *context, const mor_registry *registry, FILE *out)
 {
-    return mor_case_schema_print(context, registry, out);
+    return mor_case_schema_print(context, registry, mor_probe_type_at, out);
 }
 
 static const struct {

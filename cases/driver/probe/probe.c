@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/probe/probe_measure.h"
+#include "cases/driver/probe/probe_row_internal.h"
 
 #include "cases/driver/case/schema/case_schema.h"
 #include "core/base/math.h"
@@ -411,42 +411,107 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
 }
 
 static const mor_probe_measure measures[] = {
-    {.type = "run_out", .run = run_out, .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = "toe", .run = toe, .cost = MOR_PROBE_COST_SUM},
-    {.type = "front_speed", .run = front_speed, .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = "height", .run = height, .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = "repose_angle", .run = repose_angle, .cost = MOR_PROBE_COST_PROFILE},
-    {.type = "stray_share", .run = stray_share, .cost = MOR_PROBE_COST_PROFILE},
-    {.type = "kinetic_energy", .run = kinetic_energy, .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = "potential_energy", .run = potential_energy, .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = "elastic_energy", .run = elastic_energy, .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = "total_energy", .run = total_energy, .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = "energy_left", .run = energy_left, .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = "dissipated_energy", .run = dissipated_energy, .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = "mass", .run = mass, .cost = MOR_PROBE_COST_SUM},
-    {.type = "outflow_mass", .run = outflow_mass},
-    {.type = "outflow_momentum", .run = outflow_momentum},
-    {.type = "outflow_energy", .run = outflow_energy},
-    {.type = "momentum", .run = momentum, .cost = MOR_PROBE_COST_SUM},
-    {.type = "center_of_mass", .run = center_of_mass, .cost = MOR_PROBE_COST_SUM},
-    {.type = "wall_force", .run = wall_force},
-    {.type = "wall_impulse", .run = wall_impulse},
-    {.type = "wall_gap", .run = wall_gap, .cost = MOR_PROBE_COST_DISTANCE},
-    {.type = "largest_speed", .run = largest_speed, .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = "density_drift", .run = density_drift, .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = "stress_error", .run = stress_error, .cost = MOR_PROBE_COST_STRESS},
-    {.type = "stress_ratio", .run = stress_ratio, .cost = MOR_PROBE_COST_STRESS},
-    {.type = "stress_noise", .run = stress_noise, .cost = MOR_PROBE_COST_STRESS},
-    {.type = "soil_kinetic_energy", .run = soil_kinetic_energy, .cost = MOR_PROBE_COST_KINETIC},
-    {.type = NULL}};
+    {.type = {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "distance the deposit reaches"},
+     .run = run_out,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"toe", "m", "m", ALONG, 0, 0, 100.0,
+              "distance of the outermost particle, of soil or rocks, that lies higher than origin; 0: none does"},
+     .run = toe,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"front_speed", "m/s", "m/s", FRONT, 0, OF_SOIL, 99.5, "speed of the end of the deposit"},
+     .run = front_speed,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"height", "m", "m", PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0, "height of the deposit, against gravity"},
+     .run = height,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"repose_angle", "rad", "rad", ALONG, 0, OF_SOIL, 100.0, "slope of the free surface"},
+     .run = repose_angle,
+     .cost = MOR_PROBE_COST_PROFILE},
+    {.type = {"stray_share", "1", "1", ALONG | THICKNESS, 0, OF_SOIL, 100.0, "share of the mass outside the deposit"},
+     .run = stray_share,
+     .cost = MOR_PROBE_COST_PROFILE},
+    {.type = {"kinetic_energy", "J", "J/m", 0, 0, 0, 100.0, "kinetic energy of soil and bodies"},
+     .run = kinetic_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"potential_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+              "potential energy of soil and bodies, zero at origin"},
+     .run = potential_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"elastic_energy", "J", "J/m", 0, 0, 0, 100.0,
+              "elastic energy stored in soil, bodies, their contacts and their springs"},
+     .run = elastic_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"total_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+              "kinetic, potential and elastic energy of soil and bodies"},
+     .run = total_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"energy_left", "1", "1", ORIGIN, 0, 0, 100.0,
+              "total energy / total energy at the start, of soil and bodies"},
+     .run = energy_left,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"dissipated_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+              "total energy at the start less total energy, of soil and bodies, and less what left the domain"},
+     .run = dissipated_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0, "mass of the soil"}, .run = mass, .cost = MOR_PROBE_COST_SUM},
+    {.type = {"outflow_mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0,
+              "mass of the soil that has left the domain and was removed; with mass, that of the soil at the start"},
+     .run = outflow_mass},
+    {.type = {"outflow_momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, OF_SOIL, 100.0,
+              "momentum along direction of the soil that has left, each particle as it was then"},
+     .run = outflow_momentum},
+    {.type = {"outflow_energy", "J", "J/m", ORIGIN, 0, OF_SOIL, 100.0,
+              "kinetic, potential (zero at origin) and elastic energy of the soil that has left, each particle as it "
+              "was then"},
+     .run = outflow_energy},
+    {.type = {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0,
+              "momentum of soil and bodies along direction"},
+     .run = momentum,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"center_of_mass", "m", "m", ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+              "center of mass of the soil from origin along direction"},
+     .run = center_of_mass,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL | FORCE, 100.0,
+              "force of the soil on a wall along direction"},
+     .run = wall_force},
+    {.type = {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
+              "impulse of the soil on a wall since the start along direction"},
+     .run = wall_impulse},
+    {.type = {"wall_gap", "m", "m", WALL, WALL, OF_SOIL, 100.0,
+              "least distance of a soil particle from the surface of a wall; below zero: inside"},
+     .run = wall_gap,
+     .cost = MOR_PROBE_COST_DISTANCE},
+    {.type = {"largest_speed", "m/s", "m/s", PERCENTILE, 0, OF_SOIL, 100.0, "largest speed of a soil particle"},
+     .run = largest_speed,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"density_drift", "1", "1", PERCENTILE, 0, OF_SOIL, 99.0,
+              "relative departure of the density from the initial one"},
+     .run = density_drift,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0,
+              "error of the vertical stress of a column at rest / the stress"},
+     .run = stress_error,
+     .cost = MOR_PROBE_COST_STRESS},
+    {.type = {"stress_ratio", "1", "1", 0, 0, OF_SOIL, 100.0, "mean lateral stress / vertical stress"},
+     .run = stress_ratio,
+     .cost = MOR_PROBE_COST_STRESS},
+    {.type = {"stress_noise", "Pa", "Pa", 0, 0, OF_SOIL, 100.0,
+              "standard deviation of the vertical stress about its line"},
+     .run = stress_noise,
+     .cost = MOR_PROBE_COST_STRESS},
+    {.type = {"soil_kinetic_energy", "J", "J/m", 0, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
+     .run = soil_kinetic_energy,
+     .cost = MOR_PROBE_COST_KINETIC},
+    {.run = NULL}};
 
-static const mor_probe_measure *find_measure(const char *type)
+const mor_case_probe_type *mor_probe_type_at(int index)
 {
-    static const mor_probe_measure *const tables[] = {measures, mor_probe_body_measures, mor_probe_energy_measures};
+    static const mor_probe_measure *const tables[] = {measures, mor_probe_energy_measures, mor_probe_body_measures};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
-        for (const mor_probe_measure *it = tables[t]; it->type != NULL; ++it) {
-            if (strcmp(it->type, type) == 0) {
-                return it;
+        for (const mor_probe_measure *it = tables[t]; it->run != NULL; ++it) {
+            if (index-- == 0) {
+                return &it->type;
             }
         }
     }
@@ -461,7 +526,7 @@ void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
     double *const *data = simulation->soil.set.data;
     *v = (view){.simulation = simulation,
                 .probe = it,
-                .measure = find_measure(it->type),
+                .measure = (const mor_probe_measure *)it->kind, /* a type is the head of its measure */
                 .scan = track->scan,
                 .past = track->past[probe],
                 .body = track->bodies[probe] < 0 ? NULL : &simulation->bodies.of[track->bodies[probe]],
@@ -479,9 +544,6 @@ mor_status mor_probe_view_measure(mor_context *context, const view *v, double *v
 {
     view shared = *v;
     *value = NAN;
-    if (v->measure == NULL) {
-        return MOR_FAIL(context, MOR_ERROR_INTERNAL, "probe type '%s' has no measurement", v->probe->type);
-    }
     const mor_probe_cost cost = v->measure->cost;
     const bool needs_soil =
         cost == MOR_PROBE_COST_PERCENTILE || cost == MOR_PROBE_COST_PROFILE || cost == MOR_PROBE_COST_STRESS;
@@ -505,10 +567,10 @@ mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simula
 
 const char *mor_probe_impulse_unit(const mor_case *the_case, int probe)
 {
-    return mor_case_probe_impulse_unit(mor_case_probe_type_find(the_case->probes[probe].type), the_case->dimension);
+    return mor_case_probe_impulse_unit(the_case->probes[probe].kind, the_case->dimension);
 }
 
 const char *mor_probe_unit(const mor_case *the_case, int probe)
 {
-    return mor_case_probe_unit(mor_case_probe_type_find(the_case->probes[probe].type), the_case->dimension);
+    return mor_case_probe_unit(the_case->probes[probe].kind, the_case->dimension);
 }

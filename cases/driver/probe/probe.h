@@ -23,6 +23,11 @@ typedef struct mor_probe_statistics {
                                               * measured whenever its value is asked for */
 } mor_probe_statistics;
 
+/** The types of probes there are; a mor_case_probe_catalog.
+ *  @param index [in]  >= 0
+ *  Returns: a type, to be measured by this room; NULL behind the last one. */
+const mor_case_probe_type *mor_probe_type_at(int index);
+
 /** Evaluates one probe of the case on the state as it is.
  *  @param probe      [in]      index of the probe in the case
  *  @param value      [out]     one number, in the unit of mor_probe_unit; NaN where there is nothing to measure

@@ -58,9 +58,9 @@ typedef enum mor_probe_cost {
     MOR_PROBE_COSTS
 } mor_probe_cost;
 
-/** One type of probe. A table ends with type NULL. */
+/** One type of probe: what a case may say of it, and how it is measured. A table ends with run NULL. */
 typedef struct mor_probe_measure {
-    const char *type;
+    mor_case_probe_type type; /* first: a case points at it */
     /** Writes the value, one number, in the unit of the type. */
     mor_status (*run)(mor_context *context, const mor_probe_view *view, double *value);
     /** Writes what is recorded over the whole run so that `run` can look back, one number, any unit; NULL: nothing. */

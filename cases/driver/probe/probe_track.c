@@ -14,7 +14,7 @@ static const mor_probe_window whole_run = {0.0, INFINITY};
 
 static unsigned traits_of(const mor_simulation *s, int probe)
 {
-    return mor_case_probe_type_find(s->the_case->probes[probe].type)->traits;
+    return s->the_case->probes[probe].kind->traits;
 }
 
 /* ---- Contact, in each sub-step ----------------------------------------------------------------------------------- */

@@ -81,7 +81,7 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
     if (files->saved_text[0] == '\0') {
         return store_case(context, files, path);
     }
-    mor_case_compare(files->case_text, files->saved_text, &first);
+    mor_case_compare(files->the_case->probe_types, files->case_text, files->saved_text, &first);
     MOR_CHECK(
         context, !first.is_found, MOR_ERROR_CONFIG,
         "the case '%s' with its --set values is not the one that '%s' was started with; first difference: %s, was "

@@ -146,8 +146,8 @@ static void print_results(FILE *out, const mor_case *c, const mor_summary *summa
 static void print_expectation(FILE *out, const mor_case *c, int k, const mor_summary_expectation *e, bool is_failed)
 {
     const mor_case_expectation *expectation = &c->expectations[k];
-    const char *type = c->probes[mor_run_table_probe(c, e->probe)].type;
-    const char *unit = mor_case_statistic_unit(mor_case_probe_type_find(type), expectation->statistic, c->dimension);
+    const mor_case_probe_type *type = c->probes[mor_run_table_probe(c, e->probe)].kind;
+    const char *unit = mor_case_statistic_unit(type, expectation->statistic, c->dimension);
     char name[MOR_CASE_NAME_BYTES + NAME_BYTES];
     char difference[NAME_BYTES];
     char allowed[2 * NAME_BYTES];

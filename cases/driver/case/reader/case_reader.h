@@ -16,11 +16,12 @@ typedef struct mor_case_reader {
     mor_context *context;
     const mor_units *units;
     const mor_registry *registry;
-    int dimension;     /* 2 or 3 */
-    double spacing;    /* m; 0 before it is read */
-    mor_bounds domain; /* m; empty before it is read */
-    double spread;     /* largest over smallest size of what a shape is used for, 1; 0: of one size */
-    int length_power;  /* the scale of the case as powers of two */
+    mor_case_probe_catalog probe_types; /* NULL: there are none */
+    int dimension;                      /* 2 or 3 */
+    double spacing;                     /* m; 0 before it is read */
+    mor_bounds domain;                  /* m; empty before it is read */
+    double spread;                      /* largest over smallest size of what a shape is used for, 1; 0: of one size */
+    int length_power;                   /* the scale of the case as powers of two */
     int time_power;
     int mass_power;
 } mor_case_reader;

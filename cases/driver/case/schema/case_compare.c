@@ -182,7 +182,7 @@ static bool find_value(const char *text, const char *path, char *value)
 }
 
 /* Number of probes, and whether one of them needs the audit of the soil's energy. */
-static int count_probes(const char *text, bool *has_audit)
+static int count_probes(mor_case_probe_catalog probe_types, const char *text, bool *has_audit)
 {
     walk w = {.at = text};
     int n = 0;
@@ -193,7 +193,7 @@ static int count_probes(const char *text, bool *has_audit)
         if (probe >= 0 && ends_with(w.path, ".type")) {
             char name[MOR_CASE_NAME_BYTES];
             snprintf(name, sizeof name, "%.*s", (int)strcspn(w.value + 1, "\""), w.value + 1);
-            const mor_case_probe_type *type = mor_case_probe_type_find(name);
+            const mor_case_probe_type *type = mor_case_probe_type_find(probe_types, name);
             *has_audit = *has_audit || (type != NULL && (type->traits & MOR_CASE_PROBE_OF_AUDIT) != 0);
         }
     }
@@ -282,12 +282,13 @@ static void compare_fixed(const char *given, const char *saved, int n_probes, mo
     } while (!one.is_over);
 }
 
-void mor_case_compare(const char *given, const char *saved, mor_case_difference *difference)
+void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, const char *saved,
+                      mor_case_difference *difference)
 {
     bool has_audit = false;
     bool had_audit = false;
-    const int n_probes = count_probes(saved, &had_audit);
-    const int n_given = count_probes(given, &has_audit);
+    const int n_probes = count_probes(probe_types, saved, &had_audit);
+    const int n_given = count_probes(probe_types, given, &has_audit);
     *difference = (mor_case_difference){.is_found = false};
     compare_fixed(given, saved, n_probes, difference);
     if (!difference->is_found && !compare_domain(given, saved, difference) && has_audit && !had_audit) {

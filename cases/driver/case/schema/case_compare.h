@@ -3,6 +3,8 @@
 #ifndef MOR_CASES_DRIVER_CASE_SCHEMA_CASE_COMPARE_H
 #define MOR_CASES_DRIVER_CASE_SCHEMA_CASE_COMPARE_H
 
+#include "cases/driver/case/case.h"
+
 #include <stdbool.h>
 
 /** @file
@@ -25,7 +27,8 @@ typedef struct mor_case_difference {
 /** Finds the first difference that keeps a run from going on.
  *  @param given      [in]   zero-terminated text of the case to go on with
  *  @param saved      [in]   zero-terminated text of the case the run was started with */
-void mor_case_compare(const char *given, const char *saved, mor_case_difference *difference);
+void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, const char *saved,
+                      mor_case_difference *difference);
 
 /** Whether the domains of two cases differ.
  *  @param given [in]  zero-terminated text

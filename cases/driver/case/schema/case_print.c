@@ -106,12 +106,13 @@ static void print_group(FILE *stream, int level, const mor_case_group *group, co
     }
 }
 
-static void print_probe_types(FILE *stream)
+static void print_probe_types(mor_case_probe_catalog catalog, FILE *stream)
 {
     fprintf(stream, "\n### Types of probes\n\nUnits in parentheses hold in plane strain. A key that a type does not "
                     "take is refused.\n\n| type | unit | keys it takes | percentile | meaning |\n"
                     "| --- | --- | --- | --- | --- |\n");
-    for (const mor_case_probe_type *type = mor_case_probe_types; type->name != NULL; ++type) {
+    const mor_case_probe_type *type = NULL;
+    for (int n = 0; (type = catalog(n)) != NULL; ++n) {
         const bool is_same = strcmp(type->unit, type->unit_plane) == 0;
         fprintf(stream, "| `%s` | %s%s%s%s | ", type->name, type->unit, is_same ? "" : " (",
                 is_same ? "" : type->unit_plane, is_same ? "" : ")");
@@ -146,7 +147,8 @@ static void print_models(const mor_registry *registry, FILE *stream)
     }
 }
 
-mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, FILE *stream)
+mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, mor_case_probe_catalog probe_types,
+                                 FILE *stream)
 {
     fprintf(stream,
             "# Case files\n\nA case file is in the language of libconfig: `name = value;`, groups in `{ }`, lists in "
@@ -178,7 +180,7 @@ mor_status mor_case_schema_print(mor_context *context, const mor_registry *regis
         print_group(stream, 3, &mor_case_shape_groups[k], mor_case_shape_groups[k].name);
     }
     print_group(stream, 2, &mor_case_probe_group, NULL);
-    print_probe_types(stream);
+    print_probe_types(probe_types, stream);
     print_group(stream, 2, &mor_case_expectation_group, NULL);
     print_models(registry, stream);
     MOR_CHECK(context, fflush(stream) == 0 && ferror(stream) == 0, MOR_ERROR_IO,

@@ -124,44 +124,6 @@ extern const mor_case_shape_kind mor_case_rock_form_kinds[MOR_CASE_ROCK_FORM_COU
  *  @param kind [in]  one of mor_case_rock_form_kinds */
 const mor_case_group *mor_case_rock_form_group(mor_case_shape_kind kind);
 
-/** Keys of a probe that only some types take. */
-enum {
-    MOR_CASE_PROBE_WALL = 1,
-    MOR_CASE_PROBE_MEASURE = 2,
-    MOR_CASE_PROBE_PERCENTILE = 4,
-    MOR_CASE_PROBE_THICKNESS = 8,
-    MOR_CASE_PROBE_ORIGIN = 16,
-    MOR_CASE_PROBE_DIRECTION = 32,
-    MOR_CASE_PROBE_RADIAL = 64,
-    MOR_CASE_PROBE_BODY = 128
-};
-
-/** What sets a type of probe apart, beside its keys. */
-enum {
-    MOR_CASE_PROBE_OF_SOIL = 1,    /* makes sense in a case with soil only */
-    MOR_CASE_PROBE_OF_BODIES = 2,  /* makes sense in a case with bodies only */
-    MOR_CASE_PROBE_OF_TURN = 4,    /* direction is an axis, in plane strain always z */
-    MOR_CASE_PROBE_OF_AUDIT = 8,   /* needs the audit of the soil's energy */
-    MOR_CASE_PROBE_OF_STEP = 16,   /* holds over a step, as a force; others have a value at each instant */
-    MOR_CASE_PROBE_OF_FORCE = 32,  /* a force, which has an impulse */
-    MOR_CASE_PROBE_OF_CONTACT = 64 /* changes with each sub-step of the bodies */
-};
-
-/** What a type of probe measures. */
-typedef struct mor_case_probe_type {
-    const char *name;
-    const char *unit;       /* SI unit of the value in three dimensions */
-    const char *unit_plane; /* in plane strain, where extensive values are per meter of thickness */
-    unsigned allowed;       /* MOR_CASE_PROBE_ bits of the keys it takes */
-    unsigned required;      /* and of those it cannot do without; see mor_case_probe_required */
-    unsigned traits;        /* MOR_CASE_PROBE_OF_ bits */
-    double percentile;      /* default of that key, percent */
-    const char *text;       /* one line for people */
-} mor_case_probe_type;
-
-/** The types of probes; ends with name NULL. */
-extern const mor_case_probe_type mor_case_probe_types[];
-
 /** A column that a series of results has beside its probes. A table ends with name NULL. */
 typedef struct mor_case_own_column {
     const char *name, *unit;
@@ -172,8 +134,9 @@ extern const mor_case_own_column mor_case_own_columns[];
 extern const char *const mor_case_probe_key_names[];
 
 /** Returns a type of probe, or NULL.
- *  @param name [in]  zero-terminated */
-const mor_case_probe_type *mor_case_probe_type_find(const char *name);
+ *  @param catalog [in]  the types there are; NULL: none
+ *  @param name    [in]  zero-terminated */
+const mor_case_probe_type *mor_case_probe_type_find(mor_case_probe_catalog catalog, const char *name);
 
 /** Returns the MOR_CASE_PROBE_ bits of the keys a type cannot do without: in plane strain the axis of a turn is known.
  *  @param dimension [in]  2 or 3 */
@@ -241,6 +204,7 @@ int mor_case_key_find(const mor_case_key *keys, const char *name);
  *  @param registry [in]      the models to list
  *  @param stream   [in,out]  one open stream
  *  Returns: MOR_OK; MOR_ERROR_IO when the stream refuses. */
-mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, FILE *stream);
+mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, mor_case_probe_catalog probe_types,
+                                 FILE *stream);
 
 #endif

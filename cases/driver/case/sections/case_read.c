@@ -192,8 +192,11 @@ static mor_status read_file(mor_context *context, mor_case_file *file, const mor
     if (text->units == NULL) {
         MOR_TRY(context, mor_units_new(context, &loaded));
     }
-    mor_case_reader reader = {
-        .context = context, .units = text->units == NULL ? loaded : text->units, .registry = text->registry};
+    mor_case_reader reader = {.context = context,
+                              .units = text->units == NULL ? loaded : text->units,
+                              .registry = text->registry,
+                              .probe_types = text->probe_types};
+    out_case->probe_types = text->probe_types;
     const mor_status status = read_root(&reader, mor_case_file_root(file), out_case);
     mor_units_free(context, &loaded);
     if (status != MOR_OK) {
@@ -213,12 +216,13 @@ mor_status mor_case_read_text(mor_context *context, const mor_case_text *text, m
 }
 
 mor_status mor_case_read(mor_context *context, const char *path, const char *const *settings, int n_settings,
-                         const mor_registry *registry, mor_case *out_case)
+                         const mor_registry *registry, mor_case_probe_catalog probe_types, mor_case *out_case)
 {
     mor_case_file *file = NULL;
     memset(out_case, 0, sizeof *out_case);
     MOR_TRY(context, mor_case_file_load(context, path, &file));
-    const mor_case_text text = {.settings = settings, .n_settings = n_settings, .registry = registry};
+    const mor_case_text text = {
+        .settings = settings, .n_settings = n_settings, .registry = registry, .probe_types = probe_types};
     const mor_status status = read_file(context, file, &text, out_case);
     mor_case_file_free(context, &file);
     return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);

@@ -21,7 +21,8 @@ typedef struct mor_case_text {
     const char *const *settings;  /* shape [n_settings] of zero-terminated "key=value"; NULL when there are none */
     int n_settings;               /* number of settings */
     const mor_registry *registry; /* the material models */
-    const mor_units *units;       /* NULL: loaded for this call */
+    mor_case_probe_catalog probe_types; /* the types of probes; NULL: none */
+    const mor_units *units;             /* NULL: loaded for this call */
 } mor_case_text;
 
 /** Reads a case file, applies settings of the command line over it, checks everything that one case alone can tell,
@@ -30,12 +31,13 @@ typedef struct mor_case_text {
  *  @param settings   [in]      shape [n_settings] of zero-terminated "key=value"; NULL when there are none
  *  @param n_settings [in]      number of settings, >= 0
  *  @param registry   [in]      the material models
+ *  @param probe_types [in]     the types of probes; NULL: none
  *  @param out_case   [out]     clear it with mor_case_clear; cleared after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with a message "file:line: found ...; allowed ...; do ..."; MOR_ERROR_IO when the
  *  unit tables are missing; MOR_ERROR_MEMORY.
  *  Cost: some milliseconds; allocates. Threads: neither. */
 mor_status mor_case_read(mor_context *context, const char *path, const char *const *settings, int n_settings,
-                         const mor_registry *registry, mor_case *out_case);
+                         const mor_registry *registry, mor_case_probe_catalog probe_types, mor_case *out_case);
 
 /** As mor_case_read, from memory.
  *  @param out_case [out]     clear it with mor_case_clear; cleared after a failure

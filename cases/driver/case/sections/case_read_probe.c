@@ -19,14 +19,15 @@ static mor_status read_type(const mor_case_reader *reader, const mor_case_node *
 {
     const mor_case_node *name = NULL;
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "type", MOR_CASE_NODE_TEXT, &name));
-    *type = mor_case_probe_type_find(name->text);
+    *type = mor_case_probe_type_find(reader->probe_types, name->text);
     if (*type != NULL) {
         return MOR_OK;
     }
     const char *words[WORDS_MAX];
     int n_words = 0;
-    for (const mor_case_probe_type *k = mor_case_probe_types; k->name != NULL && n_words < WORDS_MAX; ++k) {
-        words[n_words++] = k->name;
+    const mor_case_probe_type *known = NULL;
+    while (reader->probe_types != NULL && n_words < WORDS_MAX && (known = reader->probe_types(n_words)) != NULL) {
+        words[n_words++] = known->name;
     }
     return mor_case_reader_refuse(reader, name, "type of probe", words, n_words);
 }
@@ -311,6 +312,7 @@ static mor_status read_probe(const mor_case_reader *reader, const mor_case_node 
     MOR_TRY(reader->context, check_scene(reader, node, the_case, type));
     MOR_TRY(reader->context, check_special_keys(reader, node, type));
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_probe_group, probe));
+    probe->kind = type;
     MOR_TRY(reader->context, complete_probe(reader, node, the_case->spacing, type, probe));
     MOR_TRY(reader->context, check_window(reader, node, the_case->end, probe));
     MOR_TRY(reader->context, check_probe_names(reader, node, the_case, probe));
@@ -403,7 +405,7 @@ static mor_status check_expectation(const mor_case_reader *reader, const mor_cas
 static mor_status find_unit(const mor_case_reader *reader, const mor_case_node *node, const mor_case_probe *probe,
                             const char **unit)
 {
-    const mor_case_probe_type *type = mor_case_probe_type_find(probe->type);
+    const mor_case_probe_type *type = probe->kind;
     const mor_case_node *word = mor_case_node_find(node, "statistic");
     const bool is_word = word != NULL && word->kind == MOR_CASE_NODE_TEXT;
     const int index = is_word ? mor_params_choice(mor_case_statistic_words, word->text) : -1;

@@ -371,7 +371,7 @@ static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
 static mor_case_presence judge_probe(const mor_case_key *key, const void *record)
 {
     const mor_case_probe *probe = record;
-    const mor_case_probe_type *type = mor_case_probe_type_find(probe->type);
+    const mor_case_probe_type *type = probe->kind;
     const char *name = key->schema.key;
     for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
         if (strcmp(mor_case_probe_key_names[k], name) == 0 && (type->allowed >> k & 1U) == 0) {
@@ -391,8 +391,7 @@ static const char *find_unit(const mor_case *the_case, const char *probe, mor_ca
 {
     for (int k = 0; k < the_case->n_probes; ++k) {
         if (strcmp(the_case->probes[k].name, probe) == 0) {
-            return mor_case_statistic_unit(mor_case_probe_type_find(the_case->probes[k].type), statistic,
-                                           the_case->dimension);
+            return mor_case_statistic_unit(the_case->probes[k].kind, statistic, the_case->dimension);
         }
     }
     return "1";

@@ -402,8 +402,7 @@ static mor_status build_schedule(mor_context *context, mor_simulation *simulatio
         MOR_TRY(context, mor_schedule_add(context, &simulation->schedule, &stepper, evolving));
     }
     for (int k = 0; k < simulation->the_case->n_probes && simulation->has_soil; ++k) {
-        const mor_case_probe_type *type = mor_case_probe_type_find(simulation->the_case->probes[k].type);
-        if (type != NULL && (type->traits & MOR_CASE_PROBE_OF_AUDIT) != 0) {
+        if ((simulation->the_case->probes[k].kind->traits & MOR_CASE_PROBE_OF_AUDIT) != 0) {
             MOR_TRY(context, mor_soil_watch_energy(context, &simulation->soil));
         }
     }
