@@ -9,16 +9,16 @@
 #include <stddef.h>
 
 /** @file
- *  The box that particles may not leave. A scene that is turned as a whole takes its box along. */
+ *  The box that particles may not leave. The box is placed together with the scene. */
 
-/** A turned and moved frame: a place x of it lies at rotation * x + translation. */
+/** A rotated and translated frame: a point x of it lies at rotation * x + translation. */
 typedef struct mor_domain_frame {
     double rotation[9];    /* shape [3,3], rotation matrix, 1 */
     double translation[3]; /* m */
 } mor_domain_frame;
 
 /** Finds where a place lies in a frame.
- *  @param frame [in]   NULL: not turned, not moved
+ *  @param frame [in]   NULL: identity
  *  @param place [in]   shape [3], unit m
  *  @param local [out]  shape [3], unit m */
 static inline void mor_domain_localize(const mor_domain_frame *frame, const double *place, double *local)

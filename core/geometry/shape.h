@@ -13,9 +13,9 @@
 
 typedef struct mor_shape mor_shape;
 
-/** The distance that a shape tells changes by at most so much along any way, m per m, 1: exact distances by 1, those
- *  told between the nodes of a grid by up to a tenth more over two of its cells and more (over less, by up to 1.4 at a
- *  kink). Whoever skips what lies far away counts on it. */
+/** Bound of the gradient of a distance (Lipschitz constant), 1: exact distances have 1, those interpolated on a grid up
+ *  to a tenth more over two of its cells and more (over less, up to 1.4 at a kink). Searches that skip distant parts
+ *  rely on it. */
 #define MOR_SHAPE_SLOPE_MOST 1.1
 
 /** Axis-aligned bounds; a component is -INFINITY or INFINITY where the shape is unbounded. */
@@ -31,7 +31,7 @@ typedef struct mor_shape_moments {
     double inertia[6]; /* about the center, per unit of density: integral of (r2 I - r r), symmetric tensor, m5 (m4) */
 } mor_shape_moments;
 
-/** What a shape can do. One constant table per kind. */
+/** Operations of a shape. One constant table per kind. */
 typedef struct mor_shape_operations {
     const char *kind; /* word used in messages */
     /** Signed distance [m] from point, shape [3], unit m: negative inside. Exact near the surface; for differences and
@@ -41,11 +41,11 @@ typedef struct mor_shape_operations {
     void (*bounds)(const mor_shape *shape, mor_bounds *bounds);
     /** Frees what the shape owns, children included, and the shape itself. */
     void (*free)(mor_context *context, mor_shape *shape);
-    /** Writes the exact moments of the inside, of plane strain when dimension is 2. Returns false when the shape does
-     *  not know them; they are then to be found by integration. NULL: never known. Safe to call concurrently. */
+    /** Writes the exact moments of the inside, of plane strain when dimension is 2. Returns false if the shape does not
+     *  provide them; they must then be integrated. NULL: never provided. Safe to call concurrently. */
     bool (*moments)(const mor_shape *shape, int dimension, mor_shape_moments *moments);
     /** Signed distance [m] of a point, shape [3], unit m, as `distance`, but from the surface itself where that only
-     *  approximates it; may be slow. NULL: `distance` is all there is. Safe to call concurrently. */
+     *  approximates it; may be slow. NULL: `distance` is exact enough. Safe to call concurrently. */
     double (*exact_distance)(const mor_shape *shape, const double *point);
     /** Whether distances inside may be those to faces that parts share, not to the whole surface. NULL: never. */
     bool (*has_seams)(const mor_shape *shape);

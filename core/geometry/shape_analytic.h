@@ -6,9 +6,9 @@
 #include "core/geometry/shape.h"
 
 /** @file
- *  The analytic shapes behind core/geometry/shape.h, and the calls every shape answers. Distances of box, cylinder,
- *  cone, sphere, ellipsoid, half-space and polygon are exact everywhere. Meshes are not made here; they
- *  implement the same table.
+ *  The analytic shapes behind core/geometry/shape.h, and the functions of every shape. Distances of box, cylinder,
+ *  cone, sphere, ellipsoid, half-space and polygon are exact everywhere. Meshes are made elsewhere; they implement the
+ *  same table.
  *
  *  Ownership: a constructor that takes children owns them after MOR_OK and has set the caller's pointers NULL; after
  *  a failure the children and the pointers are untouched and still the caller's. The output pointer is NULL after a
@@ -71,7 +71,7 @@ mor_status mor_shape_new_ellipsoid(mor_context *context, const double *center, c
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_half_space(mor_context *context, const double *point, const double *normal, mor_shape **shape);
 
-/** Makes the inside of a simple polygon in the x-y plane, without end in z. It knows its moments in the plane.
+/** Makes the inside of a simple polygon in the x-y plane, unbounded in z. It provides its moments in the plane.
  *  @param points   [in]      shape [n_points,2]; unit m; corners in either orientation, first not repeated; copied
  *  @param n_points [in]      >= 3
  *  @param shape    [out]     one pointer; owned by the caller
@@ -97,7 +97,7 @@ mor_status mor_shape_new_union(mor_context *context, mor_shape **parts, int n_pa
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_difference(mor_context *context, mor_shape **from, mor_shape **minus, mor_shape **shape);
 
-/** Makes the child moved: x -> x + translation.
+/** Makes the child translated: x -> x + translation.
  *  @param translation [in]      shape [3]; unit m
  *  @param child       [in,out]  one pointer; taken: becomes NULL
  *  @param shape       [out]     one pointer; owned by the caller
@@ -106,7 +106,7 @@ mor_status mor_shape_new_difference(mor_context *context, mor_shape **from, mor_
 mor_status mor_shape_new_translate(mor_context *context, const double *translation, mor_shape **child,
                                    mor_shape **shape);
 
-/** Makes the child turned about a line, right-handed. Turns by quarter circles about a coordinate axis are exact.
+/** Makes the child rotated about a line, right-handed. Rotations by quarter circles about a coordinate axis are exact.
  *  @param axis    [in]      shape [3]; unit 1; direction of the line; any length but zero
  *  @param angle   [in]      unit rad
  *  @param center  [in]      shape [3]; unit m; a point of the line
@@ -122,7 +122,7 @@ mor_status mor_shape_new_rotate(mor_context *context, const double *axis, double
  *  @param translation [in]      shape [3]; unit m
  *  @param child       [in,out]  one pointer; taken: becomes NULL
  *  @param shape       [out]     one pointer; owned by the caller
- *  Gives: bounds that hold the shape; exact for a box child, wider for others when the turn is oblique.
+ *  Gives: bounds that hold the shape; exact for a box child, wider for others when the rotation is oblique.
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY.
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_placed(mor_context *context, const double *rotation, const double *translation,
@@ -143,9 +143,9 @@ mor_status mor_shape_new_scaled(mor_context *context, double factor, mor_shape *
  *  Cost: O(1), allocates. */
 mor_status mor_shape_new_view(mor_context *context, const mor_shape *other, mor_shape **shape);
 
-/** Writes the exact moments of the inside where the shape knows them.
+/** Writes the exact moments of the inside if the shape provides them.
  *  @param dimension [in]   2 or 3
- *  @param moments   [out]  without meaning when the shape does not know them
+ *  @param moments   [out]  undefined if it does not
  *  Returns: whether it does. Threads: safe to call concurrently. */
 bool mor_shape_moments_known(const mor_shape *shape, int dimension, mor_shape_moments *moments);
 
@@ -155,7 +155,7 @@ bool mor_shape_moments_known(const mor_shape *shape, int dimension, mor_shape_mo
 double mor_shape_distance(const mor_shape *shape, const double *point);
 
 /** Returns the signed distance of a point as mor_shape_distance, from the surface itself where that one interpolates.
- *  For what is made once, such as nodes on a surface.
+ *  For use during set-up, such as nodes on a surface.
  *  @param point [in]  shape [3]; unit m
  *  Returns: unit m, negative inside. Cost: of a mesh, a search and some rays. Threads: safe to call concurrently. */
 double mor_shape_exact_distance(const mor_shape *shape, const double *point);
@@ -165,13 +165,13 @@ double mor_shape_exact_distance(const mor_shape *shape, const double *point);
  *  Threads: safe to call concurrently. */
 bool mor_shape_has_seams(const mor_shape *shape);
 
-/** How the distance of a point, shape [3], unit m, is asked for: mor_shape_distance or mor_shape_exact_distance.
+/** How the distance of a point, shape [3], unit m, is evaluated: mor_shape_distance or mor_shape_exact_distance.
  *  @param point [in]  shape [3]; unit m
  *  Returns: unit m, negative inside. */
 typedef double (*mor_shape_measure)(const mor_shape *shape, const double *point);
 
 /** Writes axis-aligned bounds that hold the inside of the shape.
- *  @param bounds [out]  unit m; infinite where the shape has no end
+ *  @param bounds [out]  unit m; infinite where the shape is unbounded
  *  Threads: safe to call concurrently. */
 void mor_shape_bounds(const mor_shape *shape, mor_bounds *bounds);
 
@@ -182,12 +182,13 @@ void mor_shape_bounds(const mor_shape *shape, mor_bounds *bounds);
  *  Cost: six distances. Threads: safe to call concurrently. */
 void mor_shape_normal(const mor_shape *shape, const double *point, double step, double *normal);
 
-/** Moves a point along the normals until it lies at a height over the surface, by a few steps of Newton's method.
+/** Moves a point along the normals to a height over the surface, by a few steps of Newton's method.
  *  @param height [in]      unit m; 0: onto the surface
- *  @param step   [in]      unit m; half the width of the differences that give normals, and how far off it may end; > 0
+ *  @param step   [in]      unit m; half the width of the differences that give normals, and the tolerance of its
+ *      height; > 0
  *  @param point  [in,out]  shape [3]; unit m
  *  @param normal [out]     shape [3]; where it ends, unit 1
- *  Returns: whether it got there. Threads: safe to call concurrently. */
+ *  Returns: whether it converged. Threads: safe to call concurrently. */
 bool mor_shape_project(const mor_shape *shape, double height, double step, double *point, double *normal);
 
 /** Writes the normal as mor_shape_normal, from exact distances.

@@ -45,18 +45,18 @@ mor_status mor_shape_check_direction(mor_context *context, const double *directi
 mor_status mor_shape_check_rotation(mor_context *context, const double *rotation)
 {
     const double tolerance = 1e-9;
-    MOR_CHECK(context, rotation != NULL, MOR_ERROR_ARGUMENT, "the turn is missing: give a rotation matrix");
+    MOR_CHECK(context, rotation != NULL, MOR_ERROR_ARGUMENT, "the rotation is missing: give a rotation matrix");
     for (int a = 0; a < 3; ++a) {
         for (int b = a; b < 3; ++b) {
             const double product = mor_vector_dot(rotation + 3 * a, rotation + 3 * b);
             MOR_CHECK(context, fabs(product - (a == b ? 1.0 : 0.0)) <= tolerance, MOR_ERROR_ARGUMENT,
-                      "the turn is not a rotation matrix: the product of its rows %d and %d is %.12g, not %d; give "
+                      "the rotation is not a rotation matrix: the product of its rows %d and %d is %.12g, not %d; give "
                       "orthonormal rows",
                       a + 1, b + 1, product, a == b);
         }
     }
     const double determinant = mor_matrix_determinant(rotation);
     MOR_CHECK(context, determinant > 0.0, MOR_ERROR_ARGUMENT,
-              "the turn mirrors: its determinant is %g, not 1; give a rotation matrix", determinant);
+              "the rotation is a reflection: its determinant is %g, not 1; give a rotation matrix", determinant);
     return MOR_OK;
 }

@@ -321,7 +321,7 @@ mor_status mor_shape_new_difference(mor_context *context, mor_shape **from, mor_
 mor_status mor_shape_new_scaled(mor_context *context, double factor, mor_shape **child, mor_shape **shape)
 {
     *shape = NULL;
-    MOR_CHECK(context, child != NULL && *child != NULL, MOR_ERROR_ARGUMENT, "there is nothing to scale: give a shape");
+    MOR_CHECK(context, child != NULL && *child != NULL, MOR_ERROR_ARGUMENT, "there is no shape to scale: give one");
     MOR_CHECK(context, isfinite(factor) && factor > 0.0, MOR_ERROR_ARGUMENT,
               "the factor of a scaled shape is %g: give one above zero", factor);
     scaled_shape *scaled = NULL;
@@ -337,7 +337,7 @@ mor_status mor_shape_new_scaled(mor_context *context, double factor, mor_shape *
 mor_status mor_shape_new_view(mor_context *context, const mor_shape *other, mor_shape **shape)
 {
     *shape = NULL;
-    MOR_CHECK(context, other != NULL, MOR_ERROR_ARGUMENT, "there is nothing to view: give a shape");
+    MOR_CHECK(context, other != NULL, MOR_ERROR_ARGUMENT, "there is no shape to view: give one");
     view_shape *view = NULL;
     MOR_TRY(context, MOR_NEW(context, &view, 1, "view of a shape"));
     view->base.operations = &view_operations;
@@ -350,10 +350,9 @@ mor_status mor_shape_new_placed(mor_context *context, const double *rotation, co
                                 mor_shape **child, mor_shape **shape)
 {
     *shape = NULL;
-    MOR_CHECK(context, child != NULL && *child != NULL, MOR_ERROR_ARGUMENT,
-              "there is nothing to move or turn: give a shape");
+    MOR_CHECK(context, child != NULL && *child != NULL, MOR_ERROR_ARGUMENT, "there is no shape to place: give one");
     MOR_TRY(context, mor_shape_check_rotation(context, rotation));
-    MOR_TRY(context, mor_shape_check_vector(context, translation, "the move"));
+    MOR_TRY(context, mor_shape_check_vector(context, translation, "the translation"));
     placed_shape *placed = NULL;
     MOR_TRY(context, MOR_NEW(context, &placed, 1, "placed shape"));
     placed->base.operations = &placed_operations;
@@ -373,7 +372,7 @@ mor_status mor_shape_new_translate(mor_context *context, const double *translati
     return MOR_OK;
 }
 
-/* A quarter turn by a rounded angle leaves 6e-17 where 0 is meant: that would make bounds infinite. */
+/* A quarter rotation by a rounded angle leaves 6e-17 in place of 0: that would make bounds infinite. */
 static void snap_matrix(double *matrix)
 {
     for (int i = 0; i < 9; ++i) {

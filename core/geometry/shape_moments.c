@@ -2,10 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Volume, center and inertia of anything with a signed distance. The bounds are divided into nearly cubic cells. Cells
  * away from the surface count whole or not at all. In a cell at the surface a linear function is fitted to the distance
- * in the mean, which takes the curved part along, and the cell is cut by its zero plane; what is left between plane and
- * surface is as thick as the distance at the plane says. Where the fit is poor, at edges and tight curves, the cell is
- * divided instead. Every number is a sum or product of lengths, so that a unit of length that is a power of two changes
- * no bit. */
+ * by least squares, and the cell is cut by its zero plane; the layer between plane and surface is as thick as the
+ * distance at the plane. Where the fit is poor, at edges and tight curves, the cell is divided instead. Every number is
+ * a sum or product of lengths, so that a unit of length that is a power of two changes no bit. */
 #include "core/geometry/shape_moments.h"
 
 #include "core/base/math.h"
@@ -23,11 +22,11 @@ enum {
     LEVEL_FULL = 5,        /* from here on, a cell with nothing but inside points counts as full */
     LEVEL_LAST_SPACE = 8,  /* at most this often in 3D */
     LEVEL_LAST_PLANE = 14, /* in plane strain */
-    CELLS_MAX = 1 << 18    /* of one level; a surface that is rough everywhere stops here */
+    CELLS_MAX = 1 << 18    /* of one level; the limit for a surface that is rough everywhere */
 };
 
-/* A fit is poor when it misses the distance by more than this part of the shortest side of the cell; in plane strain
- * cells are few. */
+/* A fit is poor when it differs from the distance by more than this part of the shortest side of the cell; in plane
+ * strain cells are few. */
 #define POOR_FIT_SPACE 1.7e-2
 #define POOR_FIT_PLANE 1.5e-3
 
@@ -115,8 +114,8 @@ static void add_simplex(double *sum, const double (*corners)[3], int dimension, 
     }
 }
 
-/* Between a piece of the plane, a segment or a triangle, and the true surface there is a layer as thick as the distance
- * says. Quadrature exact for quadratics: two points of Gauss, or the middles of the three sides. */
+/* Between a piece of the plane, a segment or a triangle, and the true surface there is a layer whose thickness is the
+ * distance. Quadrature exact for quadratics: two points of Gauss, or the middles of the three sides. */
 static void add_layer(const moment_search *search, double *sum, const double (*corners)[3])
 {
     const int n = search->dimension;
@@ -303,8 +302,8 @@ static double find_distances(const moment_search *search, const double *middle, 
     return largest;
 }
 
-/* The linear function nearest to the distance in the mean over the cell, by Simpson's rule; returns what it misses at
- * most on the lattice. */
+/* The least-squares fit of a linear function to the distance over the cell, by Simpson's rule; returns its largest
+ * error on the lattice. */
 static double fit_plane(const moment_search *search, const double *distances, double *mean, double *slope)
 {
     static const double weights[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
@@ -337,8 +336,8 @@ static double fit_plane(const moment_search *search, const double *distances, do
     return missed;
 }
 
-/* Whether the surface passes a cell by, told from the distance at its middle; where that lies close to half the
- * diagonal, a distance that grows faster than the way walked is looked at in more places. */
+/* Whether the surface does not cut a cell, by the distance at its center; where that is close to half the diagonal,
+ * more points are tested, because the gradient of a distance may exceed 1. */
 static bool is_uniform(const moment_search *search, const double *middle, double at_middle, double half_diagonal)
 {
     if (fabs(at_middle) < half_diagonal) {
@@ -486,7 +485,7 @@ static mor_status check_bounds(mor_context *context, const mor_shape *shape, con
               dimension);
     for (int a = 0; a < dimension; ++a) {
         MOR_CHECK(context, isfinite(bounds->minimum[a]) && isfinite(bounds->maximum[a]), MOR_ERROR_ARGUMENT,
-                  "the shape has no end along %c (a %s from %g m to %g m): give one that is bounded", 'x' + a,
+                  "the shape is unbounded along %c (a %s from %g m to %g m): give one that is bounded", 'x' + a,
                   shape->operations->kind, bounds->minimum[a], bounds->maximum[a]);
         MOR_CHECK(context, bounds->minimum[a] < bounds->maximum[a], MOR_ERROR_ARGUMENT,
                   "the shape is empty along %c (a %s from %g m to %g m): give one with an inside", 'x' + a,

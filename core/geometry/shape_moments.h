@@ -6,7 +6,7 @@
 #include "core/geometry/shape.h"
 
 /** @file
- *  Volume, center and inertia of any bounded shape: told by the shape, or else integrated from its distances. */
+ *  Volume, center and inertia of any bounded shape: provided by the shape, or else integrated from its distances. */
 
 /** Finds the moments of a shape in its own frame.
  *  Theory: docs/theory/rigid.md, Mass properties.
@@ -14,7 +14,7 @@
  *  @param dimension [in]      2 or 3
  *  @param moments   [out]     zero after a failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an empty or unbounded shape; MOR_ERROR_MEMORY. Accuracy: 1e-5 relative or
- *  better; exact for axis-aligned boxes and shapes that know their moments. Cost: adaptive cells, milliseconds. */
+ *  better; exact for axis-aligned boxes and shapes that provide their moments. Cost: adaptive cells, milliseconds. */
 mor_status mor_shape_find_moments(mor_context *context, const mor_shape *shape, int dimension,
                                   mor_shape_moments *moments);
 

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* A simple polygon in x-y, without end in z. */
+/* A simple polygon in x-y, unbounded in z. */
 typedef struct polygon_shape {
     mor_shape base;
     mor_bounds limits;
@@ -63,7 +63,7 @@ static bool polygon_moments(const mor_shape *shape, int dimension, mor_shape_mom
 {
     const polygon_shape *polygon = (const polygon_shape *)shape;
     if (dimension != 2) {
-        return false; /* without end in z */
+        return false; /* unbounded in z */
     }
     mor_shape_find_polygon_moments(polygon->points, polygon->n_points, moments);
     return true;
@@ -145,7 +145,7 @@ static mor_status check_points(mor_context *context, const double *points, int n
     return MOR_OK;
 }
 
-/* Whether the boxes around edges ab and cd are apart: quicker to see than that the edges are. */
+/* Whether the boxes around edges ab and cd are apart: a faster test than for the edges. */
 static bool are_boxes_apart(const double *a, const double *b, const double *c, const double *d)
 {
     return fmax(a[0], b[0]) < fmin(c[0], d[0]) || fmax(c[0], d[0]) < fmin(a[0], b[0]) ||

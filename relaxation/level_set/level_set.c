@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Between nodes the value is that of cubic convolution (Keys 1981) each way: it meets the nodes, is exact for
+/* Between nodes the value is that of cubic convolution (Keys 1981) each way: it interpolates the nodes, is exact for
  * polynomials of second order, and its first derivatives are continuous. */
 #include "relaxation/level_set/level_set.h"
 
@@ -30,11 +30,11 @@ typedef struct level_set_shape {
     double per_cell; /* one over the cell, 1/m */
     mor_bounds bounds;
     bool knows_moments;
-    mor_shape_moments moments; /* without meaning unless they are known */
+    mor_shape_moments moments; /* undefined unless moments are known */
     mor_mesh_distance *mesh;   /* what the grid was filled from; owned; NULL: a shape */
 } level_set_shape;
 
-/* Where a point lies in the grid. */
+/* Position of a point in the grid. */
 typedef struct grid_place {
     const double *first; /* first of the nodes its value is made from */
     double t[3];         /* place between the middle two nodes each way, 0 to 1 */
@@ -111,8 +111,8 @@ static double sum_nodes(const mor_level_set_grid *grid, const double *first, con
     return (x[0] * columns[0] + x[1] * columns[1]) + (x[2] * columns[2] + x[3] * columns[3]);
 }
 
-/* Beyond the grid: the surface is at least as far as from the nearest point of the grid, and behind it, so that the two
- * ways are legs of a triangle with no acute angle between them. */
+/* Beyond the grid: the nearest point of its box and the surface are legs of a triangle without an acute angle between
+ * them, which gives a lower bound of the distance. */
 static double level_set_distance(const mor_shape *shape, const double *point)
 {
     const level_set_shape *set = (const level_set_shape *)shape;
@@ -123,7 +123,7 @@ static double level_set_distance(const mor_shape *shape, const double *point)
         find_weights(place.t[a], weights[a]);
     }
     const double sum = sum_nodes(&set->grid, place.first, weights[0], weights[1], weights[2]);
-    /* Over the kink where the band ends, a cubic swings beyond what its nodes know. */
+    /* Over the kink where the band ends, a cubic overshoots the values of its nodes. */
     const double raised = sum > -set->grid.band ? sum : -set->grid.band;
     const double value = raised < set->grid.band ? raised : set->grid.band;
     return place.beyond == 0.0 ? value : sqrt(value * value + place.beyond * place.beyond);
@@ -202,7 +202,7 @@ void mor_level_set_normal(const mor_shape *shape, const double *point, double *n
         double bend[3];
         mor_symmetric_apply(second, normal, bend);
         const double sum = mor_symmetric_trace(second) - mor_vector_dot(normal, bend);
-        /* Derivatives were by cells. */
+        /* Derivatives were per cell. */
         *curvature = slope > 0.0 ? sum / slope * set->per_cell : 0.0;
     }
 }
@@ -219,7 +219,7 @@ static mor_status check_request(mor_context *context, const mor_level_set_reques
     return MOR_OK;
 }
 
-/* A cell that leaves few enough nodes, the band being as many cells wide as asked for. */
+/* A cell size with few enough nodes, for a band of the given number of cells. */
 static double find_cell(const mor_level_set_request *request, const mor_bounds *bounds)
 {
     enum { ROUNDS = 200 };
@@ -250,8 +250,8 @@ static mor_status lay_grid(mor_context *context, level_set_shape *set, const mor
     for (int a = 0; a < request->dimension; ++a) {
         const double extent = bounds->maximum[a] - bounds->minimum[a];
         MOR_CHECK(context, isfinite(extent) && extent > 0.0, MOR_ERROR_ARGUMENT,
-                  "a level set needs a shape with an end; this one spans %c from %g m to %g m: cut it to a box",
-                  'x' + a, bounds->minimum[a], bounds->maximum[a]);
+                  "the shape of a level set is unbounded along %c, from %g m to %g m: cut it to a box", 'x' + a,
+                  bounds->minimum[a], bounds->maximum[a]);
         counts[a] = ceil((extent + 2.0 * request->band) / request->cell) + 3.0;
         grid->origin[a] = 0.5 * (bounds->minimum[a] + bounds->maximum[a]) - 0.5 * (counts[a] - 1.0) * request->cell;
         set->bounds.minimum[a] -= bounds_slack * request->cell;
@@ -307,7 +307,7 @@ mor_status mor_shape_new_mesh(mor_context *context, const mor_mesh *mesh, const 
     *shape = NULL;
     MOR_TRY(context, check_request(context, request));
     MOR_CHECK(context, request->dimension == 3, MOR_ERROR_ARGUMENT,
-              "a mesh was asked for in two dimensions: give an outline, or compute in three");
+              "a mesh was given in two dimensions: give an outline, or compute in three");
     mor_bounds bounds;
     mor_mesh_distance *distance = NULL;
     mor_mesh_bounds(mesh, &bounds);

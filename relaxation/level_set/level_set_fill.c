@@ -8,7 +8,7 @@
 
 enum { BLOCK_SIDE = 8 }; /* nodes each way */
 
-/* Distances are right to rounding; comparisons allow for this share. */
+/* Distances are correct to rounding; comparisons allow for this relative error. */
 static const double rounding = 1e-9;
 
 /* Nodes of a block: first <= index < last each way. */
@@ -17,7 +17,7 @@ typedef struct node_block {
     int64_t last[3];
 } node_block;
 
-/* Parts of the grid that no surface divides, found one after another. */
+/* Connected parts of the grid on one side of the surface, found one after another. */
 typedef struct sign_search {
     mor_level_set_grid *grid;
     const mor_level_set_source *source;
@@ -132,7 +132,7 @@ static void join_neighbors(sign_search *search, int32_t node)
     }
 }
 
-/* One vote decides for a whole part, at its node farthest from the surface, where rays are least in doubt. */
+/* One inside test decides for a whole part, at its node farthest from the surface, where it is most reliable. */
 static void sign_part(sign_search *search, int64_t seed)
 {
     const mor_level_set_grid *grid = search->grid;

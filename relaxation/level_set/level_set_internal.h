@@ -24,12 +24,13 @@ typedef struct mor_level_set_source {
     /** Distance from a point, shape [3], unit m; one that is not below the limit, m, need not be exact. Signed, unless
      *  is_inside is there. Safe to call concurrently. */
     double (*measure)(const void *object, const double *point, double limit);
-    /** Whether a point, shape [3], unit m, is inside; NULL when measure tells. */
+    /** Whether a point, shape [3], unit m, is inside; NULL when measure returns a signed distance. */
     bool (*is_inside)(const void *object, const double *point);
 } mor_level_set_source;
 
 /** Fills the values of a grid whose other members are set. Whole blocks of nodes far from the surface are not measured
- *  one by one. Where the source has no sign, nodes between which there is no room for a surface get theirs together.
+ *  one by one. Where the source has no sign, adjacent nodes that cannot have a surface between them get theirs
+ *  together.
  *  @param grid    [in,out]  values allocated here, owned by the caller also after a failure
  *  Returns: MOR_OK; MOR_ERROR_MEMORY.
  *  Threads: uses the context's; the result does not depend on them. */

@@ -133,7 +133,7 @@ void mor_isolate_finish(mor_isolate *it, char *ending, size_t room)
         }
         if (WIFSIGNALED(code)) {
             const int number = WTERMSIG(code);
-            snprintf(ending, room, number == SIGALRM ? "took too long" : "broke down (%s)", strsignal(number));
+            snprintf(ending, room, number == SIGALRM ? "took too long" : "crashed (%s)", strsignal(number));
         }
     }
     *it = (mor_isolate){.child = -1};

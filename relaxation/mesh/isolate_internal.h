@@ -10,7 +10,7 @@
 #include <sys/types.h>
 
 /* Work with code that may crash, hang, print or take all memory on damaged input: it runs in a child process, writes
- * its result into a pipe and ends. Whatever becomes of it, the parent goes on. */
+ * its result into a pipe and ends. The parent continues in any case. */
 
 /* Runs in the child. What it writes to the stream is what the parent reads. */
 typedef void (*mor_isolate_work)(const void *user, FILE *result);
@@ -27,7 +27,7 @@ mor_status mor_isolate_start(mor_context *context, mor_isolate *it, mor_isolate_
 /* Reads n bytes of the result; false when the child ended before it wrote them. */
 bool mor_isolate_read(mor_isolate *it, void *bytes, size_t n);
 
-/* Ends the child if it is still at work, frees all, and says in words, shape [room], how it ended. */
+/* Ends the child if it is still running, frees all, and describes, shape [room], how it ended. */
 void mor_isolate_finish(mor_isolate *it, char *ending, size_t room);
 
 #endif

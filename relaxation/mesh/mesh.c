@@ -178,12 +178,12 @@ void mor_mesh_report_print(const mor_mesh_report *report, char *text, size_t roo
         int64_t count;
     } findings[] = {{"corners welded", report->n_vertices_welded},
                     {"triangles without area removed", report->n_degenerate},
-                    {"triangles given twice removed", report->n_duplicate},
-                    {"triangles turned round", report->n_flipped},
+                    {"duplicate triangles removed", report->n_duplicate},
+                    {"triangles reversed", report->n_flipped},
                     {"holes filled", report->n_holes_filled},
                     {"open edges", report->n_open_edges},
                     {"edges of more than two triangles", report->n_crowded_edges},
-                    {"pairs of triangles that cross", report->n_crossings}};
+                    {"pairs of intersecting triangles", report->n_crossings}};
     const char *ending = report->n_shells == 1 ? "" : "s";
     if (room == 0) {
         return;

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* From triangles of any origin to a mesh with an inside, or to a refusal that says why. */
+/* From triangles of any origin to a mesh with an inside, or to a refusal with the reason. */
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "relaxation/mesh/mesh_internal.h"
@@ -29,12 +29,12 @@ static mor_status check_arrays(mor_context *context, const mor_mesh *mesh, const
     for (int64_t v = 0; v < mesh->n_vertices; ++v) {
         const double *x = mesh->vertices + 3 * v;
         MOR_CHECK(context, isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), MOR_ERROR_ARGUMENT,
-                  "%s: corner %lld lies at (%g, %g, %g), which is no place; export the mesh again", name, (long long)v,
-                  x[0], x[1], x[2]);
+                  "%s: corner %lld lies at (%g, %g, %g), which is not finite; export the mesh again", name,
+                  (long long)v, x[0], x[1], x[2]);
     }
     for (int64_t k = 0; k < 3 * mesh->n_triangles; ++k) {
         MOR_CHECK(context, mesh->triangles[k] >= 0 && mesh->triangles[k] < mesh->n_vertices, MOR_ERROR_ARGUMENT,
-                  "%s: triangle %lld names corner %d of %lld; export the mesh again", name, (long long)(k / 3),
+                  "%s: triangle %lld refers to corner %d of %lld; export the mesh again", name, (long long)(k / 3),
                   mesh->triangles[k], (long long)mesh->n_vertices);
     }
     return MOR_OK;
@@ -55,13 +55,13 @@ static mor_status find_tolerance(mor_context *context, mor_mesh_work *work)
     /* Moments of inertia are of fifth order in length; as much again is left for small parts. */
     const double fifth = diagonal * diagonal * diagonal * diagonal * diagonal;
     MOR_CHECK(context, isnormal(fifth) && isnormal(fifth * fifth), MOR_ERROR_ARGUMENT,
-              "%s: the box around the mesh has a diagonal of %g, beyond what can be computed with; change its unit",
+              "%s: the box around the mesh has a diagonal of %g, outside the range of computation; change its unit",
               work->name, diagonal);
     work->tolerance = WELD_RATIO * diagonal;
     const double rounding = ldexp(work->reach, -24); /* of single precision, half a unit in the last place */
     MOR_CHECK(context, rounding <= ROUNDING_RATIO * diagonal, MOR_ERROR_ARGUMENT,
               "%s: the mesh lies %g from the origin, where corners, read in single precision, are rounded by up to %g; "
-              "allowed is %g, a hundred thousandth of its diagonal; move it near the origin",
+              "allowed is %g, a hundred thousandth of its diagonal; translate it to the origin",
               work->name, work->reach, rounding, ROUNDING_RATIO * diagonal);
     return MOR_OK;
 }
@@ -86,12 +86,12 @@ static mor_status judge_edges(mor_context *context, const mor_mesh_work *work)
         find_place(work, work->place, at);
     }
     MOR_CHECK(context, report->n_crowded_edges == 0, MOR_ERROR_ARGUMENT,
-              "%s: %lld edges have more than two triangles, one of them near (%g, %g, %g), so that the surface has no "
-              "two sides; remove inner walls and fins, or separate parts that touch in an edge",
+              "%s: %lld edges have more than two triangles, one of them near (%g, %g, %g), so that the surface "
+              "is not orientable; remove inner walls and fins, or separate parts that touch in an edge",
               work->name, (long long)report->n_crowded_edges, at[0], at[1], at[2]);
     MOR_CHECK(context, !work->is_one_sided, MOR_ERROR_ARGUMENT,
-              "%s: the surface has one side only: going round it through (%g, %g, %g), inside becomes outside; mend "
-              "the mesh there",
+              "%s: the surface is not orientable: inside and outside cannot be distinguished near (%g, %g, "
+              "%g); repair the mesh there",
               work->name, at[0], at[1], at[2]);
     MOR_CHECK(context, report->n_open_edges == 0, MOR_ERROR_ARGUMENT,
               "%s: the surface is open: %lld edges have one triangle, one of them near (%g, %g, %g) in the units of "
@@ -115,8 +115,8 @@ static mor_status judge_inside(mor_context *context, mor_mesh_work *work)
         double at[3];
         find_place(work, work->place, at);
         return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
-                        "%s: the surface crosses itself: at least %lld pairs of triangles do, one of them near (%g, "
-                        "%g, %g); unite overlapping parts, or mend the mesh there",
+                        "%s: the surface intersects itself: at least %lld pairs of triangles do, one of them near (%g, "
+                        "%g, %g); unite overlapping parts, or repair the mesh there",
                         work->name, (long long)work->report.n_crossings, at[0], at[1], at[2]);
     }
     return MOR_OK;
@@ -128,17 +128,18 @@ static mor_status judge(mor_context *context, mor_mesh_work *work)
     if (work->report.n_shells > 1) {
         const double *a = mor_mesh_corner(&work->mesh, 0, 0);
         const double *b = mor_mesh_corner(&work->mesh, work->second_shell, 0);
-        return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
-                        "%s: the mesh has %d parts that do not hang together, one near (%g, %g, %g), one near (%g, %g, "
-                        "%g); allowed is one: remove crumbs and inner hollows, or save each rock into its own file",
-                        work->name, work->report.n_shells, a[0], a[1], a[2], b[0], b[1], b[2]);
+        return MOR_FAIL(
+            context, MOR_ERROR_ARGUMENT,
+            "%s: the mesh has %d parts that are not connected, one near (%g, %g, %g), one near (%g, %g, "
+            "%g); allowed is one: remove small fragments and inner cavities, or save each rock into its own file",
+            work->name, work->report.n_shells, a[0], a[1], a[2], b[0], b[1], b[2]);
     }
     return judge_inside(context, work);
 }
 
-/* ---- Mending ----------------------------------------------------------------------------------------------------- */
+/* ---- Repair ----------------------------------------------------------------------------------------------------- */
 
-/* Turns a mesh that is inside out, and counts the triangles that are not as the file had them. */
+/* Reverses a mesh that is inside out, and counts the triangles whose orientation differs from the file. */
 static void face_outward(mor_mesh_work *work, int64_t n_given)
 {
     mor_shape_moments moments;
@@ -153,7 +154,7 @@ static void face_outward(mor_mesh_work *work, int64_t n_given)
 
 static mor_status mend(mor_context *context, mor_mesh_work *work)
 {
-    /* First, so that a stray corner does not decide the size of the mesh. */
+    /* First, so that an unused corner does not determine the size of the mesh. */
     MOR_TRY(context, mor_mesh_drop_unused(context, work));
     MOR_TRY(context, find_tolerance(context, work));
     MOR_TRY(context, mor_mesh_weld(context, work));
@@ -183,8 +184,8 @@ static void log_mended(mor_context *context, const mor_mesh_work *work)
         const char *many;
     } deeds[] = {
         {report->n_degenerate, "triangle without area removed", "triangles without area removed"},
-        {report->n_duplicate, "triangle given twice removed", "triangles given twice removed"},
-        {report->n_flipped, "triangle turned round", "triangles turned round"},
+        {report->n_duplicate, "duplicate triangle removed", "duplicate triangles removed"},
+        {report->n_flipped, "triangle reversed", "triangles reversed"},
         {report->n_holes_filled, "hole filled", "holes filled"},
     };
     char text[256] = "";

@@ -9,11 +9,11 @@
 
 #include <stdlib.h>
 
-/* A block of triangles that finds many crossings is left: the mesh is refused anyway. */
+/* A block of triangles with many crossings is not continued: the mesh is refused anyway. */
 enum { LEAF = 4, STACK = 128, BLOCK_CROSSINGS_MAX = 1024 };
 
-/* Pairs looked at before a mesh is refused: in all, and those of one block, so that it also ends. Blocks go in batches,
- * whatever the number of threads, between which the sum is looked at. */
+/* Pairs tested before a mesh is refused: in all, and those of one block, so that it also ends. Blocks go in batches,
+ * whatever the number of threads, between which the sum is checked. */
 enum { BATCH = 16, BLOCK_PAIRS_MAX = 8000000, PAIRS_MAX = 200000000, PAIRS_PER_TRIANGLE = 256 };
 
 typedef struct box {
@@ -27,7 +27,7 @@ typedef struct entry {
 
 /* What a block of triangles found. */
 typedef struct finding {
-    int64_t n_crossings, n_pairs; /* pairs: looked at */
+    int64_t n_crossings, n_pairs; /* pairs: tested */
     int32_t crossing, crowd;      /* triangles: the first that crosses one, and the one with the most pairs */
     int64_t n_crowd;              /* its pairs */
 } finding;
@@ -112,7 +112,7 @@ static bool passes_through(const mor_mesh_work *work, int64_t s, int64_t t)
 
 static bool do_cross(const mor_mesh_work *work, int64_t s, int64_t t)
 {
-    /* Triangles with a common edge meet in its line only. */
+    /* Triangles with a common edge intersect in its line only. */
     return count_shared(work->mesh.triangles + 3 * s, work->mesh.triangles + 3 * t) < 2 &&
            (passes_through(work, s, t) || passes_through(work, t, s));
 }
@@ -152,7 +152,7 @@ static bool overlap(const box *a, const box *b)
     return true;
 }
 
-/* Spreads the low 21 bits to every third place. */
+/* Moves the low 21 bits to every third bit (Morton code). */
 static uint64_t spread(uint64_t x)
 {
     x &= 0x1fffff;
@@ -261,7 +261,7 @@ static void search_block(const box_tree *tree, int64_t block)
     }
 }
 
-/* Adds up what the blocks of a batch found. Returns whether one of them or all so far had too many pairs to look at. */
+/* Adds up what the blocks of a batch found. Returns whether one of them or all so far had too many pairs to test. */
 static bool gather(const box_tree *tree, int64_t begin, int64_t end, mor_mesh_work *work, finding *total)
 {
     bool is_crowded = false;
@@ -296,8 +296,9 @@ static mor_status search_all(mor_context *context, const box_tree *tree, mor_mes
         if (is_crowded && work->report.n_crossings == 0) {
             const double *at = mor_mesh_corner(&work->mesh, total.crowd, 0);
             return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
-                            "%s: whether the surface crosses itself cannot be told: the box around the triangle at "
-                            "(%g, %g, %g) meets those of %lld others; divide long triangles that meet in one corner",
+                            "%s: whether the surface intersects itself cannot be determined: the box around "
+                            "the triangle at (%g, %g, %g) overlaps those of %lld others; divide long triangles that "
+                            "share one corner",
                             work->name, at[0], at[1], at[2], (long long)total.n_crowd);
         }
         if (is_crowded) {

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Embree only sorts the triangles into boxes; every distance and every crossing is computed here in double precision.
  * Its single precision works in a frame in which the mesh fills the unit cube: boxes and search radii are widened by
- * more than rounding can take away, so that the result is that of a search through all triangles, whatever the tree.
- * That frame is scaled by a power of two: a unit of length that is a power of two changes no bit. */
+ * more than the rounding error, so that the result is that of a search through all triangles, whatever the tree. That
+ * frame is scaled by a power of two: a unit of length that is a power of two changes no bit. */
 #include "relaxation/mesh/mesh_distance.h"
 
 #include "core/base/math.h"
@@ -49,12 +49,12 @@ typedef struct nearest_search {
     double slack;     /* of the radius, units of the cube */
 } nearest_search;
 
-/* The settings are what Embree hands through to the callback. */
+/* The settings are passed by Embree to the callback. */
 typedef struct ray_search {
     struct RTCIntersectContext settings;
     const mor_mesh_distance *distance;
     const double *point;
-    int axes[3];     /* the last is the one the ray runs along most */
+    int axes[3];     /* the last is the dominant axis of the ray */
     double shear[2]; /* of the other two, 1 */
     bool is_forward; /* along the last axis */
     int64_t n_crossed;
@@ -366,7 +366,7 @@ static mor_status copy_mesh(mor_context *context, mor_mesh_distance *distance, c
         reach = fmax(reach, 0.5 * (distance->bounds.maximum[a] - distance->bounds.minimum[a]));
     }
     MOR_CHECK(context, isfinite(reach) && reach > 0.0, MOR_ERROR_ARGUMENT,
-              "the mesh reaches %g m from its middle: give one with finite corners and an inside", reach);
+              "the mesh reaches %g m from its center: give one with finite corners and a volume", reach);
     int exponent;
     (void)frexp(reach, &exponent);
     distance->per_unit = ldexp(1.0, -exponent);
@@ -381,7 +381,7 @@ mor_status mor_mesh_distance_new(mor_context *context, const mor_mesh *mesh, mor
     MOR_TRY(context, MOR_NEW(context, distance, 1, "distance to a mesh"));
     mor_status status = copy_mesh(context, *distance, mesh);
     if (status == MOR_OK) {
-        /* Building raises floating-point flags that say nothing about the mesh. */
+        /* Building raises floating-point flags that do not concern the mesh. */
         fenv_t environment;
         feholdexcept(&environment);
         status = build_tree(context, *distance);

@@ -6,8 +6,8 @@
 #include "relaxation/mesh/mesh.h"
 
 /** @file
- *  Exact distance to a mesh, by Embree's point queries; which side, by a vote of rays. The door of Embree for
- *  geometry is mesh_distance.c. Distances are computed in double precision; only the search for the nearest triangle
+ *  Exact distance to a mesh, by Embree's point queries; inside test by a majority of rays. For geometry, only
+ *  mesh_distance.c calls Embree. Distances are computed in double precision; only the search for the nearest triangle
  *  uses Embree's boxes, which are widened so that single precision loses none. */
 
 typedef struct mor_mesh_distance mor_mesh_distance;
@@ -31,8 +31,8 @@ void mor_mesh_distance_free(mor_context *context, mor_mesh_distance **distance);
  *  Returns: unit m; the limit when nothing is nearer. Threads: safe to call concurrently. */
 double mor_mesh_distance_find(const mor_mesh_distance *distance, const double *point, double limit, double *nearest);
 
-/** Whether a point is inside: several rays in fixed directions vote by the triangles they cross, so that a ray along an
- *  edge, or a slit in the mesh, is outvoted.
+/** Whether a point is inside: the majority of several rays in fixed directions, by the number of triangles they cross,
+ *  so that a ray along an edge, or through a slit in the mesh, does not change the result.
  *  @param point    [in]  shape [3]; unit m
  *  Threads: safe to call concurrently. */
 bool mor_mesh_distance_is_inside(const mor_mesh_distance *distance, const double *point);

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Which triangles share an edge, and one orientation for all that hang together. */
+/* Which triangles share an edge, and one orientation for all connected ones. */
 #include "core/base/memory.h"
 #include "relaxation/mesh/mesh_internal.h"
 
@@ -63,7 +63,7 @@ void mor_mesh_flip(mor_mesh_work *work, int64_t t)
     work->is_flipped[t] = !work->is_flipped[t];
 }
 
-/* Looks over the edges of a triangle: neighbors not met before take its orientation and join the row. */
+/* Visits the edges of a triangle: neighbors not visited before take its orientation and join the queue. */
 static int64_t visit_neighbors(mor_mesh_work *work, int32_t t, int32_t *part, int32_t *row, int64_t n_row)
 {
     for (int64_t half = 3 * (int64_t)t; half < 3 * ((int64_t)t + 1); ++half) {
@@ -80,7 +80,7 @@ static int64_t visit_neighbors(mor_mesh_work *work, int32_t t, int32_t *part, in
             work->is_flipped[neighbor] = is_flipped;
             row[n_row++] = neighbor;
         } else if (work->is_flipped[neighbor] != is_flipped) {
-            if (work->report.n_crowded_edges == 0) { /* which is told first, with its place */
+            if (work->report.n_crowded_edges == 0) { /* which is reported first, with its position */
                 work->place = half;
             }
             work->is_one_sided = true;
@@ -89,7 +89,7 @@ static int64_t visit_neighbors(mor_mesh_work *work, int32_t t, int32_t *part, in
     return n_row;
 }
 
-/* Turns the flagged triangles. Returns whether there were any. */
+/* Reverses the flagged triangles. Returns whether there were any. */
 static bool turn_flagged(mor_mesh_work *work)
 {
     bool is_any = false;
@@ -134,6 +134,6 @@ mor_status mor_mesh_orient(mor_context *context, mor_mesh_work *work)
     if (status != MOR_OK) {
         return mor_context_pass(context, status, MOR_HERE);
     }
-    /* Turning renames the half-edges. */
+    /* Reversal renumbers the half-edges. */
     return !work->is_one_sided && turn_flagged(work) ? mor_mesh_pair_edges(context, work) : MOR_OK;
 }

@@ -98,7 +98,7 @@ static size_t put_code(unsigned code, char *out)
     return 3;
 }
 
-/* Reads a text of JSON in quotes; returns what is behind it. What does not fit is cut off. */
+/* Reads a text of JSON in quotes; returns what follows it. What does not fit is truncated. */
 static const char *read_word(const char *at, const char *end, char *word)
 {
     size_t n = 0;
@@ -123,7 +123,7 @@ static const char *skip_blanks(const char *at, const char *end)
     return at;
 }
 
-/* Visits every value of buffers[...].uri. What is no JSON is for the reader of meshes to refuse. */
+/* Visits every value of buffers[...].uri. What is no JSON is refused by the mesh reader. */
 static mor_status visit_buffers(content *it, const char *at, const char *end)
 {
     char word[WORD_BYTES];

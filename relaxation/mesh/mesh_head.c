@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What the start of a file must look like before the reader of its kind gets it. */
+/* Checks of the start of a file before its format is read. */
 #include "relaxation/mesh/mesh_internal.h"
 
 #include <stdio.h>
@@ -37,9 +37,10 @@ static bool starts_with(const char *text, const char *word)
 static mor_status check_is_text(const head *it)
 {
     const size_t n = strlen(it->text);
-    MOR_CHECK(it->context, n == (size_t)it->n_text, MOR_ERROR_IO,
-              "%s: found a zero byte at %lld in what should be text; this is no mesh of the kind its ending says",
-              it->path, (long long)n);
+    MOR_CHECK(
+        it->context, n == (size_t)it->n_text, MOR_ERROR_IO,
+        "%s: found a zero byte at %lld in what should be text; the content does not match the extension of the file",
+        it->path, (long long)n);
     return MOR_OK;
 }
 
@@ -64,7 +65,7 @@ static mor_status check_stl(const head *it)
         if (!starts_with(skip_blanks(it->text), "solid")) {
             return MOR_FAIL(it->context, MOR_ERROR_IO,
                             "%s: found %lld bytes that are no STL file: text would begin with 'solid', and as a binary "
-                            "file they would hold %lld triangles in %lld bytes; the file may be cut off",
+                            "file they would hold %lld triangles in %lld bytes; the file may be truncated",
                             it->path, (long long)it->n_bytes, (long long)n,
                             (long long)(HEADER_BYTES + TRIANGLE_BYTES * n));
         }
@@ -100,14 +101,14 @@ static mor_status check_obj(const head *it)
         const char *word = line + strspn(line, " \t\r");
         const char *end = strchr(word, '\n');
         const bool is_blank = *word == '\n' || *word == '\0' || *word == '#';
-        /* The last line of the head may be cut off; a line may go on behind a backslash. */
+        /* The last line of the head may be truncated; a line may continue after a backslash. */
         if (end == NULL && it->n_bytes > it->n_text) {
             break;
         }
         const int n_shown = (int)strcspn(word, "\r\n");
         const bool goes_on = line > it->text + 2 && (line[-2] == '\\' || (line[-2] == '\r' && line[-3] == '\\'));
         MOR_CHECK(it->context, is_blank || goes_on || is_obj_line(word), MOR_ERROR_IO,
-                  "%s: found '%.*s' in line %lld, which is no word of an OBJ file; this is no OBJ file", it->path,
+                  "%s: found '%.*s' in line %lld, which is no keyword of an OBJ file; this is no OBJ file", it->path,
                   n_shown < 16 ? n_shown : 16, word, number);
         has_corner = has_corner || starts_with(word, "v");
         line = end != NULL ? end + 1 : NULL;
@@ -138,12 +139,12 @@ static mor_status check_ply(const head *it)
         const int n_read = sscanf(line, "\nelement %31s %23s", name, count);
         const long long n = n_read == 2 ? strtoll(count, &rest, 10) : -1;
         MOR_CHECK(it->context, n >= 0 && rest > count && *rest == '\0' && n <= n_body - n_items, MOR_ERROR_IO,
-                  "%s: found '%s' of element '%s' announced in the header, but only %lld bytes behind it; the file may "
-                  "be cut off",
+                  "%s: found '%s' of element '%s' in the header, but only %lld bytes after it; "
+                  "the file may be truncated",
                   it->path, count, name, (long long)n_body);
         n_items += n;
     }
-    MOR_CHECK(it->context, n_items > 0, MOR_ERROR_IO, "%s: found a PLY file that announces no element", it->path);
+    MOR_CHECK(it->context, n_items > 0, MOR_ERROR_IO, "%s: found a PLY file without elements in its header", it->path);
     return MOR_OK;
 }
 
@@ -164,7 +165,7 @@ static mor_status check_glb(const head *it)
     const bool has_header = it->n_bytes >= GLB_HEADER_BYTES && memcmp(it->text, "glTF", 4) == 0;
     const int64_t n_said = has_header ? read_word(it->text + 8) : 0;
     MOR_CHECK(it->context, has_header && n_said == it->n_bytes, MOR_ERROR_IO,
-              "%s: found %lld bytes with a glTF header of %lld; this is no GLB file, or it is cut off", it->path,
+              "%s: found %lld bytes with a glTF header of %lld; this is no GLB file, or it is truncated", it->path,
               (long long)it->n_bytes, (long long)n_said);
     return MOR_OK;
 }
@@ -183,7 +184,7 @@ mor_status mor_mesh_check_head(mor_context *context, const char *path, const cha
         }
     }
     return MOR_FAIL(context, MOR_ERROR_IO,
-                    "%s: found the ending '%s'; a mesh is read from .stl, .obj, .ply, .gltf and .glb, an "
+                    "%s: found the extension '%s'; a mesh is read from .stl, .obj, .ply, .gltf and .glb, an "
                     "outline from .txt",
                     path, ending);
 }

@@ -14,7 +14,7 @@ typedef struct mor_mesh_key {
     int32_t lead, second, third, index;
 } mor_mesh_key;
 
-/* A mesh while it is looked over. */
+/* A mesh while it is checked. */
 typedef struct mor_mesh_work {
     mor_mesh mesh;
     mor_mesh_report report;
@@ -25,7 +25,7 @@ typedef struct mor_mesh_work {
     bool *is_flipped;     /* shape [n_triangles]; against the file */
     bool is_one_sided;    /* no orientation agrees with itself */
     int64_t place;        /* half-edge at which the last finding was made */
-    int32_t second_shell; /* a triangle that does not hang together with the first; -1: there is none */
+    int32_t second_shell; /* a triangle that is not connected with the first; -1: there is none */
 } mor_mesh_work;
 
 static inline const double *mor_mesh_corner(const mor_mesh *mesh, int64_t t, int c)
@@ -43,8 +43,8 @@ static inline int32_t mor_mesh_head(const mor_mesh *mesh, int64_t half)
     return mesh->triangles[mor_mesh_next(half)];
 }
 
-/* Takes the arrays of *mesh, mends, checks; *mesh is the finished one or empty. reach: unit m; how far from the origin
- * the corners were held in single precision; 0: they were not. */
+/* Takes the arrays of *mesh, repairs and checks them; *mesh is the finished one or empty. reach: unit m; how far from
+ * the origin the corners were held in single precision; 0: they were not. */
 mor_status mor_mesh_finish(mor_context *context, mor_mesh *mesh, const char *name, double reach,
                            mor_mesh_report *report);
 
@@ -62,7 +62,7 @@ void mor_mesh_flip(mor_mesh_work *work, int64_t t);
 /* mesh_mend.c: fills small holes of an oriented mesh. */
 mor_status mor_mesh_fill_holes(mor_context *context, mor_mesh_work *work);
 
-/* mesh_cross.c: counts the pairs of triangles that cross. */
+/* mesh_cross.c: counts the pairs of intersecting triangles. */
 mor_status mor_mesh_find_crossings(mor_context *context, mor_mesh_work *work);
 
 /* mesh_head.c: whether the start of a file, n_text bytes and a zero, can be that of a mesh. */
@@ -72,7 +72,7 @@ mor_status mor_mesh_check_head(mor_context *context, const char *path, const cha
 /* Whether a file that starts like this, and is n_bytes long, is a binary STL. */
 bool mor_mesh_is_binary_stl(const char *text, int64_t n_bytes);
 
-/* mesh_text.c: whether places and corners in a file of text are numbers; other files pass. */
+/* mesh_text.c: whether coordinates and corners in a text file are numbers; other files pass. */
 mor_status mor_mesh_check_text(mor_context *context, const char *path, const char *ending, const char *text,
                                int64_t n_bytes);
 

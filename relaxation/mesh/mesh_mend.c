@@ -27,7 +27,7 @@ static int64_t follow_rim(const mor_mesh_work *work, int64_t half)
     return next;
 }
 
-/* Walks a rim and marks it. Returns its number of edges; corners are noted up to N_MAX. */
+/* Traverses a rim and marks it. Returns its number of edges; corners are noted up to N_MAX. */
 static int64_t walk_rim(const mor_mesh_work *work, int64_t start, bool *is_met, hole *it)
 {
     int64_t n = 0;
@@ -40,7 +40,7 @@ static int64_t walk_rim(const mor_mesh_work *work, int64_t start, bool *is_met, 
         n += 1;
         half = follow_rim(work, half);
     } while (half != start);
-    /* A lid runs against the edges of the rim. */
+    /* New triangles run against the edges of the rim. */
     it->n = n <= N_MAX ? (int)n : 0;
     for (int k = 0; k < it->n / 2; ++k) {
         const int32_t corner = it->corners[k];

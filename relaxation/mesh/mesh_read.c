@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The door of Assimp. It reads in a child process: on damaged files it may crash, hang or ask for all memory. */
+/* The only file that calls Assimp, in a child process: on damaged files it may crash, hang or allocate all memory. */
 #include "core/base/memory.h"
 #include "relaxation/mesh/isolate_internal.h"
 #include "relaxation/mesh/mesh_internal.h"
@@ -29,7 +29,7 @@ typedef struct parcel {
 
 /* ---- In the child ------------------------------------------------------------------------------------------------ */
 
-/* One walk over the nodes: counts, or sends corners or triangles. */
+/* One traversal of the nodes: counts, or sends corners or triangles. */
 typedef struct walk {
     const struct aiScene *scene;
     FILE *result; /* NULL: count only */
@@ -66,7 +66,7 @@ static void send_vertices(const walk *it, const struct aiMesh *part, const struc
     }
 }
 
-/* Notes how large the numbers are that a corner is made of: each of them was rounded to single precision. */
+/* Records the magnitude of the numbers that are summed for a corner: each of them was rounded to single precision. */
 static void note_reach(walk *it, const struct aiVector3D *x, const struct aiMatrix4x4 *m)
 {
     double rows[12];
@@ -142,7 +142,7 @@ static void send_scene(const void *user, FILE *result)
     if (counted.is_too_large) {
         snprintf(head.message, sizeof head.message, "it holds more than %d triangles", INT32_MAX / 3);
     } else if (counted.is_too_deep) {
-        snprintf(head.message, sizeof head.message, "its nodes lie more than %d deep in each other; join them",
+        snprintf(head.message, sizeof head.message, "its nodes are nested more than %d deep; join them",
                  NODE_DEPTH_MAX);
     } else {
         head.n_vertices = counted.n_vertices;
@@ -185,7 +185,7 @@ static mor_status load_head(mor_context *context, const char *path, char *head, 
     return MOR_OK;
 }
 
-/* The letters behind the last dot, small; empty when there are none or too many. */
+/* The letters after the last dot, in lower case; empty when there are none or too many. */
 static void find_ending(const char *path, char *ending, size_t room)
 {
     const char *slash = strrchr(path, '/');
@@ -199,7 +199,7 @@ static void find_ending(const char *path, char *ending, size_t room)
     ending[n] = '\0';
 }
 
-/* Takes what the child sends; *is_whole tells whether it sent all it should. */
+/* Takes what the child sends; *is_whole: whether the data are complete. */
 static mor_status receive(mor_context *context, mor_isolate *child, const char *path, mor_mesh *mesh, double *reach,
                           bool *is_whole)
 {
@@ -231,8 +231,8 @@ static mor_status load_mesh(mor_context *context, const char *path, int64_t n_by
     mor_status status = receive(context, &child, path, mesh, reach, &is_whole);
     mor_isolate_finish(&child, ending, sizeof ending);
     if (status == MOR_OK && !is_whole) {
-        status = MOR_FAIL(context, MOR_ERROR_IO,
-                          "%s: the reader of meshes %s over it; the file is damaged: export it again", path, ending);
+        status = MOR_FAIL(context, MOR_ERROR_IO, "%s: the mesh reader %s on it; the file is damaged: export it again",
+                          path, ending);
     }
     if (status != MOR_OK) {
         mor_mesh_clear(context, mesh);

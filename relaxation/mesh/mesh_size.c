@@ -23,7 +23,7 @@ mor_status mor_mesh_size_annotate_error(mor_context *context, mor_status status,
     }
     snprintf(why, sizeof why, "%.1000s", context->message);
     return MOR_FAIL(context, status,
-                    "the mesh is %.4g m long, %.4g spacings, as its file is taken in meters; if it is in another unit, "
+                    "the mesh is %.4g m long, %.4g spacings, as its file is read in meters; if it is in another unit, "
                     "%s; else: %s",
                     longest * meters, longest / spacing, advice, why);
 }

@@ -6,10 +6,10 @@
 #include "relaxation/mesh/mesh.h"
 
 /** @file
- *  What to say when a mesh whose file is not in meters turns out too large. */
+ *  Message for a mesh that is too large because its file is not in meters. */
 
-/** Puts the size of a mesh in front of a refusal of its level set, when it was taken as it is and is so large that its
- *  unit is the likely reason.
+/** Puts the size of a mesh in front of a refusal of its level set, if it was not scaled and is so large that its unit
+ *  is the likely reason.
  *  @param context [in,out]  holds the refusal
  *  @param status  [in]      what the level set returned
  *  @param meters  [in]      one length of the mesh in meters, 1

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Checks the places in meshes of text: the library that reads them takes the start of a word for a number, a comma for
- * a point, and what is no number for 0. */
+/* Checks the coordinates in meshes in text form: the library that reads them takes the start of a word for a number, a
+ * comma for a decimal point, and what is no number for 0. */
 #include "core/base/number.h"
 #include "core/base/word_reader.h"
 #include "relaxation/mesh/mesh_internal.h"
@@ -69,7 +69,7 @@ static mor_status take_corner(const mor_word_reader *it, long long n_vertices, l
     return MOR_OK;
 }
 
-/* One line of a face or a place; a backslash at its end goes on with the next one. */
+/* One line of a face or a vertex; a backslash at its end continues it on the next one. */
 static mor_status check_obj_line(mor_word_reader *it, long long *n_vertices, long long *largest)
 {
     const bool is_face = is_word(it, "f");
@@ -88,9 +88,8 @@ static mor_status check_obj_line(mor_word_reader *it, long long *n_vertices, lon
         }
     }
     if (!is_face && n_numbers < 3) {
-        return mor_word_reader_refuse(it,
-                                      " behind a vertex of fewer than three numbers; allowed are 'v x y z'; correct "
-                                      "it, or export the mesh again");
+        return mor_word_reader_refuse(it, " after a vertex of fewer than three numbers; allowed are 'v x y z'; correct "
+                                          "it, or export the mesh again");
     }
     *n_vertices += !is_face;
     return MOR_OK;
@@ -111,7 +110,7 @@ static mor_status check_obj(mor_word_reader *it)
         }
     }
     MOR_CHECK(it->context, largest <= n_vertices, MOR_ERROR_IO,
-              "%s: a face names vertex %lld, but there are %lld; the file may be cut off: export the mesh again",
+              "%s: a face refers to vertex %lld, but there are %lld; the file may be truncated: export the mesh again",
               it->path, largest, n_vertices);
     return MOR_OK;
 }
@@ -154,7 +153,7 @@ static mor_status read_ply_header(mor_word_reader *it, ply_element *elements, in
             last->kinds[last->n_properties++] = find_kind(it);
         } else if (is_word(it, "element") || is_word(it, "property")) {
             return mor_word_reader_refuse(it, " beyond what a mesh has; allowed are 16 elements of 64 properties; "
-                                              "export the mesh with places and faces only");
+                                              "export the mesh with positions and faces only");
         }
         if (it->line == line) {
             mor_word_reader_next_line(it);
@@ -192,9 +191,10 @@ static mor_status check_ply(mor_word_reader *it)
         }
     }
     mor_word_reader_next(it);
-    return it->n_bytes == 0 ? MOR_OK
-                            : mor_word_reader_refuse(it, " behind the last element that the header announces; correct "
-                                                         "the header, or export the mesh again");
+    return it->n_bytes == 0
+               ? MOR_OK
+               : mor_word_reader_refuse(it, " after the last element that the "
+                                            "header declares; correct the header, or export the mesh again");
 }
 
 /* ------------------------------------------------------------------------------------------------------------------ */

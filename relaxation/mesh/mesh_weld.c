@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Corners that coincide become one; triangles that are then without area or double are removed. */
+/* Corners that coincide are merged; triangles that are then without area or duplicate are removed. */
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-/* Cells of the weld grid, in tolerances: most corners then lie well inside one cell and are looked up once. */
+/* Cells of the weld grid, in tolerances: most corners then lie well inside one cell and need one search. */
 #define CELL_TOLERANCES 16.0
 
 static int compare_keys(const void *first, const void *second)
@@ -60,7 +60,7 @@ mor_status mor_mesh_sort(mor_context *context, mor_mesh_key *keys, int64_t n_key
 
 /* ---- Corners ----------------------------------------------------------------------------------------------------- */
 
-/* Corners that stand for themselves, in chains by the cell they lie in. */
+/* Corners that are kept, in chains by their cell. */
 typedef struct weld_table {
     const mor_mesh *mesh;
     double minimum[3]; /* m */
@@ -68,7 +68,7 @@ typedef struct weld_table {
     uint64_t mask;     /* number of chains - 1 */
     int32_t *first;    /* shape [mask + 1]; one more than the first corner of a chain; 0: none */
     int32_t *next;     /* shape [n_vertices]; likewise */
-    int32_t *stand_in; /* shape [n_vertices]; the corner that each has become */
+    int32_t *stand_in; /* shape [n_vertices]; the corner into which each was merged */
 } weld_table;
 
 static void find_cell(const weld_table *table, const double *vertex, double shift, int64_t *cell)
@@ -113,7 +113,7 @@ static int32_t find_stand_in(const weld_table *table, const double *vertex)
     return found;
 }
 
-/* Lets every corner stand for itself or for the lowest one before it within the tolerance. */
+/* Maps every corner to itself or to the lowest one before it within the tolerance. */
 static int64_t join_corners(weld_table *table)
 {
     int64_t n_welded = 0;
@@ -197,7 +197,7 @@ static mor_mesh_key sort_corners(const int32_t *triangle, int64_t t)
     return (mor_mesh_key){low, middle, high, (int32_t)t};
 }
 
-/* Of triangles with the same corners, in whatever order, the first stays. */
+/* Of triangles with the same corners, in any order, the first is kept. */
 static mor_status drop_duplicates(mor_context *context, mor_mesh_work *work)
 {
     mor_mesh_key *keys = NULL;

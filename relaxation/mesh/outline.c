@@ -14,7 +14,7 @@
 /* Corners nearer together than this share of the size are one; an area below it, squared by size, is none. */
 static const double least_share = 1e-9;
 
-/* Says which corner is meant: its line in a file, or its number. */
+/* Names a corner: its line in a file, or its number. */
 static void name_corner(const mor_outline_corners *corners, int corner, char *text, size_t room)
 {
     if (corners->lines != NULL) {
@@ -35,7 +35,7 @@ static double find_size(const mor_outline_corners *corners)
     return fmax(high[0] - low[0], high[1] - low[1]);
 }
 
-/* Corners that are one with the one before, the last also with the first, are left out. */
+/* Corners that coincide with the one before, the last also with the first, are omitted. */
 static void merge_corners(mor_outline_corners *corners)
 {
     const double apart = least_share * find_size(corners);
@@ -83,7 +83,7 @@ static mor_status check_crossing(mor_context *context, const mor_outline_corners
     }
     return MOR_FAIL(
         context, MOR_ERROR_ARGUMENT,
-        "%s meets itself: the edge from %s to %s and the edge from %s to %s cross or touch; give corners in "
+        "%s intersects itself: the edge from %s to %s and the edge from %s to %s cross or touch; give corners in "
         "order around one area",
         corners->name, names[0], names[1], names[2], names[3]);
 }
@@ -106,8 +106,8 @@ mor_status mor_outline_check(mor_context *context, mor_outline_corners *corners)
     const double size = find_size(corners);
     const double doubled = find_doubled_area(corners->points, corners->n_points);
     MOR_CHECK(context, isfinite(size * size * size * size) && size * size * size * size > 0.0, MOR_ERROR_ARGUMENT,
-              "%s is %g m in size, which cannot be computed with: give its corners in another unit", corners->name,
-              size);
+              "%s is %g m in size, which is outside the range of computation: give its corners in another unit",
+              corners->name, size);
     MOR_TRY(context, check_crossing(context, corners));
     MOR_CHECK(context, fabs(doubled) > least_share * size * size, MOR_ERROR_ARGUMENT,
               "%s has no area: its %d corners lie on one line; give corners around an area", corners->name,

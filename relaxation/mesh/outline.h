@@ -10,7 +10,7 @@
  *  tabs, commas and semicolons separate; '#' starts a comment. The last corner may repeat the first. The inside is a
  *  shape by mor_shape_new_polygon. */
 
-/** Most corners of an outline: each distance visits them all. */
+/** Maximum number of corners of an outline: each distance visits them all. */
 enum { MOR_OUTLINE_CORNERS_MAX = 10000 };
 
 /** A closed line. Owner: the caller, who ends it with mor_outline_clear. */
@@ -19,7 +19,7 @@ typedef struct mor_outline {
     int n_points;
 } mor_outline;
 
-/** Reads an outline. Corners nearer together than 1e-9 of its size become one.
+/** Reads an outline. Corners nearer together than 1e-9 of its size are merged.
  *  @param path    [in]      zero-terminated
  *  @param outline [out]     empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_IO for a file that cannot be read or a line that is no corner, with file and line;

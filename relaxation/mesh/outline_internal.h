@@ -6,7 +6,7 @@
 #include "relaxation/mesh/outline.h"
 
 /** @file
- *  Corners on their way into an outline. For outline.c and outline_read.c only. */
+ *  Corners before they become an outline. For outline.c and outline_read.c only. */
 
 /** Corners as they were given. */
 typedef struct mor_outline_corners {

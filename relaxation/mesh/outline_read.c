@@ -21,7 +21,7 @@ typedef struct outline_reader {
     int room; /* corners there is memory for */
 } outline_reader;
 
-/* Takes the next line without its comment into text; is_end tells that there is none. */
+/* Takes the next line without its comment into text; is_end: there is none. */
 static mor_status read_line(mor_context *context, outline_reader *reader, bool *is_end)
 {
     int n_bytes = 0;
@@ -35,8 +35,8 @@ static mor_status read_line(mor_context *context, outline_reader *reader, bool *
             continue;
         }
         MOR_CHECK(context, byte != '\0' && n_bytes < LINE_BYTES - 1, MOR_ERROR_IO,
-                  "%s, line %d: this is no text of corners; give a file with one corner \"x y\" per line", reader->path,
-                  reader->line);
+                  "%s, line %d: this is not a text of corners; give a file with one corner \"x y\" per line",
+                  reader->path, reader->line);
         reader->text[n_bytes++] = (char)byte;
     }
     reader->text[n_bytes] = '\0';
@@ -107,8 +107,8 @@ static mor_status read_corner(mor_context *context, outline_reader *reader)
         text = skip_separators(text + n_bytes);
     }
     MOR_CHECK(context, n_numbers == 2, MOR_ERROR_IO,
-              "%s, line %d: %d %s; give one corner \"x y\" per line, with points as decimal marks", reader->path,
-              reader->line, n_numbers, n_numbers == 1 ? "number" : "numbers");
+              "%s, line %d: %d %s; give one corner \"x y\" per line, with decimal points", reader->path, reader->line,
+              n_numbers, n_numbers == 1 ? "number" : "numbers");
     MOR_TRY(context, make_room(context, reader));
     memcpy(reader->corners.points + 2 * (size_t)reader->corners.n_points, place, sizeof place);
     reader->corners.lines[reader->corners.n_points++] = reader->line;

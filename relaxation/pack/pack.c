@@ -11,7 +11,7 @@
 #include <string.h>
 
 static const int rocks_limit = 1000000;
-static const int presses_limit = 3;  /* in vain, before rocks are no longer pushed apart to make room */
+static const int presses_limit = 3;  /* failed attempts before rocks are no longer displaced to make space */
 static const int pushes_limit = 500; /* for each rock placed, or for each of this many: then no more, either */
 static const int pushes_rocks = 64;
 static const int fewest_share = 64;     /* of most_tries: what is drawn at least */
@@ -21,10 +21,10 @@ static const double same_size = 1e-9;   /* relative difference of diameters that
 static const double share_slack = 1e-9; /* of the last share to 1 */
 static const int cells_limit = 512;     /* along each axis */
 
-/* How placing goes. */
+/* State of the placement. */
 typedef struct placing {
-    int n_tries;   /* places to draw for the next rock */
-    int n_pressed; /* rocks pushed in vain */
+    int n_tries;   /* positions to draw for the next rock */
+    int n_pressed; /* rocks displaced without success */
 } placing;
 
 void mor_pack_request_init(mor_pack_request *request)
@@ -42,9 +42,9 @@ static mor_status check_sizes(mor_context *context, const mor_pack_request *requ
 {
     const int n = request->n_sizes;
     MOR_CHECK(context, n >= 1 && n <= MOR_PACK_SIZES_MAX, MOR_ERROR_ARGUMENT,
-              "the size curve has %d points: give 1 to %d", n, MOR_PACK_SIZES_MAX);
+              "the size distribution has %d points: give 1 to %d", n, MOR_PACK_SIZES_MAX);
     for (int k = 0; k < n; ++k) {
-        MOR_TRY(context, mor_shape_check_length(context, request->diameters[k], "a diameter of the size curve"));
+        MOR_TRY(context, mor_shape_check_length(context, request->diameters[k], "a diameter of the size distribution"));
         MOR_CHECK(context, request->passing[k] >= 0.0 && request->passing[k] <= 1.0 + share_slack, MOR_ERROR_ARGUMENT,
                   "the share passing %g m is %g: give a number from 0 to 1", request->diameters[k],
                   request->passing[k]);
@@ -52,7 +52,7 @@ static mor_status check_sizes(mor_context *context, const mor_pack_request *requ
                   k == 0 || (request->diameters[k] > request->diameters[k - 1] &&
                              request->passing[k] >= request->passing[k - 1]),
                   MOR_ERROR_ARGUMENT,
-                  "the size curve falls from (%g m, %g) to (%g m, %g): diameters and shares must rise",
+                  "the size distribution falls from (%g m, %g) to (%g m, %g): diameters and shares must rise",
                   request->diameters[k - 1], request->passing[k - 1], request->diameters[k], request->passing[k]);
     }
     MOR_CHECK(context, fabs(request->passing[n - 1] - 1.0) <= share_slack, MOR_ERROR_ARGUMENT,
@@ -73,7 +73,7 @@ static mor_status check_request(mor_context *context, const mor_pack_request *re
                   k + 1, request->n_forms);
     }
     MOR_CHECK(context, request->count >= 0 && request->count <= rocks_limit, MOR_ERROR_ARGUMENT,
-              "%d rocks are asked for: give 1 to %d, or 0 and a content", request->count, rocks_limit);
+              "%d rocks are requested: give 1 to %d, or 0 and a content", request->count, rocks_limit);
     MOR_CHECK(context, request->count > 0 || (request->content > 0.0 && request->content < 1.0), MOR_ERROR_ARGUMENT,
               "the content of rocks is %g: give a number above 0 and below 1", request->content);
     MOR_CHECK(context, isfinite(request->gap) && request->gap >= 0.0, MOR_ERROR_ARGUMENT,
@@ -82,7 +82,7 @@ static mor_status check_request(mor_context *context, const mor_pack_request *re
               "the margin of the rocks to the surface is %g m: give a finite length", request->margin);
     MOR_TRY(context, mor_shape_check_length(context, request->resolution, "the resolution of the packing"));
     MOR_CHECK(context, request->most_tries >= 1, MOR_ERROR_ARGUMENT,
-              "%d places are to be drawn for a rock: give at least 1", request->most_tries);
+              "%d positions are to be tried for a rock: give at least 1", request->most_tries);
     MOR_TRY(context, check_sizes(context, request));
     return MOR_OK;
 }
@@ -93,7 +93,7 @@ static double rock_volume(int dimension, double diameter)
     return dimension == 2 ? 0.25 * MOR_PI * diameter * diameter : MOR_PI / 6.0 * diameter * diameter * diameter;
 }
 
-/* Diameter up to which rocks make up a share of the volume. */
+/* Diameter up to which rocks have a given share of the volume. */
 static double invert_curve(const mor_pack_request *request, double share)
 {
     const double *passing = request->passing;
@@ -109,7 +109,7 @@ static double invert_curve(const mor_pack_request *request, double share)
     return request->diameters[request->n_sizes - 1];
 }
 
-/* Diameter of the next rock, whose middle lies on the curve when `placed` of `target` is made up from the top. */
+/* Diameter of the next rock, from the size distribution at `placed` of `target` plus half of that rock. */
 static double choose_diameter(const mor_pack_request *request, double placed, double target)
 {
     double low = request->diameters[0];
@@ -126,7 +126,7 @@ static double choose_diameter(const mor_pack_request *request, double placed, do
     return high;
 }
 
-/* How many rocks of the curve make up a volume, to one more than `most`. */
+/* How many rocks of the size distribution fill a volume, to one more than `most`. */
 static int count_rocks(const mor_pack_request *request, double target, int most)
 {
     double placed = 0.0;
@@ -183,7 +183,7 @@ static mor_status set_bounds(mor_context *context, mor_pack_state *state)
             continue;
         }
         MOR_CHECK(context, isfinite(state->bounds.minimum[a]) && isfinite(state->bounds.maximum[a]), MOR_ERROR_ARGUMENT,
-                  "the region of the packing (%s) has no end along %c: bound it", request->region->operations->kind,
+                  "the region of the packing (%s) is unbounded along %c: bound it", request->region->operations->kind,
                   'x' + a);
         state->bounds.minimum[a] -= outward;
         state->bounds.maximum[a] += outward;
@@ -210,7 +210,7 @@ static mor_status prepare(mor_context *context, mor_pack_state *state, double ta
     const double most =
         request->count > 0 ? request->count : target / rock_volume(request->dimension, request->diameters[0]) + 2.0;
     MOR_CHECK(context, most <= rocks_limit, MOR_ERROR_ARGUMENT,
-              "up to %.0f rocks are asked for, more than %d: raise the smallest diameter, %g m", most, rocks_limit,
+              "up to %.0f rocks are requested, more than %d: raise the smallest diameter, %g m", most, rocks_limit,
               request->diameters[0]);
     MOR_TRY(context, sample_forms(context, state, largest));
     double reach = 0.0;
@@ -240,14 +240,14 @@ static mor_status prepare(mor_context *context, mor_pack_state *state, double ta
     return MOR_OK;
 }
 
-/* Whether pushing still pays: where it takes much for each rock there is hardly any room left. */
+/* Whether displacing is still worthwhile: where it takes long for each rock there is hardly any space left. */
 static bool can_push(const mor_pack_state *state, const placing *work)
 {
     const int64_t n_rocks = state->n_items > pushes_rocks ? state->n_items : pushes_rocks;
     return work->n_pressed < presses_limit && state->n_pushes < pushes_limit * n_rocks;
 }
 
-/* Places a rock at random, or by pushing others apart. Where places are hard to find fewer are drawn the next time. */
+/* Places a rock at random, or by displacing others. Where free positions are rare fewer are drawn the next time. */
 static bool place_rock(mor_pack_state *state, int n_before, placing *work, mor_pack_item *item)
 {
     const int most = state->request->most_tries;
@@ -265,7 +265,7 @@ static bool place_rock(mor_pack_state *state, int n_before, placing *work, mor_p
     return false;
 }
 
-/* Places rocks from the largest to the smallest; returns the number given up. */
+/* Places rocks from the largest to the smallest; returns the number without a position. */
 static int place_rocks(mor_pack_state *state, double target)
 {
     const mor_pack_request *request = state->request;
@@ -292,7 +292,7 @@ static int place_rocks(mor_pack_state *state, double target)
     return n_given_up;
 }
 
-/* Places a number of rocks of the curve; what finds no place is not made up by others. Returns the number given up. */
+/* Places a number of rocks of the curve; rocks without a position are not replaced by others. Returns their number. */
 static int place_count(mor_pack_state *state, double target)
 {
     const mor_pack_request *request = state->request;
@@ -307,7 +307,7 @@ static int place_count(mor_pack_state *state, double target)
     return n_given_up;
 }
 
-/* Looks for the least gap so far of a rock to those before it. */
+/* Finds the smallest gap so far of a rock to those before it. */
 typedef struct gap_work {
     int self;
     mor_pack_contact contact;
@@ -382,8 +382,8 @@ static mor_status write_result(mor_context *context, const mor_pack_state *state
     result->smallest_gap = find_smallest_gap(state);
     if (result->n_given_up > 0 && request->count == 0) {
         mor_context_log(context, MOR_LOG_WARNING,
-                        "rocks fill %.2f %% of their region, %.2f %% was asked for: no place was found for %d of them; "
-                        "ask for a smaller content, gap or margin, or add smaller rocks to the size curve",
+                        "rocks fill %.2f %% of their region, %.2f %% was requested: no position was found for %d "
+                        "of them; use a smaller content, gap or margin, or add smaller rocks to the size distribution",
                         100.0 * result->content, 100.0 * request->content, result->n_given_up);
     }
     return MOR_OK;

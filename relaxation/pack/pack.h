@@ -6,8 +6,9 @@
 #include "core/geometry/shape.h"
 
 /** @file
- *  Rocks at random places in a region, turned at random, with a least gap between any two, to a share of the region's
- *  volume (area in two dimensions) and a curve of sizes. Largest rocks first; a place is drawn until it is free. */
+ *  Rocks at random positions in a region, rotated at random, with a minimum gap between any two, to a share of the
+ *  region's volume (area in two dimensions) and a size distribution. Largest rocks first; positions are drawn until one
+ *  is free. */
 
 enum { MOR_PACK_SIZES_MAX = 64 };
 
@@ -20,19 +21,21 @@ typedef struct mor_pack_request {
                                     * that is of volume pi/6 m3 (area pi/4 m2) */
     int n_forms;                   /* >= 1; each rock draws one */
     double content;                /* rocks' volume over the region's, 1; 0 < content < 1; not read with a count */
-    int count;                     /* of rocks, along the curve of sizes; 0: as many as make up the content */
+    int count;                     /* of rocks, from the size distribution; 0: as many as fill the content */
     const double *diameters;       /* shape [n_sizes]; rising; of the ball (disc) of the same volume, m */
     const double *passing;         /* shape [n_sizes]; share of the rocks' volume of rocks up to that diameter, 1;
                                     * rising, the last 1. One size: all rocks have it. Several: the first is where the
-                                    * curve starts, and between two the volume is spread evenly over the diameter */
+                                    * curve starts, and between two the volume is distributed evenly over the
+                                    * diameter */
     int n_sizes;                   /* 1 to MOR_PACK_SIZES_MAX */
     double gap;                    /* least distance between two rocks, m; >= 0 */
-    double margin;                 /* least depth of a rock under the region's surface, m; < 0: may stick out so far */
+    double margin;                 /* least depth of a rock under the region's surface, m; < 0: may protrude by as
+                                    * much */
     const mor_shape *obstacle;     /* rocks keep the gap to it; NULL: none */
     double resolution;             /* of the exact check: points on a rock's surface are its crossings with a grid of
                                     * cells of at most half of it, and so far apart stay any two rocks, m; > 0 */
-    int most_tries;                /* places drawn for one rock, fewer after vain draws, before others are pushed
-                                    * apart to make room for it; >= 1. Pushing ends for good when it takes too much */
+    int most_tries;                /* places drawn for one rock, fewer after failed draws, before others are displaced
+                                    * to make space for it; >= 1. No more are displaced when that takes too long */
     uint64_t seed;
 } mor_pack_request;
 
@@ -41,7 +44,7 @@ typedef struct mor_pack_rock {
     int form;           /* index into forms */
     double diameter;    /* m: the form is scaled by diameter / 1 m */
     double position[3]; /* of the center, m */
-    double axis[3];     /* of its turn, unit vector, 1; z in 2D */
+    double axis[3];     /* of its rotation, unit vector, 1; z in 2D */
     double angle;       /* rad */
 } mor_pack_rock;
 
@@ -49,7 +52,7 @@ typedef struct mor_pack_rock {
 typedef struct mor_pack_result {
     mor_pack_rock *rocks; /* shape [n_rocks]; largest first */
     int n_rocks;
-    int n_given_up;                     /* rocks for which no place was found */
+    int n_given_up;                     /* rocks for which no position was found */
     double content;                     /* reached: by exact volumes of the rocks, 1 */
     double passing[MOR_PACK_SIZES_MAX]; /* reached, by volume, 1 */
     double smallest_gap;                /* between any two rocks, by the exact check, m; INFINITY for one rock */
@@ -58,10 +61,10 @@ typedef struct mor_pack_result {
 /** Sets what is not written to: no gap, no margin, no obstacle, 20000 tries, seed 1. */
 void mor_pack_request_init(mor_pack_request *request);
 
-/** Places rocks. The number and the sizes are drawn first, so that the content and the curve come out as near as whole
- *  rocks allow; the last rock of a size class is the one that comes nearest. When a rock finds no place the rest of its
- *  volume is tried with smaller ones of the curve; what is missing at the end is told by n_given_up and content, and
- *  logged as a warning with what to do.
+/** Places rocks. The number and the sizes are drawn first, so that content and size distribution are as accurate as
+ *  whole rocks allow; the last rock of a size class is the one that comes nearest. If there is no free position for a
+ *  rock, the rest of its volume is tried with smaller ones of the size distribution; what is missing at the end is
+ *  reported by n_given_up and content, and logged as a warning with a remedy.
  *  @param result  [out]     empty after a failure
  *  Returns: MOR_OK, also when the content was not reached; MOR_ERROR_ARGUMENT for a wrong request; MOR_ERROR_MEMORY.
  *  Threads: the result does not depend on them. */

@@ -87,7 +87,7 @@ static void cross_edges(mor_pack_form *form, int dimension, const cell *place)
     }
 }
 
-/* Walks the smallest cells at the surface; counts the crossings, and writes them where there is room. */
+/* Visits the smallest cells at the surface; counts the crossings, and writes them where there is room. */
 static void walk_surface(mor_pack_form *form, int dimension, const cell *place)
 {
     if (fabs(mor_shape_distance(form->shape, place->center)) > MOR_SHAPE_SLOPE_MOST * cell_reach(place, dimension)) {
@@ -115,12 +115,12 @@ static mor_status check_moments(mor_context *context, const mor_shape *shape, in
               "a form to be packed (%s) has the volume %g: scale it to %g, that of a diameter of 1",
               shape->operations->kind, moments.volume, wanted);
     MOR_CHECK(context, mor_vector_length(moments.center) < 1e-6, MOR_ERROR_ARGUMENT,
-              "a form to be packed (%s) has its center at (%g, %g, %g): move it to the origin", shape->operations->kind,
-              moments.center[0], moments.center[1], moments.center[2]);
+              "a form to be packed (%s) has its center at (%g, %g, %g): translate it to the origin",
+              shape->operations->kind, moments.center[0], moments.center[1], moments.center[2]);
     return MOR_OK;
 }
 
-/* Balls around points in a row, which the walk leaves close together. */
+/* Balls around consecutive points, which are close together. */
 static void surround_blocks(mor_pack_form *form)
 {
     for (int64_t first = 0; first < form->n_points; first += MOR_PACK_BLOCK) {
@@ -148,17 +148,18 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
     mor_shape_bounds(shape, &bounds);
     for (int a = 0; a < dimension; ++a) {
         MOR_CHECK(context, isfinite(bounds.minimum[a]) && isfinite(bounds.maximum[a]), MOR_ERROR_ARGUMENT,
-                  "a form to be packed (%s) has no end along %c: give a bounded one", shape->operations->kind, 'x' + a);
+                  "a form to be packed (%s) is unbounded along %c: give a bounded one", shape->operations->kind,
+                  'x' + a);
     }
     cell root;
     set_root(shape, dimension, spacing, &root);
     MOR_CHECK(context, ldexp(2.0 * root.half, -root.level) <= spacing, MOR_ERROR_ARGUMENT,
               "the points on a rock are to be %g of its diameter apart; the least is %g: raise the resolution of the "
-              "packing, or pack the smaller rocks for themselves",
+              "packing, or pack the smaller rocks separately",
               spacing, ldexp(2.0 * root.half, -root.level));
     walk_surface(form, dimension, &root);
     MOR_CHECK(context, form->n_points > dimension, MOR_ERROR_ARGUMENT,
-              "a form to be packed (%s) has no surface that a grid of %g can see: give a form of diameter 1",
+              "a form to be packed (%s) has no surface that a grid of %g resolves: give a form of diameter 1",
               shape->operations->kind, ldexp(2.0 * root.half, -root.level));
     MOR_TRY(context, MOR_NEW(context, &form->points, 3 * form->n_points, "surface points of a form"));
     form->n_points = 0;

@@ -8,7 +8,7 @@
 /** @file
  *  What the parts of the packing share: forms as points on their surface, rocks, and the state of a packing. */
 
-/** Points are looked at by blocks of this many, which lie close together. */
+/** Points are tested in blocks of this many, which lie close together. */
 enum { MOR_PACK_BLOCK = 32 };
 
 /** A form with points on its surface, in its own frame, of diameter 1 m. */
@@ -26,7 +26,7 @@ typedef struct mor_pack_item {
     int form;
     double diameter;    /* m */
     double position[3]; /* m */
-    double spin[4];     /* unit quaternion of the turn, real part first, 1 */
+    double spin[4];     /* unit quaternion of the rotation, real part first, 1 */
     double rotation[9]; /* shape [3,3]; the same as a matrix, 1 */
 } mor_pack_item;
 
@@ -34,10 +34,10 @@ typedef struct mor_pack_item {
 typedef struct mor_pack_contact {
     double gap;       /* the distance found, m */
     double point[3];  /* m */
-    double normal[3]; /* unit vector along which the owner of the point is to move, 1 */
+    double normal[3]; /* unit vector along which the owner of the point must move, 1 */
 } mor_pack_contact;
 
-/** A packing at work. Rocks are listed in square cells by their centers. */
+/** State of a packing. Rocks are listed in square cells by their centers. */
 typedef struct mor_pack_state {
     mor_context *context;
     const mor_pack_request *request; /* borrowed */
@@ -50,8 +50,8 @@ typedef struct mor_pack_state {
     int n_cells[3];      /* 1 along z in 2D */
     int32_t *heads;      /* shape [cells]; the last rock of each, -1: none */
     int32_t *next;       /* shape [n_items_max]; the rock before in the same cell, -1: none */
-    mor_pack_item *kept; /* shape [n_items_max]; what to go back to */
-    int64_t n_pushes;    /* rocks looked at while pushing, in all sweeps so far */
+    mor_pack_item *kept; /* shape [n_items_max]; positions to restore */
+    int64_t n_pushes;    /* rocks evaluated while displacing, in all sweeps so far */
     bool *is_awake;      /* shape [2, n_items_max]; moved in the last sweep, moved in this one */
 } mor_pack_state;
 
@@ -68,7 +68,7 @@ mor_status mor_pack_form_sample(mor_context *context, const mor_shape *shape, in
 /** Brings the quaternion of an item to length 1 and writes its matrix. */
 void mor_pack_item_rotate(mor_pack_item *item);
 
-/** Looks for points of one rock that are nearer to another one than contact->gap.
+/** Finds points of one rock that are nearer to another one than contact->gap.
  *  @param owner   [in]      the rock with the points
  *  @param enough  [in]      unit m; stops at the first point nearer than this; -INFINITY: finds the nearest
  *  @param contact [in,out]  gap: in: the largest that matters; the rest is written where one is found
@@ -76,7 +76,7 @@ void mor_pack_item_rotate(mor_pack_item *item);
 bool mor_pack_probe(const mor_pack_state *state, const mor_pack_item *owner, const mor_pack_item *other, double enough,
                     mor_pack_contact *contact);
 
-/** Looks for the point of a rock that is least inside a shape, or least outside one.
+/** Finds the point of a rock that is least inside a shape, or least outside one.
  *  @param sign    [in]      unit 1; 1: the rock belongs outside of the shape, -1: inside
  *  @param enough  [in]      unit m; as in mor_pack_probe
  *  @param contact [in,out]  as in mor_pack_probe
@@ -106,20 +106,20 @@ bool mor_pack_visit(const mor_pack_state *state, const mor_pack_item *item, doub
                     void *user);
 
 /** Places a new rock at random where it is free.
- *  @param n_before [in]      rocks tried before this one, which tells its random numbers
+ *  @param n_before [in]      rocks tried before this one, which determines its random numbers
  *  @param n_tries  [in]      places to draw
  *  @param item     [in,out]  diameter: in; the rest: out
  *  Returns: whether a place was found. */
 bool mor_pack_drop(const mor_pack_state *state, int n_before, int n_tries, mor_pack_item *item);
 
-/** Puts a new rock where there is most room and lets it and its neighbors push each other apart until all are free.
+/** Puts a new rock where there is most space and displaces it and its neighbors until all are free.
  *  @param state    [in,out]  the item is added to the placed ones, or nothing changes
  *  @param n_before [in]      as in mor_pack_drop
  *  @param item     [in]      its diameter matters
  *  Returns: whether it was placed. */
 bool mor_pack_press(mor_pack_state *state, int n_before, const mor_pack_item *item);
 
-/** Draws a place, a turn and a form for a rock.
+/** Draws a position, a rotation and a form for a rock.
  *  @param id    [in]      which draw
  *  @param item  [in,out]  diameter: in; the rest: out */
 void mor_pack_draw(const mor_pack_state *state, uint64_t id, mor_pack_item *item);

@@ -52,7 +52,7 @@ void mor_pack_draw(const mor_pack_state *state, uint64_t id, mor_pack_item *item
         item->spin[0] = cos(MOR_PI * u[0]);
         item->spin[1] = item->spin[2] = 0.0;
         item->spin[3] = sin(MOR_PI * u[0]);
-    } else { /* all turns are equally likely (Shoemake 1992) */
+    } else { /* uniform random rotations (Shoemake 1992) */
         item->spin[0] = sqrt(u[0]) * cos(2.0 * MOR_PI * u[2]);
         item->spin[1] = sqrt(1.0 - u[0]) * sin(2.0 * MOR_PI * u[1]);
         item->spin[2] = sqrt(1.0 - u[0]) * cos(2.0 * MOR_PI * u[1]);
@@ -77,7 +77,7 @@ static double find_offset(const mor_pack_item *item, const double *point, double
     return mor_vector_length(offset);
 }
 
-/* Something that has a distance at any point: another rock, or a shape inside or outside of which rocks belong. */
+/* An object with a distance at any point: another rock, or a shape inside or outside of which rocks must be. */
 typedef struct probe_target {
     const mor_pack_state *state;
     const mor_pack_item *other; /* NULL: the shape */
@@ -124,21 +124,22 @@ static bool is_out_of_reach(const probe_target *target, const double *point, dou
                                         gap;
 }
 
-/* Whether a point of a form is too near to the one looked at last, which had a distance, to be nearer than a gap. */
+/* Whether a point of a form is so near to the last one tested, whose distance is known, that it cannot be nearer than a
+ * gap. */
 static bool is_surely_far(const double *point, const double *last, double diameter, double distance, double gap)
 {
     const double way[3] = {point[0] - last[0], point[1] - last[1], point[2] - last[2]};
     return distance - MOR_SHAPE_SLOPE_MOST * diameter * mor_vector_length(way) >= gap;
 }
 
-/* Goes through the points of a rock, leaving out blocks of them that are surely far. */
+/* Tests the points of a rock, skipping blocks that are certainly far. */
 static bool probe(const probe_target *target, const mor_pack_item *owner, double enough, mor_pack_contact *contact)
 {
     const mor_pack_form *form = target->state->forms + owner->form;
     double nearest[3] = {0.0};
     double local[3] = {0.0};
     double point[3];
-    const double *last = NULL; /* looked at last, and its distance */
+    const double *last = NULL; /* tested last, and its distance */
     double distance = 0.0;
     bool is_found = false;
     for (int64_t i = 0; i < form->n_points; ++i) {

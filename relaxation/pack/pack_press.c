@@ -7,18 +7,19 @@
 
 #include <string.h>
 
-/* Rocks too near to each other are moved and turned apart pair by pair, each by its share as its mass and inertia have
- * it, until none is (the positions of Mueller et al. 2007, without velocities). */
+/* Rocks too near to each other are translated and rotated pair by pair, in proportion to inverse mass and inertia,
+ * until none is (the positions of Mueller et al. 2007, without velocities). */
 enum { SPOTS = 200, ROUNDS = 2, SWEEPS = 400, PATIENCE = 40 };
 
 static const double overshoot = 0.02; /* of the resolution: so that the sweeps come to an end */
-static const double progress = 0.7;   /* the ways pushed must shrink to this in PATIENCE sweeps, or there is no room */
+static const double progress = 0.7;   /* the displacements must shrink to this in PATIENCE sweeps, or there is no
+                                       * space */
 
 /* What resolving one rock needs. */
 typedef struct press_work {
     mor_pack_state *state;
     int self;
-    double way; /* pushed so far in this sweep, m */
+    double way; /* displaced so far in this sweep, m */
 } press_work;
 
 /* Inverse mass of a rock, 1 over the volume of a ball (disc) of its diameter; and of its inertia. */
@@ -40,7 +41,7 @@ static void find_lever(const mor_pack_item *item, const mor_pack_contact *contac
     mor_vector_cross(arm, contact->normal, moment);
 }
 
-/* Moves and turns a rock by an impulse along the normal at the point of a contact. */
+/* Translates and rotates a rock by an impulse along the normal at the point of a contact. */
 static void give_impulse(const mor_pack_state *state, mor_pack_item *item, const mor_pack_contact *contact,
                          double impulse)
 {
@@ -77,11 +78,11 @@ static double find_yield(const mor_pack_state *state, const mor_pack_item *item,
 }
 
 /* Opens a contact to the wanted gap: the owner of the point moves along the normal, the other one (NULL: it is fixed)
- * against it. Returns the way between them, m. */
+ * against it. Returns the relative displacement, m. */
 static double open_contact(const mor_pack_state *state, mor_pack_item *owner, mor_pack_item *other, double wanted,
                            mor_pack_contact *contact)
 {
-    if (mor_vector_dot(contact->normal, contact->normal) == 0.0) { /* as deep as can be: any way out */
+    if (mor_vector_dot(contact->normal, contact->normal) == 0.0) { /* at the deepest point: any direction */
         contact->normal[0] = 1.0;
     }
     const double way = wanted - contact->gap + overshoot * state->request->resolution;
@@ -97,7 +98,7 @@ static bool open_pair(void *user, const mor_pack_state *state, const mor_pack_it
 {
     press_work *work = user;
     const bool *is_awake = state->is_awake;
-    if (index == work->self || (is_awake[index] && index < work->self)) { /* that one has seen to this pair */
+    if (index == work->self || (is_awake[index] && index < work->self)) { /* this pair has been treated */
         return true;
     }
     mor_pack_item *self = work->state->items + work->self;
@@ -126,7 +127,8 @@ static void open_shape(press_work *work, const mor_shape *shape, double sign, do
     }
 }
 
-/* Pushes the rocks that moved in the last sweep away from what they are too near to; returns the sum of the ways, m. */
+/* Displaces the rocks that moved in the last sweep from what they are too near to; returns the sum of the
+ * displacements, m. */
 static double sweep(mor_pack_state *state)
 {
     const mor_pack_request *request = state->request;
@@ -190,7 +192,7 @@ static bool note_room(void *user, const mor_pack_state *state, const mor_pack_it
     return true;
 }
 
-/* Draws some places and takes the one farthest from all surfaces. */
+/* Draws some positions and takes the one farthest from all surfaces. */
 static void find_spot(const mor_pack_state *state, int n_before, int round, mor_pack_item *item)
 {
     const mor_pack_request *request = state->request;

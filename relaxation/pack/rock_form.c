@@ -81,7 +81,7 @@ static double draw_normal(uint64_t seed, uint64_t id)
     return sqrt(-2.0 * log(u)) * cos(2.0 * MOR_PI * v);
 }
 
-/* Draws the flat sides: few for an angular rock; their normals are spread evenly, then moved at random. */
+/* Draws the flat sides: few for an angular rock; their normals are distributed evenly, then perturbed at random. */
 static void draw_faces(const mor_rock_form *form, int dimension, flat_sides *sides)
 {
     const int fewest = dimension == 2 ? 5 : 10;
@@ -257,8 +257,8 @@ static void draw_amplitudes(const mor_rock_form *form, int dimension, double *am
               rough_strength * form->roughness, amplitudes);
 }
 
-/* Moves points along their unit directions to the radius, which an exponential keeps above zero: no surface crosses
- * itself. */
+/* Moves points along their unit directions to the radius, which is an exponential and hence above zero: no surface
+ * intersects itself. */
 static void swell(star_surface *surface, const double *amplitudes)
 {
     double waves[N_MESH_WAVES];
@@ -377,7 +377,7 @@ mor_status mor_rock_outline(mor_context *context, const mor_rock_form *form, int
     *outline = (mor_outline){.n_points = 0};
     MOR_TRY(context, check_form(context, form));
     MOR_CHECK(context, n_points >= 16 && n_points <= 4096, MOR_ERROR_ARGUMENT,
-              "an outline of %d points is asked for: give 16 to 4096", n_points);
+              "an outline of %d points is requested: give 16 to 4096", n_points);
     star_surface surface = {.dimension = 2, .n_points = n_points, .n_simplices = n_points};
     int32_t *edges = NULL;
     mor_status status = MOR_NEW(context, &surface.points, 3 * (int64_t)n_points, "points of a rock");
@@ -441,7 +441,7 @@ static void set_icosahedron(ball_net *net)
     net->n_triangles = 20;
 }
 
-/* Index of the point halfway between two, pushed out to the unit sphere; made when it is new. */
+/* Index of the point halfway between two, projected onto the unit sphere; created when it is new. */
 static int32_t find_middle(ball_net *net, int32_t i, int32_t j)
 {
     const uint64_t low = (uint64_t)(i < j ? i : j);
@@ -502,7 +502,7 @@ mor_status mor_rock_mesh(mor_context *context, const mor_rock_form *form, int su
     *mesh = (mor_mesh){.n_vertices = 0};
     MOR_TRY(context, check_form(context, form));
     MOR_CHECK(context, subdivision >= 2 && subdivision <= 6, MOR_ERROR_ARGUMENT,
-              "a rock subdivided %d times is asked for: give 2 to 6", subdivision);
+              "a rock subdivided %d times is requested: give 2 to 6", subdivision);
     ball_net net = {.n_points = 0};
     const mor_status status = allocate_net(context, &net, subdivision);
     if (status == MOR_OK) {

@@ -7,8 +7,8 @@
 #include "relaxation/mesh/outline.h"
 
 /** @file
- *  Rocks without a scan: outlines from Fourier descriptors, bodies from spherical harmonics, drawn at random from a few
- *  numbers that describe their form. Theory: docs/theory/rocks.md. */
+ *  Rocks without a scan: outlines from Fourier descriptors, bodies from spherical harmonics, generated at random from a
+ *  few shape parameters. Theory: docs/theory/rocks.md. */
 
 /** Form of a rock. Made ready by mor_rock_form_init. Ranges are checked. */
 typedef struct mor_rock_form {

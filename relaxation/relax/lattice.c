@@ -44,13 +44,13 @@ void mor_lattice_clear(mor_context *context, mor_lattice_points *points)
 static mor_status check_placement(mor_context *context, const mor_lattice_request *request)
 {
     MOR_TRY(context, mor_shape_check_rotation(context, request->rotation));
-    MOR_TRY(context, mor_shape_check_vector(context, request->translation, "the move of the scene"));
+    MOR_TRY(context, mor_shape_check_vector(context, request->translation, "the translation of the scene"));
     if (request->dimension == 2) {
-        MOR_CHECK(context, fabs(request->rotation[8] - 1.0) <= 1e-12 && request->translation[2] == 0.0,
-                  MOR_ERROR_ARGUMENT,
-                  "a 2D scene is turned or moved out of the x-y plane (turn zz = %.15g, move z = %g m): turn about z "
-                  "and move in x and y only",
-                  request->rotation[8], request->translation[2]);
+        MOR_CHECK(
+            context, fabs(request->rotation[8] - 1.0) <= 1e-12 && request->translation[2] == 0.0, MOR_ERROR_ARGUMENT,
+            "a 2D scene is rotated or translated out of the x-y plane (rotation zz = %.15g, translation z = %g m): "
+            "rotate about z and translate in x and y only",
+            request->rotation[8], request->translation[2]);
     }
     return MOR_OK;
 }
@@ -90,7 +90,7 @@ static mor_status find_index_box(mor_context *context, const mor_lattice_request
         const double low = fmax(bounds.minimum[a], request->domain.minimum[a]);
         const double high = fmin(bounds.maximum[a], request->domain.maximum[a]);
         MOR_CHECK(context, isfinite(low) && isfinite(high), MOR_ERROR_ARGUMENT,
-                  "the region to fill has no end along %c: from %g m to %g m; bound the shape (%s) or give a domain",
+                  "the region to fill is unbounded along %c: from %g m to %g m; bound the shape (%s) or give a domain",
                   'x' + a, low, high, request->shape->operations->kind);
         const double first = floor((low - request->origin[a]) / request->spacing - 0.5) - margin;
         const double last = ceil((high - request->origin[a]) / request->spacing - 0.5) + margin;
@@ -138,7 +138,7 @@ void mor_lattice_place_node(const mor_lattice_request *request, const int64_t *i
     }
 }
 
-/* Whether a node is kept; reach receives a distance within which no other node is decided differently. */
+/* Whether a node is kept; reach receives a distance within which the result is the same for any other node. */
 static bool is_node_kept(const mor_lattice_request *request, const double *node, double *reach)
 {
     const double tolerance = MOR_LATTICE_TOLERANCE * request->spacing;
@@ -182,8 +182,8 @@ static void map_node(const mor_lattice_request *request, const int64_t *index, d
     mor_lattice_map(request, node, position);
 }
 
-/* Walks one row of nodes and returns how many are kept; writes their positions unless the array is NULL. After each
- * test it jumps over all nodes that the distance proves to be decided alike. */
+/* Visits one row of nodes and returns how many are kept; writes their positions unless the array is NULL. After each
+ * test it skips all nodes for which the distance implies the same result. */
 static int64_t walk_row(const mor_lattice_request *request, const mor_lattice_box *box, int64_t j, int64_t k,
                         double *positions)
 {
@@ -227,9 +227,10 @@ static mor_status count_nodes(mor_context *context, const mor_lattice_request *r
 
 mor_status mor_lattice_check_room(mor_context *context, const mor_lattice_request *request, int64_t count)
 {
-    MOR_CHECK(context, request->n_points_most == 0 || count <= request->n_points_most, MOR_ERROR_MEMORY,
-              "%.3g particles of %g m are needed, and there is room for %.3g: use a larger spacing or a smaller shape",
-              (double)count, request->spacing, (double)request->n_points_most);
+    MOR_CHECK(
+        context, request->n_points_most == 0 || count <= request->n_points_most, MOR_ERROR_MEMORY,
+        "%.3g particles of %g m are needed, and at most %.3g are allowed: use a larger spacing or a smaller shape",
+        (double)count, request->spacing, (double)request->n_points_most);
     return MOR_OK;
 }
 

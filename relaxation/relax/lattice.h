@@ -6,11 +6,11 @@
 #include "core/geometry/shape.h"
 
 /** @file
- *  First positions of particles: the nodes of a square or cubic lattice that lie inside a shape, and the check that
- *  two sets of positions do not overlap. It does not relax positions, and knows no particle set. */
+ *  First positions of particles: the nodes of a square or cubic lattice that lie inside a shape, and the check that two
+ *  sets of positions do not overlap. It neither relaxes positions nor uses particle sets. */
 
-/** What to fill. All places are in the scene frame, in which geometry is described; the finished points are mapped by
- *  x -> rotation * x + translation at the very end, so that geometry and lattice turn together exactly.
+/** What to fill. All places are in the scene frame, in which geometry is described; the finished points are mapped by x
+ *  -> rotation * x + translation at the very end, so that geometry and lattice are rotated together exactly.
  *
  *  Node (i, j, k) lies at origin + ((i, j, k) + 1/2) * spacing: a box with faces at origin + multiples of spacing is
  *  filled exactly. In two dimensions there is one layer, at z = 0. A node closer to a surface than 1e-9 spacing counts
@@ -44,7 +44,8 @@ typedef struct mor_lattice_points {
 void mor_lattice_request_init(mor_lattice_request *request);
 
 /** Finds the lattice nodes inside a shape. The order is that of (k, j, i): z outermost, x fastest. Nodes are counted
- *  before memory is asked for; stretches of a row that the distance proves to be in or out are not tested one by one.
+ *  before memory is asked for; parts of a row that are inside or outside according to the distance are not tested one
+ *  by one.
  *  @param points  [out]     owned by the caller; may come out empty
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a wrong request, an unbounded region, a 2D shape that does not reach
  *  z = 0, or more than 2^31 - 64 points; MOR_ERROR_MEMORY, also for more than n_points_most. On failure points is
@@ -52,8 +53,8 @@ void mor_lattice_request_init(mor_lattice_request *request);
  *  Cost: O(rows + points + surface nodes) distances, allocates the result only. Threads: neither. */
 mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points);
 
-/** Fills a solid with its cells: a cell that the surface cuts becomes a point at the middle of the part inside, with
- *  the share that is inside, so that points stand for the true volume up to the true surface wherever it lies on the
+/** Fills a solid with its cells: a cell that the surface cuts becomes a point at the centroid of the part inside, with
+ *  the fraction that is inside, so that points represent the true volume for any position of the surface on the
  *  lattice. A cell that lies inside as a whole becomes its node. Which nodes are kept for the depth and the domain is
  *  decided as by mor_lattice_fill; of a shape whose faces lie on the faces of cells both give the same.
  *  @param request [in]      without jitter

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Cells of a lattice that a surface cuts, with the share of them inside and its middle. */
+/* Cells of a lattice that a surface cuts, with the fraction of them inside and its centroid. */
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "relaxation/relax/lattice_internal.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A cell is looked at in so many parts along each axis. A part counts as inside by how deep its middle lies, which is
+/* A cell is divided into so many parts along each axis. A part counts as inside by the depth of its center, which is
  * exact for faces along the axes. */
 enum { PARTS = 4 };
 
@@ -16,12 +16,12 @@ enum { PARTS = 4 };
 #define ROUNDING 1e-6
 #define LEAST_SHARE 1e-3
 
-/* A cell being looked at. */
+/* A cell being tested. */
 typedef struct cell {
     double node[3];   /* m, scene frame */
     double middle[3]; /* of the part inside, m */
     double share;     /* 1 */
-    double reach;     /* no other node within this distance is decided differently, m */
+    double reach;     /* the result is the same for other nodes within this distance, m */
 } cell;
 
 /* Depth inside the solid, m: under its own surface and outside earlier ones; exact in its sign. */
@@ -42,7 +42,7 @@ static void place_part(const mor_lattice_request *request, const double *node, i
     }
 }
 
-/* Parts in the corners tell most cells apart: 1 all are inside, -1 none is, 0 neither. */
+/* The corner parts classify most cells: 1 all are inside, -1 none is, 0 neither. */
 static int judge_corners(const mor_lattice_request *request, const double *node)
 {
     const double whole = (0.5 / PARTS) * (1.0 - ROUNDING) * request->spacing;

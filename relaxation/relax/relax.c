@@ -15,23 +15,23 @@
 /* Rows reach further than the kernel by this, spacings, so that they serve for many steps. */
 #define SKIN 0.45
 
-/* A particle moves by the pace times the push, in spacings, plus this part of its last move. */
+/* A particle moves by the step factor times the force, in spacings, plus this part of its last displacement. */
 #define MEMORY 0.85
 
-/* The pace holds for the first steps and then falls by this factor in each: particles at edges, pushed out by their
- * neighbors and put back to either side in turn, come to rest. */
+/* The step factor is constant for the first steps and then decreases by this factor in each: particles at edges, forced
+ * out by their neighbors and put back to alternating sides, come to rest. */
 #define PACE 0.15
 #define PACE_FALL 0.985
 enum { STEPS_AT_PACE = 150 };
 
-/* How dense the outside counts, 1: less than the inside, as it forms no layers and the outer layer cannot yield. With
- * this the inside comes out at its right density; measured, see docs/theory/relaxation.md. */
+/* How dense the outside counts, 1: less than the inside, as it forms no layers and the outer layer cannot move. With
+ * this the inside has the correct density; measured, see docs/theory/relaxation.md. */
 #define OUTSIDE_DENSITY 0.8
 
-/* Push of close particles per spacing that they are too near, in units of that of the kernel; measured. */
+/* Repulsion of close particles per spacing that they are too near, in units of that of the kernel; measured. */
 #define CLOSE_PUSH 1.0
 
-/* Longest move of a step, spacings. */
+/* Longest displacement of a step, spacings. */
 #define MOVE_MOST 0.1
 
 /* Thinnest shape, spacings. */
@@ -39,7 +39,7 @@ enum { STEPS_AT_PACE = 150 };
 
 enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041 };
 
-/* A relaxation on its way. Places in units of the spacing. */
+/* State of a relaxation. Positions in units of the spacing. */
 typedef struct relaxation {
     mor_relax_frame frame;
     mor_relax_wall wall;
@@ -50,9 +50,10 @@ typedef struct relaxation {
     double smallest_distance; /* at the end, spacings */
     double *x;                /* shape [3, n]; first all x, then all y, then all z */
     double *moves;            /* shape [3, n]; of the last step */
-    double *rest;             /* shape [n]; way a particle may go before its depth is looked at again */
-    double *strays;           /* shape [n]; way since the rows were found */
-    double *blocks;           /* shape [mor_block_count(n), 2]; largest move and stray of each */
+    double *rest;             /* shape [n]; displacement of a particle before its depth is evaluated again */
+    double *strays;           /* shape [n]; displacement since the rows were found */
+    double *blocks;           /* shape [mor_block_count(n), 2]; largest displacement in the step and since the rows were
+                               * found, of each */
 } relaxation;
 
 void mor_relax_request_init(mor_relax_request *request)
@@ -76,9 +77,10 @@ static mor_status check_request(mor_context *context, const mor_relax_request *r
     MOR_CHECK(context, isnan(request->volume) || (isfinite(request->volume) && request->volume > 0.0),
               MOR_ERROR_ARGUMENT,
               "the volume of the shape to fill is %g: give one above zero, or none to have it found", request->volume);
-    MOR_CHECK(context, request->largest_residual >= 0.0 && request->largest_residual < 1.0, MOR_ERROR_ARGUMENT,
-              "the residual to reach is %g: give 0 <= residual < 1 (the largest move of a step over the spacing)",
-              request->largest_residual);
+    MOR_CHECK(
+        context, request->largest_residual >= 0.0 && request->largest_residual < 1.0, MOR_ERROR_ARGUMENT,
+        "the residual to reach is %g: give 0 <= residual < 1 (the largest displacement of a step over the spacing)",
+        request->largest_residual);
     MOR_CHECK(context, request->most_steps >= 0, MOR_ERROR_ARGUMENT, "%d steps are allowed: give a number from 0 on",
               request->most_steps);
     return MOR_OK;
@@ -175,7 +177,7 @@ static mor_status place_starts(mor_context *context, uint64_t seed, relaxation *
     return status;
 }
 
-/* A direction for two particles at one place, by their numbers: opposite for the other of the two. */
+/* A direction for two particles at identical positions, by their indices: opposite for the other of the two. */
 static void draw_direction(int64_t i, int64_t j, int dimension, double *direction)
 {
     const int64_t low = i < j ? i : j;
@@ -186,7 +188,7 @@ static void draw_direction(int64_t i, int64_t j, int dimension, double *directio
     }
 }
 
-/* Adds what parts close particles. The kernel's push falls to nothing with their distance; this one, along the line
+/* Adds a repulsion of close particles. That of the kernel vanishes with their distance; this one, along the line
  * between them, grows as they come nearer: CLOSE_PUSH (CLOSE - r). Few particles need it. */
 static void part_close(const relaxation *it, int64_t i, double *push)
 {
@@ -211,7 +213,7 @@ static void part_close(const relaxation *it, int64_t i, double *push)
     }
 }
 
-/* Next moves from the places of all; nothing is moved yet. */
+/* Next displacements from the positions of all; nothing is moved yet. */
 static void find_moves(mor_context *context, relaxation *it)
 {
     const double factor = it->volume * mor_kernel_gradient_factor(MOR_RELAX_SMOOTHING, it->frame.dimension);
@@ -244,7 +246,8 @@ static void find_moves(mor_context *context, relaxation *it)
     }
 }
 
-/* Moves one particle, back under the outer layer where it left it, and never out of the shape. Returns its way. */
+/* Moves one particle, back under the outer layer where it left it, and never out of the shape. Returns its
+ * displacement. */
 static double move_particle(relaxation *it, int64_t i)
 {
     double old[3];
@@ -273,7 +276,7 @@ static double move_particle(relaxation *it, int64_t i)
     return mor_vector_length(way);
 }
 
-/* Moves all; residual receives the longest way of the step, stray the longest since the rows were found. */
+/* Moves all; residual receives the longest displacement of the step, stray the longest since the rows were found. */
 static void move_particles(mor_context *context, relaxation *it, double *residual, double *stray)
 {
     const int64_t n_blocks = mor_block_count(it->n);

@@ -7,9 +7,8 @@
 
 /** @file
  *  An even, surface-fitted set of particles in a shape: a lattice fill, then relaxation under a constant background
- *  pressure with the missing part of the kernel beyond the surface made up for, until the spacing is even and the
- *  outer layer lies half a layer, 0.46 spacings, inside the surface. After Zhu et al. (2021); theory:
- *  docs/theory/relaxation.md. */
+ *  pressure with the kernel integral over the outside added, until the spacing is uniform and the outer layer lies half
+ *  a layer, 0.46 spacings, inside the surface. After Zhu et al. (2021); theory: docs/theory/relaxation.md. */
 
 /** What to fill and when to stop. Made ready by mor_relax_request_init. */
 typedef struct mor_relax_request {
@@ -18,8 +17,8 @@ typedef struct mor_relax_request {
     double spacing;          /* of the particles, unit m; > 0 */
     double volume;           /* of the shape, m3 (m2); NaN: that of the shape's moments, else by integration */
     uint64_t seed;           /* of the jitter that breaks the symmetry of the lattice */
-    double largest_residual; /* stops when the largest move of a step is below this times spacing, 1. Steps become
-                              * shorter from the 151st on: it tells rest under a falling pace, not balance of pushes */
+    double largest_residual; /* stops when the largest displacement of a step is below this times spacing, 1. The step
+                              * factor decreases from the 151st step on: this is no equilibrium of forces */
     int most_steps;          /* stops, with is_converged false, after so many steps */
 } mor_relax_request;
 
@@ -28,12 +27,12 @@ typedef struct mor_relax_points {
     double *positions; /* shape [n_points, 3], unit m; in the shape's frame */
     int64_t n_points;
     double volume;     /* of each particle, m3 (m2): the shape's over n_points */
-    double residual;   /* largest move of the last step over the spacing, 1 */
+    double residual;   /* largest displacement of the last step over the spacing, 1 */
     int n_steps;       /* taken */
-    bool is_converged; /* whether the residual asked for was reached, with no two nearer than 0.4 spacings */
+    bool is_converged; /* whether the requested residual was reached, with no two nearer than 0.4 spacings */
 } mor_relax_points;
 
-/** How even a set of particles is. W: Wendland C2 with a smoothing length of 1.5 spacings, a support of 3. */
+/** Uniformity of a set of particles. W: Wendland C2 with a smoothing length of 1.5 spacings, a support of 3. */
 typedef struct mor_relax_quality {
     double spacing_deviation; /* standard deviation of the distance to the nearest neighbor over its mean, 1 */
     double smallest_distance; /* of two particles over the spacing, 1; INFINITY: none within 3 spacings */
@@ -49,8 +48,8 @@ void mor_relax_request_init(mor_relax_request *request);
 
 /** Fills and relaxes. The number of particles is the shape's volume over spacing^dimension, rounded.
  *  @param points  [out]     empty after a failure
- *  Returns: MOR_OK, also when it did not converge (is_converged tells, and a warning is logged); MOR_ERROR_ARGUMENT for
- *  a wrong request, a shape without end, one thinner than four spacings everywhere or one too large for the grids of
+ *  Returns: MOR_OK, also when it did not converge (is_converged is false, and a warning is logged); MOR_ERROR_ARGUMENT
+ *  for a wrong request, an unbounded shape, one thinner than four spacings everywhere or one too large for the grids of
  *  the method (bounds of 2^31 spacings^dimension); MOR_ERROR_MEMORY.
  *  Threads: uses the context's; the result does not depend on them. */
 mor_status mor_relax(mor_context *context, const mor_relax_request *request, mor_relax_points *points);
@@ -68,7 +67,7 @@ void mor_relax_clear(mor_context *context, mor_relax_points *points);
 mor_status mor_relax_measure(mor_context *context, const mor_relax_request *request, const double *positions,
                              int64_t n_points, double volume, mor_relax_quality *quality);
 
-/** Stands for all that decides the result of mor_relax, the shape by its distances at the nodes of a grid: equal
+/** Hash of all that determines the result of mor_relax, the shape by its distances at the nodes of a grid: equal
  *  requests have equal hashes, also in different runs. For a cache.
  *  @param hash    [out]  one number
  *  Threads: neither. */

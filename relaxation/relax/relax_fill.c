@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The shape as relaxation sees it, and where its particles start. */
+/* The shape in the units of the relaxation, and the initial positions of its particles. */
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/random.h"
@@ -17,14 +17,14 @@
 /* A gradient of the distance flatter than this is that of a ridge, where several surfaces are equally near. */
 #define GRADIENT_LEAST 0.3
 
-/* Each coordinate of a start moves by up to this, spacings: breaks the symmetry of the lattice, no more. */
+/* Each initial coordinate is perturbed by up to this, spacings, to break the symmetry of the lattice. */
 #define JITTER 0.02
 
 /* Starts shallower than this are not used, spacings. */
 #define SHALLOWEST 0.05
 
-/* Starts are at least so far apart, spacings: where a ridge draws many nodes to one place, only some may start there.
- * The second and third are for shapes that cannot be filled otherwise. */
+/* Initial positions are at least so far apart, spacings: where many nodes are projected onto one ridge, only some are
+ * used. The second and third are for shapes that cannot be filled otherwise. */
 static const double starts_apart[] = {0.5, 0.25, 0.0};
 
 enum { CHOSEN = -1, JITTER_PURPOSE = 0x524C4A54, SINK_MOST = 8, CLIMB_LEVELS = 20, PROBES_MOST = 64 };
@@ -73,7 +73,7 @@ mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *r
     mor_shape_bounds(request->shape, &bounds);
     for (int a = 0; a < request->dimension; ++a) {
         MOR_CHECK(context, isfinite(bounds.minimum[a]) && isfinite(bounds.maximum[a]), MOR_ERROR_ARGUMENT,
-                  "the shape (%s) has no end along %c, from %g m to %g m: give one that is bounded",
+                  "the shape (%s) is unbounded along %c, from %g m to %g m: give one that is bounded",
                   request->shape->operations->kind, 'x' + a, bounds.minimum[a], bounds.maximum[a]);
         frame->middle[a] = 0.5 * (bounds.minimum[a] + bounds.maximum[a]);
         frame->half[a] = fmax(0.0, 0.5 * (bounds.maximum[a] - bounds.minimum[a]) / request->spacing);
@@ -137,7 +137,7 @@ static bool is_ball_inside(const mor_relax_frame *frame, const double *middle, d
     return true;
 }
 
-/* Uphill from the deepest place found, in ever smaller steps. */
+/* Ascent from the deepest point found, in ever smaller steps. */
 static void climb(const mor_relax_frame *frame, double step, double *best, double *deepest)
 {
     for (int level = 0; level < CLIMB_LEVELS; ++level, step *= 0.5) {
@@ -157,7 +157,7 @@ bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *
 {
     double best[3] = {0.0, 0.0, 0.0};
     int64_t n[3] = {1, 1, 1};
-    double pitch = 1.0; /* of the probes; finer in a thin shape, whose thickness is to be told even so */
+    double pitch = 1.0; /* of the probes; finer in a thin shape, whose thickness is reported */
     *depth = mor_relax_frame_depth(frame, best);
     for (int a = 0; a < frame->dimension; ++a) {
         pitch = fmin(pitch, 0.5 * frame->half[a]);
@@ -295,7 +295,7 @@ static void choose_nodes(const mor_relax_frame *frame, const start_lattice *latt
     qsort(list->indices, (size_t)list->n, sizeof *list->indices, compare_index);
 }
 
-/* A start that the jitter would bring out of the shape goes without. */
+/* An initial position that the perturbation would move out of the shape is not perturbed. */
 static void jitter_start(const mor_relax_frame *frame, uint64_t seed, int64_t index, double *place)
 {
     double moved[3] = {place[0], place[1], place[2]};
@@ -325,11 +325,10 @@ static mor_status list_starts(mor_context *context, const mor_relax_frame *frame
     }
     choose_nodes(frame, lattice, n, n_nodes, nodes, list);
     MOR_FREE(context, &nodes);
-    MOR_CHECK(
-        context, list->n == n, MOR_ERROR_ARGUMENT,
-        "the shape (%s) is to hold %lld particles at a spacing of %g m, but only %lld find a place: give its right "
-        "volume or a smaller spacing",
-        frame->shape->operations->kind, (long long)n, frame->spacing, (long long)list->n);
+    MOR_CHECK(context, list->n == n, MOR_ERROR_ARGUMENT,
+              "the shape (%s) is to hold %lld particles at a spacing of %g m, but only %lld fit: give its correct "
+              "volume or a smaller spacing",
+              frame->shape->operations->kind, (long long)n, frame->spacing, (long long)list->n);
     return MOR_OK;
 }
 

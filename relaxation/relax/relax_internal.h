@@ -12,7 +12,7 @@
  *  middle of the shape's bounds, so that a change of unit by a power of two changes no bit. */
 
 /** Smoothing length over the spacing, 1: at larger ones particles come nearer to some neighbors than to others, at
- *  smaller ones they hardly feel the next layer. */
+ *  smaller ones the next layer has hardly any influence. */
 #define MOR_RELAX_SMOOTHING 1.3
 
 /** Radius of the kernel over the spacing, 1. */
@@ -22,7 +22,7 @@
  *  and 0.93 in the plane (dense packings). */
 #define MOR_RELAX_LAYER 0.46
 
-/** Particles nearer than this over the spacing, 1, are pushed apart by more than the kernel does. */
+/** Particles nearer than this over the spacing, 1, have an additional repulsion. */
 #define MOR_RELAX_CLOSE 0.75
 
 /** Least distance of two particles over the spacing, 1, with which a set counts as converged. */
@@ -34,7 +34,7 @@
 /** Entries of a row of neighbors come in groups of so many, for loops in lanes. */
 enum { MOR_RELAX_LANES = 8 };
 
-/** How the inside measures places. */
+/** Positions inside relaxation. */
 typedef struct mor_relax_frame {
     const mor_shape *shape; /* borrowed */
     int dimension;          /* 2 or 3 */
@@ -43,7 +43,7 @@ typedef struct mor_relax_frame {
     double half[3];         /* half the size of the bounds, spacings; z = 0 in 2D */
 } mor_relax_frame;
 
-/** The push of a continuum that fills all space beyond the surface, tabulated at the nodes of a grid. */
+/** The force of a continuum that fills all space beyond the surface, tabulated at the nodes of a grid. */
 typedef struct mor_relax_wall {
     int dimension;      /* 2 or 3 */
     int64_t n_nodes[3]; /* along each axis; z: 1 in 2D */
@@ -97,20 +97,20 @@ double mor_relax_frame_sink(const mor_relax_frame *frame, double *place, int n_m
  *  @param depth  [out]  one number; the largest depth found, unit spacing */
 bool mor_relax_frame_holds(const mor_relax_frame *frame, double radius, double *depth);
 
-/** Writes n starting places: those of a lattice that lie deepest, each moved by a jitter and sunk to the outer layer.
- *  One that sinks to within half a spacing of another is taken only when nothing else is left.
+/** Writes n starting places: those of a lattice that lie deepest, each perturbed and projected to the outer layer. One
+ *  that is projected to within half a spacing of another is used only when nothing else is left.
  *  @param seed    [in]      of the jitter
  *  @param n       [in]      number of places
  *  @param places  [out]     shape [n, 3]; unit spacing
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when so many do not fit; MOR_ERROR_MEMORY. */
 mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, uint64_t seed, int64_t n, double *places);
 
-/** Tabulates the push of the outside.
+/** Tabulates the force of the outside.
  *  @param wall    [out]     owned by the caller; empty after a failure
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a shape too large for the grid; MOR_ERROR_MEMORY. */
 mor_status mor_relax_wall_init(mor_context *context, const mor_relax_frame *frame, mor_relax_wall *wall);
 
-/** Writes the push of the outside on a place inside.
+/** Writes the force of the outside at a position inside.
  *  @param place [in]   shape [3]; unit spacing
  *  @param push  [out]  shape [3]; unit 1/spacing */
 void mor_relax_wall_push(const mor_relax_wall *wall, const double *place, double *push);

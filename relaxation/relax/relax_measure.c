@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* How even particles are, and what stands for all that decides where they come to lie. */
+/* Uniformity of particles, and the hash of all that determines their positions. */
 #include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
@@ -12,7 +12,7 @@
 /* To be raised with any change of the method that moves particles. */
 enum { METHOD = 3 };
 
-/* Nodes along the longest side of the grid whose distances stand for a shape. */
+/* Nodes along the longest side of the grid whose distances represent a shape in the hash. */
 enum { HASH_NODES = 24 };
 
 /* The kernel of the sums, spacings: with this one the sum of a perfect lattice is 1.003; with a smoothing length of 1.3
@@ -23,7 +23,7 @@ enum { HASH_NODES = 24 };
 /* Particles less deep than this are the outer layer, spacings: midway between it and the next one. */
 #define OUTER_DEPTH 1.0
 
-/* What is known of one particle. */
+/* Measures of one particle. */
 typedef struct particle_measure {
     double nearest;    /* distance, spacings; INFINITY: none within reach */
     double kernel_sum; /* sum of W V, 1 */

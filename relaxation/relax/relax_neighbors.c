@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Who is near whom: a grid of cells of half the radius, sorted by counting, and rows of neighbors in its order. */
+/* Neighbor search: a grid of cells of half the radius, sorted by counting, and rows of neighbors in its order. */
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "relaxation/relax/relax_internal.h"
@@ -35,7 +35,7 @@ void mor_relax_neighbors_clear(mor_context *context, mor_relax_neighbors *neighb
     memset(neighbors, 0, sizeof *neighbors);
 }
 
-/* Cells of half the radius, or larger ones when the particles are strewn so widely that there would be too many. */
+/* Cells of half the radius, or larger ones when the particles are so scattered that there would be too many. */
 static void size_grid(mor_relax_neighbors *neighbors, const double *x)
 {
     const int64_t n = neighbors->n;
@@ -88,7 +88,7 @@ static void sort_particles(mor_relax_neighbors *neighbors, const double *x)
     neighbors->firsts[n_cells] = (int32_t)n;
 }
 
-/* Walks the particles near i; writes those within the radius as far as there is room. Returns how many there are. */
+/* Visits the particles near i; writes those within the radius as far as there is room. Returns how many there are. */
 static int32_t walk_near(const mor_relax_neighbors *neighbors, const double *x, int64_t i, int32_t *row)
 {
     const int64_t n = neighbors->n;

@@ -1,7 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What a particle near the surface misses: the kernel gradient integrated over all space beyond the surface. It does
- * not depend on the particles, so it is found once, on a grid; edges, corners and thin places need no special care. */
+/* The kernel gradient integrated over all space beyond the surface, which is missing for a particle near it. It does
+ * not depend on the particles, so it is computed once, on a grid; edges, corners and thin places need no special
+ * care. */
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "relaxation/relax/relax_internal.h"
@@ -131,7 +132,7 @@ static mor_status tabulate(mor_context *context, const mor_relax_frame *frame, m
     }
     mor_status status = MOR_NEW(context, &node_of, n_records, "nodes near a surface");
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &wall->pushes, 3 * (int64_t)n_records, "pushes of the outside");
+        status = MOR_NEW(context, &wall->pushes, 3 * (int64_t)n_records, "forces of the outside");
     }
     if (status == MOR_OK) {
         status = make_offsets(context, wall, &list);

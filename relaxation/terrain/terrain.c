@@ -44,11 +44,10 @@ mor_status mor_terrain_check_point(mor_context *context, const mor_terrain *terr
     double high[2];
     mor_terrain_reach(terrain, low, high);
     for (int a = 0; a < 2; ++a) {
-        MOR_CHECK(
-            context, point[a] >= low[a] && point[a] <= high[a], MOR_ERROR_ARGUMENT,
-            "%s %d at (%g, %g) m lies beside the ground, which reaches from %g m to %g m along %c: move it, or read "
-            "more of the raster",
-            name, index + 1, point[0], point[1], low[a], high[a], "xy"[a]);
+        MOR_CHECK(context, point[a] >= low[a] && point[a] <= high[a], MOR_ERROR_ARGUMENT,
+                  "%s %d at (%g, %g) m lies outside the terrain, which reaches from %g m to %g m along %c: move "
+                  "it, or read more of the raster",
+                  name, index + 1, point[0], point[1], low[a], high[a], "xy"[a]);
     }
     return MOR_OK;
 }
@@ -244,7 +243,7 @@ mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *ter
     double steepest2 = 0.0;
     for (int row = 0; row + 1 < terrain->n_y; ++row) {
         for (int column = 0; column + 1 < terrain->n_x; ++column) {
-            /* Whichever way the square is cut, no triangle is steeper than its steeper sides together. */
+            /* For either cut of the square, no triangle is steeper than its steeper sides together. */
             const double *at = terrain->heights + (int64_t)row * terrain->n_x + column;
             const double x = fmax(fabs(at[1] - at[0]), fabs(at[terrain->n_x + 1] - at[terrain->n_x]));
             const double y = fmax(fabs(at[terrain->n_x] - at[0]), fabs(at[terrain->n_x + 1] - at[1]));

@@ -8,9 +8,8 @@
 #include <stdbool.h>
 
 /** @file
- *  Ground from elevation rasters. The ground is the solid under a surface of triangles: each square of four raster
- *  nodes is cut along the diagonal that leaves the smaller fold. Heights are along z. The door of GDAL is
- *  terrain_read.c. */
+ *  Terrain from elevation rasters. It is the solid under a surface of triangles: each square of four raster nodes is
+ *  cut along the diagonal that leaves the smaller fold. Heights are along z. Only terrain_read.c calls GDAL. */
 
 /** Elevations on a grid of nodes (the centers of raster cells). Owner: the caller, who ends it with
  *  mor_terrain_clear. */
@@ -21,7 +20,7 @@ typedef struct mor_terrain {
     double cell[2];   /* distance of nodes along x and y, m; > 0 */
     double offset[3]; /* what was subtracted from the raster's coordinates and heights, m */
     int added[2][2];  /* nodes along x and y that mor_terrain_extend put before the first and behind the last one */
-    char datum[128];  /* horizontal and vertical reference system in words; empty: not given */
+    char datum[128];  /* horizontal and vertical reference system as text; empty: not given */
     uint64_t hash;    /* of all files it was read from: mor_hash_file of a single one */
 } mor_terrain;
 
@@ -33,7 +32,7 @@ typedef struct mor_terrain_request {
     double cell;            /* resampled (bilinear) to square cells of this size, m; NaN: as it is */
     double offset[3];       /* subtracted from coordinates and heights, m; NaN: the lower left node and the lowest
                                 * height that are kept */
-    bool fills_no_data;     /* whether holes without data are filled from their rims; else they are refused */
+    bool fills_no_data;     /* whether holes without data are filled from their boundaries; else they are refused */
 } mor_terrain_request;
 
 /** Sets what is not written to. */
@@ -51,7 +50,7 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
 void mor_terrain_clear(mor_context *context, mor_terrain *terrain);
 
 /** Continues the ground to cover a rectangle: whole cells are added beyond its edges, at the height of the nearest
- *  place of the edge. Heights over the raster keep their values.
+ *  point of the edge. Heights over the raster keep their values.
  *  @param terrain [in,out]  unchanged after a failure
  *  @param minimum [in]      shape [2], unit m; of the rectangle
  *  @param maximum [in]      shape [2], unit m
@@ -71,7 +70,7 @@ void mor_terrain_reach(const mor_terrain *terrain, double *minimum, double *maxi
 mor_status mor_terrain_check_point(mor_context *context, const mor_terrain *terrain, const char *name, int index,
                                    const double *point);
 
-/** Height of the surface, unit m. Beyond the edge the height of the nearest place of the edge.
+/** Height of the surface, unit m. Beyond the edge the height of the nearest point of the edge.
  *  @param x       [in]  unit m
  *  @param y       [in]  unit m
  *  Threads: safe to call concurrently. */
@@ -108,7 +107,8 @@ mor_status mor_shape_new_release(mor_context *context, const mor_terrain *terrai
 
 /** Wall particles that follow the surface: a column under each point of a square lattice in x and y, in layers of one
  *  spacing, the first half a spacing under the surface, as deep as `layers` spacings measured across the surface. Each
- *  particle stands for spacing^3, so the ground's volume, and with it the place of the surface, is kept on any slope.
+ *  particle represents spacing^3, so the volume of the ground, and with it the position of the surface, is preserved on
+ *  any slope.
  *  @param spacing  [in]      unit m; > 0
  *  @param origin   [in]      shape [2]; a corner of a lattice cell, unit m
  *  @param layers   [in]      spacings; >= 1

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* A place closer to an edge than this share of the spacing counts as lying on it, and one on an edge is outside. */
+/* A point closer to an edge than this fraction of the spacing counts as lying on it, and one on an edge is outside. */
 #define ON_EDGE 1e-9
 
 enum { COLUMNS_AT_ONCE = 64 };
@@ -50,7 +50,8 @@ static void place_column(const columns *all, int64_t column, double *point)
     point[2] = mor_terrain_height(all->terrain, point[0], point[1]);
 }
 
-/* Layers of a column. Going down, the distance from the surface never falls, so the first layer too deep ends it. */
+/* Layers of a column. The distance from the surface never decreases downwards, so the first layer that is too deep ends
+ * it. */
 static int32_t count_layers(const columns *all, int64_t column)
 {
     double point[3];

@@ -37,8 +37,8 @@ static double average_neighbors(const mor_terrain *terrain, int column, int row)
     return n > 0 ? sum / n : NAN;
 }
 
-/* A first guess: rings of the mean of their known neighbors, from the rim inwards. Each ring is found before any of it
- * is written. */
+/* An initial guess: rings of the mean of their known neighbors, from the boundary inwards. Each ring is found before
+ * any of it is written. */
 static void guess_holes(mor_terrain *terrain, const int64_t *holes, int64_t n_holes, double *next)
 {
     for (int64_t n_left = n_holes; n_left > 0;) {
@@ -102,7 +102,7 @@ mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain)
         mor_terrain_range(terrain, &lowest, &highest);
         guess_holes(terrain, holes, n_holes, next);
         solve_holes(terrain, holes, n_holes, highest - lowest);
-        mor_context_log(context, MOR_LOG_INFO, "terrain: %lld of %lld nodes without data filled from their rims",
+        mor_context_log(context, MOR_LOG_INFO, "terrain: %lld of %lld nodes without data filled from their boundaries",
                         (long long)n_holes, (long long)n_nodes);
     }
     MOR_FREE(context, &next);

@@ -79,14 +79,14 @@ typedef enum mor_terrain_format {
 } mor_terrain_format;
 
 /** Checks a raster of text word by word: each key of the header is known and given once, each value is a number of its
- *  range, and as many numbers follow as the header promises.
+ *  range, and as many numbers follow as the header declares.
  *  @param path    [in]      zero-terminated
  *  @param format  [in]      not binary
  *  @param n       [in]      shape [2]; columns and rows as they were read otherwise
  *  Returns: MOR_OK; MOR_ERROR_IO with line and column. */
 mor_status mor_terrain_check_text(mor_context *context, const char *path, mor_terrain_format format, const int *n);
 
-/** What a file beside a raster states about its reference system (.prj). Zeroed: there is none. */
+/** The reference system stated by a file beside a raster (.prj). Zeroed: there is none. */
 typedef struct mor_terrain_prj {
     char path[4096];  /* zero-terminated; empty: there is none */
     char *memory;     /* owned; of both texts */
@@ -95,7 +95,7 @@ typedef struct mor_terrain_prj {
     bool is_keywords; /* the old form, lines of a keyword and a value */
 } mor_terrain_prj;
 
-/** Finds the .prj beside a raster and takes it apart; a mark of the byte order is skipped.
+/** Finds the .prj beside a raster and parses it; a byte order mark is skipped.
  *  @param raster  [in]      zero-terminated; path
  *  @param prj     [out]     ended with mor_terrain_prj_clear, also after a failure
  *  Returns: MOR_OK, also without one; MOR_ERROR_ARGUMENT for one that is too long, or whose Zunits are not meters;
@@ -107,11 +107,11 @@ mor_status mor_terrain_prj_load(mor_context *context, const char *raster, mor_te
 void mor_terrain_prj_clear(mor_context *context, mor_terrain_prj *prj);
 
 /** Whether a file beside a raster may change what is read. Copies of lower resolution do not, nor does an .aux.xml of
- *  statistics alone, which programs that show a raster leave behind.
+ *  statistics alone, which raster viewers write.
  *  @param path [in]  zero-terminated */
 bool mor_terrain_side_tells(const char *path);
 
-/** Nodes a terrain may have, so that it fits into memory beside the particles on it. */
+/** Maximum number of nodes of a terrain, so that it fits into memory beside the particles on it. */
 #define MOR_TERRAIN_NODES_MAX 67108864.0
 
 #endif

@@ -16,21 +16,21 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The door of GDAL. Only the drivers named here are made known to it: none of them reaches over a network. */
+/* The only file that calls GDAL. Only the drivers named here are registered: none of them accesses a network. */
 
 /* A share of a cell by which a crop may miss a node and still keep it. */
 #define ON_NODE 1e-9
 
-/* Relief over extent beyond which a raster that names no reference system is likely in degrees; step of height over
- * cell beyond which a mark for missing data was likely not declared, and beyond which slopes lose all digits. */
+/* Relief over extent beyond which a raster without a reference system is likely in degrees; step of height over cell
+ * beyond which a missing-data value was likely not declared, and beyond which slopes lose all digits. */
 #define LIKELY_DEGREES 20.0
 #define LIKELY_MARK 20.0
 #define SURELY_MARK 1e4
 
-/* Formats whose files GDAL can list: their hash then stands for all that was read. */
+/* Formats whose files GDAL can list: their hash then covers all that was read. */
 static const char *const drivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "GSAG", "GSBG", "GS7BG", NULL};
 
-/* An open raster and what its header says. */
+/* An open raster and its header. */
 typedef struct raster {
     const char *path;
     GDALDatasetH dataset;
@@ -134,16 +134,15 @@ static mor_status place_raster(mor_context *context, raster *it)
 {
     double map[6];
     MOR_CHECK(context, GDALGetGeoTransform(it->dataset, map) == CE_None, MOR_ERROR_ARGUMENT,
-              "%s: does not say where its cells lie; add it with gdal_translate -a_ullr left top right bottom",
+              "%s: has no georeference of its cells; add it with gdal_translate -a_ullr left top right bottom",
               it->path);
     for (int k = 0; k < 6; ++k) {
-        MOR_CHECK(context, isfinite(map[k]), MOR_ERROR_ARGUMENT, "%s: its place is not given in finite numbers",
-                  it->path);
+        MOR_CHECK(context, isfinite(map[k]), MOR_ERROR_ARGUMENT, "%s: its georeference is not finite", it->path);
     }
     MOR_CHECK(
         context, map[2] == 0.0 && map[4] == 0.0 && map[1] > 0.0 && map[5] != 0.0, MOR_ERROR_ARGUMENT,
         "%s: is rotated, mirrored or has cells without size (cell steps (%g, %g) and (%g, %g)); allowed are rasters "
-        "along the axes: turn it with gdalwarp",
+        "along the axes: rotate it with gdalwarp",
         it->path, map[1], map[4], map[2], map[5]);
     it->is_downward = map[5] < 0.0;
     it->cell[0] = map[1];
@@ -153,7 +152,7 @@ static mor_status place_raster(mor_context *context, raster *it)
     return MOR_OK;
 }
 
-/* Meters are asked for, of coordinates and heights. place: of the file that states the system. */
+/* Coordinates and heights must be in meters. place: of the file that states the system. */
 static mor_status judge_system(mor_context *context, const char *place, OGRSpatialReferenceH system)
 {
     const char *name = OSRGetName(system);
@@ -170,7 +169,7 @@ static mor_status judge_system(mor_context *context, const char *place, OGRSpati
     const double height = has_heights ? OSRGetTargetLinearUnits(system, "VERT_CS", NULL) : 1.0;
     MOR_CHECK(context, height == 1.0, MOR_ERROR_ARGUMENT,
               "%s: its heights are in units of %g m (%s); allowed are meters: convert them with gdal_calc.py, and "
-              "correct what names their unit",
+              "correct their unit",
               place, height, name);
     return MOR_OK;
 }
@@ -183,7 +182,7 @@ static void describe_system(OGRSpatialReferenceH system, char *datum, size_t n_b
              vertical != NULL ? vertical : "datum not given");
 }
 
-/* Makes a system of a text. */
+/* Parses a reference system. */
 static OGRErr parse_system(OGRSpatialReferenceH system, char *text, bool is_keywords)
 {
     if (!is_keywords) {
@@ -195,7 +194,7 @@ static OGRErr parse_system(OGRSpatialReferenceH system, char *text, bool is_keyw
     return error;
 }
 
-/* One statement of a .prj; the first one is told in words where the raster itself names no system. */
+/* One statement of a .prj; the first one is reported as text if the raster itself has no system. */
 static mor_status judge_text(mor_context *context, const mor_terrain_prj *prj, char *text, char *datum, size_t n_bytes)
 {
     enum { SHOWN = 40 };
@@ -230,7 +229,7 @@ static mor_status read_prj(mor_context *context, const mor_terrain_prj *prj, cha
     return MOR_OK;
 }
 
-/* Words for the reference system; meters are asked for. */
+/* Text of the reference system, which must be in meters. */
 static mor_status read_datum(mor_context *context, const raster *it, char *datum, size_t n_bytes)
 {
     const char *unit = GDALGetRasterUnitType(it->band);
@@ -301,7 +300,7 @@ static mor_status find_window(mor_context *context, const mor_terrain_request *r
     }
     const double n[2] = {it->window[0][1] - it->window[0][0] + 1.0, it->window[1][1] - it->window[1][0] + 1.0};
     MOR_CHECK(context, n[0] * n[1] <= MOR_TERRAIN_NODES_MAX, MOR_ERROR_ARGUMENT,
-              "%s: has %g x %g nodes; allowed are %g in all: crop it, or thin it out with gdalwarp -tr", it->path, n[0],
+              "%s: has %g x %g nodes; allowed are %g in all: crop it, or resample it with gdalwarp -tr", it->path, n[0],
               n[1], MOR_TERRAIN_NODES_MAX);
     return MOR_OK;
 }
@@ -320,15 +319,15 @@ static mor_status read_row(mor_context *context, const raster *it, int file_row,
     const CPLErr error =
         GDALRasterIO(it->band, GF_Read, it->window[0][0], file_row, n, 1, heights, n, 1, GDT_Float64, 0, 0);
     MOR_CHECK(context, error == CE_None, MOR_ERROR_IO,
-              "%s: row %d of %d cannot be read (%s); the file is cut off or damaged: get it again", it->path,
+              "%s: row %d of %d cannot be read (%s); the file is truncated or damaged: get it again", it->path,
               file_row + 1, it->n[1], CPLGetLastErrorMsg());
     for (int k = 0; k < n; ++k) {
-        /* Rasters in single precision hold the mark rounded to it. */
+        /* Rasters in single precision have the missing-data value rounded to it. */
         const bool is_mark = has_mark && (heights[k] == mark || (float)heights[k] == (float)mark);
         const double height = heights[k] * (has_scale ? scale : 1.0) + (has_shift ? shift : 0.0);
         MOR_CHECK(context, is_mark || !isinf(height), MOR_ERROR_ARGUMENT,
                   "%s: row %d, column %d: found an infinite height; allowed are finite ones: correct it, or declare "
-                  "infinity as the mark of missing data with gdal_edit.py -a_nodata",
+                  "infinity as the missing-data value with gdal_edit.py -a_nodata",
                   it->path, file_row + 1, it->window[0][0] + k + 1);
         heights[k] = is_mark ? NAN : height;
     }
@@ -367,7 +366,7 @@ static mor_status mend_holes(mor_context *context, const mor_terrain_request *re
               request->path, (long long)n_nodes);
     MOR_CHECK(context, n_holes == 0 || request->fills_no_data, MOR_ERROR_ARGUMENT,
               "%s: %lld of %lld nodes have no data, the first at (%g, %g) m (row %d, column %d of the file); allowed "
-              "are none: crop them off, or have holes filled from their rims: fill_no_data = true",
+              "are none: crop them off, or have holes filled from their boundaries: fill_no_data = true",
               request->path, (long long)n_holes, (long long)n_nodes,
               terrain->origin[0] + (double)(first % terrain->n_x) * terrain->cell[0],
               terrain->origin[1] + (double)(first / terrain->n_x) * terrain->cell[1],
@@ -476,8 +475,8 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
     MOR_TRY(context, check_request(context, request));
     MOR_TRY(context, check_file(context, request->path));
     raster it = {.path = request->path};
-    /* Nothing printed, nothing fetched. A file that is open for reading alone, without statistics, gets no side files;
-     * those that lie there (.aux.xml) are read: they may name units, scales and missing data. */
+    /* Nothing is printed or downloaded. For a file open for reading only, without statistics, no side files are
+     * written; existing ones (.aux.xml) are read: they may state units, scales and missing data. */
     CPLPushErrorHandler(CPLQuietErrorHandler);
     CPLSetThreadLocalConfigOption("AAIGRID_DATATYPE", "Float64");  /* else nan among whole numbers reads as zero */
     CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES"); /* else GeoTIFF hides the datum of heights */

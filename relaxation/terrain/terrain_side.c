@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Files beside a raster: the reference system that a .prj states, and which others say where and what it is. The
- * library that reads rasters looks at a .prj for one format only, drops one that it does not understand without a word,
- * and does not look at units of heights. */
+/* Files beside a raster: the reference system that a .prj states, and others with its position and units. The library
+ * that reads rasters uses a .prj for one format only, ignores one that it does not understand without a message, and
+ * ignores units of heights. */
 #include "relaxation/terrain/terrain_internal.h"
 
 #include "core/base/memory.h"

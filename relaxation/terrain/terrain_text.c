@@ -15,7 +15,7 @@
 static const char remedy[] =
     "correct it, or write the number that the header declares (NODATA_value, null:) where there is no data";
 
-/* What the lines of a header say. A cell size says two things. */
+/* Values of header lines. A cell size sets two of them. */
 typedef enum header_slot { COLUMNS, ROWS, X, Y, X_END, Y_END, X_CELL, Y_CELL, MARK, OTHER, N_SLOTS } header_slot;
 
 typedef struct header_key {
@@ -32,7 +32,7 @@ static const header_key grass_keys[] = {{"cols:", COLUMNS, false}, {"rows:", ROW
                                         {"south:", Y, false},      {"east:", X_END, false}, {"north:", Y_END, false},
                                         {"null:", MARK, false},    {"type:", OTHER, false}, {NULL, N_SLOTS, false}};
 
-/* A raster being read, and what its header has said. */
+/* A raster being read, and its header. */
 typedef struct text_raster {
     mor_word_reader reader;
     const header_key *keys;
@@ -65,7 +65,7 @@ static mor_status check_value(const text_raster *it, header_slot slot, double va
     return MOR_OK;
 }
 
-/* The value of a header line, and what it says. */
+/* A header line and its value. */
 static mor_status read_value(text_raster *it, const header_key *key)
 {
     mor_word_reader_next(&it->reader);
@@ -104,9 +104,9 @@ static mor_status read_header(text_raster *it)
                                    "east:, west:, rows:, cols:, null: and type:; correct it");
         }
         if (it->has[key->slot] || (strcmp(key->word, "cellsize") == 0 && it->has[Y_CELL])) {
-            return mor_word_reader_refuse(
-                &it->reader, ", which says again what the header has said before; allowed is one of them; remove the "
-                             "other");
+            return mor_word_reader_refuse(&it->reader,
+                                          ", which repeats a key of the header; allowed is one of them; remove the "
+                                          "other");
         }
         MOR_TRY(it->reader.context, read_value(it, key));
     }
@@ -123,7 +123,7 @@ static mor_status check_header(const text_raster *it)
             ++key;
         }
         MOR_CHECK(it->reader.context, it->has[*slot], MOR_ERROR_IO,
-                  "%s: its header has no line '%s', without which the raster has no place; add it", it->reader.path,
+                  "%s: its header has no line '%s', without which the raster has no position; add it", it->reader.path,
                   key->word);
     }
     MOR_CHECK(it->reader.context, it->is_center[X] == it->is_center[Y], MOR_ERROR_IO,
@@ -185,14 +185,14 @@ static mor_status check_numbers(text_raster *it)
         n += 1.0;
     }
     MOR_CHECK(it->reader.context, n == n_columns * n_rows, MOR_ERROR_IO,
-              "%s: its header promises %.17g columns in %.17g rows, but %.17g numbers follow, the last in line %lld; "
+              "%s: its header declares %.17g columns in %.17g rows, but %.17g numbers follow, the last in line %lld; "
               "correct the header, or get the file again",
               it->reader.path, n_columns, n_rows, n, lines.line);
     /* Columns and rows that are exchanged give as many numbers, and shear the ground. */
     const bool is_exchanged = lines.n_lines == n_columns && lines.n_in_line == n_rows && lines.n_in_first == n_rows &&
                               lines.is_even && n_columns != n_rows;
     MOR_CHECK(it->reader.context, !is_exchanged, MOR_ERROR_IO,
-              "%s: its header promises %.17g columns in %.17g rows, but %lld lines of %lld numbers follow; exchange "
+              "%s: its header declares %.17g columns in %.17g rows, but %lld lines of %lld numbers follow; exchange "
               "columns and rows in the header",
               it->reader.path, n_columns, n_rows, lines.n_lines, lines.n_in_line);
     return MOR_OK;
@@ -220,7 +220,7 @@ mor_status mor_terrain_check_text(mor_context *context, const char *path, mor_te
     status = status == MOR_OK ? closed : status;
     MOR_TRY(context, status);
     MOR_CHECK(context, it.values[COLUMNS] == n[0] && it.values[ROWS] == n[1], MOR_ERROR_IO,
-              "%s: its header promises %.17g columns in %.17g rows, but reads as %d in %d; write it in the order of "
+              "%s: its header declares %.17g columns in %.17g rows, but reads as %d in %d; write it in the order of "
               "the format, one key and value in each line",
               path, it.values[COLUMNS], it.values[ROWS], n[0], n[1]);
     return MOR_OK;

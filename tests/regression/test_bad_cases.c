@@ -161,7 +161,7 @@ static const bad_case bad_cases[] = {
     {"rock_start_incomplete", 14, "found no 'direction' in this type of start", "add it"},
     {"rock_start_idle", 14, "found 'speed', which has no effect with this type of start", "with type = \"cantilever\""},
     {"rock_start_askew", 14, "not at right angles to axis", "across the bar"},
-    {"rock_without_end", 22, "a body whose shape has no end along x", "make it a wall"},
+    {"rock_without_end", 22, "a body whose shape is unbounded along x", "make it a wall"},
     {"rock_named_as_rock", 21, "the name 'ball' again", "taken by line 11"},
     {"rock_named_as_wall", 21, "the name 'gate' again", "taken by line 9"},
     {"rock_name_too_long", 21, "bodies[1].name = \"bbbb", "shorten it"},

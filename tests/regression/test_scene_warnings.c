@@ -62,7 +62,7 @@ static const scene columns[] = {
 };
 
 static const scene balls[] = {
-    {NULL, "there is no wall, nor a body that is held or prescribed; everything falls freely"},
+    {NULL, "there is no wall, nor a fixed or prescribed body; everything falls freely"},
     {"gravity=(0.0, 0.0)", NULL},
     {"bodies[0].motion=prescribed", NULL},
     {"bodies[0].spring={point=(0.0, 0.5); anchor=(0.0, 1.5); stiffness=1e5;}", NULL},

@@ -293,7 +293,7 @@ static void what_cannot_be_is_refused(void **state)
         {"rocks[0].forms[0].type=ball", "allowed: rock, sphere, ellipsoid, outline, mesh"},
         {"rocks[0].forms[0].diameter=2", "unknown name 'diameter'"},
         {"rocks[0].forms[0]={type=\"outline\"; file=\"nowhere.txt\";}", "an outline that cannot be read"},
-        {"rocks[0].region={ type=\"half_space\"; point=(0, 0); normal=(0, 1); }", "has no end along x"},
+        {"rocks[0].region={ type=\"half_space\"; point=(0, 0); normal=(0, 1); }", "is unbounded along x"},
         {"rocks[0].material.model=drucker_prager", "material model of a body"},
         {"rocks[0].friction=rough", "'friction_coefficient', which has no effect"},
         {"rocks[1].name=rock", "the name 'rock_1' again"},

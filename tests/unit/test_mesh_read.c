@@ -236,7 +236,7 @@ static void what_is_mended_is_logged(void **state)
     assert_int_equal(report.n_flipped, 1);
     assert_int_equal(report.n_holes_filled, 1);
     assert_int_equal(folder->n_logged, 1);
-    assert_non_null(strstr(folder->log, "mended: 1 triangle turned round, 1 hole filled"));
+    assert_non_null(strstr(folder->log, "mended: 1 triangle reversed, 1 hole filled"));
     mor_mesh_clear(&folder->context, &mesh);
     mor_mesh_clear(&folder->context, &cube);
 }

@@ -199,7 +199,7 @@ static mor_status check_shape(const mor_case_reader *reader, const mor_case_node
     for (int a = 0; a < reader->dimension; ++a) {
         if (!isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a])) {
             return MOR_CASE_NODE_FAIL(reader->context, shape,
-                                      "found a body whose shape has no end along %c; allowed: a shape with an end in "
+                                      "found a body whose shape is unbounded along %c; allowed: a shape with an end in "
                                       "every direction; close it, or make it a wall",
                                       "xyz"[a]);
         }

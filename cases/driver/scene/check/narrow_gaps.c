@@ -16,7 +16,7 @@
 #define WALL_LEAST 1.0
 #define WALL_ADVISED 3.0
 
-/* A ray starts this far from its surface, and has met another one when that is as near as TOUCH; spacings. */
+/* A ray starts this far from its surface, and has hit another one when that is as near as TOUCH; spacings. */
 #define START 0.05
 #define TOUCH 0.01
 /* Steps of a gradient, and by how much a ball may fall short of a free one; spacings. */
@@ -29,14 +29,14 @@
 #define CORNER (-0.5)
 /* A wedge this narrow closes, spacings. */
 #define CLOSED 0.25
-/* Widths that differ by less than this share are one; the first is told. */
+/* Widths that differ by less than this fraction are equal; the first is reported. */
 #define ROUNDING 1e-6
 /* Faces of a plate; edges of thick walls are no plates. */
 #define OF_PLATE (-0.98)
 
 enum { FINDINGS_MAX = 16, DESCENT_STEPS = 30, BALLS = 40, AT_ONCE = 64 };
 
-/* A wall or a body that does not give way. */
+/* A wall or a prescribed body. */
 typedef struct solid {
     const mor_shape *shape;
     double rotation[9], translation[3]; /* of the frame of its shape */
@@ -57,7 +57,7 @@ typedef struct gap_scene {
     int n_solids;
 } gap_scene;
 
-/* The narrowest place that one particle sees: across a gap, or through its wall. */
+/* The narrowest gap or wall thickness found from one particle. */
 typedef struct sight {
     double width;    /* m; INFINITY: none */
     int own, other;  /* solids on both sides */
@@ -120,7 +120,7 @@ static bool find_normal(const gap_scene *s, int only, const double *x, double *n
 
 /* ---- Rays -------------------------------------------------------------------------------------------------------- */
 
-/* A way from a face through free space (side 1) or through solids (side -1), and what it meets. */
+/* A ray from a face through free space (side 1) or through solids (side -1), and what it hits. */
 typedef struct ray {
     double foot[3], normal[3];       /* where it starts, and along what */
     double width;                    /* m */
@@ -136,7 +136,7 @@ static bool is_exposed(const gap_scene *s, double side, const ray *it)
     return side * find_distance(s, -1, x, &nearest) > 0.6 * START * s->spacing;
 }
 
-/* Whether the ray meets a face within a width. A free ball on its foot tells most that do not. */
+/* Whether the ray hits a face within a width. Most that do not are excluded by a free ball at its start. */
 static bool shoot(const gap_scene *s, double side, double width, ray *it)
 {
     double x[3];
@@ -174,7 +174,7 @@ static bool aim(const gap_scene *s, const double *x, ray *it)
     return true;
 }
 
-/* Follows a wedge to where it is narrowest: that is the gap, unless the flanks meet there. */
+/* Follows a wedge to where it is narrowest: that is the gap, unless the flanks intersect there. */
 static bool narrow_down(const gap_scene *s, double width, ray *it)
 {
     double share = 0.5;
@@ -254,7 +254,8 @@ static void look_through(const gap_scene *s, const ray *start, sight *found)
     }
 }
 
-/* ---- What a particle sees ---------------------------------------------------------------------------------------- */
+/* ---- Search from a particle
+ * ---------------------------------------------------------------------------------------- */
 
 /* The ray from the own surface nearest to a place, outward. */
 static bool aim_outward(const gap_scene *s, int own, const double *x, ray *it)
@@ -318,7 +319,7 @@ static void see(const gap_scene *s, int own, const double *x, sight *gap, sight 
     }
     look(s, &it, gap);
     look_past_edges(s, own, x, gap);
-    if (isfinite(gap->width) && gap->other == own) { /* the one that looks is named first */
+    if (isfinite(gap->width) && gap->other == own) { /* the one of the particle is named first */
         gap->other = gap->own;
         gap->own = own;
     }
@@ -396,7 +397,7 @@ static void keep(sight *all, int *n, const sight *at)
                        (all[k].own == at->other && all[k].other == at->own))) {
         ++k;
     }
-    if (k == FINDINGS_MAX) { /* the narrowest of all pairs are told */
+    if (k == FINDINGS_MAX) { /* the narrowest of all pairs are reported */
         k = 0;
         for (int m = 1; m < *n; ++m) {
             k = all[m].width > all[k].width ? m : k;
@@ -419,7 +420,7 @@ static mor_status search(mor_context *context, const gap_scene *s, sight *gaps, 
         if (it->is_terrain) {
             continue;
         }
-        MOR_TRY(context, MOR_NEW(context, &seen, 2 * it->n_points, "gaps seen from a wall"));
+        MOR_TRY(context, MOR_NEW(context, &seen, 2 * it->n_points, "gaps found from a wall"));
         MOR_PARALLEL_FOR (context, i, it->n_points, AT_ONCE) {
             see(s, k, it->points + it->stride * i, &seen[2 * i], &seen[2 * i + 1]);
         }
@@ -437,7 +438,8 @@ static mor_status search(mor_context *context, const gap_scene *s, sight *gaps, 
     return MOR_OK;
 }
 
-/* ---- Words ------------------------------------------------------------------------------------------------------- */
+/* ---- Messages
+ * ------------------------------------------------------------------------------------------------------- */
 
 /* A length with two digits that is not more. */
 static double round_down(double length)
@@ -471,8 +473,7 @@ static mor_status tell_gap(mor_context *context, const gap_scene *s, const sight
                     "%s:%d: a gap of %.3g m (%.3g spacings) between %s '%s' and %s at (%.4g, %.4g, %.4g) m is %s; four "
                     "spacings are advisable: a spacing of %.2g m",
                     a->place->file, a->place->line, it->width, n, a->kind, a->name, other, x[0], x[1], x[2],
-                    n < GAP_LEAST - SLACK ? "closed to soil"
-                                          : "narrow for soil, which passes it less easily than it should",
+                    n < GAP_LEAST - SLACK ? "closed to soil" : "so narrow that it impedes the flow of soil",
                     0.99 * it->width / GAP_ADVISED);
     return MOR_OK;
 }
@@ -491,8 +492,8 @@ static mor_status tell_thin(mor_context *context, const gap_scene *s, const sigh
         a->place->file, a->place->line, a->name, it->width, n, x[0], x[1], x[2], s->spacing,
         0.99 * it->width / WALL_LEAST, 0.99 * it->width / WALL_ADVISED);
     mor_context_log(context, MOR_LOG_WARNING,
-                    "%s:%d: wall '%s' is %.3g m thick (%.3g spacings) at (%.4g, %.4g, %.4g) m; soil on its two sides "
-                    "feels each other below three: make it thicker, or use a spacing of %.2g m",
+                    "%s:%d: wall '%s' is %.3g m thick (%.3g spacings) at (%.4g, %.4g, %.4g) m; soil on its two "
+                    "sides interacts below three: make it thicker, or use a spacing of %.2g m",
                     a->place->file, a->place->line, a->name, it->width, n, x[0], x[1], x[2],
                     0.99 * it->width / WALL_ADVISED);
     return MOR_OK;

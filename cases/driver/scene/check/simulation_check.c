@@ -11,11 +11,11 @@
 /* Steps that the integer line of time has room for: a step has at least 2^22 of some 2^52 ticks. */
 #define STEPS_MOST 1.073741824e9
 
-/* Speed that times are guessed with, particle-steps per second of one thread, and the time from which on it is told. */
+/* Speed for estimates of time, particle-steps per second of one thread, and the time from which on it is reported. */
 static const double usual_speed = 1.0e6;
 static const double step_overhead = 5.0e-5; /* of a step whatever the particles, s */
 static const double long_time = 2.0 * 86400.0;
-static const double many_steps = 2.0e7; /* told, too, however few the particles are */
+static const double many_steps = 2.0e7; /* reported, too, for few particles */
 
 /* A particle that falls freely under damping is to come farther than this, in spacings. */
 static const double least_way = 1.0e-3;
@@ -65,8 +65,8 @@ static mor_status check_steps(mor_context *context, const mor_simulation *s, con
     return MOR_OK;
 }
 
-/* The first step of soil, or of bodies without soil. A step that has no room on the line of time is told with its
- * cause, before anything is said of a collapse. */
+/* The first step of soil, or of bodies without soil. A step shorter than the time line resolves is reported with its
+ * cause first. */
 static mor_status find_first_step(mor_context *context, mor_simulation *s)
 {
     const mor_schedule *schedule = &s->schedule;
@@ -96,8 +96,8 @@ static mor_status check_damping(mor_context *context, const mor_simulation *s)
     const double weight = mor_vector_length(c->gravity);
     const double way = weight * c->end / fmax(damping, 1.0 / c->end); /* at most */
     MOR_CHECK(context, damping * c->end <= 1.0 || weight == 0.0 || way > least_way * c->spacing, MOR_ERROR_CONFIG,
-              "%s: found numerics.damping = %g 1/s, under which nothing can move: what falls freely comes %.3g m far "
-              "until the end, %.3g spacings; allowed is what lets it move by a thousandth of a spacing (%.3g m); lower "
+              "%s: found numerics.damping = %g 1/s, under which nothing can move: a free fall covers %.3g "
+              "m until the end, %.3g spacings; it must cover at least a thousandth of a spacing (%.3g m); lower "
               "the damping to %.3g 1/s or less",
               c->path, damping, way, way / c->spacing, least_way * c->spacing,
               weight * c->end / (least_way * c->spacing));
@@ -111,7 +111,7 @@ static mor_status check_speed(mor_context *context, const mor_simulation *s, con
     MOR_CHECK(
         context, speed < s->soil.sound_speed, MOR_ERROR_CONFIG,
         "%s:%d: found %s '%s' with a velocity of %g m/s, beyond the speed of sound in the soil, %.4g m/s; allowed "
-        "is less, advisable below a tenth of it; lower the velocity or raise the stiffness of the soil",
+        "is less, advisable is less than a tenth of it; lower the velocity or raise the stiffness of the soil",
         place->file, place->line, what, name, speed, s->soil.sound_speed);
     return MOR_OK;
 }
@@ -130,7 +130,7 @@ static mor_status check_speeds(mor_context *context, const mor_simulation *s)
     return MOR_OK;
 }
 
-/* Walls that soil meets have particles, and none is an error there; bodies meet the shape itself. */
+/* Walls in contact with soil have particles, and none is an error there; bodies touch the shape itself. */
 static mor_status check_walls(mor_context *context, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
@@ -145,8 +145,8 @@ static mor_status check_walls(mor_context *context, const mor_simulation *s)
         }
         const double distance = mor_shape_distance(it->shape, middle);
         MOR_CHECK(context, distance <= MOR_SHAPE_SLOPE_MOST * sqrt(squared_radius), MOR_ERROR_CONFIG,
-                  "%s:%d: found wall '%s' outside the domain, %g m from its middle, so that nothing can touch it; "
-                  "allowed are walls that reach into the domain; move the wall or enlarge 'domain'",
+                  "%s:%d: found wall '%s' outside the domain, %g m from its center, so that nothing "
+                  "can touch it; allowed are walls that reach into the domain; move the wall or enlarge 'domain'",
                   it->place.file, it->place.line, it->name, distance);
     }
     return MOR_OK;

@@ -6,11 +6,11 @@
 #include "cases/driver/scene/simulation.h"
 
 /** @file
- *  Whether a scene that could be built can be computed: what only the particles, the speed of sound and the first time
- *  step can tell. */
+ *  Whether a scene that could be built can be computed: what depends on the particles, the speed of sound and the first
+ *  time step. */
 
-/** Refuses a scene whose settings make it void or endless: damping under which nothing moves, more steps than can be
- *  taken, speeds beyond that of sound, walls outside the domain.
+/** Refuses a scene whose settings make it meaningless or endless: damping under which nothing moves, more steps than
+ *  can be taken, speeds beyond that of sound, walls outside the domain.
  *  @param context    [in,out]  warns of runs that take days
  *  @param simulation [in,out]  built; first_step is set
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; what a stepper returns. */

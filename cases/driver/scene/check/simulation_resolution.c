@@ -18,7 +18,7 @@ enum { ADVICE_BYTES = 512, SPACINGS_TRIED = 64 };
 
 /* ---- Volume of a region ------------------------------------------------------------------------------------------ */
 
-/* A region as it is filled, and where one asks for it, only what a body takes of it. In the frame of the case. */
+/* A region as it is filled, or the part of it that a body occupies. In the frame of the case. */
 typedef struct region {
     mor_shape base;
     const mor_shape *shape;
@@ -53,7 +53,7 @@ static void region_bounds(const mor_shape *shape, mor_bounds *bounds)
 static const mor_shape_operations region_operations = {
     .kind = "region", .distance = region_distance, .bounds = region_bounds};
 
-/* A region that has no end ends at the domain; others are filled whole. */
+/* An unbounded region ends at the domain; others are filled whole. */
 static void make_region(const mor_case *c, int soil, region *it)
 {
     *it =
@@ -80,8 +80,8 @@ static int64_t count_inside(const mor_body_group *group, const mor_body *body, c
     return n;
 }
 
-/* What a body takes of a region. Wholly inside it is its own volume, which is known; across the surface it is found as
- * the region's is. */
+/* The volume of a region that a body occupies. Wholly inside it is the body's own volume; across the surface it is
+ * integrated as that of the region. */
 static mor_status find_taken(mor_context *context, const mor_body_group *group, const mor_body *body, const region *it,
                              double *volume)
 {
@@ -94,7 +94,7 @@ static mor_status find_taken(mor_context *context, const mor_body_group *group, 
     region part = *it;
     part.body = body;
     const mor_status status = mor_shape_find_moments(context, &part.base, it->dimension, &moments);
-    if (status == MOR_ERROR_ARGUMENT) { /* nodes touch the region, nothing else does */
+    if (status == MOR_ERROR_ARGUMENT) { /* only nodes touch the region */
         mor_context_clear_error(context);
         return MOR_OK;
     }
@@ -182,7 +182,7 @@ static void advise_mass(const mor_case *c, const mor_bounds *bounds, double erro
     const double spacing = find_spacing(c, bounds, axis);
     const double of_side = n * c->spacing / side - 1.0;
     if (fabs(of_side) <= side_allowed || of_side * error < 0.0 || fabs(of_side) < 0.5 * fabs(error)) {
-        /* The sides fit, or do not explain it, so slopes and curves do. */
+        /* The sides fit, or do not explain it, so it is due to slopes and curves. */
         snprintf(text, n_bytes, "its slanted or curved faces%s are coarse: a spacing of %.2g m or less fits",
                  c->n_bodies > 0 ? ", or those of bodies in it," : "", c->spacing * mass_allowed / fabs(error));
         return;
@@ -226,7 +226,8 @@ static mor_status warn_of_mass(mor_context *context, const mor_simulation *s, in
     return MOR_OK;
 }
 
-/* ---- Bodies that meet soil --------------------------------------------------------------------------------------- */
+/* ---- Bodies in contact with soil
+ * --------------------------------------------------------------------------------------- */
 
 /* Largest shortfall of the depth of balls dropped on sand, docs/validation/crater.md, by radius over spacing. */
 static const struct {
@@ -235,7 +236,7 @@ static const struct {
 
 enum { N_DEPTH_ERRORS = sizeof depth_errors / sizeof *depth_errors };
 
-/* Linear reconstruction takes most of the dissipation away that holds a coarse ball: 2 % short at 4 spacings. */
+/* Linear reconstruction removes most of the dissipation that brakes a coarse ball: 2 % short at 4 spacings. */
 static const double least_reconstructed = 3.5;
 
 double mor_simulation_depth_error(double n)
@@ -263,7 +264,7 @@ static double find_radius(const mor_body *body, int dimension)
     return least;
 }
 
-/* Whether a body lies in soil and moves with it: it has no soil to push aside. */
+/* Whether a body lies in soil and moves with it, so that it does not displace soil. */
 static bool is_carried(const mor_simulation *s, const mor_body_group *group, const mor_body *body)
 {
     const mor_case *c = s->the_case;
@@ -311,7 +312,7 @@ static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
     }
     mor_context_log(
         context, MOR_LOG_WARNING,
-        "%s %.3g spacings from the middle to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
+        "%s %.3g spacings from the center to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
         "too little into sand (docs/validation/crater.md); use a spacing of at most %.3g m%s",
         which, least, enough, 100.0 * mor_simulation_depth_error(least), least * c->spacing / enough,
         is_reconstructed ? "" : ", or numerics.reconstruction = \"linear\" from 4 spacings on");

@@ -6,8 +6,8 @@
 #include "cases/driver/scene/simulation.h"
 
 /** @file
- *  Whether the spacing does justice to what the case describes: the mass of soil against that of its shape, and the
- *  particles across bodies that meet soil. */
+ *  Whether the spacing resolves what the case describes: the mass of soil against that of its shape, and the particles
+ *  across bodies in contact with soil. */
 
 /** Finds the volume of a soil region inside the domain, without the bodies in it.
  *  @param simulation [in]      as it begins
@@ -18,7 +18,8 @@
  *  Cost: milliseconds, and some more for each body across the surface of the region. */
 mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation *simulation, int soil, double *volume);
 
-/** By what share a ball sinks too little into dry sand at most, with so few particles from its middle to its side.
+/** Largest relative error by which a ball sinks too little into dry sand, for a number of particles from its center to
+ *  its side.
  *  Source: docs/validation/crater.md, Spacing.
  *  @param n [in]  radius / spacing, 1
  *  Returns: 1; 0 from where on the depth is within its tolerance. */

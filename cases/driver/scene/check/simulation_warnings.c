@@ -16,7 +16,7 @@
 static const double compression_advisable = 0.01;
 static const double compression_largest = 0.02;
 
-/* Rows and snapshots that a case has without asking; a short run has more of them than steps. */
+/* Rows and snapshots that a case has by default; a short run has more of them than steps. */
 enum { ROWS_USUAL = 200, SNAPSHOTS_USUAL = 20 };
 
 static void warn_of_softness(mor_context *context, const mor_simulation *s)
@@ -46,12 +46,12 @@ static void warn_of_softness(mor_context *context, const mor_simulation *s)
                     weight / compression_advisable / units[k].size, units[k].name);
 }
 
-/* A lateral stress that the soil cannot bear is none of rest: it yields in the first step. The limits are Rankine's at
- * the largest depth, where cohesion matters least. */
+/* A lateral stress beyond the strength of the soil is no equilibrium: it yields in the first step. The limits are
+ * Rankine's at the largest depth, where cohesion matters least. */
 static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
-    const double slack = 1.05; /* cones differ from Mohr and Coulomb by some per cent */
+    const double slack = 1.05; /* cones differ from Mohr-Coulomb by some per cent */
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
         const mor_material *law = s->material->material;
@@ -68,21 +68,21 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
         const double ratio = mor_simulation_lateral_ratio(law, it);
         if (ratio < least / slack || ratio > largest * slack) {
             mor_context_log(context, MOR_LOG_WARNING,
-                            "soil '%s' begins with a lateral stress of %.3g of the vertical one, but at its foot its "
-                            "strength holds %.3g to %.3g: it yields at once, with a jerk; correct lateral_ratio",
+                            "soil '%s' begins with a lateral stress of %.3g of the vertical one, but at its base "
+                            "its strength allows %.3g to %.3g: it yields at once; correct lateral_ratio",
                             it->name, ratio, fmax(least, 0.0), largest);
         }
     }
 }
 
-/* Densities that nothing has which slides down a slope: a unit was forgotten. */
+/* Densities outside those of any soil or rock: a unit is missing. */
 static void warn_of_density(mor_context *context, const char *what, const char *name, double density, double least,
                             double largest)
 {
     if (density < least || density > largest) {
         mor_context_log(
             context, MOR_LOG_WARNING,
-            "%s '%s' has a density of %.4g kg/m3, which no %s has: a bare number is in kg/m3; give the unit, "
+            "%s '%s' has a density of %.4g kg/m3, which is not that of a %s: a bare number is in kg/m3; give the unit, "
             "such as \"%s\"",
             what, name, density, what, strcmp(what, "soil") == 0 ? "1.8 t/m3" : "2.6 t/m3");
     }
@@ -90,7 +90,7 @@ static void warn_of_density(mor_context *context, const char *what, const char *
 
 static void warn_of_modulus(mor_context *context, const char *what, const char *name, double modulus)
 {
-    const double least = 1.0e5; /* Pa; below, bodies of any size lie deep in one another */
+    const double least = 1.0e5; /* Pa; below, bodies of any size overlap deeply */
     if (modulus > 0.0 && modulus < least) {
         mor_context_log(
             context, MOR_LOG_WARNING,
@@ -135,7 +135,7 @@ static double find_gap(const mor_simulation *s, int wall)
     return nearest / c->spacing;
 }
 
-/* Soil that rests on a wall begins half a spacing off its face; nearer it is thrown off, farther it falls first. Soil
+/* Soil that rests on a wall begins half a spacing off its face; nearer it is repelled, farther it falls first. Soil
  * more than a spacing off, and a little for rounding, is not meant to touch. */
 static void warn_of_gaps(mor_context *context, const mor_simulation *s)
 {
@@ -145,9 +145,9 @@ static void warn_of_gaps(mor_context *context, const mor_simulation *s)
         const double gap = find_gap(s, w);
         if (gap <= touching && fabs(gap - 0.5) > allowed) {
             mor_context_log(context, MOR_LOG_WARNING,
-                            "the soil begins %.2f spacings off wall '%s', not 0.5, and will %s; put faces of walls "
-                            "and soil a whole number of spacings from lattice.origin",
-                            gap, s->the_case->walls[w].name, gap < 0.5 ? "be pushed away" : "fall against it");
+                            "the soil begins %.2f spacings off wall '%s', not 0.5, and will %s; put "
+                            "faces of walls and soil a whole number of spacings from lattice.origin",
+                            gap, s->the_case->walls[w].name, gap < 0.5 ? "be repelled" : "fall against it");
         }
     }
 }
@@ -176,7 +176,7 @@ static void warn_of_thinness(mor_context *context, const mor_simulation *s)
     }
 }
 
-/* What is written more often than there are steps. */
+/* Output more frequent than steps. */
 static void warn_of_outputs(mor_context *context, const mor_simulation *s)
 {
     const mor_case_output *output = &s->the_case->output;
@@ -197,32 +197,32 @@ static void warn_of_outputs(mor_context *context, const mor_simulation *s)
     }
 }
 
-/* A sign that was forgotten: what is drawn with its ground below would fall upwards. */
+/* A missing sign: everything would fall upwards. */
 static void warn_of_gravity(mor_context *context, const mor_case *c)
 {
     const int up = c->dimension - 1;
     if (c->gravity[up] > 0.0) {
         mor_context_log(context, MOR_LOG_WARNING,
-                        "gravity points up, along +%c: everything falls away from what lies "
-                        "below; write a negative number if that is not meant",
+                        "gravity points up, along +%c; write "
+                        "a negative number if that is not intended",
                         up == 1 ? 'y' : 'z');
     }
 }
 
-/* Each step moves a particle by a length in proportion to its way, off crowded neighbors, at a free surface inwards as
- * well: nothing there tells the empty side from a gap. */
+/* Each step shifts a particle by a length in proportion to its displacement, away from close neighbors, at a free
+ * surface inwards as well: the empty side is not distinguished from a gap. */
 static void warn_of_shifting(mor_context *context, const mor_case *c)
 {
     if (c->numerics.shifting && c->n_soils > 0) {
         mor_context_log(context, MOR_LOG_WARNING,
-                        "%s: numerics.shifting = true holds soil back that flows far: the shift grows with the "
-                        "distance traveled and is not corrected at free surfaces; columns that collapse ran out 15 to "
-                        "26 %% too short with it; remove it unless soil hardly moves",
+                        "%s: numerics.shifting = true reduces the run-out of soil: the shift grows "
+                        "with the distance traveled and is not corrected at free surfaces; the run-out of collapsing "
+                        "columns was 15 to 26 %% too small with it; remove it unless soil hardly moves",
                         c->path);
     }
 }
 
-/* Whether a body may be kept from falling: it moves as prescribed, or something outside holds it. */
+/* Whether a body may be kept from falling: it is prescribed, or something outside fixes it. */
 static bool is_carried(const mor_case_body *it)
 {
     bool is_held = it->is_prescribed || it->has_spring || it->clamp != NULL;
@@ -240,7 +240,7 @@ static void warn_of_free_fall(mor_context *context, const mor_case *c)
     }
     if (!is_held) {
         mor_context_log(context, MOR_LOG_WARNING,
-                        "there is no wall, nor a body that is held or prescribed; everything falls freely");
+                        "there is no wall, nor a fixed or prescribed body; everything falls freely");
     }
 }
 

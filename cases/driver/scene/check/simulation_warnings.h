@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 /** @file
- *  What a scene that can be computed will not do as its author wants. `check`, `explain` and `run` tell the same. */
+ *  Warnings about scenes that can be computed but may not be intended. `check`, `explain` and `run` print the same. */
 
 /** Logs each warning about a scene with MOR_LOG_WARNING.
  *  @param simulation [in]      as it begins
@@ -16,7 +16,7 @@
 mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simulation);
 
 /** Prints each warning about a scene as a line "warning: ..." instead.
- *  @param context    [in,out]  its sink is put back
+ *  @param context    [in,out]  its sink is restored
  *  @param simulation [in]      as it begins
  *  @param stream     [in,out]  one open stream
  *  Returns: as mor_simulation_warn. */

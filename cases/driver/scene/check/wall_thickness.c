@@ -58,7 +58,7 @@ static bool draw_point(const mor_case *c, int wall, int number, double *point, d
     return is_good;
 }
 
-/* Way through all walls from a face along its normal, m; INFINITY: it is free of nothing, or thick. */
+/* Thickness of all walls from a face along its normal, m; INFINITY: nothing is free, or it is thick. */
 static double look_through(const mor_case *c, const double *point, const double *normal)
 {
     double place[3], back[3];
@@ -106,9 +106,9 @@ void mor_wall_thickness_warn(mor_context *context, const mor_case *the_case)
         }
         if (isfinite(it.thickness)) {
             mor_context_log(context, MOR_LOG_WARNING,
-                            "%s:%d: wall '%s' is %.2g m thick, %.2g spacings, at (%.4g, %.4g, %.4g) m; below one and a "
-                            "half a body may meet it between its nodes and pass, or come out on its other side: %s, or "
-                            "make it a body with motion = \"prescribed\"",
+                            "%s:%d: wall '%s' is %.2g m thick, %.2g spacings, at (%.4g, %.4g, %.4g) m; below one "
+                            "and a half a body may pass between its nodes, or leave it on its other side: %s, or make "
+                            "it a body with motion = \"prescribed\"",
                             c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, it.thickness,
                             it.thickness / c->spacing, it.place[0], it.place[1], it.place[2], advice);
         }
