@@ -38,7 +38,7 @@ typedef struct mor_context {
     const char *cache_folder;                  /* where relaxed particles are kept, zero-terminated; NULL or "":
                                                   nowhere; owned by the installer */
     uint64_t seed;                             /* seed of all counter-based random numbers */
-    bool is_checked;                           /* the run proves what stages and materials declare; slow */
+    bool is_checked;                           /* the run verifies what stages and materials declare; slow */
     size_t memory_bytes;                       /* bytes now held by mor_memory_new */
     size_t memory_peak_bytes;                  /* largest memory_bytes so far */
     uint64_t n_allocations;                    /* number of successful mor_memory_new so far */
@@ -51,7 +51,7 @@ void mor_context_init(mor_context *context);
 /** Forgets the last error. */
 void mor_context_clear_error(mor_context *context);
 
-/** Makes an earlier error the last one again: what was done about it may have failed, too.
+/** Restores an earlier error as the last one: its handling may have failed, too.
  *  @param earlier [in]      a copy of the context as it was then */
 void mor_context_restore_error(mor_context *context, const mor_context *earlier);
 
@@ -64,7 +64,7 @@ void mor_context_restore_error(mor_context *context, const mor_context *earlier)
 mor_status mor_context_fail(mor_context *context, mor_status status, const mor_frame *place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/** Tells which particle the error just recorded is about, for whoever shows or keeps it.
+/** Records which particle the last error concerns.
  *  @param status   [in]      code of the error
  *  @param set      [in]      zero-terminated name of the particle's set; copied
  *  @param particle [in]      its number, >= 0

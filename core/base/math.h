@@ -114,7 +114,7 @@ static inline double mor_symmetric_trace(const double *tensor)
     return tensor[MOR_XX] + tensor[MOR_YY] + tensor[MOR_ZZ];
 }
 
-/** Rotation matrix, shape [3,3], for a turn by angle [rad] about a unit axis, shape [3] (Rodrigues). */
+/** Rotation matrix, shape [3,3], for a rotation by angle [rad] about a unit axis, shape [3] (Rodrigues). */
 static inline void mor_matrix_rotation(const double *axis, double angle, double *matrix)
 {
     const double c = cos(angle);

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Longer numbers than this many bytes are none that anybody wrote. */
+/* Longer numbers are refused, bytes. */
 enum { NUMBER_BYTES = 512 };
 
 static size_t skip_sign(const char *text, size_t at)

@@ -8,7 +8,7 @@
 
 /** @file
  *  Decimal numbers in text files. What is not a number from its first to its last byte is not read as one: a library
- *  that reads "abc" as 0 and "1.5x" as 1.5 turns a slip of the pen into a place. */
+ *  that reads "abc" as 0 and "1.5x" as 1.5 turns a typing error into a coordinate. */
 
 /** Reads text that is one decimal number: a sign or none, digits with at most one point, an exponent or none. Words
  *  such as nan and inf, hexadecimal numbers and decimal commas are none.

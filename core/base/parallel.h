@@ -12,9 +12,9 @@
 
 #define MOR_PRAGMA_(text) _Pragma(#text)
 
-/** for-loop over [0, n) shared by the threads in chunks of `grain`: MOR_PARALLEL_FOR(context, i, n, grain) { ... } */
-#define MOR_PARALLEL_FOR(context, index, count, grain)                                                                 \
-    MOR_PRAGMA_(omp parallel for schedule(dynamic, grain) num_threads((context)->n_threads))                           \
+/** for-loop over [0, n) shared by the threads in chunks of `chunk`: MOR_PARALLEL_FOR(context, i, n, chunk) { ... } */
+#define MOR_PARALLEL_FOR(context, index, count, chunk)                                                                 \
+    MOR_PRAGMA_(omp parallel for schedule(dynamic, chunk) num_threads((context)->n_threads))                           \
     for (int64_t index = 0; index < (count); ++index)
 
 /** Number of processors this process may use, 1. */

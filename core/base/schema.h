@@ -5,7 +5,8 @@
 
 /** @file
  *  One record type for everything a user may set and everything a material declares: case keys, material parameters,
- *  material state variables. The host reads, checks and converts; the owner of the schema gets plain numbers in SI. */
+ *  material state variables. The program reads, checks and converts; the owner of the schema gets plain numbers in
+ *  SI. */
 
 typedef enum mor_schema_kind {
     MOR_SCHEMA_REAL,    /* one number with a unit */

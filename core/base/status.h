@@ -18,7 +18,7 @@
     X(ERROR_IO, -3, "file cannot be read or written")                                                                  \
     X(ERROR_CONFIG, -4, "the case file is wrong")                                                                      \
     X(ERROR_PLUGIN, -5, "a plug-in cannot be used")                                                                    \
-    X(ERROR_NUMERIC, -6, "the computation broke down")                                                                 \
+    X(ERROR_NUMERIC, -6, "the computation failed")                                                                     \
     X(ERROR_UNSUPPORTED, -7, "not supported")                                                                          \
     X(ERROR_INTERNAL, -8, "internal error")
 

@@ -22,7 +22,7 @@ struct mor_units {
 
 static const char *const base_symbols[MOR_BASE_COUNT] = {"m", "kg", "s", "rad", "K", "A", "mol", "cd"};
 
-/* What UDUNITS and the C library are put aside for while a unit is read. */
+/* State of UDUNITS and the C library saved while a unit is read. */
 typedef struct quiet {
     locale_t locale;
     ut_error_message_handler handler;
@@ -217,8 +217,8 @@ static bool is_exponent(const char *unit, size_t k)
     return k > 0 && !is_in(unit[k - 1], " \t./*(+-");
 }
 
-/* Returns what is wrong with the spelling of a unit, NULL when nothing is. It keeps from UDUNITS what would mean
- * something else there: dates, shifts, factors inside the unit, exponents without end. */
+/* Returns what is wrong with the spelling of a unit, NULL when nothing is. It refuses what would have another
+ * meaning in UDUNITS: dates, shifts, factors inside the unit, exponents without end. */
 static const char *find_spelling_fault(const char *unit)
 {
     size_t n_digits = 0;
@@ -241,8 +241,8 @@ static const char *find_spelling_fault(const char *unit)
     return NULL;
 }
 
-/* A unit that people mean by the same letters in another case; NULL when there is none. Where two differ only in case,
- * as MPa and mPa do, it is the one of soils. */
+/* A unit of the same letters in another case; NULL when there is none. Where two differ only in case, as MPa and mPa
+ * do, it is the one common in soil mechanics. */
 static const char *find_other_case(const char *unit)
 {
     static const char *const known[] = {

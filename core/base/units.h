@@ -9,7 +9,7 @@
 
 /** @file
  *  Units as people write them: "5.98 MPa" to a plain number in SI, and the powers of meter, kilogram and second that a
- *  unit stands for. The door of UDUNITS-2. It knows nothing of case files.
+ *  unit stands for. Only units.c calls UDUNITS-2. It does not depend on case files.
  *
  *  Beyond the words of UDUNITS, "deg" is an angle (so is the degree sign). An angle is not a plain number here:
  *  "30 deg" is refused where a ratio is wanted. Units with a shifted zero (degC), logarithms and dates are refused.
@@ -68,7 +68,7 @@ mor_status mor_units_dimension(mor_context *context, const mor_units *units, con
  *  @param unit    [in]      zero-terminated; the wanted unit, as "Pa"; "1" for none
  *  @param value   [out]     one number; unit: the wanted one; exact when text uses the same unit
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when text is no number with a unit of that dimension: the message tells what of
- *  it is wrong, for a reader who already sees the text. MOR_ERROR_INTERNAL when the wanted unit itself is none.
+ *  it is wrong, for a message that already shows the text. MOR_ERROR_INTERNAL when the wanted unit itself is none.
  *  Threads: neither. */
 mor_status mor_units_convert(mor_context *context, const mor_units *units, const char *text, const char *unit,
                              double *value);

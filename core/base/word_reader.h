@@ -8,12 +8,12 @@
 #include <stdio.h>
 
 /** @file
- *  Reads a text file word by word, knows where each word stands, and refuses words with their place. Words are what
+ *  Reads a text file word by word, keeps the place of each word, and refuses words with their place. Words are what
  *  white space separates. It is for files that a library reads too, which takes what is no number for 0. */
 
 enum { MOR_WORD_BYTES = 512 };
 
-/** A file being read. Made by mor_word_reader_open; what the members say is that of the word read last. */
+/** A file being read. Made by mor_word_reader_open; the members describe the word read last. */
 typedef struct mor_word_reader {
     mor_context *context;             /* borrowed */
     const char *path;                 /* zero-terminated; borrowed */

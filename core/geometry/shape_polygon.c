@@ -116,7 +116,7 @@ static bool is_between(const double *a, const double *b, const double *c)
 }
 
 /* Whether edges ab and cd share a point. */
-static bool edges_meet(const double *a, const double *b, const double *c, const double *d)
+static bool edges_intersect(const double *a, const double *b, const double *c, const double *d)
 {
     const double c_side = orient(a, b, c);
     const double d_side = orient(a, b, d);
@@ -162,7 +162,7 @@ bool mor_shape_find_crossing(const double *points, int n_points, int *first, int
             const double *b = points + 2 * (i + 1);
             const double *c = points + 2 * j;
             const double *d = points + 2 * ((j + 1) % n_points);
-            if (!are_boxes_apart(a, b, c, d) && edges_meet(a, b, c, d)) {
+            if (!are_boxes_apart(a, b, c, d) && edges_intersect(a, b, c, d)) {
                 *first = i;
                 *second = j;
                 return true;

@@ -322,7 +322,7 @@ mor_status mor_checkpoint_read(mor_context *context, const char *path, const mor
 typedef mor_status (*file_reader)(mor_context *context, const char *path, void *target);
 
 /* Reads the newest file, or the one before where the newest is missing or damaged. */
-static mor_status read_newest(mor_context *context, const char *folder, file_reader read, void *target, bool is_told)
+static mor_status read_newest(mor_context *context, const char *folder, file_reader read, void *target, bool is_logged)
 {
     char path[MOR_PATH_BYTES];
     char previous[MOR_PATH_BYTES];
@@ -342,7 +342,7 @@ static mor_status read_newest(mor_context *context, const char *folder, file_rea
                         "again",
                         reason, context->message);
     }
-    if (status == MOR_OK && is_told) {
+    if (status == MOR_OK && is_logged) {
         mor_context_log(context, MOR_LOG_WARNING, "%s; resumed from the checkpoint before it, '%s'", reason, previous);
     }
     return status;

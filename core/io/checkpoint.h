@@ -7,8 +7,8 @@
 #include "core/particle/state.h"
 
 /** @file
- *  The complete state of a run in one sealed file, and its return bit for bit. It saves what it is handed and decides
- *  neither when to save nor what belongs to the state: that is what the list names, core/particle/state.h.
+ *  The complete state of a run in one sealed file, restored bit for bit. It decides neither when to save nor what
+ *  belongs to the state: that is what the list names, core/particle/state.h.
  *
  *  Files of a run's folder: checkpoint.h5 is the newest, checkpoint.previous.h5 the one before. A new one is written to
  *  checkpoint.h5.tmp, sealed and synced; then the newest, if it is intact, is kept as the previous one, and one rename

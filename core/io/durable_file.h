@@ -34,7 +34,7 @@ mor_status mor_durable_file_open(mor_context *context, mor_durable_file *file, c
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_durable_file_commit(mor_context *context, mor_durable_file *file);
 
-/** Gives up the new content. Accepts a file that is already closed. */
+/** Discards the new content. Accepts a file that is already closed. */
 void mor_durable_file_discard(mor_durable_file *file);
 
 /** Gives a finished and synced file its final name, replacing the file of that name, and syncs the folder.

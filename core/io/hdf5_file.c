@@ -70,7 +70,7 @@ static hid_t disk_type(mor_hdf5_kind kind)
     return H5T_IEEE_F32LE;
 }
 
-/* Finds which kind a type on the disk is; false for types this door does not write. */
+/* Finds which kind a type on the disk is; false for types that are not written here. */
 static bool find_kind(hid_t type, mor_hdf5_kind *kind)
 {
     for (int candidate = MOR_HDF5_INT64; candidate <= MOR_HDF5_BYTE; ++candidate) {
@@ -105,10 +105,9 @@ static hid_t make_access_properties(void)
 static hid_t make_group_properties(hid_t property_class)
 {
     const hid_t properties = H5Pcreate(property_class);
-    if (properties >= 0 &&
-        (H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 ||
-         H5Pset_obj_track_times(properties, false) < 0 ||
-         (property_class == H5P_FILE_CREATE && H5Pset_userblock(properties, MOR_SEAL_BYTES) < 0))) {
+    if (properties >= 0 && (H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 ||
+                            H5Pset_obj_track_times(properties, false) < 0 ||
+                            (property_class == H5P_FILE_CREATE && H5Pset_userblock(properties, MOR_SEAL_BYTES) < 0))) {
         H5Pclose(properties);
         return H5I_INVALID_HID;
     }
@@ -234,8 +233,8 @@ mor_status mor_hdf5_file_count(mor_context *context, mor_hdf5_file *file, const 
     return MOR_OK;
 }
 
-mor_status mor_hdf5_file_member(mor_context *context, mor_hdf5_file *file, const char *group, int64_t index,
-                                char *name, size_t n_bytes)
+mor_status mor_hdf5_file_member(mor_context *context, mor_hdf5_file *file, const char *group, int64_t index, char *name,
+                                size_t n_bytes)
 {
     name[0] = '\0';
     const ssize_t n_name = H5Lget_name_by_idx(file->handle, group, H5_INDEX_CRT_ORDER, H5_ITER_INC, (hsize_t)index,
@@ -244,8 +243,8 @@ mor_status mor_hdf5_file_member(mor_context *context, mor_hdf5_file *file, const
         return fail_hdf5(context, file, "list group", group);
     }
     MOR_CHECK(context, (size_t)n_name < n_bytes, MOR_ERROR_IO,
-              "a name in group '%s' of '%s' has %zd bytes, at most %zu are allowed: '%s...'", group, file->path,
-              n_name, n_bytes - 1, name);
+              "a name in group '%s' of '%s' has %zd bytes, at most %zu are allowed: '%s...'", group, file->path, n_name,
+              n_bytes - 1, name);
     return MOR_OK;
 }
 
@@ -266,8 +265,8 @@ static hid_t make_dataset(hid_t file, const char *name, const mor_hdf5_shape *sh
     return dataset;
 }
 
-mor_status mor_hdf5_file_write(mor_context *context, mor_hdf5_file *file, const char *name,
-                               const mor_hdf5_shape *shape, const void *data)
+mor_status mor_hdf5_file_write(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
+                               const void *data)
 {
     const hid_t dataset = make_dataset(file->handle, name, shape);
     if (dataset < 0) {
@@ -285,7 +284,7 @@ mor_status mor_hdf5_file_write(mor_context *context, mor_hdf5_file *file, const 
     return H5Dclose(dataset) < 0 ? fail_hdf5(context, file, "write array", name) : MOR_OK;
 }
 
-/* Type and shape of an open dataset; false when this door would not have written it so. */
+/* Type and shape of an open dataset; false when it was not written by this code. */
 static bool find_shape(hid_t dataset, mor_hdf5_shape *shape)
 {
     const hid_t type = H5Dget_type(dataset);
@@ -325,9 +324,11 @@ mor_status mor_hdf5_file_read(mor_context *context, mor_hdf5_file *file, const c
     MOR_TRY(context, mor_hdf5_file_shape(context, file, name, &found));
     MOR_CHECK(context,
               found.kind == shape->kind && found.n_rows == shape->n_rows && found.n_columns == shape->n_columns,
-              MOR_ERROR_IO, "array '%s' in '%s' has %lld rows of %d columns of kind %d; %lld rows of %d of kind %d "
-              "were asked for", name, file->path, (long long)found.n_rows, found.n_columns, (int)found.kind,
-              (long long)shape->n_rows, shape->n_columns, (int)shape->kind);
+              MOR_ERROR_IO,
+              "array '%s' in '%s' has %lld rows of %d columns of kind %d; %lld rows of %d of kind %d "
+              "were asked for",
+              name, file->path, (long long)found.n_rows, found.n_columns, (int)found.kind, (long long)shape->n_rows,
+              shape->n_columns, (int)shape->kind);
     if (shape->n_rows == 0) {
         return MOR_OK;
     }
@@ -343,12 +344,12 @@ mor_status mor_hdf5_file_read(mor_context *context, mor_hdf5_file *file, const c
 
 /* ---- attributes -------------------------------------------------------------------------------------------------- */
 
-static mor_status write_attribute(mor_context *context, mor_hdf5_file *file, const char *object,
-                                  const char *attribute, const hid_t *types, const void *data)
+static mor_status write_attribute(mor_context *context, mor_hdf5_file *file, const char *object, const char *attribute,
+                                  const hid_t *types, const void *data)
 {
     const hid_t space = H5Screate(H5S_SCALAR);
-    const hid_t handle = H5Acreate_by_name(file->handle, object, attribute, types[0], space, H5P_DEFAULT, H5P_DEFAULT,
-                                           H5P_DEFAULT);
+    const hid_t handle =
+        H5Acreate_by_name(file->handle, object, attribute, types[0], space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     mor_status status = MOR_OK;
     if (handle < 0 || H5Awrite(handle, types[1], data) < 0) {
         status = fail_hdf5(context, file, "write attribute", attribute);
@@ -401,8 +402,7 @@ static mor_status read_attribute(mor_context *context, mor_hdf5_file *file, hid_
     const hid_t space = H5Aget_space(handle);
     const bool is_scalar = H5Sget_simple_extent_type(space) == H5S_SCALAR;
     H5Sclose(space);
-    MOR_CHECK(context, is_scalar, MOR_ERROR_IO, "attribute '%s' in '%s' is not a single value", attribute,
-              file->path);
+    MOR_CHECK(context, is_scalar, MOR_ERROR_IO, "attribute '%s' in '%s' is not a single value", attribute, file->path);
     return H5Aread(handle, type, data) < 0 ? fail_hdf5(context, file, "read attribute", attribute) : MOR_OK;
 }
 
@@ -415,8 +415,8 @@ mor_status mor_hdf5_file_get_text(mor_context *context, mor_hdf5_file *file, con
         return fail_hdf5(context, file, "find attribute", attribute);
     }
     const hid_t stored = H5Aget_type(handle);
-    const bool fits = H5Tget_class(stored) == H5T_STRING && H5Tis_variable_str(stored) == 0 &&
-                      H5Tget_size(stored) <= n_bytes;
+    const bool fits =
+        H5Tget_class(stored) == H5T_STRING && H5Tis_variable_str(stored) == 0 && H5Tget_size(stored) <= n_bytes;
     H5Tclose(stored);
     mor_status status = MOR_OK;
     if (fits) {

@@ -9,10 +9,10 @@
 #include <stdbool.h>
 
 /** @file
- *  The HDF5 door. It knows arrays, groups, attributes and links, not what they mean. Files are ordinary HDF5 (1.8 and
- *  later read them) whose first 512 bytes, the user block, hold a seal (core/io/seal.h). A file is checked against its
- *  seal before HDF5 sees a byte of it, so that damage is refused with a message instead of being parsed. A new file is
- *  put together in memory and written as a whole, because HDF5 cannot recover from a full disk; so it needs as much
+ *  The only interface to HDF5: arrays, groups, attributes and links, without their meaning. Files are ordinary HDF5
+ *  (1.8 and later read them) whose first 512 bytes, the user block, hold a seal (core/io/seal.h). A file is checked
+ *  against its seal before HDF5 reads it, so that damage is refused with a message instead of being parsed. A new file
+ *  is put together in memory and written as a whole, because HDF5 cannot recover from a full disk; so it needs as much
  *  memory as it has bytes for a moment. A written file is never changed.
  *
  *  Creating or opening a file turns off HDF5's own error printing in the calling process. Not thread-safe. */
@@ -86,7 +86,7 @@ mor_status mor_hdf5_file_link(mor_context *context, mor_hdf5_file *file, const c
 mor_status mor_hdf5_file_write(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
                                const void *data);
 
-/** Tells type and shape of an array.
+/** Finds type and shape of an array.
  *  @param name    [in]      zero-terminated absolute path
  *  Returns: MOR_OK; MOR_ERROR_IO when there is no array of that name or it is of a type not listed here. */
 mor_status mor_hdf5_file_shape(mor_context *context, mor_hdf5_file *file, const char *name, mor_hdf5_shape *shape);
@@ -99,7 +99,7 @@ mor_status mor_hdf5_file_shape(mor_context *context, mor_hdf5_file *file, const 
 mor_status mor_hdf5_file_read(mor_context *context, mor_hdf5_file *file, const char *name, const mor_hdf5_shape *shape,
                               void *data);
 
-/** Tells whether something of that name exists; the groups above it must exist.
+/** Returns whether an object of that name exists; the groups above it must exist.
  *  @param name [in]  zero-terminated absolute path */
 bool mor_hdf5_file_has(mor_hdf5_file *file, const char *name);
 

@@ -14,7 +14,7 @@
 
 enum { READ_BLOCK_BYTES = 65536 };
 
-/* What a seal says. */
+/* Contents of a seal. */
 typedef struct seal {
     char what[MOR_SEAL_WHAT_BYTES];
     int version;
@@ -69,7 +69,7 @@ static ssize_t read_block(int descriptor, void *block, size_t n_bytes)
     return (ssize_t)n_done;
 }
 
-/* Hashes all bytes behind the seal and counts all bytes of the file. */
+/* Hashes all bytes after the seal and counts all bytes of the file. */
 static mor_status hash_content(mor_context *context, int descriptor, const char *path, uint64_t *hash_value,
                                uint64_t *n_bytes)
 {
@@ -132,17 +132,17 @@ static mor_status verify_seal(mor_context *context, int descriptor, const char *
     const ssize_t n_read = read_block(descriptor, text, sizeof text);
     MOR_CHECK(context, n_read >= 0, MOR_ERROR_IO, "cannot read '%s': %s", path, strerror(errno));
     MOR_CHECK(context, n_read == MOR_SEAL_BYTES, MOR_ERROR_IO,
-              "'%s' is damaged: it ends after %lld bytes, within its seal of %d bytes", path, (long long)n_read,
+              "'%s' is damaged: it ends after %lld bytes, within its header of %d bytes", path, (long long)n_read,
               MOR_SEAL_BYTES);
     MOR_CHECK(context, memcmp(text, "moraine ", 8) == 0, MOR_ERROR_IO,
               "'%s' is damaged or was not written by Moraine: it does not begin with the word moraine", path);
     MOR_CHECK(context, parse_seal(text, says), MOR_ERROR_IO,
-              "'%s' is damaged: the seal in its first %d bytes contradicts itself", path, MOR_SEAL_BYTES);
+              "'%s' is damaged: the header in its first %d bytes is inconsistent", path, MOR_SEAL_BYTES);
     struct stat properties;
     MOR_CHECK(context, fstat(descriptor, &properties) == 0, MOR_ERROR_IO, "cannot read '%s': %s", path,
               strerror(errno));
     MOR_CHECK(context, (uint64_t)properties.st_size == says->n_bytes, MOR_ERROR_IO,
-              "'%s' is damaged: it has %lld bytes, its seal says %llu", path, (long long)properties.st_size,
+              "'%s' is damaged: it has %lld bytes, its header states %llu", path, (long long)properties.st_size,
               (unsigned long long)says->n_bytes);
     return MOR_OK;
 }
@@ -153,7 +153,7 @@ static mor_status verify_content(mor_context *context, int descriptor, const cha
     uint64_t n_bytes = 0;
     MOR_TRY(context, hash_content(context, descriptor, path, &content_hash, &n_bytes));
     MOR_CHECK(context, content_hash == says->content_hash && n_bytes == says->n_bytes, MOR_ERROR_IO,
-              "'%s' is damaged: the hash of its content is %016" PRIx64 ", its seal says %016" PRIx64, path,
+              "'%s' is damaged: the hash of its content is %016" PRIx64 ", its header states %016" PRIx64, path,
               content_hash, says->content_hash);
     return MOR_OK;
 }

@@ -11,11 +11,11 @@
  *
  *      moraine <what> <version>     what the file holds and the number of its layout
  *      bytes <20 digits>            size of the whole file
- *      xxh64 <16 hex digits>        hash of all bytes behind the seal (core/base/hash.h)
+ *      xxh64 <16 hex digits>        hash of all bytes after the seal (core/base/hash.h)
  *      seal <16 hex digits>         hash of the three lines above
  *
  *  Every byte of the file is covered: a seal that is not, byte for byte, the one its own numbers make is damaged. It
- *  finds damage; it is no defense against somebody who forges. */
+ *  finds damage; it is no protection against forgery. */
 
 enum { MOR_SEAL_BYTES = 512, MOR_SEAL_WHAT_BYTES = 48 };
 

@@ -439,7 +439,7 @@ static mor_status delete_leftovers(mor_context *context, const char *folder)
     return status;
 }
 
-/* Deletes the snapshots behind last_step. */
+/* Deletes the snapshots after last_step. */
 static mor_status drop_later(mor_context *context, mor_snapshot_list *list, const char *folder, int64_t last_step)
 {
     char path[MOR_PATH_BYTES];
@@ -481,7 +481,7 @@ static mor_status write_link_file(mor_context *context, const mor_snapshot_write
     return MOR_OK;
 }
 
-/* Makes both index files say what the list says; a run without snapshots has none. */
+/* Writes both index files according to the list; a run without snapshots has none. */
 static mor_status write_index(mor_context *context, const mor_snapshot_writer *writer)
 {
     char links[MOR_PATH_BYTES];

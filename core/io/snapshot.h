@@ -8,8 +8,8 @@
 #include "core/particle/set.h"
 
 /** @file
- *  Pictures of the state for people and other programs: writing them during a run, going on after a resume, and reading
- *  them back. They hold the output fields only; the complete state is in checkpoints.
+ *  Snapshots of the state for post-processing: written during a run, continued after a resume, and read back. They hold
+ *  the output fields only; the complete state is in checkpoints.
  *
  *  Files of a run's folder:
  *
@@ -18,10 +18,10 @@
  *      snapshots.xdmf             description for ParaView: for each set a series in time
  *
  *  Why one file per snapshot: HDF5 changes old parts of a file when it adds to it, so a process killed while adding may
- *  lose all earlier snapshots, and a program looking at the file may read nonsense. Here nothing written is touched
- *  again, dropping snapshots is deleting files, and the cost of adding one does not grow except for a line per earlier
- *  snapshot in the two small index files, which are replaced by renaming. The index files can always be made again from
- *  the snapshots, and this code never reads them.
+ *  lose all earlier snapshots, and a program reading the file may read invalid data. Here nothing written is changed
+ *  again, snapshots are removed by deleting files, and the cost of adding one does not grow except for a line per
+ *  earlier snapshot in the two small index files, which are replaced by renaming. The index files can always be made
+ *  again from the snapshots, and this code never reads them.
  *
  *  Layout (version 1): /step_000012 with attributes step, time, time_unit and, where there is one, note;
  *  /step_000012/<set> with attribute n_particles; /step_000012/<set>/id [n] and <field> [n, components], each with
@@ -38,7 +38,7 @@ enum { MOR_SNAPSHOT_VERSION = 1, MOR_SNAPSHOT_UNIT_BYTES = 32, MOR_SNAPSHOT_TEXT
 typedef struct mor_snapshot_field {
     char name[MOR_FIELD_NAME_BYTES];
     char unit[MOR_SNAPSHOT_UNIT_BYTES]; /* "1" for dimensionless */
-    char text[MOR_SNAPSHOT_TEXT_BYTES]; /* one line for people */
+    char text[MOR_SNAPSHOT_TEXT_BYTES]; /* one line of description */
     int n_components;                   /* numbers per particle, 1 to 9 */
     bool is_single;                     /* stored in single precision */
 } mor_snapshot_field;
@@ -55,7 +55,7 @@ typedef struct mor_snapshot_set {
 typedef struct mor_snapshot {
     int64_t step;
     double time;                        /* s */
-    char note[MOR_SNAPSHOT_UNIT_BYTES]; /* what sets it apart from others, such as "run stopped"; "": nothing */
+    char note[MOR_SNAPSHOT_UNIT_BYTES]; /* a note, such as "run stopped"; "": nothing */
     int n_sets;
     mor_snapshot_set *sets; /* shape [n_sets]; owned by the snapshot */
     mor_hdf5_file *file;    /* NULL when only the description was read; owned by the snapshot */
@@ -68,13 +68,13 @@ typedef struct mor_snapshot_list {
     int64_t capacity;    /* room in items */
 } mor_snapshot_list;
 
-/** One fact about where the results come from: program version, commit, seed, hash of the case, command, ... */
+/** One item of provenance: program version, commit, seed, hash of the case, command, ... */
 typedef struct mor_snapshot_fact {
     const char *key;   /* zero-terminated, unique */
     const char *value; /* zero-terminated */
 } mor_snapshot_fact;
 
-/** What the writer needs to know. Everything in it is borrowed and must outlive the writer. */
+/** Settings of the writer. Everything in it is borrowed and must outlive the writer. */
 typedef struct mor_snapshot_options {
     bool is_single;                 /* store fields in single precision; ids are always 64-bit */
     const mor_snapshot_fact *facts; /* shape [n_facts]; the provenance */

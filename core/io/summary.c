@@ -5,7 +5,7 @@
 #include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/io/durable_file.h"
-#include "core/io/summary_judge.h"
+#include "core/io/summary_consistency.h"
 
 #include <inttypes.h>
 #include <jansson.h>
@@ -238,14 +238,14 @@ static json_t *make_document(mor_context *context, const mor_summary *summary)
 
 mor_status mor_summary_write(mor_context *context, const char *path, const mor_summary *summary)
 {
-    MOR_TRY(context, mor_summary_judge(context, summary));
+    MOR_TRY(context, mor_summary_check_consistency(context, summary));
     json_t *document = make_document(context, summary);
     MOR_CHECK(context, document != NULL, MOR_ERROR_ARGUMENT,
               "the summary '%s' cannot be made: two probes or two inputs have the same name, or memory ran out", path);
     mor_durable_file file;
     mor_status status = mor_durable_file_open(context, &file, path);
     if (status == MOR_OK) {
-        /* A failing write leaves its mark on the stream, which the commit looks at. */
+        /* A failed write sets the error flag of the stream, which the commit checks. */
         json_dumpf(document, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
         fputc('\n', file.stream);
         status = mor_durable_file_commit(context, &file);

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 /** @file
- *  The outcome of a run as summary.json, and the JSON door. It writes what it is handed and judges nothing.
+ *  The outcome of a run as summary.json, and the only interface to JSON. It evaluates nothing.
  *
  *      { "version": 1,
  *        "status": "finished" or "failed",
@@ -25,14 +25,14 @@
  *        "memory": { "bytes_per_fine_particle": number },
  *        "provenance": { "version", "commit", "seed", "command", "threads", "inputs": { "<file>": "<hash>", ... } } }
  *
- *  Numbers that are not finite are null, since JSON has no other word for them; finite ones are read back exactly. A
- *  seed above 2^63 - 1 is text. Bytes that are not UTF-8, as a command line may have, become question marks. */
+ *  Numbers that are not finite are null, since JSON cannot represent them; finite ones are read back exactly. A seed
+ *  above 2^63 - 1 is text. Bytes that are not UTF-8, as a command line may have, become question marks. */
 
 #define MOR_SUMMARY_FILE "summary.json"
 
 enum { MOR_SUMMARY_VERSION = 1 };
 
-/** What a probe did over time, in its unit; NaN where it was never measured. */
+/** Statistics of a probe, in its unit; NaN where it was never measured. */
 typedef struct mor_summary_statistics {
     double maximum, minimum;                 /* unit of the probe, 1 for numbers */
     double time_of_maximum, time_of_minimum; /* s */
@@ -50,7 +50,7 @@ typedef struct mor_summary_result {
     double value;                             /* the last, in unit */
     const char *unit;                         /* zero-terminated; "1" for dimensionless */
     const mor_summary_statistics *statistics; /* NULL: not known */
-    const char *remark;                       /* what to know to trust it, zero-terminated; NULL: nothing */
+    const char *remark;                       /* what limits its use, zero-terminated; NULL: nothing */
 } mor_summary_result;
 
 /** One comparison with a reference. Its unit is that of the statistic of the probe. */
@@ -125,13 +125,13 @@ mor_status mor_summary_check(mor_context *context, const char *path);
 mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value, char *unit,
                                    size_t n_bytes);
 
-/** Tells whether a summary is of a run that failed, after checking the file.
+/** Returns whether a summary is of a run that failed, after checking the file.
  *  @param path      [in]      zero-terminated
  *  @param is_failed [out]     one flag
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_summary_read_status(mor_context *context, const char *path, bool *is_failed);
 
-/** Reads what a probe did over time from a summary after checking the file.
+/** Reads the statistics of a probe from a summary after checking the file.
  *  @param path       [in]      zero-terminated
  *  @param probe      [in]      zero-terminated name of the probe
  *  @param statistics [out]     NaN where the file has null; impulse_unit NULL

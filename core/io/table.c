@@ -66,7 +66,8 @@ static mor_status fail_row(mor_context *context, const char *path, int64_t line,
 {
     return MOR_FAIL(context, MOR_ERROR_IO,
                     "'%s', line %lld is damaged: found '%.60s', expected %d numbers separated by commas, the first a "
-                    "time; repair the line or move the file away", path, (long long)line, text, n_columns);
+                    "time; repair the line or move the file away",
+                    path, (long long)line, text, n_columns);
 }
 
 /* ---- header ------------------------------------------------------------------------------------------------------ */
@@ -82,7 +83,8 @@ static mor_status check_columns(mor_context *context, const mor_table_column *co
                       strpbrk(unit, ",\"[]\r\n") == NULL,
                   MOR_ERROR_ARGUMENT,
                   "column %d named '%s' with unit '%s' cannot be used: neither may be empty or contain a comma, a "
-                  "quote, a bracket or a line break", column + 1, name, unit);
+                  "quote, a bracket or a line break",
+                  column + 1, name, unit);
     }
     return MOR_OK;
 }
@@ -138,7 +140,7 @@ mor_status mor_table_create(mor_context *context, mor_table *table, const char *
     return MOR_OK;
 }
 
-/* Finds where the rows up to last_time end; the stream stands behind the header at first. */
+/* Finds where the rows up to last_time end; the stream is initially after the header. */
 static mor_status find_end(mor_context *context, mor_table *table, FILE *stream, double last_time, off_t *end)
 {
     char *line = NULL;
@@ -171,7 +173,8 @@ static mor_status find_rows_to_keep(mor_context *context, mor_table *table, FILE
     if (!has_line || !is_header(line, columns, table->n_columns)) {
         status = MOR_FAIL(context, MOR_ERROR_IO,
                           "'%s' has other columns than this run writes: its first line is '%.200s'; move the file away "
-                          "or use the case it was written by", table->path, has_line ? line : "");
+                          "or use the case it was written by",
+                          table->path, has_line ? line : "");
     }
     free(line);
     MOR_TRY(context, status);

@@ -48,9 +48,9 @@ typedef struct mor_table_data {
 mor_status mor_table_create(mor_context *context, mor_table *table, const char *path, const mor_table_column *columns,
                             int n_columns);
 
-/** Goes on with a table: rows later than a time are cut off, and so is a last line without its end, which a killed
- *  program leaves. A missing or empty file is started anew and logged as a warning. A file with some of the columns is
- *  written anew, whole, with empty cells in the columns that it did not have.
+/** Continues a table: rows later than a time are removed, and so is a last line without its end, which a killed program
+ *  leaves. A missing or empty file is started again and logged as a warning. A file with some of the columns is written
+ *  anew, whole, with empty cells in the columns that it did not have.
  *  @param table     [out]     storage supplied by the caller; closed on failure
  *  @param path      [in]      zero-terminated; copied
  *  @param columns   [in]      shape [n_columns]; those of the file must be among them
@@ -61,7 +61,7 @@ mor_status mor_table_create(mor_context *context, mor_table *table, const char *
 mor_status mor_table_resume(mor_context *context, mor_table *table, const char *path, const mor_table_column *columns,
                             int n_columns, double last_time);
 
-/** Adds a row and hands it to the operating system, so that a killed program loses nothing.
+/** Adds a row and flushes it to the operating system, so that a killed program loses nothing.
  *  @param values  [in]      shape [n_columns]; unit of each column as declared; values[0] finite, s, never falling
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_ARGUMENT for a time that is not finite or falls. */
 mor_status mor_table_append(mor_context *context, mor_table *table, const double *values);

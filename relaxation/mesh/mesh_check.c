@@ -78,7 +78,7 @@ static void find_place(const mor_mesh_work *work, int64_t half, double *place)
     }
 }
 
-static mor_status judge_edges(mor_context *context, const mor_mesh_work *work)
+static mor_status check_edges(mor_context *context, const mor_mesh_work *work)
 {
     const mor_mesh_report *report = &work->report;
     double at[3] = {0};
@@ -101,7 +101,7 @@ static mor_status judge_edges(mor_context *context, const mor_mesh_work *work)
     return MOR_OK;
 }
 
-static mor_status judge_inside(mor_context *context, mor_mesh_work *work)
+static mor_status check_inside(mor_context *context, mor_mesh_work *work)
 {
     mor_shape_moments moments;
     mor_mesh_moments(&work->mesh, &moments);
@@ -122,9 +122,9 @@ static mor_status judge_inside(mor_context *context, mor_mesh_work *work)
     return MOR_OK;
 }
 
-static mor_status judge(mor_context *context, mor_mesh_work *work)
+static mor_status check_surface(mor_context *context, mor_mesh_work *work)
 {
-    MOR_TRY(context, judge_edges(context, work));
+    MOR_TRY(context, check_edges(context, work));
     if (work->report.n_shells > 1) {
         const double *a = mor_mesh_corner(&work->mesh, 0, 0);
         const double *b = mor_mesh_corner(&work->mesh, work->second_shell, 0);
@@ -134,7 +134,7 @@ static mor_status judge(mor_context *context, mor_mesh_work *work)
             "%g); allowed is one: remove small fragments and inner cavities, or save each rock into its own file",
             work->name, work->report.n_shells, a[0], a[1], a[2], b[0], b[1], b[2]);
     }
-    return judge_inside(context, work);
+    return check_inside(context, work);
 }
 
 /* ---- Repair ----------------------------------------------------------------------------------------------------- */
@@ -175,7 +175,7 @@ static mor_status mend(mor_context *context, mor_mesh_work *work)
     return MOR_OK;
 }
 
-static void log_mended(mor_context *context, const mor_mesh_work *work)
+static void log_repairs(mor_context *context, const mor_mesh_work *work)
 {
     const mor_mesh_report *report = &work->report;
     const struct {
@@ -213,10 +213,10 @@ mor_status mor_mesh_finish(mor_context *context, mor_mesh *mesh, const char *nam
         status = mend(context, &work);
     }
     if (status == MOR_OK) {
-        status = judge(context, &work);
+        status = check_surface(context, &work);
     }
     if (status == MOR_OK) {
-        log_mended(context, &work);
+        log_repairs(context, &work);
         *mesh = work.mesh;
     } else {
         mor_mesh_clear(context, &work.mesh);

@@ -90,7 +90,7 @@ static int64_t visit_neighbors(mor_mesh_work *work, int32_t t, int32_t *part, in
 }
 
 /* Reverses the flagged triangles. Returns whether there were any. */
-static bool turn_flagged(mor_mesh_work *work)
+static bool reverse_flagged(mor_mesh_work *work)
 {
     bool is_any = false;
     for (int64_t t = 0; t < work->mesh.n_triangles; ++t) {
@@ -135,5 +135,5 @@ mor_status mor_mesh_orient(mor_context *context, mor_mesh_work *work)
         return mor_context_pass(context, status, MOR_HERE);
     }
     /* Reversal renumbers the half-edges. */
-    return !work->is_one_sided && turn_flagged(work) ? mor_mesh_pair_edges(context, work) : MOR_OK;
+    return !work->is_one_sided && reverse_flagged(work) ? mor_mesh_pair_edges(context, work) : MOR_OK;
 }

@@ -59,7 +59,7 @@ mor_status mor_mesh_pair_edges(mor_context *context, mor_mesh_work *work);
 mor_status mor_mesh_orient(mor_context *context, mor_mesh_work *work);
 void mor_mesh_flip(mor_mesh_work *work, int64_t t);
 
-/* mesh_mend.c: fills small holes of an oriented mesh. */
+/* mesh_repair.c: fills small holes of an oriented mesh. */
 mor_status mor_mesh_fill_holes(mor_context *context, mor_mesh_work *work);
 
 /* mesh_cross.c: counts the pairs of intersecting triangles. */

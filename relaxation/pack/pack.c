@@ -11,9 +11,9 @@
 #include <string.h>
 
 static const int rocks_limit = 1000000;
-static const int presses_limit = 3;  /* failed attempts before rocks are no longer displaced to make space */
-static const int pushes_limit = 500; /* for each rock placed, or for each of this many: then no more, either */
-static const int pushes_rocks = 64;
+static const int displacements_limit = 3; /* failed attempts before rocks are no longer displaced to make space */
+static const int evaluations_limit = 500; /* for each rock placed, or for each of this many: then no more, either */
+static const int evaluations_rocks = 64;
 static const int fewest_share = 64;     /* of most_tries: what is drawn at least */
 static const double cap_step = 0.9;     /* of the diameter: next size to try after one found no place */
 static const double sure_points = 0.5;  /* of the resolution: distance between points on a surface */
@@ -23,8 +23,8 @@ static const int cells_limit = 512;     /* along each axis */
 
 /* State of the placement. */
 typedef struct placing {
-    int n_tries;   /* positions to draw for the next rock */
-    int n_pressed; /* rocks displaced without success */
+    int n_tries;     /* positions to draw for the next rock */
+    int n_displaced; /* rocks displaced without success */
 } placing;
 
 void mor_pack_request_init(mor_pack_request *request)
@@ -241,10 +241,10 @@ static mor_status prepare(mor_context *context, mor_pack_state *state, double ta
 }
 
 /* Whether displacing is still worthwhile: where it takes long for each rock there is hardly any space left. */
-static bool can_push(const mor_pack_state *state, const placing *work)
+static bool can_displace(const mor_pack_state *state, const placing *work)
 {
-    const int64_t n_rocks = state->n_items > pushes_rocks ? state->n_items : pushes_rocks;
-    return work->n_pressed < presses_limit && state->n_pushes < pushes_limit * n_rocks;
+    const int64_t n_rocks = state->n_items > evaluations_rocks ? state->n_items : evaluations_rocks;
+    return work->n_displaced < displacements_limit && state->n_evaluations < evaluations_limit * n_rocks;
 }
 
 /* Places a rock at random, or by displacing others. Where free positions are rare fewer are drawn the next time. */
@@ -258,10 +258,10 @@ static bool place_rock(mor_pack_state *state, int n_before, placing *work, mor_p
         return true;
     }
     work->n_tries = work->n_tries > most / fewest_share ? (work->n_tries + 1) / 2 : work->n_tries;
-    if (can_push(state, work) && mor_pack_press(state, n_before, item)) {
+    if (can_displace(state, work) && mor_pack_displace(state, n_before, item)) {
         return true;
     }
-    work->n_pressed += 1;
+    work->n_displaced += 1;
     return false;
 }
 

@@ -44,15 +44,15 @@ typedef struct mor_pack_state {
     mor_pack_form *forms;            /* shape [request->n_forms] */
     mor_pack_item *items;            /* shape [n_items_max]; the first n_items are placed */
     int n_items, n_items_max;
-    double least_gap;    /* that two rocks must keep at the points, m */
-    mor_bounds bounds;   /* of places, m; flat in 2D */
-    double cell;         /* side of a cell, m; at least twice the largest reach and the least gap */
-    int n_cells[3];      /* 1 along z in 2D */
-    int32_t *heads;      /* shape [cells]; the last rock of each, -1: none */
-    int32_t *next;       /* shape [n_items_max]; the rock before in the same cell, -1: none */
-    mor_pack_item *kept; /* shape [n_items_max]; positions to restore */
-    int64_t n_pushes;    /* rocks evaluated while displacing, in all sweeps so far */
-    bool *is_awake;      /* shape [2, n_items_max]; moved in the last sweep, moved in this one */
+    double least_gap;      /* that two rocks must keep at the points, m */
+    mor_bounds bounds;     /* of places, m; flat in 2D */
+    double cell;           /* side of a cell, m; at least twice the largest reach and the least gap */
+    int n_cells[3];        /* 1 along z in 2D */
+    int32_t *heads;        /* shape [cells]; the last rock of each, -1: none */
+    int32_t *next;         /* shape [n_items_max]; the rock before in the same cell, -1: none */
+    mor_pack_item *kept;   /* shape [n_items_max]; positions to restore */
+    int64_t n_evaluations; /* rocks evaluated while displacing, in all sweeps so far */
+    bool *is_awake;        /* shape [2, n_items_max]; moved in the last sweep, moved in this one */
 } mor_pack_state;
 
 /** Finds points on the surface of a form: its crossings with a grid of cells no larger than `spacing`.
@@ -117,7 +117,7 @@ bool mor_pack_drop(const mor_pack_state *state, int n_before, int n_tries, mor_p
  *  @param n_before [in]      as in mor_pack_drop
  *  @param item     [in]      its diameter matters
  *  Returns: whether it was placed. */
-bool mor_pack_press(mor_pack_state *state, int n_before, const mor_pack_item *item);
+bool mor_pack_displace(mor_pack_state *state, int n_before, const mor_pack_item *item);
 
 /** Draws a position, a rotation and a form for a rock.
  *  @param id    [in]      which draw

@@ -43,7 +43,7 @@ static void place_part(const mor_lattice_request *request, const double *node, i
 }
 
 /* The corner parts classify most cells: 1 all are inside, -1 none is, 0 neither. */
-static int judge_corners(const mor_lattice_request *request, const double *node)
+static int classify_corners(const mor_lattice_request *request, const double *node)
 {
     const double whole = (0.5 / PARTS) * (1.0 - ROUNDING) * request->spacing;
     const int n_corners = 1 << request->dimension;
@@ -122,10 +122,10 @@ static void look_at(const mor_lattice_request *request, const int64_t *index, ce
         return;
     }
     it->reach = 0.0;
-    const int verdict = judge_corners(request, it->node);
-    if (verdict > 0 && depth >= 0.0) {
+    const int class = classify_corners(request, it->node);
+    if (class > 0 && depth >= 0.0) {
         it->share = 1.0;
-    } else if (verdict == 0 || depth > -(0.5 - ROUNDING) * request->spacing) {
+    } else if (class == 0 || depth > -(0.5 - ROUNDING) * request->spacing) {
         sum_parts(request, it);
     }
 }

@@ -16,23 +16,23 @@
 #define SKIN 0.45
 
 /* A particle moves by the step factor times the force, in spacings, plus this part of its last displacement. */
-#define MEMORY 0.85
+#define MOMENTUM_COEFFICIENT 0.85
 
 /* The step factor is constant for the first steps and then decreases by this factor in each: particles at edges, forced
  * out by their neighbors and put back to alternating sides, come to rest. */
-#define PACE 0.15
-#define PACE_FALL 0.985
-enum { STEPS_AT_PACE = 150 };
+#define STEP_FACTOR 0.15
+#define STEP_FACTOR_DECAY 0.985
+enum { STEPS_AT_FULL_FACTOR = 150 };
 
 /* How dense the outside counts, 1: less than the inside, as it forms no layers and the outer layer cannot move. With
  * this the inside has the correct density; measured, see docs/theory/relaxation.md. */
 #define OUTSIDE_DENSITY 0.8
 
 /* Repulsion of close particles per spacing that they are too near, in units of that of the kernel; measured. */
-#define CLOSE_PUSH 1.0
+#define CLOSE_REPULSION 1.0
 
 /* Longest displacement of a step, spacings. */
-#define MOVE_MOST 0.1
+#define DISPLACEMENT_MOST 0.1
 
 /* Thinnest shape, spacings. */
 #define THICKNESS_LEAST 4.0
@@ -46,10 +46,10 @@ typedef struct relaxation {
     mor_relax_neighbors neighbors;
     int64_t n;
     double volume;            /* of a particle, spacing^dimension */
-    double pace;              /* of the step, spacing^2 */
+    double step_factor;       /* of the step, spacing^2 */
     double smallest_distance; /* at the end, spacings */
     double *x;                /* shape [3, n]; first all x, then all y, then all z */
-    double *moves;            /* shape [3, n]; of the last step */
+    double *displacements;    /* shape [3, n]; of the last step */
     double *rest;             /* shape [n]; displacement of a particle before its depth is evaluated again */
     double *strays;           /* shape [n]; displacement since the rows were found */
     double *blocks;           /* shape [mor_block_count(n), 2]; largest displacement in the step and since the rows were
@@ -143,10 +143,10 @@ static mor_status count_particles(mor_context *context, const mor_relax_request 
 static mor_status make_room(mor_context *context, relaxation *it)
 {
     MOR_TRY(context, MOR_NEW(context, &it->x, 3 * it->n, "places to relax"));
-    MOR_TRY(context, MOR_NEW(context, &it->moves, 3 * it->n, "moves of relaxation"));
+    MOR_TRY(context, MOR_NEW(context, &it->displacements, 3 * it->n, "displacements of relaxation"));
     MOR_TRY(context, MOR_NEW(context, &it->rest, it->n, "depths of relaxation"));
-    MOR_TRY(context, MOR_NEW(context, &it->strays, it->n, "ways of relaxation"));
-    MOR_TRY(context, MOR_NEW(context, &it->blocks, 2 * mor_block_count(it->n), "largest moves"));
+    MOR_TRY(context, MOR_NEW(context, &it->strays, it->n, "displacements of relaxation"));
+    MOR_TRY(context, MOR_NEW(context, &it->blocks, 2 * mor_block_count(it->n), "largest displacements"));
     MOR_TRY(context, mor_relax_neighbors_init(context, it->n, MOR_RELAX_SUPPORT + SKIN, &it->neighbors));
     MOR_TRY(context, mor_relax_wall_init(context, &it->frame, &it->wall));
     return MOR_OK;
@@ -155,7 +155,7 @@ static mor_status make_room(mor_context *context, relaxation *it)
 static void free_room(mor_context *context, relaxation *it)
 {
     MOR_FREE(context, &it->x);
-    MOR_FREE(context, &it->moves);
+    MOR_FREE(context, &it->displacements);
     MOR_FREE(context, &it->rest);
     MOR_FREE(context, &it->strays);
     MOR_FREE(context, &it->blocks);
@@ -189,26 +189,26 @@ static void draw_direction(int64_t i, int64_t j, int dimension, double *directio
 }
 
 /* Adds a repulsion of close particles. That of the kernel vanishes with their distance; this one, along the line
- * between them, grows as they come nearer: CLOSE_PUSH (CLOSE - r). Few particles need it. */
-static void part_close(const relaxation *it, int64_t i, double *push)
+ * between them, grows as they come nearer: CLOSE_REPULSION (CLOSE - r). Few particles need it. */
+static void repel_close(const relaxation *it, int64_t i, double *force)
 {
     const int32_t *row = it->neighbors.rows + i * it->neighbors.capacity;
     for (int32_t k = 0; k < it->neighbors.counts[i]; ++k) {
         const int32_t j = row[k];
-        double way[3] = {0.0, 0.0, 0.0};
+        double separation[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < 3; ++a) {
-            way[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+            separation[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
         }
-        const double r = mor_vector_length(way);
+        const double r = mor_vector_length(separation);
         if (r >= MOR_RELAX_CLOSE) {
             continue;
         }
         if (!(r > 0.0)) {
-            draw_direction(i, j, it->frame.dimension, way);
+            draw_direction(i, j, it->frame.dimension, separation);
         }
-        const double length = mor_vector_length(way);
+        const double length = mor_vector_length(separation);
         for (int a = 0; a < 3 && length > 0.0; ++a) {
-            push[a] += CLOSE_PUSH * (MOR_RELAX_CLOSE - r) * (way[a] / length);
+            force[a] += CLOSE_REPULSION * (MOR_RELAX_CLOSE - r) * (separation[a] / length);
         }
     }
 }
@@ -227,20 +227,20 @@ static void find_moves(mor_context *context, relaxation *it)
         push_apart[isa](&it->neighbors, it->x, first, end, pushes);
         for (int64_t i = first; i < end; ++i) {
             const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
-            double push[3];
-            double translation[3];
-            mor_relax_wall_push(&it->wall, place, push);
-            if (pushes[i - first][3] > 0.0) {
-                part_close(it, i, pushes[i - first]);
+            double force[3];
+            double displacement[3];
+            mor_relax_wall_force(&it->wall, place, force);
+            if (forces[i - first][3] > 0.0) {
+                repel_close(it, i, forces[i - first]);
             }
             for (int a = 0; a < 3; ++a) {
-                push[a] = 2.0 * (factor * pushes[i - first][a] + OUTSIDE_DENSITY * push[a]);
-                translation[a] = MEMORY * it->moves[a * it->n + i] + it->pace * push[a];
+                force[a] = 2.0 * (factor * forces[i - first][a] + OUTSIDE_DENSITY * force[a]);
+                displacement[a] = MOMENTUM_COEFFICIENT * it->displacements[a * it->n + i] + it->step_factor * force[a];
             }
-            const double length = mor_vector_length(translation);
-            const double limit = length > MOVE_MOST ? MOVE_MOST / length : 1.0;
+            const double length = mor_vector_length(displacement);
+            const double limit = length > DISPLACEMENT_MOST ? DISPLACEMENT_MOST / length : 1.0;
             for (int a = 0; a < 3; ++a) {
-                it->moves[a * it->n + i] = limit * translation[a];
+                it->displacements[a * it->n + i] = limit * displacement[a];
             }
         }
     }
@@ -252,15 +252,15 @@ static double move_particle(relaxation *it, int64_t i)
 {
     double old[3];
     double place[3];
-    double way[3];
+    double path[3];
     for (int a = 0; a < 3; ++a) {
         old[a] = it->x[a * it->n + i];
-        place[a] = old[a] + it->moves[a * it->n + i];
+        place[a] = old[a] + it->displacements[a * it->n + i];
     }
     for (int a = 0; a < 3; ++a) {
-        way[a] = place[a] - old[a];
+        path[a] = place[a] - old[a];
     }
-    it->rest[i] -= MOR_SHAPE_SLOPE_MOST * mor_vector_length(way);
+    it->rest[i] -= MOR_SHAPE_SLOPE_MOST * mor_vector_length(path);
     if (!(it->rest[i] > 0.0)) {
         const double depth = mor_relax_frame_sink(&it->frame, place, SINK_MOST);
         if (!(depth > 0.0)) {
@@ -269,11 +269,11 @@ static double move_particle(relaxation *it, int64_t i)
         it->rest[i] = depth - MOR_RELAX_LAYER;
     }
     for (int a = 0; a < 3; ++a) {
-        way[a] = place[a] - old[a];
+        path[a] = place[a] - old[a];
         it->x[a * it->n + i] = place[a];
-        it->moves[a * it->n + i] = way[a];
+        it->displacements[a * it->n + i] = path[a];
     }
-    return mor_vector_length(way);
+    return mor_vector_length(path);
 }
 
 /* Moves all; residual receives the longest displacement of the step, stray the longest since the rows were found. */
@@ -284,9 +284,9 @@ static void move_particles(mor_context *context, relaxation *it, double *residua
         double longest = 0.0;
         double furthest = 0.0;
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, it->n); ++i) {
-            const double way = move_particle(it, i);
-            it->strays[i] += way;
-            longest = fmax(longest, way);
+            const double path = move_particle(it, i);
+            it->strays[i] += path;
+            longest = fmax(longest, path);
             furthest = fmax(furthest, it->strays[i]);
         }
         it->blocks[2 * block] = longest;
@@ -310,11 +310,11 @@ static double find_smallest_distance(mor_context *context, relaxation *it)
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, it->n); ++i) {
             for (int32_t k = 0; k < it->neighbors.counts[i]; ++k) {
                 const int32_t j = it->neighbors.rows[i * it->neighbors.capacity + k];
-                double way[3];
+                double separation[3];
                 for (int a = 0; a < 3; ++a) {
-                    way[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+                    separation[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
                 }
-                nearest2 = fmin(nearest2, mor_vector_dot(way, way));
+                nearest2 = fmin(nearest2, mor_vector_dot(separation, separation));
             }
         }
         it->blocks[2 * block] = sqrt(nearest2);
@@ -330,14 +330,14 @@ static mor_status relax_particles(mor_context *context, const mor_relax_request 
 {
     double stray = 0.0;
     points->residual = INFINITY;
-    it->pace = PACE;
+    it->step_factor = STEP_FACTOR;
     MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
     for (int step = 0; step < request->most_steps && !points->is_converged; ++step) {
         if (stray > 0.5 * SKIN) {
             MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
             memset(it->strays, 0, (size_t)it->n * sizeof *it->strays);
         }
-        it->pace *= step >= STEPS_AT_PACE ? PACE_FALL : 1.0;
+        it->step_factor *= step >= STEPS_AT_FULL_FACTOR ? STEP_FACTOR_DECAY : 1.0;
         find_moves(context, it);
         move_particles(context, it, &points->residual, &stray);
         points->n_steps = step + 1;

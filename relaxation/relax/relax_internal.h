@@ -49,7 +49,7 @@ typedef struct mor_relax_wall {
     int64_t n_nodes[3]; /* along each axis; z: 1 in 2D */
     double low[3];      /* place of the first node, spacings */
     int32_t *record_of; /* shape [n_nodes]; -1 where nothing beyond the surface is in reach */
-    double *pushes;     /* shape [n_records, 3]; the integral of -grad W over the outside, 1/spacing */
+    double *forces;     /* shape [n_records, 3]; the integral of -grad W over the outside, 1/spacing */
 } mor_relax_wall;
 
 /** Rows of neighbors. Coordinates are kept per component, for loops in lanes. */
@@ -112,8 +112,8 @@ mor_status mor_relax_wall_init(mor_context *context, const mor_relax_frame *fram
 
 /** Writes the force of the outside at a position inside.
  *  @param place [in]   shape [3]; unit spacing
- *  @param push  [out]  shape [3]; unit 1/spacing */
-void mor_relax_wall_push(const mor_relax_wall *wall, const double *place, double *push);
+ *  @param force  [out]  shape [3]; unit 1/spacing */
+void mor_relax_wall_force(const mor_relax_wall *wall, const double *place, double *force);
 
 /** Frees the table; accepts an empty one. */
 void mor_relax_wall_clear(mor_context *context, mor_relax_wall *wall);

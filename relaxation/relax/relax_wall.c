@@ -105,7 +105,7 @@ static void find_outside(mor_context *context, const mor_relax_frame *frame, mor
 
 /* Sums over the outside; node_of[r] is the node of record r. */
 static void sum_outside(mor_context *context, const offset_list *list, const int64_t *node_of, int64_t n_records,
-                        const float *outside, double *pushes)
+                        const float *outside, double *forces)
 {
     MOR_PARALLEL_FOR (context, r, n_records, 64) {
         const float *around = outside + node_of[r];
@@ -116,7 +116,7 @@ static void sum_outside(mor_context *context, const offset_list *list, const int
                 sum[a] += part * list->gradients[3 * k + a];
             }
         }
-        memcpy(pushes + 3 * r, sum, sizeof sum);
+        memcpy(forces + 3 * r, sum, sizeof sum);
     }
 }
 
@@ -132,7 +132,7 @@ static mor_status tabulate(mor_context *context, const mor_relax_frame *frame, m
     }
     mor_status status = MOR_NEW(context, &node_of, n_records, "nodes near a surface");
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &wall->pushes, 3 * (int64_t)n_records, "forces of the outside");
+        status = MOR_NEW(context, &wall->forces, 3 * (int64_t)n_records, "forces of the outside");
     }
     if (status == MOR_OK) {
         status = make_offsets(context, wall, &list);
@@ -143,7 +143,7 @@ static mor_status tabulate(mor_context *context, const mor_relax_frame *frame, m
                 node_of[wall->record_of[node]] = node;
             }
         }
-        sum_outside(context, &list, node_of, n_records, outside, wall->pushes);
+        sum_outside(context, &list, node_of, n_records, outside, wall->forces);
     }
     MOR_FREE(context, &node_of);
     MOR_FREE(context, &list.steps);
@@ -171,11 +171,11 @@ mor_status mor_relax_wall_init(mor_context *context, const mor_relax_frame *fram
     return status;
 }
 
-void mor_relax_wall_push(const mor_relax_wall *wall, const double *place, double *push)
+void mor_relax_wall_force(const mor_relax_wall *wall, const double *place, double *force)
 {
     int64_t corner[3] = {0, 0, 0};
     double part[3] = {0.0, 0.0, 0.0};
-    push[0] = push[1] = push[2] = 0.0;
+    force[0] = force[1] = force[2] = 0.0;
     for (int a = 0; a < wall->dimension; ++a) {
         const double at = (place[a] - wall->low[a]) / CELL;
         corner[a] = (int64_t)at;
@@ -190,7 +190,7 @@ void mor_relax_wall_push(const mor_relax_wall *wall, const double *place, double
         }
         const int32_t record = wall->record_of[index[0] + wall->n_nodes[0] * (index[1] + wall->n_nodes[1] * index[2])];
         for (int a = 0; record >= 0 && a < 3; ++a) {
-            push[a] += weight * wall->pushes[3 * (int64_t)record + a];
+            force[a] += weight * wall->forces[3 * (int64_t)record + a];
         }
     }
 }
@@ -198,6 +198,6 @@ void mor_relax_wall_push(const mor_relax_wall *wall, const double *place, double
 void mor_relax_wall_clear(mor_context *context, mor_relax_wall *wall)
 {
     MOR_FREE(context, &wall->record_of);
-    MOR_FREE(context, &wall->pushes);
+    MOR_FREE(context, &wall->forces);
     memset(wall, 0, sizeof *wall);
 }

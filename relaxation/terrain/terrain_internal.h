@@ -109,7 +109,7 @@ void mor_terrain_prj_clear(mor_context *context, mor_terrain_prj *prj);
 /** Whether a file beside a raster may change what is read. Copies of lower resolution do not, nor does an .aux.xml of
  *  statistics alone, which raster viewers write.
  *  @param path [in]  zero-terminated */
-bool mor_terrain_side_tells(const char *path);
+bool mor_terrain_side_is_relevant(const char *path);
 
 /** Maximum number of nodes of a terrain, so that it fits into memory beside the particles on it. */
 #define MOR_TERRAIN_NODES_MAX 67108864.0

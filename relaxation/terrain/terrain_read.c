@@ -153,7 +153,7 @@ static mor_status place_raster(mor_context *context, raster *it)
 }
 
 /* Coordinates and heights must be in meters. place: of the file that states the system. */
-static mor_status judge_system(mor_context *context, const char *place, OGRSpatialReferenceH system)
+static mor_status check_system(mor_context *context, const char *place, OGRSpatialReferenceH system)
 {
     const char *name = OSRGetName(system);
     name = name != NULL ? name : "unnamed";
@@ -195,14 +195,15 @@ static OGRErr parse_system(OGRSpatialReferenceH system, char *text, bool is_keyw
 }
 
 /* One statement of a .prj; the first one is reported as text if the raster itself has no system. */
-static mor_status judge_text(mor_context *context, const mor_terrain_prj *prj, char *text, char *datum, size_t n_bytes)
+static mor_status check_statement(mor_context *context, const mor_terrain_prj *prj, char *text, char *datum,
+                                  size_t n_bytes)
 {
     enum { SHOWN = 40 };
     OGRSpatialReferenceH system = OSRNewSpatialReference(NULL);
     const bool is_bad = system == NULL || parse_system(system, text, prj->is_keywords) != OGRERR_NONE;
     mor_status status = MOR_OK;
     if (!is_bad) {
-        status = judge_system(context, prj->path, system);
+        status = check_system(context, prj->path, system);
         if (datum[0] == '\0') {
             describe_system(system, datum, n_bytes);
         }
@@ -222,9 +223,9 @@ static mor_status read_prj(mor_context *context, const mor_terrain_prj *prj, cha
     if (prj->path[0] == '\0') {
         return MOR_OK;
     }
-    MOR_TRY(context, judge_text(context, prj, prj->first, datum, n_bytes));
+    MOR_TRY(context, check_statement(context, prj, prj->first, datum, n_bytes));
     if (prj->rest[0] != '\0') {
-        MOR_TRY(context, judge_text(context, prj, prj->rest, datum, n_bytes));
+        MOR_TRY(context, check_statement(context, prj, prj->rest, datum, n_bytes));
     }
     return MOR_OK;
 }
@@ -239,7 +240,7 @@ static mor_status read_datum(mor_context *context, const raster *it, char *datum
               it->path, unit);
     datum[0] = '\0';
     if (system != NULL) {
-        MOR_TRY(context, judge_system(context, it->path, system));
+        MOR_TRY(context, check_system(context, it->path, system));
         describe_system(system, datum, n_bytes);
     }
     MOR_TRY(context, read_prj(context, &it->prj, datum, n_bytes));
@@ -263,7 +264,7 @@ static mor_status hash_files(mor_context *context, const raster *it, uint64_t *v
     mor_status status = MOR_OK;
     for (int k = 0; files != NULL && files[k] != NULL && status == MOR_OK; ++k) {
         if (strcmp(files[k], it->path) == 0 || strcmp(files[k], it->prj.path) == 0 ||
-            !mor_terrain_side_tells(files[k])) {
+            !mor_terrain_side_is_relevant(files[k])) {
             continue;
         }
         status = mor_hash_file(context, files[k], &one);
@@ -349,7 +350,7 @@ static mor_status read_heights(mor_context *context, const raster *it, mor_terra
     return MOR_OK;
 }
 
-static mor_status mend_holes(mor_context *context, const mor_terrain_request *request, const raster *it,
+static mor_status fill_holes(mor_context *context, const mor_terrain_request *request, const raster *it,
                              mor_terrain *terrain)
 {
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
@@ -460,7 +461,7 @@ static mor_status read_terrain(mor_context *context, const mor_terrain_request *
         terrain->origin[a] = it->first[a] + it->window[a][0] * it->cell[a];
     }
     MOR_TRY(context, read_heights(context, it, terrain));
-    MOR_TRY(context, mend_holes(context, request, it, terrain));
+    MOR_TRY(context, fill_holes(context, request, it, terrain));
     MOR_TRY(context, check_steps(context, request, terrain));
     if (!isnan(request->cell)) {
         MOR_TRY(context, mor_terrain_resample(context, terrain, request->cell));

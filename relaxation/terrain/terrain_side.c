@@ -128,7 +128,7 @@ void mor_terrain_prj_clear(mor_context *context, mor_terrain_prj *prj)
     *prj = (mor_terrain_prj){0};
 }
 
-bool mor_terrain_side_tells(const char *path)
+bool mor_terrain_side_is_relevant(const char *path)
 {
     static const char *const words[] = {"<SRS",   "<GeoTransform", "<GCPList",  "<NoDataValue",
                                         "<Scale", "<Offset",       "<UnitType", NULL};
@@ -138,16 +138,16 @@ bool mor_terrain_side_tells(const char *path)
     }
     char *line = NULL;
     size_t room = 0;
-    bool is_telling = false;
+    bool is_relevant = false;
     FILE *file = fopen(path, "rb");
-    while (file != NULL && !is_telling && getline(&line, &room, file) > 0) {
-        for (int k = 0; words[k] != NULL && !is_telling; ++k) {
-            is_telling = strstr(line, words[k]) != NULL;
+    while (file != NULL && !is_relevant && getline(&line, &room, file) > 0) {
+        for (int k = 0; words[k] != NULL && !is_relevant; ++k) {
+            is_relevant = strstr(line, words[k]) != NULL;
         }
     }
     free(line);
     if (file != NULL) {
         fclose(file);
     }
-    return is_telling;
+    return is_relevant;
 }

@@ -171,7 +171,7 @@ static void a_large_twist_stays_on_the_axis_and_turns_back(void **state)
     (void)state;
     const twist t = measure(8, 105.0, 0.1, 1, 0.5);
     assert_true(t.period > 0.0);    /* it has come back through zero */
-    assert_true(t.amplitude > 5.0); /* most of a full turn: large indeed */
+    assert_true(t.amplitude > 5.0); /* most of a full revolution: large indeed */
     assert_true(t.off_axis < 0.01); /* 1 % of the width */
     assert_true(t.drift < 0.02);    /* second order in the step; hourglass control stores some */
     assert_true(t.closest > 0.7);   /* no clusters: strains alone leave more */

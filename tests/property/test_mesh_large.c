@@ -117,7 +117,7 @@ static void one_spike_through_a_large_mesh_is_found_for_any_number_of_threads(vo
                          MOR_ERROR_ARGUMENT);
         memcpy(messages[k], folder->context.message, sizeof messages[k]);
     }
-    assert_non_null(strstr(messages[0], "crosses itself"));
+    assert_non_null(strstr(messages[0], "intersects itself"));
     assert_string_equal(messages[0], messages[1]);
     assert_memory_equal(&reports[0], &reports[1], sizeof reports[0]);
     assert_true(reports[0].n_crossings >= 3);

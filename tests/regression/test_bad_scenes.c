@@ -134,7 +134,7 @@ static const bad_scene rock_scenes[] = {
      "use a spacing of at most 0.0853 m, or a larger body", true}, /* 0.3 m / 3.5, less half a percent */
     {"bodies[0].shape.radius=0.1 m", "0.2 m long along its own x, which is 2 particles", "at least 4 particles across",
      true},
-    {"bodies[1].shape={type=\"half_space\"; point=(\"0 m\", \"0 m\"); normal=(0, 1);}", "no end along x",
+    {"bodies[1].shape={type=\"half_space\"; point=(\"0 m\", \"0 m\"); normal=(0, 1);}", "unbounded along x",
      "make it a wall", false},
     {"bodies[1].shape={type=\"difference\"; from={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.3 m\";}; "
      "minus={type=\"sphere\"; center=(\"0 m\", \"0 m\"); radius=\"0.299 m\";};}",

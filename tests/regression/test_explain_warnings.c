@@ -70,8 +70,9 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         /* the shipped soil has 25 degrees and no cohesion: Rankine's limits are 0.406 and 2.46 */
         {COLUMN, "soil[0].initial_stress.lateral_ratio=4.3", "begins with a lateral stress of 4.3 of the vertical one"},
         {COLUMN, "soil[0].initial_stress.lateral_ratio=0.05", "begins with a lateral stress of 0.05 of the vertical"},
-        {COLUMN, "soil[0].material.density=2.1", "soil 'soil' has a density of 2.1 kg/m3, which no soil has"},
-        {block, "bodies[0].material.density=2.6", "body 'block' has a density of 2.6 kg/m3, which no body has"},
+        {COLUMN, "soil[0].material.density=2.1", "soil 'soil' has a density of 2.1 kg/m3, which is not that of a soil"},
+        {block, "bodies[0].material.density=2.6",
+         "body 'block' has a density of 2.6 kg/m3, which is not that of a body"},
         {block, "bodies[0].material.density=20 kg/m3", NULL},
         {block, "bodies[0].contact_modulus=50", "body 'block' has a contact_modulus of 50 Pa, softer than any rock"},
         {block, "walls[0].contact_modulus=30", "wall 'incline' has a contact_modulus of 30 Pa, softer than any"},

@@ -134,7 +134,7 @@ static void relax_refuses_what_it_cannot_fill(void **state)
         {{"relax", "cube.obj", "--spacing", "0.3", NULL}, "use a spacing of at most 0.2497 m, or make it larger"},
         {{"relax", "cube.obj", "--spacing", "300", NULL}, "use a spacing of at most 0.2497 m, or make it larger"},
         {{"relax", "cube.csv", "--spacing", "1", NULL}, "an outline from .txt"},
-        {{"relax", "cube.obj", "--spacing", "0.001", NULL}, "as its file is taken in meters"},
+        {{"relax", "cube.obj", "--spacing", "0.001", NULL}, "as its file is read in meters"},
         {{"check", "cube.obj", "--spacing", "1", NULL}, "belongs to moraine relax"},
         {{"preview", "none.cfg", NULL}, "none.cfg"},
     };

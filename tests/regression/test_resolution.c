@@ -98,12 +98,12 @@ static const warned_row rows[] = {
     {ball, {"spacing=20 mm", "bodies[0].shape.radius=0.1 m"}, NULL},
     {ball,
      {"bodies[0].position=(\"0.5 m\", \"1.5 m\")", NULL},
-     "body 'ball' has 3 spacings from the middle to the side, fewer than 6: balls this coarse sink up to 45 % too "
+     "body 'ball' has 3 spacings from the center to the side, fewer than 6: balls this coarse sink up to 45 % too "
      "little"},
     {ball, {"bodies[0].velocity=(\"0 m/s\", \"-1 m/s\")", NULL}, "use a spacing of at most 0.05 m"},
     {ball, {"bodies[0].position=(\"0.5 m\", \"1.5 m\")", "spacing=50 mm"}, NULL},
     {ball, {"bodies[0].position=(\"0.5 m\", \"1.5 m\")", "bodies[0].motion=prescribed"}, NULL},
-    {ball, {"bodies[0].shape.radius=0.4 m", "bodies[0].position=(\"0.5 m\", \"1.5 m\")"}, "4 spacings from the middle"},
+    {ball, {"bodies[0].shape.radius=0.4 m", "bodies[0].position=(\"0.5 m\", \"1.5 m\")"}, "4 spacings from the center"},
 };
 
 static void scene_that_is_too_coarse_is_warned_of(void **state)

@@ -81,7 +81,7 @@ static void soil_that_crowds_is_warned_of_at_the_end(void **state)
         program_outcome outcome = program_run(folder, arguments, 0);
         char *text = load_summary(folder, k == 0 ? "shifted" : "plain");
         if (k == 0) {
-            program_expect_text(outcome.errors, "numerics.shifting = true holds soil back that flows far");
+            program_expect_text(outcome.errors, "numerics.shifting = true reduces the run-out of soil");
             program_expect_text(text,
                                 "at the end of the run the density of a hundredth of the soil is off its initial");
             program_expect_text(text, "set numerics.shifting = false");

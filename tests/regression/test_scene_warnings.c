@@ -51,7 +51,7 @@ static const scene columns[] = {
     {"numerics.courant=1e-8", "end = 0.001 s takes about 1.11e+08 steps"},
     {"probes[0].percentile=0.995",
      "found percentile = 0.995, which is 0.995 %: percentiles are in percent; if 99.5 % is"},
-    {"probes[0].percentile=1", "if 100 % is meant, write 100, else \"1 %\""},
+    {"probes[0].percentile=1", "if 100 % is intended, write 100, else \"1 %\""},
     {"probes[0].percentile=\"0.5 %\"", NULL},
     {"probes[0].percentile=99.5", NULL},
     {"expect[0].tolerance=5",

@@ -243,7 +243,7 @@ static void what_belongs_together_is_demanded_together(void **state)
                 {"scale.mass=3", "even powers of two"},
                 {"scale.length=0", "out of range"},
                 {"placement.angle=-35", "write \"-35 deg\""},
-                {"placement.angle=\"400\"", "more than a full turn"},
+                {"placement.angle=\"400\"", "more than a full revolution"},
                 {"dimension=2", "in plane strain"}};
     case_reading *f = *state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {

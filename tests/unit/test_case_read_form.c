@@ -143,12 +143,12 @@ static void report_on_the_mesh_is_logged(void **state)
     assert_non_null(strstr(f->log, "12 triangles"));
 }
 
-static void mesh_turned_inside_out_is_mended_and_said(void **state)
+static void mesh_turned_inside_out_is_repaired_and_reported(void **state)
 {
     form_fixture *f = *state;
     const mor_shape *shape = read_shape(f, space_head, "type = \"mesh\"; file = \"@/inside_out.obj\";");
     assert_true(mor_shape_distance(shape, (const double[3]){0.0, 0.0, 0.0}) < 0.0);
-    assert_non_null(strstr(f->log, "turned"));
+    assert_non_null(strstr(f->log, "reversed"));
 }
 
 static void outline_has_the_size_asked_for_and_its_center_at_the_origin(void **state)
@@ -272,7 +272,7 @@ static void what_is_no_rock_is_refused_with_the_reason(void **state)
 {
     form_fixture *f = *state;
     refuse_shape(f, space_head, "type = \"mesh\"; file = \"@/none.obj\";", "a mesh that cannot be read");
-    refuse_shape(f, space_head, "type = \"mesh\"; file = \"@/profile.txt\";", "found the ending 'txt'");
+    refuse_shape(f, space_head, "type = \"mesh\"; file = \"@/profile.txt\";", "found the extension 'txt'");
     refuse_shape(f, space_head, "type = \"mesh\"; file = \"@/cube.obj\"; length = 1; volume = 1;", "found 2 sizes");
     refuse_shape(f, space_head, "type = \"outline\"; file = \"@/profile.txt\";", "an outline in a case of dimension 3");
     refuse_shape(f, plane_head, "type = \"mesh\"; file = \"@/cube.obj\";", "a mesh in a case of dimension 2");
@@ -290,7 +290,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(mesh_has_the_size_asked_for_and_its_center_at_the_origin, set_up, tear_down),
         cmocka_unit_test_setup_teardown(report_on_the_mesh_is_logged, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(mesh_turned_inside_out_is_mended_and_said, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(mesh_turned_inside_out_is_repaired_and_reported, set_up, tear_down),
         cmocka_unit_test_setup_teardown(outline_has_the_size_asked_for_and_its_center_at_the_origin, set_up, tear_down),
         cmocka_unit_test_setup_teardown(rock_has_its_diameter_and_follows_its_seed, set_up, tear_down),
         cmocka_unit_test_setup_teardown(scale_of_the_case_changes_no_bit, set_up, tear_down),

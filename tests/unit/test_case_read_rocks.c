@@ -140,7 +140,7 @@ static void a_count_that_finds_no_room_is_refused(void **state)
 {
     case_reading *f = *state;
     static const char *const settings[] = {"rocks[0].region.max=(2.3, 2.3, 2.3)", NULL};
-    case_reading_refuse(f, counted, settings, "", "of 13 rocks; allowed: as many as find a place");
+    case_reading_refuse(f, counted, settings, "", "of 13 rocks; allowed: as many as fit");
     static const char *const neither[] = {"rocks[0].count=0", NULL};
     case_reading_refuse(f, counted, neither, "", "found rocks with none of content, count and list");
 }
@@ -288,7 +288,7 @@ static void what_cannot_be_is_refused(void **state)
         {"rocks[0].count=-1", "allowed"},
         {"rocks[0].count=2.5", "allowed"},
         {"rocks[0].contnt=0.2", "did you mean 'content'?"},
-        {"rocks[0].sizes=( { diameter=1; passing=0.5; } )", "allowed: 1, for all rocks"},
+        {"rocks[0].sizes=( { diameter=1; passing=0.5; } )", "allowed: 1, because all rocks"},
         {"rocks[0].sizes=( { diameter=1; passing=0.5; }, { diameter=0.5; passing=1; } )", "rising diameters"},
         {"rocks[0].forms[0].type=ball", "allowed: rock, sphere, ellipsoid, outline, mesh"},
         {"rocks[0].forms[0].diameter=2", "unknown name 'diameter'"},
@@ -301,9 +301,10 @@ static void what_cannot_be_is_refused(void **state)
         {"rocks[0].sizes=( { diameter=0.0001; passing=1; } )", "smallest diameter"},
         {"probes[0].body=rock_1000", "name of a body"},
         {"probes[0].body=rock_1000", "allowed: post, rock_1 to rock_"},
-        {"rocks[1].content=0.0001", "fill nothing: 0.01 % of the region is 0.006 m2, and the smallest rock has 0.1257"},
-        {"rocks[1].sizes=( { diameter=5; passing=1; } )", "fill nothing"},
-        {"rocks[1].margin=2.9", "not one finds a place"},
+        {"rocks[1].content=0.0001",
+         "without volume: 0.01 % of the region is 0.006 m2, and the smallest rock has 0.1257"},
+        {"rocks[1].sizes=( { diameter=5; passing=1; } )", "without volume"},
+        {"rocks[1].margin=2.9", "none fits into the region"},
     };
     case_reading *f = *state;
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
@@ -343,10 +344,10 @@ static void the_report_sets_what_was_reached_against_what_was_asked(void **state
     mor_rocks_report_print(&f->first, stream);
     fclose(stream);
     char head[128];
-    snprintf(head, sizeof head, "rocks 'rock': %d placed, content %.2f %% (asked for: 25.00 %%), smallest gap",
+    snprintf(head, sizeof head, "rocks 'rock': %d placed, content %.2f %% (requested: 25.00 %%), smallest gap",
              f->first.rocks[0].n_rocks, 100.0 * f->first.rocks[0].content_reached);
     assert_non_null(strstr(report, head));
-    assert_non_null(strstr(report, "up to        1.2 m 100.00 % of their area (asked for: 100.00 %)"));
+    assert_non_null(strstr(report, "up to        1.2 m 100.00 % of their area (requested: 100.00 %)"));
     assert_non_null(strstr(report, "rocks 'pebble'"));
     free(report);
 }

@@ -177,15 +177,15 @@ static void wrong_terrain_is_refused_with_its_place(void **state)
         {"walls[0].shape.fill=true", "fill"},
         {"soil[0].shape.ground=\"hil\"", "did you mean 'hill'"},
         {"soil[0].shape.points=((0, 4), (26, 4), (26, 16))",
-         "release point 1 at (0, 4) m lies beside the ground, which reaches "},
-        {"walls[2].shape.at=((13, 11), (600, 10))", "post 2 at (600, 10) m lies beside the ground, which reaches "},
+         "release point 1 at (0, 4) m lies outside the terrain, which reaches "},
+        {"walls[2].shape.at=((13, 11), (600, 10))", "post 2 at (600, 10) m lies outside the terrain, which reaches "},
         {"soil[0].shape.thickness=0", "thickness"},
         {"walls[1].shape.top=3", "both height and top"},
-        {"walls[2].shape.top=1", "under the ground"},
+        {"walls[2].shape.top=1", "below the ground"},
         {"walls[0].shape.type=\"sphere\"", "no wall has a shape of type"},
         {"domain.min=(5, 0, -5)",
-         "reaches up to 1 m beyond the ground: the raster covers x from 6 to 40 m and y from 0 "},
-        {"domain.max=(30, 22.5, 30)", "reaches up to 2.5 m beyond the ground"},
+         "reaches up to 1 m beyond the raster: the raster covers x from 6 to 40 m and y from 0 "},
+        {"domain.max=(30, 22.5, 30)", "reaches up to 2.5 m beyond the raster"},
         {"domain.max=(1e9, 20, 30)", "extend_edge = true"},
         {"walls[0].velocity=(1, 0, 0)", "found a terrain that moves"},
     };
@@ -247,9 +247,9 @@ static void ground_goes_on_beyond_the_raster_when_that_is_asked_for(void **state
     /* what is laid on the ground wants measured ground */
     const char *const posts[] = {wide[0], wide[1], wide[2], "walls[1].shape.at=((45, 5), (8, 10))", NULL};
     case_reading_refuse(f, text, posts, "",
-                        "post 1 at (45, 5) m lies beside the ground, which reaches from 6 m to 40 m");
+                        "post 1 at (45, 5) m lies outside the terrain, which reaches from 6 m to 40 m");
     const char *const layer[] = {wide[0], wide[1], wide[2], "soil[0].shape.points=((16, 4), (46, 4), (26, 16))", NULL};
-    case_reading_refuse(f, text, layer, "", "release point 2 at (46, 4) m lies beside the ground");
+    case_reading_refuse(f, text, layer, "", "release point 2 at (46, 4) m lies outside the terrain");
 }
 
 int main(void)

@@ -390,9 +390,9 @@ static void endless_or_vast_regions_are_refused_before_memory_is_asked_for(void 
     const mor_lattice_request good = new_request(box, 0.1);
     mor_lattice_request request = good;
     request.shape = ground;
-    expect_refusal(&context, &request, "no end along x");
+    expect_refusal(&context, &request, "unbounded along x");
     request.domain = (mor_bounds){{0.0, 0.0, -INFINITY}, {1.0, 1.0, INFINITY}};
-    expect_refusal(&context, &request, "no end along z");
+    expect_refusal(&context, &request, "unbounded along z");
     mor_shape_free(&context, &ground);
     assert_int_equal(mor_shape_new_half_space(&context, point, oblique, &ground), MOR_OK);
     request = good;

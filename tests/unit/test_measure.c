@@ -356,7 +356,7 @@ static void measures_turn_with_the_scene(void **state)
         frame = turn_heap(&frame);
     }
     for (int i = 0; i < 8; ++i) {
-        assert_true(fabs(results[0][i] - results[1][i]) < 1e-12); /* rounding of the turn of lengths near 1 */
+        assert_true(fabs(results[0][i] - results[1][i]) < 1e-12); /* rounding of the rotation of lengths near 1 */
     }
 }
 

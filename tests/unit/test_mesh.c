@@ -395,7 +395,7 @@ static void two_shells_are_refused(void **state)
     draft *it = *state;
     append_cube(it, 0.5, 0.0, 0.0, 0.0);
     append_cube(it, 0.5, 3.0, 0.0, 0.0);
-    expect_refusal(it, "2 parts that do not hang together");
+    expect_refusal(it, "2 parts that are not connected");
     assert_int_equal(it->report.n_shells, 2);
 }
 
@@ -410,7 +410,7 @@ static void a_surface_through_itself_is_refused(void **state)
     add_triangle(it, 4, 6, 8);
     add_triangle(it, 6, 7, 8);
     add_triangle(it, 7, 4, 8);
-    expect_refusal(it, "crosses itself");
+    expect_refusal(it, "intersects itself");
     assert_true(it->report.n_crossings >= 3);
     /* With the tip inside there is a dent only: a pyramid of height 0.8 on half a unit square is missing. */
     it->vertices[3 * 8 + 2] = -0.3;
@@ -525,7 +525,7 @@ static void fins_and_one_sided_surfaces_are_refused(void **state)
         memcpy(it->vertices + 3 * (ptrdiff_t)k, place, sizeof place);
         add_triangle(it, k, (k + 1) % 5, (k + 2) % 5);
     }
-    expect_refusal(it, "one side only");
+    expect_refusal(it, "not orientable");
     /* Both: the fin is told, and its place is that of the fin, at the middle of an edge of the cube. */
     append_cube(it, 0.5, 8.0, 0.0, 0.0);
     const double far_tip[3] = {8.0, 0.0, 2.0};
@@ -544,10 +544,10 @@ static void numbers_that_are_none_and_wrong_indices_are_refused(void **state)
     it->vertices[7] = INFINITY;
     expect_refusal(it, "corner 2 lies at");
     it->vertices[7] = 1e200;
-    expect_refusal(it, "beyond what can be computed with");
+    expect_refusal(it, "outside the range of computation");
     it->vertices[7] = 0.5;
     it->triangles[4] = 8;
-    expect_refusal(it, "triangle 1 names corner 8 of 8");
+    expect_refusal(it, "triangle 1 refers to corner 8 of 8");
     it->triangles[4] = -1;
     expect_refusal(it, "triangle 1 names corner -1 of 8");
     it->n_triangles = 0;

@@ -258,7 +258,7 @@ static void files_without_an_inside_are_refused(void **state)
     const float not_a_number = NAN;
     write_stl_binary(&it, &cube);
     memcpy(it.bytes + 84 + 12, &not_a_number, sizeof not_a_number); /* the first corner, behind header and normal */
-    expect_refusal(folder, "nan.stl", &it, MOR_ERROR_ARGUMENT, "is no place");
+    expect_refusal(folder, "nan.stl", &it, MOR_ERROR_ARGUMENT, "is not finite");
     mor_mesh_clear(&folder->context, &cube);
 }
 
@@ -280,7 +280,7 @@ static void places_that_are_no_numbers_are_refused(void **state)
         {"f.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4x\nf 2 3 4\nf 3 1 4\n",
          "line 6, column 7: found '4x'"},
         {"g.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 5\n",
-         "names vertex 5, but there are 4"},
+         "refers to vertex 5, but there are 4"},
         {"h.stl", "solid rock of vertex x\nfacet normal 0 0 0\nouter loop\nvertex 0 x 0\n",
          "line 4, column 10: found 'x'"},
         {"i.ply",
@@ -317,7 +317,7 @@ static void meshes_too_far_away_for_single_precision_are_refused(void **state)
             expect_cube(folder, "near.obj", &obj, 1.0, ways[k]);
             expect_cube(folder, "near.stl", &stl, 1.0, ways[k]);
         } else { /* at 290.75 m */
-            expect_refusal(folder, "far.obj", &obj, MOR_ERROR_ARGUMENT, "move it near the origin");
+            expect_refusal(folder, "far.obj", &obj, MOR_ERROR_ARGUMENT, "translate it to the origin");
             expect_refusal(folder, "far.stl", &stl, MOR_ERROR_ARGUMENT, "allowed is 1.73205e-05");
         }
         mor_mesh_clear(&folder->context, &cube);
@@ -383,7 +383,7 @@ static void what_is_no_mesh_is_refused(void **state)
     } bad[] = {
         {"empty.obj", "", "is empty"},
         {"empty.stl", "", "is empty"},
-        {"prose.obj", "Once upon a time there was a rock.\n", "no word of an OBJ file"},
+        {"prose.obj", "Once upon a time there was a rock.\n", "no keyword of an OBJ file"},
         {"prose.stl", "Once upon a time there was a rock.\n", "no STL file"},
         {"long.stl", "Once upon a time there was a rock, and it lay in a field for so long that moss grew over it all.",
          "no STL file"},
@@ -396,7 +396,7 @@ static void what_is_no_mesh_is_refused(void **state)
          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
          "'4000000000' of element 'vertex'"},
         {"minus.ply", "ply\nformat ascii 1.0\nelement vertex -3\nend_header\n", "'-3' of element 'vertex'"},
-        {"rock.fbx", "v 0 0 0\n", "ending 'fbx'"},
+        {"rock.fbx", "v 0 0 0\n", "extension 'fbx'"},
         {"rock", "v 0 0 0\n", "ending ''"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
@@ -418,7 +418,7 @@ static void a_count_that_lies_and_a_file_cut_off_are_refused(void **state)
     it.n_bytes = 0;
     write_glb(&it, &cube);
     it.n_bytes -= 100;
-    expect_refusal(folder, "cut.glb", &it, MOR_ERROR_IO, "cut off");
+    expect_refusal(folder, "cut.glb", &it, MOR_ERROR_IO, "truncated");
     it.n_bytes = 0;
     write_ply(&it, &cube);
     it.n_bytes = 250;

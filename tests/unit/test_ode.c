@@ -14,7 +14,7 @@
 static const double LOOSE[8] = {1e-10, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10};
 
 typedef struct bounds {
-    double least, most; /* times at which the rate was asked for */
+    double least, most; /* times at which the rate was requested */
     double decay;
     mor_status refusal;
     double threshold;

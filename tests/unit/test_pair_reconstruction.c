@@ -110,7 +110,7 @@ static void check_linear_motion_under_stress(assembly *a, const mor_pair_table *
         assert_true(fabs(left.acceleration[k] - none.acceleration[k]) <= rounding);
         damping = fmax(damping, fabs(raw.acceleration[k] - none.acceleration[k]));
     }
-    assert_true(damping > 1e9 * rounding); /* what reconstruction takes away is not hidden among it */
+    assert_true(damping > 1e9 * rounding); /* what reconstruction removes is not hidden among it */
 }
 
 static void linear_motion_under_stress_is_as_without_a_limiter(void **state)

@@ -74,7 +74,7 @@ static void motion_of_a_flying_box_is_that_of_a_throw(void **state)
     check_flight(it, 0.25);
     expect(it, "deepest", 3.0 - (2.0 - 0.5 * side), 1e-6 * side); /* at the start: it rises faster than corners turn */
     scene_advance(it, 1.5);
-    check_flight(it, 1.5); /* more than a full turn */
+    check_flight(it, 1.5); /* more than a full revolution */
     assert_true(scene_probe(it, "deepest") == scene_probe(it, "depth"));
     scene_free(it);
 }

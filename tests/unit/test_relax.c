@@ -111,25 +111,25 @@ static void push_of_a_plane_is_that_known(void **state)
     for (double depth = 0.1; depth < MOR_RELAX_SUPPORT; depth += 0.17) {
         const double place[3] = {0.31, -0.23, 4.0 - depth};
         const int n = 2000;
-        double push[3];
+        double force[3];
         double known = 0.0;
         for (int k = 0; k < n; ++k) {
             const double step = (MOR_RELAX_SUPPORT - depth) / n;
             const double r = depth + (k + 0.5) * step;
             known += 2.0 * MOR_PI * r * mor_kernel_value(r, MOR_RELAX_SMOOTHING, 3) * step;
         }
-        mor_relax_wall_push(&wall, place, push);
+        mor_relax_wall_force(&wall, place, force);
         largest = fmax(largest, known);
-        worst[0] = fmax(worst[0], fabs(push[0]));
-        worst[1] = fmax(worst[1], fabs(push[1]));
-        worst[2] = fmax(worst[2], fabs(push[2] + known));
+        worst[0] = fmax(worst[0], fabs(force[0]));
+        worst[1] = fmax(worst[1], fabs(force[1]));
+        worst[2] = fmax(worst[2], fabs(force[2] + known));
     }
-    printf("push of a plane: %.4f at most, off by %.4f along it and %.4f, %.4f across\n", largest, worst[2], worst[0],
+    printf("force of a plane: %.4f at most, off by %.4f along it and %.4f, %.4f across\n", largest, worst[2], worst[0],
            worst[1]);
     assert_true(worst[0] <= 1e-3 * largest); /* the grid is not symmetric about the place */
     assert_true(worst[1] <= 1e-3 * largest); /* likewise */
     /* Linear between nodes half a spacing apart: an eighth of 0.25 times the largest curvature, 2.1 times the largest
-     * push; a third of it more as the surface is spread over a cell. */
+     * force; a third of it more as the surface is spread over a cell. */
     assert_true(worst[2] <= 0.087 * largest);
     mor_relax_wall_clear(&context, &wall);
     mor_shape_free(&context, &box);
@@ -243,7 +243,7 @@ static void wrong_requests_are_refused(void **state)
     request.shape = NULL;
     refuse(&context, &request, "no shape");
     request.shape = half;
-    refuse(&context, &request, "no end");
+    refuse(&context, &request, "unbounded");
     request = right;
     request.dimension = 1;
     refuse(&context, &request, "dimension");

@@ -331,7 +331,7 @@ static void bad_settings_are_refused_with_what_is_allowed(void **state)
     for (int i = 0; i < PILE; ++i) {
         memcpy(p.position + 3 * i, (const double[3]){1e11, 0.0, 0.0}, 3 * sizeof(double));
     }
-    expect_refusal(folder, &bad, "too small to be told apart");
+    expect_refusal(folder, &bad, "too small to be resolved");
 }
 
 static void a_folder_that_is_missing_is_an_error_with_its_path(void **state)

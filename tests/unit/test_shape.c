@@ -400,7 +400,7 @@ static void placed_shape_keeps_distances_and_lies_in_its_bounds(void **state)
                                               image[a] < bounds.maximum[a] + 1e-14)); /* rounding */
                 }
                 const double difference = mor_shape_distance(placed, image) - mor_shape_distance(same, point);
-                assert_true(fabs(difference) < 1e-14); /* rounding of the turn of lengths near 1 */
+                assert_true(fabs(difference) < 1e-14); /* rounding of the rotation of lengths near 1 */
                 sample_surface(&kinds[k], 37 * i, point);
             }
         }

@@ -99,7 +99,7 @@ static void failed_compounds_leave_the_children_with_the_caller(void **state)
     assert_int_equal(mor_shape_new_difference(&context, &parts[0], &parts[1], &shape), MOR_ERROR_ARGUMENT);
     assert_int_equal(mor_shape_new_difference(&context, &parts[0], &parts[2], &shape), MOR_ERROR_ARGUMENT);
     assert_int_equal(mor_shape_new_placed(&context, mirror, zero, &parts[0], &shape), MOR_ERROR_ARGUMENT);
-    assert_non_null(strstr(context.message, "mirrors"));
+    assert_non_null(strstr(context.message, "reflection"));
     assert_int_equal(mor_shape_new_placed(&context, skew, zero, &parts[0], &shape), MOR_ERROR_ARGUMENT);
     assert_int_equal(mor_shape_new_translate(&context, broken, &parts[0], &shape), MOR_ERROR_ARGUMENT);
     assert_int_equal(mor_shape_new_rotate(&context, zero, 1.0, zero, &parts[0], &shape), MOR_ERROR_ARGUMENT);

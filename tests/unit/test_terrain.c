@@ -427,7 +427,7 @@ static void wrong_ground_is_refused(void **state)
     assert_int_equal(mor_shape_new_release(&context, &terrain, corners, 2, 1.0, 0.0, 1.0, &shape), MOR_ERROR_ARGUMENT);
     const double beside[] = {1.0, 1.0, 99.0, 1.5, 3.0, 4.0};
     assert_int_equal(mor_shape_new_release(&context, &terrain, beside, 3, 1.0, 0.0, 1.0, &shape), MOR_ERROR_ARGUMENT);
-    assert_non_null(strstr(context.message, "beside the ground"));
+    assert_non_null(strstr(context.message, "outside the terrain"));
     terrain.heights[9] = NAN;
     assert_int_equal(mor_shape_new_terrain(&context, &terrain, 1.0, 1.0, &shape), MOR_ERROR_ARGUMENT);
     assert_non_null(strstr(context.message, "node (1, 1)"));

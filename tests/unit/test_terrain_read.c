@@ -209,8 +209,8 @@ static const bad_text bad_rasters[] = {
     /* exchanged sizes give as many numbers */
     {HEADER("3", "2") "1 2\n3 4\n5 6\n", MOR_ERROR_IO, "exchange"},
     {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nncols 3\n1 2\n3 4\n", MOR_ERROR_IO,
-     "line 6, column 1: found 'ncols', which says again"},
-    {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndy 1\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "says again"},
+     "line 6, column 1: found 'ncols', which repeats"},
+    {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndy 1\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "repeats"},
     {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2\n3 4\n", MOR_ERROR_IO, "above zero"},
     {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1m\n1 2\n3 4\n", MOR_ERROR_IO, "found '1m'"},
     {"ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n", MOR_ERROR_IO, "whole numbers"},

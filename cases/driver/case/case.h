@@ -63,7 +63,7 @@ typedef enum mor_case_shape_kind {
     MOR_CASE_SHAPE_COUNT
 } mor_case_shape_kind;
 
-/** Ground from an elevation raster, and what lies or stands on it. Lengths of the raster are those of its file, which
+/** Terrain from an elevation raster, and releases and posts on it. Lengths of the raster are those of its file, which
  *  the scale of the case does not touch. */
 typedef struct mor_case_ground {
     char file[MOR_CASE_TEXT_BYTES]; /* path; as given, or absolute where it exists */
@@ -73,7 +73,7 @@ typedef struct mor_case_ground {
     double cell;                    /* m; NaN: as in the raster */
     double offset[3];               /* subtracted from the raster's coordinates and heights, m; NaN: chosen */
     bool fills_no_data;
-    bool extends_edge; /* the ground goes on level beyond the raster, as far as the domain reaches */
+    bool extends_edge; /* the ground is extended level beyond the raster, as far as the domain reaches */
     double thickness;  /* of the ground below its lowest point, or of a release, m */
     double rim;        /* of a release, m */
     double size[2];    /* of a post along x and y, m */
@@ -81,14 +81,14 @@ typedef struct mor_case_ground {
     double top;        /* height of the tops of all posts, m; NaN: height is given */
 } mor_case_ground;
 
-/** A rock from a file, or drawn at random. At most one of the sizes is given; the others are NaN. */
+/** A rock from a file, or generated at random. At most one of the sizes is given; the others are NaN. */
 typedef struct mor_case_form {
     char file[MOR_CASE_TEXT_BYTES]; /* path; as given, or absolute where it exists */
     double scale;                   /* of the lengths of the file, 1 */
     double length;                  /* longest side of the box around it, m */
     double volume;                  /* m3 */
     double diameter;                /* of the ball (disc) of the same volume (area), m */
-    double elongation, flatness;    /* of a rock drawn at random, 1 */
+    double elongation, flatness;    /* of a rock generated at random, 1 */
     double angularity, roughness;   /* likewise, 1 */
     uint64_t seed;
 } mor_case_form;
@@ -96,8 +96,8 @@ typedef struct mor_case_form {
 /** A shape as the case describes it, kept so that the case can be written back; mor_shape is what it builds. */
 typedef struct mor_case_shape {
     mor_case_shape_kind kind;
-    bool is_flat;                    /* a box of two components: without end in z */
-    double first[3];                 /* lowest corner, base, center, point or move, m */
+    bool is_flat;                    /* a box of two components: unbounded in z */
+    double first[3];                 /* lowest corner, base, center, point or translation, m */
     double second[3];                /* highest corner [m], axis [1], normal [1] or radii [m] */
     double radius;                   /* m */
     double height;                   /* m */
@@ -107,7 +107,7 @@ typedef struct mor_case_shape {
     mor_case_ground ground;          /* of terrain, release and posts */
     mor_case_form form;              /* of mesh, outline and rock */
     uint64_t file_hash;              /* of the content of its file; 0: it has none */
-    struct mor_case_shape *children; /* shape [n_children]; owned; of a difference: from, then what is taken away */
+    struct mor_case_shape *children; /* shape [n_children]; owned; of a difference: from, then what is cut off */
     int n_children;                  /* number of children */
     uint64_t written;                /* see above */
 } mor_case_shape;
@@ -147,7 +147,7 @@ typedef struct mor_case_wall {
     mor_case_friction friction;
     double friction_coefficient; /* Coulomb only, 1 */
     double velocity[3];          /* prescribed velocity, m/s */
-    double contact_modulus;      /* Young's modulus of its surface for bodies that touch it; 0: it does not yield, Pa */
+    double contact_modulus;      /* Young's modulus of its surface for bodies that touch it; 0: rigid, Pa */
     double contact_poisson;      /* Poisson's ratio of it, 1 */
     uint64_t written;
 } mor_case_wall;
@@ -156,7 +156,7 @@ typedef struct mor_case_wall {
 typedef enum mor_case_motion {
     MOR_CASE_MOTION_UNIFORM,    /* velocity + angular_velocity x arm, nothing more */
     MOR_CASE_MOTION_CANTILEVER, /* first bending mode of a cantilever */
-    MOR_CASE_MOTION_TWIST       /* turn about an axis that grows along it, sin(pi x / (2 length)) */
+    MOR_CASE_MOTION_TWIST       /* rotation about an axis that grows along it, sin(pi x / (2 length)) */
 } mor_case_motion;
 
 /** How a body is filled with particles. */
@@ -170,15 +170,15 @@ typedef enum mor_case_particles {
 typedef struct mor_case_body {
     char name[MOR_CASE_NAME_BYTES];
     mor_case_place place;
-    mor_shape *shape;           /* in the body's own frame; owned by the case */
-    mor_case_shape outline;     /* what shape was built from; owned by the case */
-    double position[3];         /* of the origin of the body's frame, m */
-    double height_over_ground;  /* least distance from walls and soil, found by moving it along gravity, m; NaN: where
-                                * position says */
-    double axis[3];             /* of the turn of the body's frame, any length but zero, 1 */
-    double angle;               /* of that turn, rad */
-    double velocity[3];         /* of the center of mass, m/s */
-    double angular_velocity[3]; /* about the center of mass, rad/s */
+    mor_shape *shape;                           /* in the body's own frame; owned by the case */
+    mor_case_shape outline;                     /* what shape was built from; owned by the case */
+    double position[3];                         /* of the origin of the body's frame, m */
+    double height_over_ground;                  /* smallest distance from walls and soil, reached by translation along
+                                * gravity, m; NaN: at position */
+    double axis[3];                             /* of the rotation of the body's frame, any length but zero, 1 */
+    double angle;                               /* of that rotation, rad */
+    double velocity[3];                         /* of the center of mass, m/s */
+    double angular_velocity[3];                 /* about the center of mass, rad/s */
     char model[MOR_CASE_NAME_BYTES];            /* "rigid", or a model in total form */
     double density;                             /* kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI; not of "rigid" */
@@ -186,9 +186,9 @@ typedef struct mor_case_body {
     double contact_poisson;                     /* Poisson's ratio of a rigid body's surface in contact, 1 */
     mor_case_friction soil_friction;
     double soil_friction_coefficient; /* Coulomb only, 1 */
-    bool is_prescribed;               /* rigid: moves with its velocities whatever pushes it */
+    bool is_prescribed;               /* rigid: moves with its velocities whatever forces act on it */
     mor_case_particles particles;
-    bool is_locked[6];            /* rigid: no motion along x, y, z; no turn about x, y, z */
+    bool is_locked[6];            /* rigid: no translation along x, y, z; no rotation about x, y, z */
     bool has_spring;              /* rigid: spring and damper to a fixed point */
     double spring_point[3];       /* of the body's own frame, m */
     double spring_anchor[3];      /* fixed, frame of the case, m */
@@ -202,12 +202,12 @@ typedef struct mor_case_body {
     double motion_direction[3]; /* of bending, 1 */
     double motion_origin[3];    /* clamped end, frame of the case, m */
     double motion_length;       /* of the bar, m */
-    double motion_speed;        /* cantilever: of the free end, m/s; twist: rate of turn of the free end, rad/s */
+    double motion_speed;        /* cantilever: of the free end, m/s; twist: angular velocity of the free end, rad/s */
     double packed_diameter;     /* of a packed rock: of the ball (disc) of the same volume (area), m */
     uint64_t written, written_material, written_parameters, written_spring, written_motion;
 } mor_case_body;
 
-/** A point of a curve of sizes. */
+/** A point of a size distribution. */
 typedef struct mor_case_size {
     double diameter; /* of the ball (disc) of the same volume (area), m */
     double passing;  /* share of the rocks' volume of rocks up to this diameter, 1 */
@@ -233,9 +233,9 @@ typedef struct mor_case_rocks {
     double gap;                                      /* least distance between two, m; default the spacing */
     double margin;                                   /* least depth under the region's surface, m; likewise */
     int n_variants;                                  /* rocks drawn of each form of type rock */
-    uint64_t seed;                                   /* of places and turns */
+    uint64_t seed;                                   /* of positions and rotations */
     int n_rocks;                                     /* placed */
-    int n_given_up;                                  /* found no place */
+    int n_given_up;                                  /* without a position */
     double content_reached;                          /* 1 */
     double smallest_gap;                             /* between two of them, m; INFINITY for one */
     double passing_reached[MOR_CASE_ROCK_SIZES_MAX]; /* 1 */
@@ -366,7 +366,7 @@ typedef struct mor_case {
     double jitter_ratio; /* random displacement of the lattice / spacing */
     /* Placement of the whole scene (geometry, lattice, gravity): x -> rotation * x + translation. */
     double rotation[9];       /* shape [3,3], rotation matrix, 1; made from the two that follow */
-    double placement_axis[3]; /* axis of the turn, any length but zero, 1 */
+    double placement_axis[3]; /* axis of the rotation, any length but zero, 1 */
     double placement_angle;   /* rad */
     double translation[3];    /* m */
     /* Powers of two multiplying lengths, times and masses, for the unit-change check. */

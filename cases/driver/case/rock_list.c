@@ -269,7 +269,7 @@ static mor_status read_rows(table *t, mor_rock_list *list)
     }
     if (list->n_rows == 0) {
         return CELL_FAIL(t, t->at,
-                         "found a table without a rock; allowed: a line for each rock behind the headings; "
+                         "found a table without a rock; allowed: a line for each rock after the headings; "
                          "add one%s",
                          "");
     }

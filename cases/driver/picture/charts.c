@@ -16,13 +16,13 @@
 /* Columns of the series before the first probe: time, step, step length, rate ratio. */
 enum { FIRST_PROBE = 4, COLUMNS_MAX = 256, NAME_BYTES = 96, TEXT_BYTES = 416, CURVES_MAX = MOR_COLORMAP_CATEGORIES };
 
-/* One column's heading, taken apart: "name [unit]". */
+/* One column's heading, parsed: "name [unit]". */
 typedef struct heading {
     char name[NAME_BYTES];
     char unit[NAME_BYTES];
 } heading;
 
-/* Takes the header line apart; returns the number of columns. */
+/* Parses the header line; returns the number of columns. */
 static int split_header(const char *header, heading *headings)
 {
     int n = 0;
@@ -91,8 +91,8 @@ static void add_note(plate *p, const char *text)
     }
 }
 
-/* A summary of an earlier part of the run does not know the rows that came after it. The first row is of the start,
- * before any force has acted; statistics begin with the first step. */
+/* A summary of an earlier part of the run does not include later rows. The first row is of the start, before any force
+ * has acted; statistics begin with the first step. */
 static bool is_of_series(const mor_chart_series *curve, const mor_summary_statistics *it)
 {
     bool is_known = true;
@@ -118,7 +118,7 @@ static void add_mark(plate *p, int curve, const mor_summary_statistics *it, cons
     const int k = p->n_series;
     const mor_chart_series *line = &p->series[curve];
     const double last = line->n_points > 0 ? line->x[line->n_points - 1] : 0.0;
-    /* The clock may end a rounding beyond the window. */
+    /* The time may exceed the window by rounding. */
     const bool is_windowed =
         line->n_points > 0 && (it->window[0] > line->x[0] || it->window[1] < last * (1.0 - 1.0e-9));
     if (!isfinite(value) || !isfinite(time) || it->maximum == it->minimum || k >= MOR_CHART_SERIES_MAX) {
@@ -139,7 +139,7 @@ static void add_mark(plate *p, int curve, const mor_summary_statistics *it, cons
     p->n_series += 1;
 }
 
-/* What summary.json knows of the curves; without one there are no marks. */
+/* Statistics of the curves from summary.json; without one there are no marks. */
 static void add_marks(const sheet *s, plate *p)
 {
     mor_context quiet; /* of its own: a summary that is missing or of another time is no error */
@@ -163,12 +163,12 @@ static void add_marks(const sheet *s, plate *p)
         }
     }
     if (p->n_series > p->n_curves) {
-        add_note(p, "Dots: of every step unless said otherwise. Lines: from row to row of series.csv, which may pass "
-                    "by a peak.");
+        add_note(p, "Dots: of every step unless said otherwise. Lines: from row to row of series.csv, which "
+                    "may miss a peak.");
     }
 }
 
-/* The columns not yet drawn that have the unit of a first one, as many as colors tell apart. */
+/* The columns not yet drawn that have the unit of a first one, as many as colors distinguish. */
 static void add_curves(sheet *s, int first, plate *p)
 {
     const mor_table_data *data = s->data;
@@ -199,7 +199,7 @@ static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *out
     add_marks(s, &p);
     const char *name = p.series[0].name;
     const bool is_single = p.n_curves == 1;
-    p.series[0].name = is_single ? NULL : name; /* the title says it */
+    p.series[0].name = is_single ? NULL : name; /* it is in the title */
     const mor_chart chart = {.title = is_single ? name : NULL,
                              .x_name = "time",
                              .x_unit = "s",

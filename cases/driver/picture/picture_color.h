@@ -6,10 +6,10 @@
 #include <stdbool.h>
 
 /** @file
- *  What the colors of pictures can show: fields of the snapshots, and numbers made from them such as the speed. It
- *  neither reads snapshots nor draws. */
+ *  Colors of pictures: fields of the snapshots, and values derived from them such as the speed. It neither reads
+ *  snapshots nor draws. */
 
-/** How a color comes from a field. */
+/** How a color is derived from a field. */
 typedef struct mor_picture_color {
     const char *name;  /* of the color, zero-terminated */
     const char *field; /* it is made from, zero-terminated */
@@ -21,7 +21,7 @@ typedef struct mor_picture_color {
 
 enum { MOR_PICTURE_COLOR_NAMES_BYTES = 128 };
 
-/** Finds how a color is made: as a derived one, or else from the field of the same name.
+/** Finds the derived color of a name, or else the field of that name.
  *  @param name [in]  zero-terminated; borrowed by the result
  *  Returns: the color; value is NULL for a field as it is. */
 mor_picture_color mor_picture_color_find(const char *name);
@@ -32,7 +32,7 @@ mor_picture_color mor_picture_color_find(const char *name);
  *  @param up           [in]  shape [3], 1, unit vector against gravity */
 double mor_picture_color_value(const mor_picture_color *color, const double *field, int n_components, const double *up);
 
-/** Tells whether a field of so many components can be shown by this color.
+/** Returns whether a field of so many components can be shown by this color.
  *  @param n_components [in]  of the field */
 bool mor_picture_color_fits(const mor_picture_color *color, int n_components);
 

@@ -11,12 +11,12 @@
 
 /* With a structure in the picture the scene is at most so many times as large as without. */
 #define LARGEST_GROWTH 4.0
-/* A wall that hides a larger share of the places of particles is seen through. */
+/* A wall that hides a larger share of the particle region is drawn transparent. */
 #define HIDDEN_SHARE 0.25
-/* A ray this near to a surface, in spacings, meets it. */
+/* A ray this near to a surface, in spacings, hits it. */
 #define TOUCH 0.1
 
-/* Places along each axis from which the viewer is looked for; steps of a ray, after which it only grazes. */
+/* Points along each axis from which rays are cast to the viewer; steps of a ray, after which it only grazes. */
 enum { PLACES = 8, STEPS_MAX = 400 };
 
 void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t n, double half)
@@ -77,7 +77,7 @@ bool mor_picture_wall_is_structure(const mor_case *the_case, int wall, const mor
     return !surrounds(&own, moving, the_case->dimension, up) && find_size(&both) <= LARGEST_GROWTH * find_size(moving);
 }
 
-/* Walks along a ray by what the shape promises to be free. */
+/* Advances along a ray by the distance that is certainly free. */
 static bool is_met(const mor_shape *shape, const double *from, const double *direction, double reach, double touch)
 {
     double way = 0.0;
@@ -107,7 +107,7 @@ bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds
         const int index[3] = {k % PLACES, k / PLACES % PLACES, k / (PLACES * PLACES)};
         double placed[3];
         double from[3];
-        double beyond[3]; /* farthest corner of the wall along the way */
+        double beyond[3]; /* farthest corner of the wall along the ray */
         for (int a = 0; a < 3; ++a) {
             const double extent = moving->maximum[a] - moving->minimum[a];
             placed[a] = moving->minimum[a] + (index[a] + 0.5) / PLACES * extent;

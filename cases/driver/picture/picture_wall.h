@@ -7,8 +7,8 @@
 #include "relaxation/relax/lattice.h"
 
 /** @file
- *  What a wall is to a picture: a structure, such as a house, a dam or a row of posts, which is shown whole, or ground
- *  and containers, of which only what lies around the particles is of interest. It does not draw. */
+ *  How a wall is shown in a picture: a structure, such as a house, a dam or a row of posts, is shown whole; of ground
+ *  and containers only what lies around the particles. It does not draw. */
 
 /** Widens a box until it holds particles.
  *  @param bounds   [in,out]  m
@@ -17,8 +17,8 @@
  *  @param half     [in]      half the particle spacing, m */
 void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t n, double half);
 
-/** Tells whether a wall is a structure: it stands still, has an end in all directions, does not reach beyond what moves
- *  on all sides as seen from above, and leaves what moves at least a quarter of the picture.
+/** Returns whether a wall is a structure: it is fixed, bounded in all directions, does not reach beyond the moving
+ *  particles on all sides as seen from above, and leaves them at least a quarter of the picture.
  *  @param wall     [in]  index of the wall
  *  @param points   [in]  the wall's particles, in the placed frame
  *  @param moving   [in]  m; box around all that moves, in the placed frame
@@ -26,8 +26,8 @@ void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t 
 bool mor_picture_wall_is_structure(const mor_case *the_case, int wall, const mor_lattice_points *points,
                                    const mor_bounds *moving, const double *up);
 
-/** Tells whether a wall hides more than a quarter of the places in a box from a viewer far away.
- *  @param wall     [in]  index of a wall with an end in all directions
+/** Returns whether a wall hides more than a quarter of the points in a box from a distant viewer.
+ *  @param wall     [in]  index of a wall bounded in all directions
  *  @param moving   [in]  m; the box, in the placed frame
  *  @param toward   [in]  shape [3], 1, unit vector from the scene to the viewer
  *  Cost: some thousand distances from the shape. */

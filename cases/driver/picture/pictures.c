@@ -35,7 +35,7 @@
 /* Sets of a snapshot that are drawn, at most. */
 enum { LAYERS_MAX = 24, TONES = 4 };
 
-/* Screen values: groups of bodies in tones of stone, walls in a cool light gray that no stone has. */
+/* Screen values: groups of bodies in tones of stone, walls in a different, cool light gray. */
 static const double stone_tones[TONES][3] = {
     {0.63, 0.56, 0.48}, {0.45, 0.42, 0.40}, {0.70, 0.64, 0.52}, {0.52, 0.47, 0.50}};
 static const double wall_gray[3] = {0.80, 0.82, 0.84};
@@ -85,7 +85,7 @@ typedef struct layer {
 typedef struct gallery {
     const mor_case *the_case;
     const char *folder;
-    const char *when;  /* in front of the time; NULL: "t =" */
+    const char *when;  /* before the time; NULL: "t =" */
     const char *image; /* path of the picture, whatever the snapshot; NULL: by step and color */
     mor_picture_color color;
     double up[3];
@@ -93,11 +93,11 @@ typedef struct gallery {
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
     double *light[MOR_CASE_WALLS_MAX]; /* shape [its points]; of terrain, NULL for others */
     bool is_structure[MOR_CASE_WALLS_MAX];
-    bool is_hiding[MOR_CASE_WALLS_MAX]; /* a structure that is seen through */
+    bool is_hiding[MOR_CASE_WALLS_MAX]; /* a transparent structure */
     bool is_ground[MOR_CASE_WALLS_MAX];
-    bool is_veil[MOR_CASE_WALLS_MAX]; /* between viewer and scene */
-    double wall_time;                 /* s; moving walls stand where they are at this time */
-    double range[2];                  /* of the colors, over all pictures */
+    bool is_omitted[MOR_CASE_WALLS_MAX]; /* between viewer and scene */
+    double wall_time;                    /* s; moving walls are at their positions of this time */
+    double range[2];                     /* of the colors, over all pictures */
     layer layers[LAYERS_MAX];
     int n_layers;
     bool has_soil;
@@ -258,7 +258,7 @@ static mor_status fill_terrain(mor_context *context, gallery *g, int w)
     return MOR_OK;
 }
 
-/* What a wall is to the viewer: the ground, a veil to be left out, or neither. */
+/* Whether a wall is the ground, hides the scene and is omitted, or neither. */
 static void sort_wall(gallery *g, int w)
 {
     const mor_case *c = g->the_case;
@@ -268,7 +268,7 @@ static void sort_wall(gallery *g, int w)
     mor_camera_orient(&camera, c->output.view, g->up);
     mor_matrix_apply(c->rotation, c->walls[w].outline.second, normal);
     g->is_ground[w] = is_half && mor_vector_dot(normal, g->up) > GROUND_COSINE * mor_vector_length(normal);
-    g->is_veil[w] = is_half && mor_vector_dot(normal, camera.toward) < 0.0;
+    g->is_omitted[w] = is_half && mor_vector_dot(normal, camera.toward) < 0.0;
 }
 
 static bool is_moving(const gallery *g, int w)
@@ -306,7 +306,7 @@ static mor_status fill_balls(mor_context *context, gallery *g, int w, int layers
     return MOR_OK;
 }
 
-/* In the plane one looks into a structure, which has no particles deep inside for the simulation. */
+/* In the plane the interior of a structure is visible, which has no particles deep inside in the simulation. */
 static mor_status fill_inside(mor_context *context, gallery *g, int w)
 {
     if (g->the_case->dimension == 2) {
@@ -316,7 +316,7 @@ static mor_status fill_inside(mor_context *context, gallery *g, int w)
     return MOR_OK;
 }
 
-/* What is a structure is judged by the particles alone, whatever else stands there. */
+/* Structures are identified by the particles alone, independent of other walls. */
 static mor_status fill_structures(mor_context *context, gallery *g)
 {
     const mor_case *c = g->the_case;
@@ -345,7 +345,7 @@ static mor_status fill_walls(mor_context *context, gallery *g)
         if (is_terrain(g, w)) {
             MOR_TRY(context, fill_terrain(context, g, w));
         } else if (!g->is_structure[w]) {
-            /* A moving wall is kept whole: it may come into view later. */
+            /* A moving wall is kept whole: it may become visible later. */
             if (!is_moving(g, w)) {
                 trim_wall(g, &g->walls[w]);
             }
@@ -393,7 +393,7 @@ static mor_picture_style style_wall(const gallery *g, int w)
     return is_opaque && !g->is_hiding[w] ? MOR_PICTURE_SOLID : MOR_PICTURE_GHOST;
 }
 
-/* In the plane all walls look alike; in space only structures need a name. */
+/* In the plane all walls look the same; in space only structures need a name. */
 static bool is_named(const gallery *g, int w)
 {
     return g->the_case->dimension == 2 || g->is_structure[w];
@@ -427,7 +427,7 @@ static int list_groups(const gallery *g, mor_picture_group *groups)
         tone += !g->layers[k].is_soil;
     }
     for (int w = 0; w < g->the_case->n_walls && n < MOR_PICTURE_GROUPS_MAX; ++w) {
-        if (g->walls[w].n_points > 0 && !g->is_veil[w]) {
+        if (g->walls[w].n_points > 0 && !g->is_omitted[w]) {
             groups[n++] = show_wall(g, w, is_first);
             is_first = is_first && !is_named(g, w);
         }
@@ -452,7 +452,7 @@ static mor_status draw_snapshot(mor_context *context, gallery *g, const mor_snap
         *letter = *letter == '_' ? ' ' : *letter;
     }
     move_walls(g, snapshot->time);
-    /* A range of rounding errors, as of a body that flies undisturbed, is none. */
+    /* A range of rounding errors, as of a body in free flight, is none. */
     picture.has_range = g->range[1] - g->range[0] > 1e-6 * largest;
     memcpy(picture.range, g->range, sizeof picture.range);
     picture.time_text = time_text;
@@ -499,7 +499,7 @@ static mor_status widen_gallery(mor_context *context, gallery *g, const mor_snap
     return MOR_OK;
 }
 
-/* Opens one snapshot and hands it to the picture, or with no output only widens the gallery. */
+/* Opens one snapshot for the picture, or without output only widens the gallery. */
 static mor_status visit_snapshot(mor_context *context, gallery *g, int64_t step, FILE *output)
 {
     mor_snapshot snapshot;

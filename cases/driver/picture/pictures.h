@@ -20,7 +20,7 @@ typedef enum mor_pictures_choice {
     MOR_PICTURES_LAST   /* the last, and no charts */
 } mor_pictures_choice;
 
-/** Checks before a run that its pictures can be colored as the case asks: by a field of the soil, or of some group of
+/** Checks before a run that its pictures can be colored as the case says: by a field of the soil, or of some group of
  *  bodies where there is no soil.
  *  @param sets     [in]      shape [n_sets]; what goes into the snapshots: "soil" and the groups of bodies
  *  @param n_sets   [in]      number of sets
@@ -37,11 +37,11 @@ mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, mo
 mor_status mor_pictures_render(mor_context *context, const mor_case *the_case, const char *folder,
                                mor_pictures_choice choice, FILE *output);
 
-/** Draws the last snapshot of a folder, colored as one likes.
+/** Draws the last snapshot of a folder with any color.
  *  @param the_case [in]      the case of the snapshots
  *  @param folder   [in]      zero-terminated; holds the snapshots
  *  @param color    [in]      zero-terminated; as output.color
- *  @param when     [in]      zero-terminated; stands in front of the time, as "settled for"
+ *  @param when     [in]      zero-terminated; precedes the time, as "settled for"
  *  @param path     [in]      zero-terminated; of the picture
  *  @param output   [in,out]  one open stream; the path is printed to it
  *  Returns: as mor_pictures_render. */

@@ -20,20 +20,20 @@ static bool write_line(const mor_case_rocks *rocks, int dimension, int line, cha
     if (line == 0) {
         int used = snprintf(text, LINE_BYTES, "rocks '%s': %d placed, content %.2f %%", rocks->body.name,
                             rocks->n_rocks, 100.0 * rocks->content_reached);
-        used += rocks->count > 0 ? snprintf(text + used, (size_t)(LINE_BYTES - used), " (%d asked for)", rocks->count)
-                                 : snprintf(text + used, (size_t)(LINE_BYTES - used), " (asked for: %.2f %%)",
+        used += rocks->count > 0 ? snprintf(text + used, (size_t)(LINE_BYTES - used), " (%d requested)", rocks->count)
+                                 : snprintf(text + used, (size_t)(LINE_BYTES - used), " (requested: %.2f %%)",
                                             100.0 * rocks->content);
         if (isfinite(rocks->smallest_gap)) {
             used += snprintf(text + used, (size_t)(LINE_BYTES - used), ", smallest gap %.4g m", rocks->smallest_gap);
         }
         if (rocks->n_given_up > 0) {
-            snprintf(text + used, (size_t)(LINE_BYTES - used), ", %d without a place", rocks->n_given_up);
+            snprintf(text + used, (size_t)(LINE_BYTES - used), ", %d without a position", rocks->n_given_up);
         }
         return true;
     }
     if (line <= rocks->n_sizes) {
         const mor_case_size *size = &rocks->sizes[line - 1];
-        snprintf(text, LINE_BYTES, "  up to %10.4g m %6.2f %% of their %s (asked for: %.2f %%)", size->diameter,
+        snprintf(text, LINE_BYTES, "  up to %10.4g m %6.2f %% of their %s (requested: %.2f %%)", size->diameter,
                  100.0 * rocks->passing_reached[line - 1], dimension == 2 ? "area" : "volume", 100.0 * size->passing);
         return true;
     }
@@ -94,7 +94,7 @@ static mor_status draw_curve(mor_context *context, const mor_case *the_case, int
         asked[1][k] = rocks->sizes[k].passing;
     }
     const mor_chart_series series[2] = {
-        {"asked for", asked[0], asked[1], rocks->n_sizes, MOR_CHART_LINE, 0},
+        {"requested", asked[0], asked[1], rocks->n_sizes, MOR_CHART_LINE, 0},
         {"placed", room, room + rocks->n_rocks, n_rocks, MOR_CHART_POINTS, 0},
     };
     const mor_chart chart = {.title = rocks->body.name,

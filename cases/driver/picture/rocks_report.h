@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 /** @file
- *  What was asked for and what was reached when rocks were packed: as a table, in the log, as a chart. */
+ *  Requested and reached content of packed rocks: as a table, in the log, as a chart. */
 
 /** Prints a table of all rocks of a case; nothing when it has none.
  *  @param output   [in,out]  one open stream */
@@ -17,8 +17,8 @@ void mor_rocks_report_print(const mor_case *the_case, FILE *output);
 /** Sends the same lines to the log. */
 void mor_rocks_report_log(mor_context *context, const mor_case *the_case);
 
-/** Draws images/rocks_<name>.png in a run's folder for every item that has several sizes: the curve of sizes asked for
- *  and the rocks placed, each at the middle of its share.
+/** Draws images/rocks_<name>.png in a run's folder for every item that has several sizes: the requested size
+ *  distribution and the rocks placed, each at the middle of its share.
  *  @param folder   [in]      zero-terminated; the run's folder
  *  @param output   [in,out]  one open stream; the path of each chart is printed to it; NULL: not printed
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 
 /** @file
- *  A case file as a tree of settings that remember where they were written. The door of libconfig: the file is parsed,
- *  copied into the tree, and libconfig is gone. It does not know which settings exist or what they mean.
+ *  A case file as a tree of settings with their places in the file. Only case_file.c calls libconfig: the file is
+ *  parsed and copied into the tree. Which settings exist, and their meaning, is defined elsewhere.
  *
  *  Every message has the form "place: found ...; allowed ...; do ...", where place is "file:line" (line 0: the file as
  *  a whole) or "--set 'key=value'". */
@@ -80,7 +80,7 @@ const mor_case_node *mor_case_file_root(const mor_case_file *file);
  *  @param name  [in]  zero-terminated */
 const mor_case_node *mor_case_node_find(const mor_case_node *group, const char *name);
 
-/** Writes what a setting holds, for people: "5 kg", 0.4, true, "a list of 3", "a group".
+/** Writes the value of a setting as text: "5 kg", 0.4, true, "a list of 3", "a group".
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_case_node_print(const mor_case_node *node, char *text, size_t text_bytes);

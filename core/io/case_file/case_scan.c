@@ -173,7 +173,7 @@ static const char *skip_long_suffix(const char *text)
 }
 
 /* Returns 0 when token is no whole-number literal, 1 when it is one in range, -1 when it is out of range. */
-static int judge_integer_literal(const char *token)
+static int classify_integer(const char *token)
 {
     const bool is_hex = token[0] == '0' && (token[1] == 'x' || token[1] == 'X');
     const char *digits = is_hex ? token + 2 : token + (*token == '+' || *token == '-');
@@ -199,14 +199,14 @@ static mor_status check_number(scan *s)
         step(s);
     }
     token[length] = '\0';
-    const int judged = judge_integer_literal(token);
-    if (judged < 0) {
+    const int is_integer = classify_integer(token);
+    if (is_integer < 0) {
         return SCAN_FAIL(s, s->line,
                          "found the whole number %s; allowed: -2147483648 to 2147483647, beyond that up to 19 "
                          "digits with L after them, or a decimal point; write it in one of these ways",
                          token);
     }
-    if (judged == 0 && !is_real_literal(token)) {
+    if (is_integer == 0 && !is_real_literal(token)) {
         return SCAN_FAIL(s, s->line,
                          "found '%s'; allowed: a number, or a text such as \"5 mm\" for a value with a unit; "
                          "put a value with a unit into quotes",

@@ -6,8 +6,8 @@
 #include "core/base/context.h"
 
 /** @file
- *  A look over the text of a case file before it is parsed: what the parser would follow without end, misread in
- *  silence or report without a hint is refused here. It does not check the grammar. */
+ *  Checks the text of a case file before it is parsed: what the parser would follow endlessly, misread silently or
+ *  report without a hint is refused here. It does not check the grammar. */
 
 enum {
     MOR_CASE_SCAN_BYTES_MAX = 1 << 24,    /* bytes of a case file */

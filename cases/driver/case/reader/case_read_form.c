@@ -17,8 +17,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Shapes of rocks: from a mesh, from an outline, drawn at random. The origin of each is its center of volume. They are
- * made in the units of the file, then brought to the scale of the case, which is an exact factor. */
+/* Shapes of rocks: from a mesh, from an outline, generated at random. The origin of each is its center of volume. They
+ * are made in the units of the file, then brought to the scale of the case, which is an exact factor. */
 
 /* Of level sets, in spacings: contact looks as far as three, and particles lie half a spacing inside the surface. */
 #define CELL_SPACINGS 0.5
@@ -28,8 +28,8 @@ enum { OUTLINE_CORNERS = 96, MESH_SUBDIVISION = 4, REPORT_BYTES = 1024 };
 
 /* ---- Files ------------------------------------------------------------------------------------------------------- */
 
-/* The whole path of a file: its folder as the system knows it, its own name as given, because the ending tells what it
- * holds. Writes "" when it does not fit. */
+/* The whole path of a file: its folder as the system knows it, its own name as given, because the extension determines
+ * its format. Writes "" when it does not fit. */
 static void find_path(const char *given, char *path)
 {
     char copy[PATH_MAX];
@@ -92,7 +92,7 @@ mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_
     return MOR_OK;
 }
 
-/* What the makers of shapes refuse becomes an error of the case, with its place. */
+/* An error of a shape constructor becomes an error of the case, with its place in the file. */
 static mor_status annotate_case_error(const mor_case_reader *reader, const mor_case_node *node, const char *what,
                                       mor_status status)
 {
@@ -279,13 +279,13 @@ mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_no
 
 /* ---- What was read ----------------------------------------------------------------------------------------------- */
 
-/* The file that a shape was made from; without meaning when its file_hash is 0. */
+/* The file that a shape was made from; undefined when its file_hash is 0. */
 static const char *name_file(const mor_case_shape *outline)
 {
     return outline->kind == MOR_CASE_SHAPE_TERRAIN ? outline->ground.file : outline->form.file;
 }
 
-/* Notes a file once; a hash of 0: there is none. */
+/* Records a file once; a hash of 0: there is none. */
 static void add_input(const char *file, uint64_t hash, mor_case_input *inputs, int room, int *n_inputs)
 {
     bool is_known = hash == 0;

@@ -13,7 +13,7 @@
 enum {
     ACROSS = 24,       /* samples across a body */
     PROJECTIONS = 8,   /* steps of a sample to the surface */
-    REFINEMENTS = 120, /* halvings of the way around the nearest sample */
+    REFINEMENTS = 120, /* halvings of the search step around the nearest sample */
     DESCENTS = 4000    /* steps down to the ground, at most */
 };
 
@@ -23,7 +23,7 @@ enum {
 /* Step of the differences that give a normal, over the size of the body. */
 #define NORMAL_STEP 0x1p-12
 
-/* One body on its way down. Points are in the frame of the case. */
+/* One body being lowered. Points are in the frame of the case. */
 typedef struct descent {
     const mor_case *the_case;
     const mor_shape *shape; /* of the body, in its own frame */
@@ -170,7 +170,7 @@ static void start_descent(const mor_case *c, const mor_case_body *body, descent 
     }
 }
 
-/* Lets a body down from the top of the domain, never through what is in its way: a step is no longer than the gap. */
+/* Lowers a body from the top of the domain, never through an obstacle: a step is no longer than the gap. */
 static mor_status lower_body(mor_context *context, const descent *it, mor_case_body *body)
 {
     double along = mor_vector_dot(body->position, it->up);
@@ -185,7 +185,7 @@ static mor_status lower_body(mor_context *context, const descent *it, mor_case_b
             MOR_CHECK(
                 context, k > 0, MOR_ERROR_CONFIG,
                 "%s:%d: found body '%s' with walls or soil nearer than its height_over_ground, %g m, at the top of "
-                "the domain above it already; the height is the least distance, walls beside it count; "
+                "the domain above it already; the height is the smallest distance, also from walls beside it; "
                 "move it away from them, or give 'position' alone",
                 body->place.file, body->place.line, body->name, body->height_over_ground);
             memcpy(body->position, position, sizeof position);
@@ -193,15 +193,17 @@ static mor_status lower_body(mor_context *context, const descent *it, mor_case_b
         }
         rise -= left;
         if (along + rise + it->top < it->lowest) {
-            return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                            "%s:%d: found body '%s' with height_over_ground, but no wall and no soil below it; allowed "
-                            "are places over walls or soil; move it, or give its height by 'position' alone",
-                            body->place.file, body->place.line, body->name);
+            return MOR_FAIL(
+                context, MOR_ERROR_CONFIG,
+                "%s:%d: found body '%s' with height_over_ground, but no wall and no soil below "
+                "it; allowed are positions over walls or soil; move it, or give its height by 'position' alone",
+                body->place.file, body->place.line, body->name);
         }
     }
     return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "%s:%d: found body '%s' with height_over_ground %g m beside a wall that is nearly as near; allowed "
-                    "are places at least twice that far from walls beside them; move it, or give 'position' alone",
+                    "%s:%d: found body '%s' with height_over_ground %g m beside a wall at nearly the same "
+                    "distance; allowed are positions at least twice as far from walls beside them; move it, or give "
+                    "'position' alone",
                     body->place.file, body->place.line, body->name, body->height_over_ground);
 }
 

@@ -11,7 +11,7 @@
 
 enum { NAMES_MAX = 96, LIST_BYTES = 1024 };
 
-/* Words with commas; of many, those that there is room for, and how many more there are. */
+/* Words with commas; of many, those that fit, and the number of the others. */
 static void join_words(const char *const *words, int n_words, char *text, size_t text_bytes)
 {
     const size_t room = text_bytes - sizeof ", and 1000 more";

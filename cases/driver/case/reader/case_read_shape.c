@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Shapes: first the outline as the file gives it, then the tree of shapes that answers distances. */
+/* Shapes: first the outline as the file gives it, then the tree of shapes that computes distances. */
 
 static const mor_schema corner_schema = {.key = "points",
                                          .kind = MOR_SCHEMA_VECTOR,
@@ -128,8 +128,8 @@ static mor_status flatten_box(const mor_case_reader *reader, const mor_case_node
     return MOR_OK;
 }
 
-/* In plane strain a shape is what its cut with the plane z = 0 shows. A ball beside the plane would be cut to a smaller
- * disc, and a face aslant to it told farther away than it is. */
+/* In plane strain a shape is its cut with the plane z = 0. A ball beside the plane would be cut to a smaller disc, and
+ * the distance from an oblique face would be too large. */
 static mor_status check_shape_plane(const mor_case_reader *reader, const mor_case_node *node,
                                     const mor_case_shape *outline)
 {

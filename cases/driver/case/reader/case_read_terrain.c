@@ -15,13 +15,13 @@
 /* Default thickness of ground, and the reach of exact distances, in spacings: twice the layers of wall particles. */
 #define GROUND_SPACINGS 8.0
 
-/* A domain that ends on the raster's edge may miss it by this share of a cell. */
+/* A domain that ends on the raster's edge may exceed it by this fraction of a cell. */
 #define ON_EDGE 1e-9
 
 /* Posts go this far below the lowest place of the ground under them, in spacings. */
 #define POST_SPACINGS 2.0
 
-/* The ground below the foot of a post is looked at so many times along each side. */
+/* Samples of the ground below the foot of a post along each side. */
 enum { FOOT_PLACES = 9 };
 
 static const mor_case_node *find_root(const mor_case_node *node)
@@ -65,8 +65,8 @@ static mor_status read_raster(const mor_case_reader *reader, const mor_case_node
     return MOR_OK;
 }
 
-/* Where soil and rocks may come there must be ground: beyond the raster it is continued if that is asked for. Under the
- * edge of the domain it goes on by the thickness of a wall, as walls do, so that soil there does not tilt off it. */
+/* There must be ground over the whole domain: beyond the raster it is extended if the case says so. Beyond the edge of
+ * the domain it continues by the thickness of a wall, as walls do, so that soil there is fully supported. */
 static mor_status cover_domain(const mor_case_reader *reader, const mor_case_node *node, const mor_case_ground *ground,
                                mor_terrain *terrain)
 {
@@ -86,19 +86,18 @@ static mor_status cover_domain(const mor_case_reader *reader, const mor_case_nod
     if (beyond > 0.0 && !ground->extends_edge) {
         return MOR_CASE_NODE_FAIL(
             reader->context, node,
-            "found a domain that reaches up to %g m beyond the ground: the raster covers x from %g to %g m and y from "
+            "found a domain that reaches up to %g m beyond the raster: the raster covers x from %g to %g m and y from "
             "%g "
             "to %g m, the domain x from %g to %g m and y from %g to %g m; allowed is a domain over the raster; make it "
-            "smaller, read more of the raster, or let the ground go on at the height of its edge: extend_edge = true",
+            "smaller, read more of the raster, or extend the ground at the height of its edge: extend_edge = true",
             beyond, low[0], high[0], low[1], high[1], reader->domain.minimum[0], reader->domain.maximum[0],
             reader->domain.minimum[1], reader->domain.maximum[1]);
     }
     if (beyond > 0.0) {
-        mor_context_log(
-            reader->context, MOR_LOG_WARNING,
-            "%s: ends up to %g m inside the domain; beyond its edge the ground goes on at the height of the "
-            "edge, which nobody has measured",
-            ground->file, beyond);
+        mor_context_log(reader->context, MOR_LOG_WARNING,
+                        "%s: ends up to %g m inside the domain; beyond its edge the ground is extended at the "
+                        "height of the edge, which is an assumption",
+                        ground->file, beyond);
     }
     MOR_TRY(reader->context, mor_terrain_extend(reader->context, terrain, from, to));
     return MOR_OK;
@@ -114,7 +113,7 @@ static mor_status build_terrain(const mor_case_reader *reader, const mor_case_no
         ground->thickness = GROUND_SPACINGS * reader->spacing;
     }
     MOR_TRY(reader->context, read_raster(reader, node, ground, &terrain));
-    outline->file_hash = terrain.hash; /* with the files beside it that say where and in what it lies */
+    outline->file_hash = terrain.hash; /* with the files beside it that give its position and units */
     mor_status status = cover_domain(reader, node, ground, &terrain);
     if (status == MOR_OK) {
         status = mor_shape_new_terrain(reader->context, &terrain, ground->thickness, GROUND_SPACINGS * reader->spacing,
@@ -165,7 +164,7 @@ static mor_status open_ground(const mor_case_reader *reader, const mor_case_node
     mor_case_shape copy = {0};
     *shape = NULL;
     MOR_TRY(reader->context, find_ground(reader, node, outline->ground.wall, &ground));
-    /* What is said about the raster is said once, when the wall itself is read. */
+    /* Messages about the raster are logged once, when the wall itself is read. */
     const mor_log_sink sink = reader->context->log_sink;
     reader->context->log_sink = NULL;
     const mor_status status = read_shape(reader, ground, &copy, shape);
@@ -199,7 +198,7 @@ static mor_status build_post(const mor_case_reader *reader, const mor_terrain *t
     corners[0][2] = find_lowest(terrain, middle, ground->size) - POST_SPACINGS * reader->spacing;
     corners[1][2] = isnan(ground->top) ? surface + ground->height : ground->top;
     MOR_CHECK(reader->context, corners[1][2] > surface, MOR_ERROR_ARGUMENT,
-              "the post at (%g, %g) m ends at %g m, under the ground at %g m", middle[0], middle[1], corners[1][2],
+              "the post at (%g, %g) m ends at %g m, below the ground at %g m", middle[0], middle[1], corners[1][2],
               surface);
     return mor_shape_new_box(reader->context, corners[0], corners[1], shape);
 }
@@ -253,7 +252,7 @@ mor_status mor_case_reader_ground(const mor_case_reader *reader, const mor_case_
     *shape = NULL;
     if (reader->dimension == 2) {
         return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found a shape of the ground in plane strain; allowed: with dimension = 3; give the "
+                                  "found a shape of terrain in plane strain; allowed: with dimension = 3; give the "
                                   "profile as a polygon");
     }
     const mor_status status = outline->kind == MOR_CASE_SHAPE_TERRAIN

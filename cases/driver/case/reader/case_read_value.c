@@ -20,13 +20,13 @@ enum {
     CHOICE_WORDS_MAX = 16
 };
 
-/* Beyond these a number is a slip of the pen, and its powers come near the ends of double. */
+/* Beyond these a number is a typing error, and its powers approach the range of double. */
 static const double largest_size = 1.0e30;
 static const double smallest_size = 1.0e-30;
 
-static const double full_turn = 6.283185307179586;
+static const double full_revolution = 6.283185307179586;
 
-/* What a key allows, for people. */
+/* What a key allows, as text. */
 static void describe_allowed(const mor_case_reader *reader, const mor_schema *schema, char *text, size_t text_bytes)
 {
     char range[RANGE_BYTES];
@@ -96,29 +96,29 @@ static bool is_bare(const mor_case_node *node)
     return end[strspn(end, " \t")] == '\0';
 }
 
-/* Nobody means radians by a bare angle beyond a full turn, and degrees taken for radians would turn the scene anyhow.
- */
+/* A bare angle beyond a full revolution is certainly in degrees, and read as radians it would give a wrong rotation. */
 static mor_status refuse_bare_angle(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema,
                                     double value)
 {
     char advice[ALLOWED_BYTES];
-    snprintf(advice, sizeof advice, "write \"%.6g deg\", or \"%.6g rad\" if radians are meant", value, value);
-    return fail_value(reader, node, schema, "an angle of more than a full turn, 2 pi, without its unit", advice);
+    snprintf(advice, sizeof advice, "write \"%.6g deg\", or \"%.6g rad\" if radians are intended", value, value);
+    return fail_value(reader, node, schema, "an angle of more than a full revolution, 2 pi, without its unit", advice);
 }
 
 static mor_status check_range(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema,
                               double value)
 {
     if (!isfinite(value) || fabs(value) > largest_size) {
-        return fail_value(reader, node, schema, "which is not finite or beyond 1e30", "correct the number");
+        return fail_value(reader, node, schema, "which is not finite or above 1e30 in magnitude", "correct the number");
     }
     if (value != 0.0 && fabs(value) < smallest_size) {
-        return fail_value(reader, node, schema, "which is neither zero nor beyond 1e-30", "correct the number");
+        return fail_value(reader, node, schema, "which is neither zero nor above 1e-30 in magnitude",
+                          "correct the number");
     }
     const bool is_above = schema->excludes_minimum ? value > schema->minimum : value >= schema->minimum;
     const bool is_below = schema->excludes_maximum ? value < schema->maximum : value <= schema->maximum;
     const bool is_bare_angle = strcmp(schema->unit, "rad") == 0 && is_bare(node);
-    if (is_above && is_below && is_bare_angle && fabs(value) > full_turn) {
+    if (is_above && is_below && is_bare_angle && fabs(value) > full_revolution) {
         return refuse_bare_angle(reader, node, schema, value);
     }
     if (!is_above || !is_below) {
@@ -141,7 +141,7 @@ static mor_status read_real(const mor_case_reader *reader, const mor_case_node *
     return check_range(reader, node, schema, *value);
 }
 
-/* A list whose values have units without quotes is taken for a text; shows how it is meant. */
+/* A list whose values have units without quotes is parsed as a text; shows how to write it. */
 static mor_status refuse_bare_list(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schema)
 {
     char advice[ALLOWED_BYTES];
@@ -208,7 +208,7 @@ mor_status mor_case_reader_scale(const mor_case_reader *reader, const char *unit
 {
     mor_dimension dimension;
     MOR_CHECK(reader->context, mor_units_dimension(reader->context, reader->units, unit, &dimension) == MOR_OK,
-              MOR_ERROR_INTERNAL, "the unit '%s' of a schema is not a unit; mend the schema", unit);
+              MOR_ERROR_INTERNAL, "the unit '%s' of a schema is not a unit; correct the schema", unit);
     const int power =
         mor_dimension_scale(&dimension, reader->length_power, reader->mass_power, reader->time_power) * sign;
     for (int k = 0; k < n; ++k) {
@@ -242,7 +242,7 @@ mor_status mor_case_reader_numbers(const mor_case_reader *reader, const mor_case
     case MOR_SCHEMA_CHOICE:
         return read_choice(reader, node, schema, values);
     case MOR_SCHEMA_TEXT:
-        return MOR_FAIL(reader->context, MOR_ERROR_INTERNAL, "key '%s' is a text, not a number; mend its schema",
+        return MOR_FAIL(reader->context, MOR_ERROR_INTERNAL, "key '%s' is a text, not a number; correct its schema",
                         schema->key);
     }
     return keeps_scale ? MOR_OK : mor_case_reader_scale(reader, schema->unit, values, schema->n_components, 1);
@@ -340,8 +340,8 @@ static mor_status store_default(const mor_case_reader *reader, const mor_case_ke
     return MOR_OK;
 }
 
-/* The node of a key, also under the name that the key had in earlier versions. A setting of the command line stands
- * above the case file, whichever of the two names it uses. */
+/* The node of a key, also under the name that the key had in earlier versions. A setting of the command line takes
+ * precedence over the case file under either name. */
 static mor_status find_key(const mor_case_reader *reader, const mor_case_node *node, const mor_case_key *key,
                            const mor_case_node **found)
 {

@@ -11,7 +11,7 @@
  *  The parts that reading a case is made of; used by case_read*.c only. Every error names the place in the file, what
  *  was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
 
-/** What every part needs to know. */
+/** State shared by all parts. */
 typedef struct mor_case_reader {
     mor_context *context;
     const mor_units *units;
@@ -37,7 +37,7 @@ mor_status mor_case_reader_numbers(const mor_case_reader *reader, const mor_case
  *  @param unit   [in]      zero-terminated; unit of the values
  *  @param values [in,out]  shape [n]; unit: as given
  *  @param n      [in]      number of values
- *  @param sign   [in]      1: multiply; -1: take the scale away again
+ *  @param sign   [in]      1: multiply; -1: divide
  *  Returns: MOR_OK; MOR_ERROR_INTERNAL when unit is none. */
 mor_status mor_case_reader_scale(const mor_case_reader *reader, const char *unit, double *values, int n, int sign);
 
@@ -141,7 +141,7 @@ typedef struct mor_case_material_slot {
     const char *what;   /* zero-terminated; for messages: "material model of a soil" */
 } mor_case_material_slot;
 
-/** Reads the group material and asks the model whether it agrees.
+/** Reads the group material and lets the model check it.
  *  @param owner  [in]  the soil or body
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_PLUGIN for a model of too many parameters; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
@@ -155,7 +155,7 @@ mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_cas
 mor_status mor_case_reader_in_plane(const mor_case_reader *reader, const mor_case_node *group, const char *name,
                                     const double *vector);
 
-/** Refuses an axis or a rate of turn that is not normal to the plane in plane strain.
+/** Refuses an axis or an angular velocity that is not normal to the plane in plane strain.
  *  @param group  [in]  the vector's group
  *  @param name   [in]  zero-terminated; the vector's key
  *  @param vector [in]  shape [3]; any unit
@@ -210,7 +210,7 @@ mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_n
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
-/** Refuses settings that leave nothing of one another, and warns of those that have no effect in their company.
+/** Refuses settings that contradict one another, and warns of those that have no effect together.
  *  @param the_case [in]  read whole, but for probes and expectations
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);

@@ -10,12 +10,12 @@
 #include <stdio.h>
 
 /** @file
- *  From a case file to struct mor_case. What a case file may say stands in case_schema.c; whether the
- *  particles it asks for fit into memory is for the builder to find out. */
+ *  From a case file to struct mor_case. The keys of a case file are listed in case_schema.c; whether the particles fit
+ *  into memory is checked by the builder. */
 
 /** The text of a case that is in no file. */
 typedef struct mor_case_text {
-    const char *name;             /* zero-terminated; stands for the file in messages */
+    const char *name;             /* zero-terminated; the name of the file in messages */
     const char *text;             /* shape [n_bytes]; need not be zero-terminated */
     int64_t n_bytes;              /* length of text */
     const char *const *settings;  /* shape [n_settings] of zero-terminated "key=value"; NULL when there are none */
@@ -25,7 +25,7 @@ typedef struct mor_case_text {
     const mor_units *units;             /* NULL: loaded for this call */
 } mor_case_text;
 
-/** Reads a case file, applies settings of the command line over it, checks everything that one case alone can tell,
+/** Reads a case file, applies settings of the command line over it, checks everything that depends on the case alone,
  *  fills in the defaults, applies the scale, and builds the shapes.
  *  @param path       [in]      zero-terminated
  *  @param settings   [in]      shape [n_settings] of zero-terminated "key=value"; NULL when there are none

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The lists of bodies and rocks, and what they touch with. */
+/* The lists of bodies and rocks, and their contact. */
 #include "cases/driver/case/reader/case_reader.h"
 
 #include "core/base/memory.h"
@@ -115,33 +115,32 @@ static mor_status read_contact(const mor_case_reader *reader, const mor_case_nod
 
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
-/* A velocity that a lock takes away would not be what was written; nor would a lock that the placement turns away from
- * its axis, for locks are along the axes of the run. */
+/* A velocity that a lock removes would differ from the case file; so would a lock that the placement rotates away from
+ * its axis, because locks are along the axes of the run. */
 static mor_status check_locks(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
                               const mor_case_body *body)
 {
     const mor_case_node *list = mor_case_node_find(node, "locked");
     for (int k = 0; k < MOR_CASE_LOCKS; ++k) {
         const int axis = k % 3;
-        const bool is_turn = k >= 3;
+        const bool is_rotation = k >= 3;
         if (!body->is_locked[k]) {
             continue;
         }
-        if ((is_turn ? body->angular_velocity : body->velocity)[axis] != 0.0) {
-            const char *key = is_turn ? "angular_velocity" : "velocity";
+        if ((is_rotation ? body->angular_velocity : body->velocity)[axis] != 0.0) {
+            const char *key = is_rotation ? "angular_velocity" : "velocity";
             return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(node, key),
-                                      "found %s with a component that '%s' in locked takes away; allowed: zero in "
-                                      "locked directions; set it to zero or unlock it",
+                                      "found %s with a component that '%s' in locked removes; "
+                                      "allowed: zero in locked directions; set it to zero or unlock it",
                                       key, mor_case_lock_words[k]);
         }
         for (int other = 0; other < 3; ++other) {
             if (!body->is_locked[k - axis + other] && the_case->rotation[3 * other + axis] != 0.0) {
-                return MOR_CASE_NODE_FAIL(
-                    reader->context, list,
-                    "found '%s' in locked, which the turn of placement takes away from its axis; "
-                    "allowed: locks that its turn leaves together, such as along its axis or across "
-                    "it in both directions; change the locks or the turn",
-                    mor_case_lock_words[k]);
+                return MOR_CASE_NODE_FAIL(reader->context, list,
+                                          "found '%s' in locked, which the rotation of placement moves away from "
+                                          "its axis; allowed: locks that this rotation keeps together, such as along "
+                                          "its axis or across it in both directions; change the locks or the rotation",
+                                          mor_case_lock_words[k]);
             }
         }
     }

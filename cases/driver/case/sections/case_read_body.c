@@ -17,7 +17,7 @@ static const double right_angle_cosine = 1.0e-6;
 
 /* ---- Parts of a body --------------------------------------------------------------------------------------------- */
 
-/* What this body does not use is refused, so that nobody believes it had an effect. */
+/* Keys that this body does not use are refused, because they would have no effect. */
 static mor_status check_conditions(const mor_case_reader *reader, const mor_case_node *node, const mor_case_body *body)
 {
     for (const mor_case_node *child = node->first_child; child != NULL; child = child->next) {
@@ -25,7 +25,7 @@ static mor_status check_conditions(const mor_case_reader *reader, const mor_case
         if (condition != NULL) {
             return MOR_CASE_NODE_FAIL(reader->context, child,
                                       "found '%s', which has no effect on the body '%s'; allowed: %s; remove it or "
-                                      "change what the body is",
+                                      "change the type of the body",
                                       child->name, body->name, condition);
         }
     }
@@ -65,8 +65,8 @@ static mor_status read_lock(const mor_case_reader *reader, const mor_case_node *
             return MOR_OK;
         }
     }
-    return mor_case_reader_refuse(reader, node, "motion along an axis, or turn about it, that is locked", words,
-                                  n_words);
+    return mor_case_reader_refuse(reader, node, "translation along an axis, or rotation about it, that is locked",
+                                  words, n_words);
 }
 
 static mor_status read_locks(const mor_case_reader *reader, const mor_case_node *body_node, mor_case_body *body)
@@ -191,7 +191,7 @@ static mor_status check_plane(const mor_case_reader *reader, const mor_case_node
     return mor_case_reader_out_of_plane(reader, node, "angular_velocity", body->angular_velocity);
 }
 
-/* A body has mass, so its shape must have an end in every direction of the case. */
+/* A body has mass, so its shape must be bounded in every direction of the case. */
 static mor_status check_shape(const mor_case_reader *reader, const mor_case_node *shape, const mor_case_body *body)
 {
     mor_bounds bounds;
@@ -199,8 +199,8 @@ static mor_status check_shape(const mor_case_reader *reader, const mor_case_node
     for (int a = 0; a < reader->dimension; ++a) {
         if (!isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a])) {
             return MOR_CASE_NODE_FAIL(reader->context, shape,
-                                      "found a body whose shape is unbounded along %c; allowed: a shape with an end in "
-                                      "every direction; close it, or make it a wall",
+                                      "found a body whose shape is unbounded along %c; allowed: a bounded "
+                                      "shape; close it, or make it a wall",
                                       "xyz"[a]);
         }
     }
@@ -218,8 +218,8 @@ static mor_status complete_modulus(const mor_case_reader *reader, const mor_case
     if (isnan(body->contact_modulus)) {
         return MOR_CASE_NODE_FAIL(
             reader->context, node,
-            "found no 'contact_modulus' for the model '%s', whose parameters tell no Young's modulus to "
-            "take instead; allowed: > 0 Pa; add it",
+            "found no 'contact_modulus' for the model '%s', whose parameters have no Young's modulus as "
+            "its default; allowed: > 0 Pa; add it",
             body->model);
     }
     return MOR_OK;

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Settings that make one another void: refused where nothing sensible is left, warned of where one has no effect. */
+/* Settings that contradict one another are refused; those without effect give a warning. */
 #include "cases/driver/case/reader/case_reader.h"
 
 #include "core/base/math.h"
@@ -14,7 +14,7 @@ enum { VALUES_MAX = 9 };
 
 /* ---- Settings that have no effect -------------------------------------------------------------------------------- */
 
-/* How it is said what a key needs to have an effect. */
+/* Text for the condition under which a key has an effect. */
 static const struct {
     unsigned need;
     const char *words;
@@ -151,7 +151,7 @@ static mor_status check_series(const mor_case_reader *reader, const mor_case_nod
                               c->output.series_interval, c->end);
 }
 
-/* Soil looks for rocks within the support of its kernel. */
+/* Soil interacts with rocks within the support of its kernel. */
 static mor_status check_barrier(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
 {
     const double support = MOR_KERNEL_SUPPORT * c->numerics.smoothing_ratio * c->spacing;

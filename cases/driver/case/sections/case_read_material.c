@@ -59,7 +59,7 @@ static mor_status default_parameter(const mor_case_reader *reader, const mor_cas
     return mor_case_reader_scale(reader, schema->unit, values, schema->n_components, 1);
 }
 
-/* Relations between parameters are for the model to judge: it is asked to make an instance. */
+/* Relations between parameters are checked by the model: an instance is created. */
 static mor_status try_material(const mor_case_reader *reader, const mor_case_node *node, const mor_material *model,
                                const mor_case_material_slot *slot)
 {
@@ -72,8 +72,8 @@ static mor_status try_material(const mor_case_reader *reader, const mor_case_nod
     char why[MOR_CONTEXT_MESSAGE_BYTES];
     snprintf(why, sizeof why, "%.1500s", reader->context->message);
     return MOR_CASE_NODE_FAIL(reader->context, node,
-                              "found parameters that '%s' refuses: %s; allowed: what its reference "
-                              "says; correct them",
+                              "found parameters that '%s' refuses: %s; allowed: values "
+                              "according to its reference; correct them",
                               model->name, why);
 }
 
@@ -126,10 +126,11 @@ mor_status mor_case_reader_out_of_plane(const mor_case_reader *reader, const mor
     if (reader->dimension == 3 || node == NULL || (vector[0] == 0.0 && vector[1] == 0.0)) {
         return MOR_OK;
     }
-    return MOR_CASE_NODE_FAIL(reader->context, node,
-                              "found %s with a component in the plane, which turns out of it; allowed in plane strain: "
-                              "(0, 0, z); set x and y to zero",
-                              name);
+    return MOR_CASE_NODE_FAIL(
+        reader->context, node,
+        "found %s with a component in the plane, which rotates out of it; allowed in plane strain: "
+        "(0, 0, z); set x and y to zero",
+        name);
 }
 
 mor_status mor_case_reader_refuse_duplicate(const mor_case_reader *reader, const mor_case_node *group, const char *name,

@@ -32,7 +32,7 @@ static mor_status read_type(const mor_case_reader *reader, const mor_case_node *
     return mor_case_reader_refuse(reader, name, "type of probe", words, n_words);
 }
 
-/* Says which of the special keys a type takes. */
+/* Which of the special keys a type takes. */
 static void list_keys(unsigned bits, char *text, size_t text_bytes)
 {
     size_t used = (size_t)snprintf(text, text_bytes, "name, type");
@@ -98,7 +98,7 @@ static void normalize(double *direction)
     }
 }
 
-/* A share and a percentage are a factor of a hundred apart; a number with its unit is taken at its word. */
+/* A share and a percentage are a factor of a hundred apart; a number with its unit is accepted as written. */
 static void warn_of_share(const mor_case_reader *reader, const mor_case_node *node, const char *words)
 {
     mor_context_log(reader->context, MOR_LOG_WARNING, "%s:%d: found %s = %g, %s", node->origin, node->line, node->name,
@@ -116,8 +116,8 @@ static void warn_of_percentile(const mor_case_reader *reader, const mor_case_nod
     if (is_bare(given) && given->real > 0.0 && given->real <= 1.0) {
         char words[160];
         snprintf(words, sizeof words,
-                 "which is %g %%: percentiles are in percent; if %g %% is meant, write %g, else \"%g %%\"", given->real,
-                 100.0 * given->real, 100.0 * given->real, given->real);
+                 "which is %g %%: percentiles are in percent; if %g %% is intended, write %g, else \"%g %%\"",
+                 given->real, 100.0 * given->real, 100.0 * given->real, given->real);
         warn_of_share(reader, given, words);
     }
 }
@@ -132,7 +132,7 @@ static void warn_of_tolerance(const mor_case_reader *reader, const mor_case_node
             char words[192];
             snprintf(
                 words, sizeof words,
-                "a share of the value, so that results off by %g %% pass: if %g %% is meant, write %g; a difference "
+                "a share of the value, so that results off by %g %% pass: if %g %% is intended, write %g; a difference "
                 "in the unit of the probe needs absolute = true",
                 100.0 * given->real, given->real, 0.01 * given->real);
             warn_of_share(reader, given, words);
@@ -156,9 +156,9 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
         probe->thickness = 0.5 * spacing;
     }
     if (!has_direction) {
-        const bool is_turn_of_plane = reader->dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_TURN) != 0;
+        const bool is_plane_rotation = reader->dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_TURN) != 0;
         memset(probe->direction, 0, sizeof probe->direction);
-        probe->direction[is_turn_of_plane ? 2 : 0] = 1.0;
+        probe->direction[is_plane_rotation ? 2 : 0] = 1.0;
     } else if ((type->traits & MOR_CASE_PROBE_OF_TURN) != 0) {
         MOR_TRY(reader->context, mor_case_reader_out_of_plane(reader, node, "direction", probe->direction));
     } else {
@@ -206,7 +206,7 @@ static mor_status check_name(const mor_case_reader *reader, const mor_case_node 
     return child == NULL ? MOR_OK : mor_case_reader_refuse(reader, child, what, words, n_words);
 }
 
-/* The names of bodies without the long list that rocks would make. */
+/* The names of bodies without the long list of rocks. */
 static void list_bodies(const mor_case *the_case, char *text, size_t text_bytes)
 {
     enum { LISTED_MAX = 8 };
@@ -295,7 +295,7 @@ static mor_status check_column(const mor_case_reader *reader, const mor_case_nod
         if (strcmp(own->name, probe->name) == 0 && strcmp(own->name, probe->type) != 0) {
             return MOR_CASE_NODE_FAIL(reader->context, node,
                                       "found the probe name '%s'; allowed: any but time, step, step_length and "
-                                      "rate_ratio, which series.csv has anyway; give it another name",
+                                      "rate_ratio, which are columns of series.csv already; give it another name",
                                       probe->name);
         }
     }

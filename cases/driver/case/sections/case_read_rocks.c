@@ -42,17 +42,19 @@ static mor_status read_sizes(const mor_case_reader *reader, const mor_case_node 
         MOR_TRY(reader->context, mor_case_reader_names(reader, child, &mor_case_size_group, NULL, NULL));
         MOR_TRY(reader->context, mor_case_reader_group(reader, child, &mor_case_size_group, size));
         if (rocks->n_sizes > 1 && (size->diameter <= size[-1].diameter || size->passing < size[-1].passing)) {
-            return MOR_CASE_NODE_FAIL(reader->context, child,
-                                      "found a point of the curve of sizes, %g m and %g, that does not lie above the "
-                                      "one before, %g m and %g; allowed: rising diameters and shares; correct it",
-                                      size->diameter, size->passing, size[-1].diameter, size[-1].passing);
+            return MOR_CASE_NODE_FAIL(
+                reader->context, child,
+                "found a point of the size distribution, %g m and %g, "
+                "that does not lie above the one before, %g m and %g; allowed: rising diameters and shares; correct it",
+                size->diameter, size->passing, size[-1].diameter, size[-1].passing);
         }
     }
     if (rocks->sizes[rocks->n_sizes - 1].passing != 1.0) {
-        return MOR_CASE_NODE_FAIL(reader->context, list,
-                                  "found a curve of sizes that ends with a share passing of %g; allowed: 1, for all "
-                                  "rocks are smaller than the largest; correct it or add the largest size",
-                                  rocks->sizes[rocks->n_sizes - 1].passing);
+        return MOR_CASE_NODE_FAIL(
+            reader->context, list,
+            "found a size distribution that ends with a share passing of %g; "
+            "allowed: 1, because all rocks are smaller than the largest; correct it or add the largest size",
+            rocks->sizes[rocks->n_sizes - 1].passing);
     }
     return MOR_OK;
 }
@@ -128,7 +130,7 @@ static mor_status check_amount(const mor_case_reader *reader, const mor_case_nod
         if (child != NULL) {
             return MOR_CASE_NODE_FAIL(reader->context, child,
                                       "found '%s', which has no effect with a list of rocks; allowed: list, forms, "
-                                      "n_forms, material and what bodies have in common; remove it",
+                                      "n_forms, material and the common keys of bodies; remove it",
                                       packing_names[k]);
         }
     }
@@ -182,7 +184,7 @@ static mor_status join_bodies(mor_context *context, const mor_case *the_case, mo
     if (the_case->n_bodies == 0) {
         return MOR_OK;
     }
-    MOR_TRY(context, MOR_NEW(context, &parts, the_case->n_bodies, "bodies that rocks keep off"));
+    MOR_TRY(context, MOR_NEW(context, &parts, the_case->n_bodies, "bodies that rocks avoid"));
     for (int k = 0; k < the_case->n_bodies && status == MOR_OK; ++k) {
         status = place_view(context, &the_case->bodies[k], &parts[k]);
     }
@@ -246,14 +248,14 @@ static double find_volume(int dimension, double diameter)
     return dimension == 2 ? 0.25 * MOR_PI * diameter * diameter : MOR_PI / 6.0 * diameter * diameter * diameter;
 }
 
-/* An item without a single rock would be a case without rocks that nobody asked for. */
+/* An item without a single rock would silently be a case without rocks. */
 static mor_status refuse_none(const mor_case_reader *reader, const mor_case_node *node, const mor_case_rocks *rocks)
 {
     if (rocks->n_given_up > 0) {
         return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found rocks of which not one finds a place in the region; allowed: rocks that lie "
+                                  "found rocks of which none fits into the region; allowed: rocks that lie "
                                   "%g m deep in it and %g m from listed bodies; enlarge the region, lower margin or "
-                                  "gap, or ask for smaller rocks",
+                                  "gap, or use smaller rocks",
                                   rocks->margin, rocks->gap);
     }
     mor_shape_moments region;
@@ -269,9 +271,9 @@ static mor_status refuse_none(const mor_case_reader *reader, const mor_case_node
         snprintf(most, sizeof most, ", the largest %.4g %s", find_volume(dimension, largest), unit);
     }
     return MOR_CASE_NODE_FAIL(reader->context, node,
-                              "found rocks that fill nothing: %.4g %% of the region is %.4g %s, and the smallest rock "
+                              "found rocks without volume: %.4g %% of the region is %.4g %s, and the smallest rock "
                               "has %.4g %s%s; allowed: a content of half of a rock at least; raise content, enlarge "
-                              "the region, or ask for smaller rocks",
+                              "the region, or use smaller rocks",
                               100.0 * rocks->content, rocks->content * region.volume, unit,
                               find_volume(dimension, rocks->sizes[0].diameter), unit, most);
 }
@@ -284,7 +286,7 @@ static mor_status make_room(const mor_case_reader *reader, const mor_case_node *
     const int n_bodies = the_case->n_bodies + n_more;
     if (n_bodies > MOR_CASE_BODIES_MAX) {
         return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found %d rocks, %d bodies in all; allowed: %d bodies; ask for fewer or larger rocks",
+                                  "found %d rocks, %d bodies in all; allowed: %d bodies; use fewer or larger rocks",
                                   n_more, n_bodies, MOR_CASE_BODIES_MAX);
     }
     MOR_TRY(reader->context, MOR_NEW(reader->context, &bodies, n_bodies, "bodies of a case"));
@@ -332,9 +334,9 @@ static mor_status add_bodies(const mor_case_reader *reader, const mor_case_node 
     if (rocks->count > 0 && result.n_rocks != rocks->count) {
         mor_pack_clear(reader->context, &result);
         return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found room for %d of %d rocks; allowed: as many as find a place %g m deep in the "
-                                  "region and %g m from each other; enlarge the region, lower margin or gap, or ask "
-                                  "for fewer or smaller rocks",
+                                  "found space for %d of %d rocks; allowed: as many as fit %g m deep in the "
+                                  "region and %g m from each other; enlarge the region, lower margin or gap, or "
+                                  "use fewer or smaller rocks",
                                   rocks->n_rocks, rocks->count, rocks->margin, rocks->gap);
     }
     mor_status status = make_room(reader, node, the_case, result.n_rocks);
@@ -355,7 +357,7 @@ static mor_status scale_row(const mor_case_reader *reader, mor_rock_row *row)
     return mor_case_reader_scale(reader, "kg/m3", &row->density, 1, 1);
 }
 
-/* Rows in their order; each takes the next of the forms, and is not turned. */
+/* Rows in their order; each takes the next of the forms, and is not rotated. */
 static mor_status add_rows(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case,
                            mor_case_rocks *rocks, mor_rock_list *list)
 {

@@ -23,7 +23,7 @@ static mor_status read_material(const mor_case_reader *reader, const mor_case_no
     return mor_case_reader_material(reader, node, &slot);
 }
 
-/* What a kind of initial stress does not use is refused, so that nobody believes it had an effect. */
+/* Keys that a type of initial stress does not use are refused, because they would have no effect. */
 static mor_status check_stress_keys(const mor_case_reader *reader, const mor_case_node *node, mor_case_stress type)
 {
     static const struct {
@@ -46,7 +46,7 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
     return MOR_OK;
 }
 
-/* Without weight there is no stress of rest, and nothing to settle under. */
+/* Without weight there is no geostatic stress, and no load to settle under. */
 static mor_status check_stress_weight(const mor_case_reader *reader, const mor_case_node *node,
                                       const mor_case *the_case, const mor_case_soil *soil)
 {
@@ -113,17 +113,17 @@ static mor_status check_ground(const mor_case_reader *reader, const mor_case_nod
 {
     const bool is_ground = wall->outline.kind == MOR_CASE_SHAPE_TERRAIN;
     if (!is_ground && has_terrain(&wall->outline)) {
-        return MOR_CASE_NODE_FAIL(
-            reader->context, node,
-            "found a wall with a terrain inside a shape of type '%s'; allowed is a terrain alone; "
-            "move it with 'offset', turn the scene with 'placement', and list what stands in it "
-            "as walls of their own",
-            mor_case_shape_groups[wall->outline.kind].name);
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found a wall with a terrain inside a shape of type '%s'; allowed is a terrain "
+                                  "alone; translate it with 'offset', rotate the scene with 'placement', and list "
+                                  "structures on it as separate walls",
+                                  mor_case_shape_groups[wall->outline.kind].name);
     }
     if (is_ground && mor_vector_length(wall->velocity) > 0.0) {
-        return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(node, "velocity"),
-                                  "found a terrain that moves; allowed is ground at rest, whose edge stays outside the "
-                                  "domain; remove 'velocity', or give the soil the opposite one");
+        return MOR_CASE_NODE_FAIL(
+            reader->context, mor_case_node_find(node, "velocity"),
+            "found a terrain that moves; allowed is terrain at rest, whose edge stays outside the "
+            "domain; remove 'velocity', or give the soil the opposite one");
     }
     return MOR_OK;
 }

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The case as it was used: the tables of case_schema.c walked the other way. */
+/* The case as it was used: the tables of case_schema.c in the other direction. */
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------------ */
 
@@ -84,7 +84,7 @@ static mor_status write_parts(mor_case_writer *w, const mor_case_shape *outline)
     return MOR_OK;
 }
 
-/* Numbers that are none were not given, and stand for a choice. */
+/* Not-a-number means not given, that is a default chosen by the program. */
 static mor_case_presence check_shape_keys(const mor_case_key *key, const void *record)
 {
     double first = 0.0;
@@ -94,7 +94,7 @@ static mor_case_presence check_shape_keys(const mor_case_key *key, const void *r
     return isfinite(first) ? MOR_CASE_WRITE : key->computed != NULL ? MOR_CASE_MENTION : MOR_CASE_OMIT;
 }
 
-/* A run that is resumed with another content of the file is told by this line. */
+/* By this line a run that is resumed with another content of the file is recognized. */
 static void write_hash(const mor_case_writer *w, uint64_t file_hash)
 {
     if (file_hash != 0) {
@@ -124,7 +124,7 @@ static mor_status write_shape(mor_case_writer *w, const char *name, const mor_ca
 
 /* ---- Soil and walls ---------------------------------------------------------------------------------------------- */
 
-static mor_case_presence judge_stress(const mor_case_key *key, const void *record)
+static mor_case_presence presence_of_stress_key(const mor_case_key *key, const void *record)
 {
     const mor_case_soil *soil = record;
     const char *name = key->schema.key;
@@ -176,19 +176,19 @@ static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
 {
     const mor_material *model = NULL;
     MOR_TRY(w->reader.context, find_model(w, soil->model, &model));
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, mor_case_judge_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, mor_case_presence_always));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &soil->outline, "};"));
     mor_case_writer_open(w, "material", "{");
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_material_group, soil, mor_case_judge_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_material_group, soil, mor_case_presence_always));
     MOR_TRY(w->reader.context, write_parameters(w, model, soil->parameters, soil->written_parameters));
     mor_case_writer_close(w, "};");
     mor_case_writer_open(w, "initial_stress", "{");
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_stress_group, soil, judge_stress));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_stress_group, soil, presence_of_stress_key));
     mor_case_writer_close(w, "};");
     return MOR_OK;
 }
 
-static mor_case_presence judge_wall(const mor_case_key *key, const void *record)
+static mor_case_presence presence_of_wall_key(const mor_case_key *key, const void *record)
 {
     const mor_case_wall *wall = record;
     const bool is_idle =
@@ -198,13 +198,13 @@ static mor_case_presence judge_wall(const mor_case_key *key, const void *record)
 
 static mor_status write_wall(mor_case_writer *w, const mor_case_wall *wall)
 {
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_wall_group, wall, judge_wall));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_wall_group, wall, presence_of_wall_key));
     return write_shape(w, "shape", &wall->outline, "};");
 }
 
 /* ---- Bodies and contact ------------------------------------------------------------------------------------------ */
 
-static mor_case_presence judge_body(const mor_case_key *key, const void *record)
+static mor_case_presence presence_of_body_key(const mor_case_key *key, const void *record)
 {
     const mor_case_body *body = record;
     const char *name = key->schema.key;
@@ -219,13 +219,13 @@ static mor_case_presence judge_body(const mor_case_key *key, const void *record)
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
 
-static mor_case_presence judge_spring(const mor_case_key *key, const void *record)
+static mor_case_presence presence_of_spring_key(const mor_case_key *key, const void *record)
 {
     const mor_case_body *body = record;
     return strcmp(key->schema.key, "length") == 0 && isnan(body->spring_length) ? MOR_CASE_MENTION : MOR_CASE_WRITE;
 }
 
-static mor_case_presence judge_start(const mor_case_key *key, const void *record)
+static mor_case_presence presence_of_start_key(const mor_case_key *key, const void *record)
 {
     const mor_case_body *body = record;
     return mor_case_start_condition(body->motion, key->schema.key) == NULL ? MOR_CASE_WRITE : MOR_CASE_OMIT;
@@ -234,7 +234,7 @@ static mor_case_presence judge_start(const mor_case_key *key, const void *record
 static mor_status write_body_material(mor_case_writer *w, const mor_case_body *body)
 {
     mor_case_writer_open(w, "material", "{");
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_material_group, body, mor_case_judge_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_material_group, body, mor_case_presence_always));
     if (!mor_case_body_is_rigid(body)) {
         const mor_material *model = NULL;
         MOR_TRY(w->reader.context, find_model(w, body->model, &model));
@@ -277,14 +277,14 @@ static mor_status mention_modulus(const mor_case_writer *w, const mor_case *the_
 
 static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const mor_case_body *body)
 {
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_group, body, judge_body));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_group, body, presence_of_body_key));
     MOR_TRY(w->reader.context, mention_modulus(w, the_case, body));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
     MOR_TRY(w->reader.context, write_body_material(w, body));
     write_locks(w, body);
     if (body->has_spring) {
         mor_case_writer_open(w, "spring", "{");
-        MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_spring_group, body, judge_spring));
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_spring_group, body, presence_of_spring_key));
         mor_case_writer_close(w, "};");
     }
     if (body->clamp != NULL) {
@@ -292,7 +292,7 @@ static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const
     }
     if (mor_case_body_condition(body, "start") == NULL) {
         mor_case_writer_open(w, "start", "{");
-        MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_start_group, body, judge_start));
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_start_group, body, presence_of_start_key));
         mor_case_writer_close(w, "};");
     }
     return MOR_OK;
@@ -300,7 +300,7 @@ static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const
 
 /* ---- Packed rocks ------------------------------------------------------------------------------------------------ */
 
-static mor_case_presence judge_rocks(const mor_case_key *key, const void *record)
+static mor_case_presence presence_of_rocks_key(const mor_case_key *key, const void *record)
 {
     const mor_case_rocks *rocks = record;
     const mor_case_body *body = &rocks->body;
@@ -320,7 +320,7 @@ static mor_case_presence judge_rocks(const mor_case_key *key, const void *record
         }
     }
     return strncmp(key->schema.key, "contact_", 8) == 0 || strcmp(key->schema.key, "friction_coefficient") == 0
-               ? judge_body(key, body)
+               ? presence_of_body_key(key, body)
                : MOR_CASE_WRITE;
 }
 
@@ -342,7 +342,7 @@ static mor_status write_packing(mor_case_writer *w, const mor_case_rocks *rocks)
     for (int k = 0; k < rocks->n_sizes; ++k) {
         mor_case_writer_open(w, "", "{");
         MOR_TRY(w->reader.context,
-                mor_case_writer_keys(w, &mor_case_size_group, &rocks->sizes[k], mor_case_judge_always));
+                mor_case_writer_keys(w, &mor_case_size_group, &rocks->sizes[k], mor_case_presence_always));
         mor_case_writer_close(w, k + 1 < rocks->n_sizes ? "}," : "}");
     }
     mor_case_writer_close(w, ");");
@@ -351,7 +351,7 @@ static mor_status write_packing(mor_case_writer *w, const mor_case_rocks *rocks)
 
 static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
 {
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_rocks_group, rocks, judge_rocks));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_rocks_group, rocks, presence_of_rocks_key));
     write_hash(w, rocks->list_hash);
     if (rocks->list[0] == '\0') {
         MOR_TRY(w->reader.context, write_packing(w, rocks));
@@ -368,7 +368,7 @@ static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
 
 /* ---- Probes and expectations ------------------------------------------------------------------------------------- */
 
-static mor_case_presence judge_probe(const mor_case_key *key, const void *record)
+static mor_case_presence presence_of_probe_key(const mor_case_key *key, const void *record)
 {
     const mor_case_probe *probe = record;
     const mor_case_probe_type *type = probe->kind;
@@ -433,9 +433,9 @@ static mor_status write_entry(mor_case_writer *w, const mor_case *the_case, list
     case ROCKS:
         return write_rocks(w, &the_case->rocks[k]);
     case PAIRS:
-        return mor_case_writer_keys(w, &mor_case_pair_group, &the_case->contact.pairs[k], mor_case_judge_always);
+        return mor_case_writer_keys(w, &mor_case_pair_group, &the_case->contact.pairs[k], mor_case_presence_always);
     case PROBES:
-        return mor_case_writer_keys(w, &mor_case_probe_group, &the_case->probes[k], judge_probe);
+        return mor_case_writer_keys(w, &mor_case_probe_group, &the_case->probes[k], presence_of_probe_key);
     case EXPECT:
         return write_expectation(w, the_case, &the_case->expectations[k]);
     case LIST_COUNT:
@@ -471,7 +471,7 @@ static mor_status write_contact(mor_case_writer *w, const mor_case *the_case)
     }
     mor_case_writer_open(w, mor_case_contact_group.name, "{");
     MOR_TRY(w->reader.context,
-            mor_case_writer_keys(w, &mor_case_contact_group, &the_case->contact, mor_case_judge_always));
+            mor_case_writer_keys(w, &mor_case_contact_group, &the_case->contact, mor_case_presence_always));
     MOR_TRY(w->reader.context, write_list(w, the_case, PAIRS));
     mor_case_writer_close(w, "};");
     return MOR_OK;
@@ -481,10 +481,10 @@ static mor_status write_case(mor_case_writer *w, const mor_case *the_case)
 {
     fprintf(w->stream, "# The case as it was used: every value, in SI, before the scale. \"# default\" marks what the "
                        "case file\n# did not give.\n");
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, mor_case_judge_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, mor_case_presence_always));
     for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
         mor_case_writer_open(w, group->name, "{");
-        MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, the_case, mor_case_judge_always));
+        MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, the_case, mor_case_presence_always));
         mor_case_writer_close(w, "};");
     }
     for (list_kind kind = SOIL; kind < LIST_COUNT; ++kind) {

@@ -24,7 +24,7 @@ mor_status mor_case_write(mor_context *context, const mor_case *the_case, const 
 /** As mor_case_write, to an open stream.
  *  @param the_case [in]      from mor_case_read
  *  @param registry [in]      the models the case was read with
- *  @param stream   [in,out]  one open stream; its error flag tells of failed writes
+ *  @param stream   [in,out]  one open stream; its error flag reports failed writes
  *  Returns: MOR_OK; MOR_ERROR_IO when the unit tables are missing. */
 mor_status mor_case_write_stream(mor_context *context, const mor_case *the_case, const mor_registry *registry,
                                  FILE *stream);

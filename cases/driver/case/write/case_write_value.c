@@ -11,7 +11,7 @@
 
 enum { NUMBER_BYTES = 64, VALUES_MAX = 9 };
 
-mor_case_presence mor_case_judge_always(const mor_case_key *key, const void *record)
+mor_case_presence mor_case_presence_always(const mor_case_key *key, const void *record)
 {
     (void)key, (void)record;
     return MOR_CASE_WRITE;
@@ -125,18 +125,18 @@ void mor_case_writer_close(mor_case_writer *w, const char *bracket)
 }
 
 mor_status mor_case_writer_keys(const mor_case_writer *w, const mor_case_group *group, const void *record,
-                                mor_case_judge judge)
+                                mor_case_key_presence presence_of)
 {
     uint64_t written = 0;
     memcpy(&written, (const char *)record + group->written_offset, sizeof written);
     for (int k = 0; group->keys[k].schema.key != NULL; ++k) {
         const mor_case_key *key = &group->keys[k];
-        const mor_case_presence judged = judge(key, record);
-        if (judged == MOR_CASE_MENTION) {
+        const mor_case_presence presence = presence_of(key, record);
+        if (presence == MOR_CASE_MENTION) {
             fprintf(w->stream, "%*s# %s: %s (default)\n", w->depth * MOR_CASE_INDENT, "", key->schema.key,
                     key->computed);
         }
-        if (judged != MOR_CASE_WRITE) {
+        if (presence != MOR_CASE_WRITE) {
             continue;
         }
         char value[MOR_CASE_VALUE_BYTES];

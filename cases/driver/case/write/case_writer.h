@@ -21,10 +21,10 @@ typedef struct mor_case_writer {
 
 /** Whether a key that the record holds is written: a key without effect would be refused when read again. */
 typedef enum mor_case_presence { MOR_CASE_WRITE, MOR_CASE_OMIT, MOR_CASE_MENTION } mor_case_presence;
-typedef mor_case_presence (*mor_case_judge)(const mor_case_key *key, const void *record);
+typedef mor_case_presence (*mor_case_key_presence)(const mor_case_key *key, const void *record);
 
-/** Judges that a key is written. */
-mor_case_presence mor_case_judge_always(const mor_case_key *key, const void *record);
+/** Decides whether a key is written. */
+mor_case_presence mor_case_presence_always(const mor_case_key *key, const void *record);
 
 /** Prints a text in quotes.
  *  @param text      [in]   zero-terminated
@@ -73,9 +73,9 @@ void mor_case_writer_close(mor_case_writer *w, const char *bracket);
 
 /** Writes the keys of a group.
  *  @param record [in]  of the struct that the group's offsets refer to
- *  @param judge  [in]  tells which keys are written
+ *  @param is_written  [in]  decides which keys are written
  *  Returns: as mor_case_writer_numbers. */
 mor_status mor_case_writer_keys(const mor_case_writer *w, const mor_case_group *group, const void *record,
-                                mor_case_judge judge);
+                                mor_case_key_presence presence_of);
 
 #endif

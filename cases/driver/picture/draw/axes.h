@@ -21,7 +21,7 @@ typedef struct mor_axes {
 /** Draws frame, ticks, numbers and labels; of the grid only the lines, so that curves can be drawn over them. */
 void mor_axes_draw(mor_canvas *canvas, const mor_axes *axes);
 
-/** Turns a pair of values into a place on the canvas.
+/** Transforms a pair of values to a position on the canvas.
  *  @param value [in]   shape [2]; x and y, in the units shown, [1]
  *  @param place [out]  shape [2], unit px */
 void mor_axes_place(const mor_axes *axes, const double *value, double *place);

@@ -38,15 +38,15 @@ mor_status mor_canvas_check(mor_context *context, const mor_canvas *canvas)
                     cairo_status_to_string(found));
 }
 
-static bool is_wish(int pixels)
+static bool is_allowed_size(int pixels)
 {
     return pixels == 0 || (pixels >= MOR_CANVAS_SIZE_MIN && pixels <= MOR_CANVAS_SIZE_MAX);
 }
 
 mor_status mor_canvas_check_size(mor_context *context, int width, int height)
 {
-    MOR_CHECK(context, is_wish(width) && is_wish(height), MOR_ERROR_ARGUMENT,
-              "a picture of %d x %d pixels was asked for; from %d to %d each way are possible, or 0 for the usual size",
+    MOR_CHECK(context, is_allowed_size(width) && is_allowed_size(height), MOR_ERROR_ARGUMENT,
+              "a picture of %d x %d pixels was requested; from %d to %d each way are possible, or 0 for the usual size",
               width, height, MOR_CANVAS_SIZE_MIN, MOR_CANVAS_SIZE_MAX);
     return MOR_OK;
 }
@@ -78,7 +78,7 @@ mor_status mor_canvas_new(mor_context *context, mor_canvas **canvas, int width, 
 {
     *canvas = NULL;
     MOR_CHECK(context, width >= 1 && height >= 1 && width <= MOR_CANVAS_SIZE_MAX && height <= MOR_CANVAS_SIZE_MAX,
-              MOR_ERROR_ARGUMENT, "a picture of %d x %d pixels was asked for; from 1 to %d each way are possible",
+              MOR_ERROR_ARGUMENT, "a picture of %d x %d pixels was requested; from 1 to %d each way are possible",
               width, height, MOR_CANVAS_SIZE_MAX);
     MOR_TRY(context, MOR_NEW(context, canvas, 1, "canvas"));
     mor_canvas *made = *canvas;

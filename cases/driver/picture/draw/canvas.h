@@ -8,10 +8,10 @@
 #include <stdbool.h>
 
 /** @file
- *  The door to Cairo: an image one can draw lines, areas and text on and save as PNG. Positions are in pixels, y
- *  downwards, (0, 0) at the top left corner of the top left pixel. Font hinting is off, so that the same text gives the
- *  same pixels whatever the desktop's settings. Drawing calls never fail by themselves: Cairo keeps the first error and
- *  mor_canvas_check reports it. It knows nothing of particles, axes or units. */
+ *  The only interface to Cairo: an image for lines, areas and text, saved as PNG. Positions are in pixels, y downwards,
+ *  (0, 0) at the top left corner of the top left pixel. Font hinting is off, so that the same text gives the same
+ *  pixels whatever the desktop's settings. Drawing calls never fail by themselves: Cairo keeps the first error and
+ *  mor_canvas_check reports it. Particles, axes and units are handled elsewhere. */
 
 typedef struct mor_canvas mor_canvas;
 
@@ -23,8 +23,8 @@ typedef enum mor_canvas_anchor { MOR_CANVAS_LEFT, MOR_CANVAS_CENTER, MOR_CANVAS_
 /** How text is set. */
 typedef struct mor_canvas_font {
     double size;              /* unit px */
-    bool is_bold;             /* heavy face */
-    bool is_upward;           /* turned by a quarter to read from bottom to top */
+    bool is_bold;             /* bold face */
+    bool is_upward;           /* rotated by 90 degrees to read from bottom to top */
     mor_canvas_anchor anchor; /* along the reading direction; across it, capitals are centered on the place */
     double limit;             /* longest text, unit px; longer is set smaller, then cut with "…"; 0: no limit */
     double color[3];          /* shape [3]; screen values, 1 */
@@ -38,15 +38,15 @@ typedef struct mor_canvas_pen {
     double dash;     /* length of dashes and gaps, unit px; 0: solid */
 } mor_canvas_pen;
 
-/** Checks the size someone wishes a picture to have.
- *  @param width   [in]      pixels; 0: no wish
- *  @param height  [in]      pixels; 0: no wish
+/** Checks the requested size of a picture.
+ *  @param width   [in]      pixels; 0: default
+ *  @param height  [in]      pixels; 0: default
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT outside MOR_CANVAS_SIZE_MIN to MOR_CANVAS_SIZE_MAX. */
 mor_status mor_canvas_check_size(mor_context *context, int width, int height);
 
-/** Turns a checked wish into a size: what is not wished for follows from the usual proportions.
- *  @param width     [in]   pixels; 0: no wish
- *  @param height    [in]   pixels; 0: no wish
+/** Completes a checked size: a default side follows from the usual proportions.
+ *  @param width     [in]   pixels; 0: default
+ *  @param height    [in]   pixels; 0: default
  *  @param n_columns [out]  one number; pixels
  *  @param n_rows    [out]  one number; pixels */
 void mor_canvas_complete_size(int width, int height, int *n_columns, int *n_rows);
@@ -63,7 +63,7 @@ mor_status mor_canvas_new(mor_context *context, mor_canvas **canvas, int width, 
  *  @param canvas  [in,out]  the address of one pointer */
 void mor_canvas_free(mor_context *context, mor_canvas **canvas);
 
-/** Copies finished pixels into the image; what lies outside is dropped.
+/** Copies finished pixels into the image; what lies outside is clipped.
  *  @param left   [in]      first column
  *  @param top    [in]      first row
  *  @param size   [in]      shape [2]; columns and rows of the block
@@ -100,7 +100,7 @@ double mor_canvas_text_width(mor_canvas *canvas, const char *text, const mor_can
  *  @param rgb    [out]  shape [3]; screen values, 0 to 255 */
 void mor_canvas_pixel(const mor_canvas *canvas, int column, int row, uint8_t *rgb);
 
-/** Reports what Cairo has found wrong since the canvas was made.
+/** Reports the first error of Cairo since the canvas was made.
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for text that is not UTF-8; MOR_ERROR_MEMORY; MOR_ERROR_INTERNAL. */
 mor_status mor_canvas_check(mor_context *context, const mor_canvas *canvas);
 

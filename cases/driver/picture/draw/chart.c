@@ -14,7 +14,7 @@ enum { AXIS_TICKS = 8, POINTS_PER_STROKE = 4096 };
 
 static const double text_gray = 0.13;
 static const double note_gray = 0.35;
-static const double smallest_move = 0.35; /* px; nearer points of a curve are not told apart */
+static const double smallest_move = 0.35; /* px; nearer points of a curve are merged */
 
 /* One chart while it is drawn. */
 typedef struct sheet {
@@ -122,7 +122,7 @@ static mor_canvas_pen choose_pen(const sheet *s, int index, mor_chart_style styl
     return pen;
 }
 
-/* A curve goes out in long strokes; each starts where the last one ended. */
+/* A curve is drawn in long strokes; each starts where the last one ended. */
 static mor_status draw_curve(mor_context *context, sheet *s, const mor_chart_series *series, const mor_canvas_pen *pen)
 {
     double *path = NULL;
@@ -182,7 +182,7 @@ static void draw_sample(sheet *s, int index, const double *place, double length)
     mor_canvas_line(s->canvas, line, 2, &pen);
 }
 
-/* Walks the legend from left to right and on to further rows; draws only when asked to. Gives the height used. */
+/* Lays out the legend from left to right and on further rows; draws only on request. Returns the height used. */
 static double walk_legend(sheet *s, double left, double top, bool is_drawn)
 {
     const double unit = s->unit;
@@ -217,7 +217,7 @@ static double walk_legend(sheet *s, double left, double top, bool is_drawn)
     return is_empty ? 0.0 : place[1] + 0.5 * row - top;
 }
 
-/* Lines of text under the legend; draws only when asked to. Gives the height used. */
+/* Lines of text under the legend; draws only on request. Returns the height used. */
 static double walk_notes(sheet *s, double left, double top, bool is_drawn)
 {
     const double unit = s->unit;

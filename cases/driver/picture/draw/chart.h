@@ -7,7 +7,7 @@
 
 /** @file
  *  A chart of curves and points over one variable: time histories, profiles, measured against computed. Axes start and
- *  end at round numbers, units get SI prefixes, the legend stands above the plot where no curve runs. */
+ *  end at round numbers, units get SI prefixes, the legend is placed above the plot. */
 
 enum { MOR_CHART_SERIES_MAX = 32, MOR_CHART_NOTES_MAX = 8 };
 

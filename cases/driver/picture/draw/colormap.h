@@ -8,7 +8,7 @@
  *  and screen values. The map is a curve in Oklab (Ottosson 2020): lightness is linear in the curve parameter, the two
  *  color axes are polynomials of degree four, and the curve is walked at constant speed, so that equal differences of
  *  the value are equal differences to the eye. Lightness rises throughout, which keeps the map legible in gray and for
- *  color-blind readers. It does not know what the values mean. */
+ *  color-blind readers. The meaning of the values does not matter. */
 
 enum { MOR_COLORMAP_SIZE = 512, MOR_COLORMAP_CATEGORIES = 8 };
 
@@ -26,7 +26,7 @@ void mor_colormap_init(mor_colormap *map);
  *  @param linear   [out]  shape [3]; linear sRGB, 1 */
 void mor_colormap_at(const mor_colormap *map, double fraction, double *linear);
 
-/** Gives a color of the palette for lines and groups: hues a color-blind reader tells apart by lightness as well.
+/** Gives a color of the palette for lines and groups: hues that also differ in lightness, for color-blind readers.
  *  @param index  [in]   any number >= 0; the palette repeats after MOR_COLORMAP_CATEGORIES
  *  @param linear [out]  shape [3]; linear sRGB, 1 */
 void mor_colormap_category(int index, double *linear);

@@ -12,7 +12,7 @@
 /* A third of the time of the usual 6, for files a tenth larger. */
 enum { PACKING_LEVEL = 3, MESSAGE_BYTES = 128 };
 
-/* What libpng jumps back to, with the reason. */
+/* Jump target of libpng, with the reason of an error. */
 typedef struct rescue {
     jmp_buf place;
     char message[MESSAGE_BYTES];
@@ -31,7 +31,7 @@ static void ignore_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-/* What the file cannot take, its error flag says. */
+/* A failed write sets the error flag of the file. */
 static void write_bytes(png_structp png, png_bytep bytes, size_t n_bytes)
 {
     (void)fwrite(bytes, 1, n_bytes, (FILE *)png_get_io_ptr(png));

@@ -8,8 +8,8 @@
 #include <stdio.h>
 
 /** @file
- *  The door to libpng: an image into an open file, packed fast rather than small. No time stamp or other varying data
- *  goes into the file. */
+ *  The only interface to libpng: writes an image into an open file, compressed fast rather than small. No time stamp or
+ *  other varying data goes into the file. */
 
 /** Writes an image.
  *  @param stream       [in,out]  one open file; a write that fails is left to its error flag

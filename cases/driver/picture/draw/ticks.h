@@ -7,8 +7,8 @@
 #include <stddef.h>
 
 /** @file
- *  Numbers for people: round tick values, their text, and units with an SI prefix that fits the size of the values.
- *  It does not draw. */
+ *  Numbers for labels: round tick values, their text, and units with an SI prefix that fits the size of the values. It
+ *  does not draw. */
 
 enum { MOR_TICKS_TEXT_BYTES = 48, MOR_TICKS_LABEL_BYTES = 160 };
 

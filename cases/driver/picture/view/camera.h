@@ -5,8 +5,8 @@
 
 /** @file
  *  An orthographic camera: every length parallel to the picture plane has the same number of pixels per meter, so that
- *  a scale bar is exact everywhere. View space is the scene turned, centered and measured in pixels: x to the right,
- *  y up, z towards the viewer. It does not know what is looked at. */
+ *  a scale bar is exact everywhere. View space is the scene rotated, centered and in pixels: x to the right, y up, z
+ *  towards the viewer. It is independent of the scene. */
 
 /** A rectangle of the picture, y downwards from the top edge. */
 typedef struct mor_camera_rectangle {
@@ -30,7 +30,7 @@ typedef struct mor_camera_extent {
     double maximum[3]; /* shape [3], m */
 } mor_camera_extent;
 
-/** Turns the camera.
+/** Orients the camera.
  *  @param camera [out]  the axes are written
  *  @param view   [in]   shape [3], 1, any length; from the scene to the viewer; zero: azimuth -60 degrees from the
  *                       first axis of mor_camera_horizon and 25 degrees above the horizon
@@ -59,13 +59,13 @@ void mor_camera_extent_add(const mor_camera *camera, mor_camera_extent *extent, 
  *  @param rectangle [in]      of positive size */
 void mor_camera_fit(mor_camera *camera, const mor_camera_extent *extent, const mor_camera_rectangle *rectangle);
 
-/** Turns a scene point into view space.
+/** Transforms a scene point to view space.
  *  @param camera [in]   fitted
  *  @param point  [in]   shape [3], m
  *  @param view   [out]  shape [3], px; not aliased with point */
 void mor_camera_to_view(const mor_camera *camera, const double *point, double *view);
 
-/** Turns a scene direction into view space; length is kept.
+/** Transforms a scene direction to view space; length is kept.
  *  @param camera    [in]   oriented
  *  @param direction [in]   shape [3], any unit
  *  @param view      [out]  shape [3], same unit; not aliased with direction */

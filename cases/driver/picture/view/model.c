@@ -15,7 +15,7 @@ enum { JACOBI_SWEEPS = 30 };
 static const double outer_share = 0.01;     /* left out at each end of an automatic range */
 static const double plane_j_minus_1 = 1.55; /* discs of a disturbed lattice leave no gap */
 static const double piece_j_minus_1 = 1.5;  /* in space: bumps remain, gaps do not */
-static const double space_j_minus_1 = 1.22; /* single grains still show on a closed surface */
+static const double space_j_minus_1 = 1.22; /* single particles remain visible on a closed surface */
 static const double magnitude_limit = 1e12; /* m; keeps view space inside single precision */
 
 static bool is_finite_vector(const double *a)
@@ -105,7 +105,8 @@ mor_status mor_model_check(mor_context *context, const mor_picture *picture)
               "gravity (%g, %g, %g) and view (%g, %g, %g) must be finite", picture->gravity[0], picture->gravity[1],
               picture->gravity[2], picture->view[0], picture->view[1], picture->view[2]);
     MOR_CHECK(context, picture->j_minus_1 >= 0.0 && picture->j_minus_1 <= 4.0, MOR_ERROR_ARGUMENT,
-              "the swelling of the particles is %g; it must lie between 0 (the usual one) and 4", picture->j_minus_1);
+              "the radius factor of the particles is %g; it must lie between 0 (the default) and 4",
+              picture->j_minus_1);
     int64_t n_shown = 0;
     for (int g = 0; g < picture->n_groups; ++g) {
         MOR_TRY(context, check_group(context, picture->groups + g));
@@ -218,8 +219,8 @@ mor_status mor_model_survey(mor_context *context, const mor_picture *picture, mo
         widest = fmax(widest, model->extent.maximum[a] - model->extent.minimum[a]);
     }
     MOR_CHECK(context, widest > 1e-9 * farthest, MOR_ERROR_ARGUMENT,
-              "what is to be drawn is %g m wide and lies %g m from the origin: too small to be told apart there; draw "
-              "larger particles or move them nearer to the origin",
+              "what is to be drawn is %g m wide and lies %g m from the origin: too small to be resolved there; "
+              "draw larger particles or translate them to the origin",
               widest, farthest);
     MOR_TRY(context, find_range(context, picture, &model->range));
     return MOR_OK;

@@ -46,7 +46,7 @@ typedef struct mor_model {
     double least_radius;    /* px; of the smallest sphere */
 } mor_model;
 
-/** Radius a particle is drawn with, in m: its own times the picture's swelling.
+/** Radius a particle is drawn with, in m: its own times the picture's radius factor.
  *  @param group   [in]  of the picture
  *  @param i       [in]  0 <= i < n_particles */
 double mor_model_radius(const mor_picture *picture, const mor_picture_group *group, int64_t i);

@@ -17,13 +17,13 @@ static const double ground_gray = 0.95;                 /* screen value */
 static const double box_slack = 1.001;                  /* room for rounding to single precision */
 static const double patch_share = 2.1;                  /* radius of the ground / half the width of the scene */
 static const double grazing = 0.05;                     /* a ground seen at a flatter angle is left out */
-static const double grain_rim = 0.30;                   /* discs of grains are told apart by their rims */
+static const double grain_rim = 0.30;                   /* discs of particles are distinguished by their rims */
 static const double smooth_rim = 0.06;                  /* discs of one piece are not */
 static const double outline_share = 0.16;               /* linear light of the line around a part / that of the part */
 static const double shade_spread = 0.50;                /* between the lightest and the darkest part of one color */
 static const double level_gap = 2.5;                    /* between the levels of parts / the largest disc */
 
-/* The part the cut takes away: all points with positive coordinates along both directions. */
+/* The part that the cut removes: all points with positive coordinates along both directions. */
 typedef struct cut_corner {
     bool is_cut;
     double center[3]; /* m */
@@ -45,7 +45,7 @@ static cut_corner find_corner(const mor_picture *picture, const mor_model *model
         }
         ahead[a] = camera->toward[a] - along * model->up[a];
     }
-    /* Seen from straight above there is no nearest side: the lower half of the picture stands in. */
+    /* Seen from straight above there is no nearest side: the lower half of the picture is used. */
     const double length = mor_vector_length(ahead);
     for (int a = 0; a < 3; ++a) {
         ahead[a] = length > 1e-6 ? ahead[a] / length : -camera->up[a];
@@ -84,7 +84,7 @@ static void decode_group_color(const mor_picture_group *group, double *linear)
     }
 }
 
-/* Light of a part / that of its group: spread so that neighbors in number differ most (van der Corput). */
+/* Light of a part / that of its group: distributed so that consecutive parts differ most (van der Corput). */
 static double shade_part(const mor_picture_group *group, int64_t i)
 {
     double reversed = 0.0;

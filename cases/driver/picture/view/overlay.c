@@ -38,7 +38,7 @@ void mor_overlay_heading(mor_canvas *canvas, const char *title, const char *time
     mor_canvas_text(canvas, left, title, &heavy);
 }
 
-/* A strip one canvas pixel high per color step; each covers a hair of the next one so that no seam shows. */
+/* A strip one canvas pixel high per color step; each slightly overlaps the next one so that no seam shows. */
 static void fill_bar(mor_canvas *canvas, const mor_colormap *map, const double *r)
 {
     const int n_strips = (int)ceil(r[3]);
@@ -213,7 +213,7 @@ static bool is_listed(const mor_picture *picture, const mor_picture_group *group
     return group->name != NULL && group->name[0] != '\0' && group->n_particles > 0 && !is_plane;
 }
 
-/* Where everything is colored by value the color bar says enough. */
+/* Where everything is colored by value the color bar is sufficient. */
 static bool needs_legend(const mor_picture *picture)
 {
     bool has_plain = false;
@@ -242,7 +242,7 @@ static void draw_sample(mor_canvas *canvas, const mor_colormap *map, const mor_p
         for (int c = 0; c < 3; ++c) {
             pen.color[c] = mor_colormap_encode(linear[c]);
         }
-        /* Each slice covers a hair of the next one so that no seam shows. */
+        /* Each slice slightly overlaps the next one so that no seam shows. */
         const double hair = strip + 1 < SAMPLE_STRIPS ? 0.5 : 0.0;
         const double slice[4] = {box[0] + strip * box[2] / SAMPLE_STRIPS, box[1], box[2] / SAMPLE_STRIPS + hair,
                                  box[3]};

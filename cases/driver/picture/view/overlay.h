@@ -6,7 +6,7 @@
 #include "cases/driver/picture/view/model.h"
 
 /** @file
- *  What stands around the particles: heading, color bar, scale bar, coordinate triad, legend. All sizes follow one
+ *  Annotation around the particles: heading, color bar, scale bar, coordinate triad, legend. All sizes follow one
  *  length, `unit`, which is 1 px in a picture of 1600 x 1000 pixels. It does not draw particles. */
 
 /** Draws title and time text along the upper edge.

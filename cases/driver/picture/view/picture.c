@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-static const double ambient_share = 0.22; /* reach of crevice darkening / larger side of the scene */
+static const double ambient_share = 0.22; /* range of ambient occlusion / larger side of the scene */
 static const double plane_margin = 0.03;  /* room around the particles inside the axes / size of the scene */
 static const double smallest_side = 0.34; /* of the room for axes: a flat deposit gets at least this much height */
 static const double outline_width = 2.4;  /* of parts in the plane, unit px */
@@ -49,7 +49,7 @@ static void lay_out_space(plate *p)
     p->block[3] = p->height;
 }
 
-/* Widens one side of the extent so that the axes do not become a strip; upwards grows the room above the deposit. */
+/* Widens one side of the extent so that the axes do not become a strip; upwards, above the deposit. */
 static void widen_extent(mor_camera_extent *extent, const double *room)
 {
     double size[2];
@@ -87,7 +87,7 @@ static void lay_out_plane(plate *p)
     const double size[2] = {extent->maximum[0] - extent->minimum[0], extent->maximum[1] - extent->minimum[1]};
     const double scale = fmin(room[0] / size[0], room[1] / size[1]);
     if (p->picture->height == 0) {
-        /* An even number of rows: video encoders want that. */
+        /* An even number of rows, as video encoders require. */
         p->height = 2 * (int)ceil(0.5 * (top + scale * size[1] + below));
     }
     p->block[2] = (int)fmax(1.0, floor(scale * size[0]));

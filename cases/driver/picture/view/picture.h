@@ -12,7 +12,7 @@
 /** @file
  *  A finished picture of particles: lit spheres in space or discs in the plane, colored by a field, with title, time,
  *  color bar, scale bar or axes, and a legend. A record filled with zeros but for dimension and groups is a valid
- *  picture. It does not read runs and does not know what a soil or a rock is. */
+ *  picture. It neither reads runs nor distinguishes soil and rock. */
 
 enum {
     MOR_PICTURE_GROUPS_MAX = 96,
@@ -22,12 +22,12 @@ enum {
 /** How the particles of a group are shown. */
 typedef enum mor_picture_style {
     MOR_PICTURE_SOLID, /* opaque spheres or discs */
-    MOR_PICTURE_GHOST, /* seen through, no shadow; for walls in front of what matters */
+    MOR_PICTURE_GHOST, /* transparent, no shadow; for walls in front of the particles */
     MOR_PICTURE_GROUND /* not as particles: the plane along their upper side, as a disc with a grid; for flat floors,
                           level or inclined. Pictures of dimension 2 show it like MOR_PICTURE_SOLID */
 } mor_picture_style;
 
-/** Particles that are shown alike. The arrays are borrowed for the call. */
+/** Particles that are shown in the same way. The arrays are borrowed for the call. */
 typedef struct mor_picture_group {
     const char *name;       /* for messages and the legend; NULL: not in the legend */
     const double *position; /* shape [n_particles,3], m */
@@ -39,7 +39,7 @@ typedef struct mor_picture_group {
     const double *part;  /* shape [n_particles], whole numbers from 0 to MOR_PICTURE_PART_MAX; which part of the group a
                            particle belongs to: parts of one color differ slightly in shade. NULL: all of one part */
     const double *light; /* shape [n_particles], 1, >= 0; multiplies the color of each particle; NULL: 1 for all */
-    bool is_piece; /* one piece of material per part, not grains: drawn with a closed surface, and in the plane with
+    bool is_piece; /* one piece of material per part, not particles: drawn with a closed surface, and in the plane with
                            a dark line around each part, over groups that are not */
     mor_picture_style style;
     bool is_whole;  /* the cut leaves this group alone */
@@ -65,14 +65,14 @@ typedef struct mor_picture {
                                         closed; 1: as they are; 0: 1.55 in the plane; in space 1.22, pieces 1.5 */
     int width;         /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
     int height;        /* pixels; 0: in space from the width, or MOR_CANVAS_HEIGHT; in the plane what the
-                                        axes need, at most that, so that a series wants a frame */
+                                        axes need, at most that, so that a series needs a frame */
     bool has_frame;    /* frame is given; otherwise all particles but those of ground groups are framed */
     mor_bounds frame;  /* m; what the camera frames, together with groups that are framed: where these stand still, the
                                         same box gives the same camera */
     bool hides_ground; /* no ground plane; otherwise one lies under the particles even without a group */
 } mor_picture;
 
-/** Makes a box that holds nothing, to start a frame from. */
+/** Makes an empty box, to start a frame from. */
 void mor_picture_bounds_init(mor_bounds *bounds);
 
 /** Draws the picture.

@@ -81,7 +81,7 @@ mor_status mor_scene_new(mor_context *context, mor_scene **scene, const float *s
 {
     *scene = NULL;
     MOR_CHECK(context, n_spheres >= 1 && n_spheres < INT32_MAX, MOR_ERROR_ARGUMENT,
-              "a scene of %lld spheres was asked for; from 1 to 2147483646 are possible", (long long)n_spheres);
+              "a scene of %lld spheres was requested; from 1 to 2147483646 are possible", (long long)n_spheres);
     MOR_TRY(context, MOR_NEW(context, scene, 1, "ray-tracing scene"));
     fenv_t environment;
     feholdexcept(&environment);

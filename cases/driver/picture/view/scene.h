@@ -8,9 +8,9 @@
 #include <stdbool.h>
 
 /** @file
- *  The door to Embree 3: many spheres, and two questions a ray may ask of them. The tree is built by one thread, so
- *  that it, and with it every picture, is the same for any number of threads. It knows nothing of color or light.
- *  Embree raises floating-point flags on purpose; callers that trap them hold the traps back around queries. */
+ *  The only interface to Embree 3 for pictures: many spheres, and two ray queries. The tree is built by one thread, so
+ *  that it, and with it every picture, is the same for any number of threads. Color and light are handled elsewhere.
+ *  Embree raises floating-point flags on purpose; callers that trap them disable the traps around queries. */
 
 typedef struct mor_scene mor_scene;
 
@@ -41,7 +41,7 @@ void mor_scene_free(mor_context *context, mor_scene **scene);
  *  Threads: safe to call concurrently. */
 int64_t mor_scene_first(const mor_scene *scene, const mor_scene_ray *ray, double *distance);
 
-/** Tells whether anything stands in the way of a ray.
+/** Returns whether a ray is blocked.
  *  Threads: safe to call concurrently. */
 bool mor_scene_is_blocked(const mor_scene *scene, const mor_scene_ray *ray);
 

@@ -12,8 +12,8 @@
 #include <math.h>
 
 /* A pixel with an edge in it takes many samples. One on the inside of a surface needs none of its own: its corners,
- * which it shares with its neighbors, tell what is seen and sample the light there, each with another part of the
- * directions, and the light of the corners around is averaged. */
+ * which it shares with its neighbors, determine what is visible and sample the light there, each with another part of
+ * the directions, and the light of the corners around is averaged. */
 
 enum { ROWS_PER_TASK = 4, ROWS_PER_SLAB = 128 };
 enum { PURPOSE_TURN = 1 };
@@ -25,7 +25,7 @@ enum { LEVELS = 4096 }; /* of linear light, from which the search of a screen va
 static const uint64_t picture_seed = 20240229u; /* fixed: noise must not change with the seed of a run */
 static const double thin_radius = 2.0;          /* px; smaller spheres may hide between corners of pixels */
 
-/* What the viewer sees at a point. */
+/* What is visible at a point. */
 typedef struct sight {
     int64_t solid;         /* index of a sphere; -1: none */
     int64_t ghost;         /* likewise, in front of what is solid */
@@ -95,7 +95,7 @@ static bool is_same(const corner *a, const corner *b)
     return a->solid == b->solid && a->ghost == b->ghost && a->has_ground == b->has_ground;
 }
 
-/* A corner that sees through the ground to something solid has no one light. */
+/* A corner through whose ground something solid is visible has no single light value. */
 static void find_corner(const mor_shade_frame *f, int64_t row, int64_t column, corner *found)
 {
     mor_shade_surface solid;
@@ -132,7 +132,7 @@ static void light_corner(const mor_shade_frame *f, int64_t row, int64_t column, 
     lit->is_lit = true;
 }
 
-/* Whether the corners of a pixel see one surface, and enough around do. */
+/* Whether one surface is visible at the corners of a pixel and at enough corners around. */
 static bool is_pixel_smooth(const mor_shade *shade, const slab *s, int64_t row, int64_t column)
 {
     const corner *own = corner_at(s, row, column);
@@ -150,7 +150,7 @@ static bool is_pixel_smooth(const mor_shade *shade, const slab *s, int64_t row, 
     return n_agreeing >= AGREEING && !(own->has_ground && own->solid >= 0);
 }
 
-/* Whether the light of a corner is asked for. */
+/* Whether the light of a corner is needed. */
 static bool is_asked(const slab *s, int64_t row, int64_t column)
 {
     for (int k = 0; k < AROUND * AROUND; ++k) {
@@ -385,10 +385,10 @@ static mor_status render_slabs(mor_context *context, const mor_shade_frame *f, s
 mor_status mor_shade_render(mor_context *context, const mor_shade *shade, uint8_t *rgb)
 {
     MOR_CHECK(context, shade->n_samples >= 1 && shade->n_samples <= MOR_SHADE_SAMPLES_MAX, MOR_ERROR_ARGUMENT,
-              "%d samples per pixel edge were asked for; from 1 to %d are possible", shade->n_samples,
+              "%d samples per pixel edge were requested; from 1 to %d are possible", shade->n_samples,
               MOR_SHADE_SAMPLES_MAX);
     MOR_CHECK(context, shade->n_ambient >= 1 && shade->n_ambient <= MOR_SHADE_AMBIENT_MAX, MOR_ERROR_ARGUMENT,
-              "%d sky rays per sample were asked for; from 1 to %d are possible", shade->n_ambient,
+              "%d sky rays per sample were requested; from 1 to %d are possible", shade->n_ambient,
               MOR_SHADE_AMBIENT_MAX);
     mor_shade_frame f;
     slab s = {.corners = NULL};

@@ -6,10 +6,10 @@
 #include "cases/driver/picture/view/scene.h"
 
 /** @file
- *  From spheres in view space to pixels: one soft key light with shadows, light from a bright sky that crevices see
- *  less of, a ground plane that catches both, and a slight fade with depth. Colors stay near the ones given, so that a
- *  color bar can be read against them. Random numbers depend on the pixel alone: the same input gives the same pixels
- *  for any number of threads. Everything is in view space (camera.h), in pixels; nothing here knows meters. */
+ *  From spheres in view space to pixels: one soft key light with shadows, light from a bright sky with ambient
+ *  occlusion, a ground plane that catches both, and a slight fade with depth. Colors stay near the ones given, so that
+ *  a color bar can be read against them. Random numbers depend on the pixel alone: the same input gives the same pixels
+ *  for any number of threads. Everything is in view space (camera.h), in pixels; no lengths in meters. */
 
 /** Spheres that are seen in the same way. */
 typedef struct mor_shade_layer {
@@ -32,10 +32,10 @@ typedef struct mor_shade_ground {
     double color[3];  /* shape [3], 1; linear sRGB of the unshaded patch */
 } mor_shade_ground;
 
-/** All that decides the pixels. */
+/** Everything that determines the pixels. */
 typedef struct mor_shade {
-    mor_shade_layer solid; /* what hides, casts shadows and takes light */
-    mor_shade_layer ghost; /* what is seen through: the nearest surface only, without shadows */
+    mor_shade_layer solid; /* opaque: casts shadows and is lit */
+    mor_shade_layer ghost; /* transparent: the nearest surface only, without shadows */
     double ghost_opacity;  /* 1; in [0, 1] */
     bool is_flat;          /* plane pictures: no light, no ground, only the rims of the discs */
     double up[3];          /* shape [3], 1, unit vector; against gravity */

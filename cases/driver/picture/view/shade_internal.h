@@ -6,7 +6,7 @@
 #include "cases/driver/picture/view/shade.h"
 
 /** @file
- *  What a ray meets and how much light falls there; shade.c decides where rays are sent. */
+ *  What a ray hits and how much light falls there; shade.c decides where rays are sent. */
 
 enum { MOR_SHADE_SAMPLES_MAX = 8, MOR_SHADE_AMBIENT_MAX = 64, MOR_SHADE_TURNS = 64 };
 /* Corners of pixels take light from directions that repeat along both axes: each block of MOR_SHADE_BLOCK by
@@ -17,7 +17,7 @@ enum {
     MOR_SHADE_CORNERS = MOR_SHADE_BLOCK * MOR_SHADE_BLOCK
 };
 
-/** Directions of the rays of one sample, before the turn about z. */
+/** Directions of the rays of one sample, before the rotation about z. */
 typedef struct mor_shade_rays {
     double sky[MOR_SHADE_AMBIENT_MAX][3]; /* 1; cosine-weighted directions about z; only n_ambient are used */
     double lamp[2];                       /* 1; place on the disc the key light covers */
@@ -29,10 +29,10 @@ typedef struct mor_shade_frame {
     double key[3];                                /* 1; towards the key light */
     mor_shade_rays samples[MOR_SHADE_GROUPS_MAX]; /* of the samples of a pixel */
     mor_shade_rays corners[MOR_SHADE_CORNERS];    /* of corners, by row and column within a block */
-    double rotation[MOR_SHADE_TURNS][2];          /* 1; cosine and sine of turns about z */
+    double rotation[MOR_SHADE_TURNS][2];          /* 1; cosine and sine of rotations about z */
     double center[3];                             /* px; of a ball around all that is solid */
     double reach;                                 /* px; its radius */
-    double open_light;                            /* 1; on ground where nothing stands in the way */
+    double open_light;                            /* 1; on unobstructed ground */
 } mor_shade_frame;
 
 /** One sample of one pixel or corner. */
@@ -75,7 +75,7 @@ double mor_shade_find_ground(const mor_shade_ground *ground, const double *xy, m
 double mor_shade_light_sphere(const mor_shade_frame *frame, const mor_shade_surface *surface,
                               const mor_shade_probe *probe);
 
-/** Tells whether nothing stands in the way of the light on the ground; may miss some places.
+/** Returns whether the light on the ground is unobstructed; may miss some points.
  *  Returns: true where the light is frame->open_light. */
 bool mor_shade_is_open(const mor_shade_frame *frame, const mor_shade_surface *surface);
 

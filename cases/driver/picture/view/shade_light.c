@@ -35,7 +35,7 @@ static double reverse_bits(int number)
     return reversed;
 }
 
-/* Two directions normal to n (Duff et al. 2017): smooth everywhere but at n = -z, which the viewer never sees. */
+/* Two directions normal to n (Duff et al. 2017): smooth everywhere but at n = -z, which is never visible. */
 static void make_tangents(const double *n, double *first, double *second)
 {
     const double sign = n[2] >= 0.0 ? 1.0 : -1.0;
@@ -59,8 +59,8 @@ static mor_scene_ray start_ray(const double *point, const double *normal, const 
     return ray;
 }
 
-/* Whether the ray comes near any sphere at all; spares most rays of the open ground a walk through the tree. */
-static bool meets_box(const mor_shade *shade, const mor_scene_ray *ray)
+/* Whether the ray comes near any sphere at all; most rays of the open ground need no search in the tree. */
+static bool hits_box(const mor_shade *shade, const mor_scene_ray *ray)
 {
     double enter = 0.0;
     double leave = ray->reach;
@@ -81,10 +81,10 @@ static bool meets_box(const mor_shade *shade, const mor_scene_ray *ray)
 
 static bool is_blocked(const mor_shade *shade, const mor_scene_ray *ray)
 {
-    return shade->solid.scene != NULL && meets_box(shade, ray) && mor_scene_is_blocked(shade->solid.scene, ray);
+    return shade->solid.scene != NULL && hits_box(shade, ray) && mor_scene_is_blocked(shade->solid.scene, ray);
 }
 
-/* The place is computed anew in double precision. */
+/* The position is recomputed in double precision. */
 void mor_shade_touch_sphere(const mor_shade_layer *layer, int64_t i, const double *xy, mor_shade_surface *found)
 {
     const float *sphere = layer->spheres + 4 * i;
@@ -120,7 +120,7 @@ int64_t mor_shade_find_sphere(const mor_shade_frame *frame, const mor_shade_laye
     return i;
 }
 
-/* Share of the sky a surface sees, weighted by the cosine: 1 in the open. The ground reflects most of what it gets. */
+/* Visible share of the sky, weighted by the cosine: 1 in the open. The ground reflects most of what it gets. */
 static double gather_sky(const mor_shade_frame *f, const mor_shade_surface *s, const mor_shade_probe *p)
 {
     const mor_shade *shade = f->shade;
@@ -300,7 +300,7 @@ static void aim_samples(mor_shade_frame *frame)
     }
 }
 
-/* A spiral over the hemisphere, dealt out to the corners of a block. */
+/* A spiral over the hemisphere, distributed to the corners of a block. */
 static void aim_corners(mor_shade_frame *frame)
 {
     const double golden = 0.6180339887498949;
@@ -315,7 +315,7 @@ static void aim_corners(mor_shade_frame *frame)
     }
 }
 
-/* Seen from above all that is solid, where no ray to the sky meets it. */
+/* Seen from above all that is solid, where no ray to the sky hits it. */
 static double light_open_ground(const mor_shade_frame *frame)
 {
     const double *normal = frame->shade->ground.normal;

@@ -448,7 +448,7 @@ static double round_down(double length)
     return floor(0.999 * length / unit) * unit;
 }
 
-static mor_status tell_gap(mor_context *context, const gap_scene *s, const sight *it)
+static mor_status report_gap(mor_context *context, const gap_scene *s, const sight *it)
 {
     enum { PLACE_BYTES = 640 };
     const solid *a = &s->solids[it->own];
@@ -478,7 +478,7 @@ static mor_status tell_gap(mor_context *context, const gap_scene *s, const sight
     return MOR_OK;
 }
 
-static mor_status tell_thin(mor_context *context, const gap_scene *s, const sight *it)
+static mor_status report_thin_wall(mor_context *context, const gap_scene *s, const sight *it)
 {
     const solid *a = &s->solids[it->own];
     const double n = it->width / s->spacing;
@@ -515,10 +515,10 @@ mor_status mor_narrow_gaps_check(mor_context *context, const mor_simulation *sim
     add_bodies(&s, simulation);
     mor_status status = search(context, &s, gaps, &n_gaps, thin, &n_thin);
     for (int k = 0; k < n_gaps && status == MOR_OK; ++k) {
-        status = tell_gap(context, &s, &gaps[k]);
+        status = report_gap(context, &s, &gaps[k]);
     }
     for (int k = 0; k < n_thin && status == MOR_OK; ++k) {
-        status = tell_thin(context, &s, &thin[k]);
+        status = report_thin_wall(context, &s, &thin[k]);
     }
     MOR_FREE(context, &s.solids);
     return status;

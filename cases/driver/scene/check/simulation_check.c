@@ -18,7 +18,7 @@ static const double long_time = 2.0 * 86400.0;
 static const double many_steps = 2.0e7; /* reported, too, for few particles */
 
 /* A particle that falls freely under damping is to come farther than this, in spacings. */
-static const double least_way = 1.0e-3;
+static const double least_displacement = 1.0e-3;
 
 enum { DURATION_BYTES = 32 };
 
@@ -95,12 +95,13 @@ static mor_status check_damping(mor_context *context, const mor_simulation *s)
     const double damping = c->numerics.damping;
     const double weight = mor_vector_length(c->gravity);
     const double way = weight * c->end / fmax(damping, 1.0 / c->end); /* at most */
-    MOR_CHECK(context, damping * c->end <= 1.0 || weight == 0.0 || way > least_way * c->spacing, MOR_ERROR_CONFIG,
+    MOR_CHECK(context, damping * c->end <= 1.0 || weight == 0.0 || way > least_displacement * c->spacing,
+              MOR_ERROR_CONFIG,
               "%s: found numerics.damping = %g 1/s, under which nothing can move: a free fall covers %.3g "
               "m until the end, %.3g spacings; it must cover at least a thousandth of a spacing (%.3g m); lower "
               "the damping to %.3g 1/s or less",
-              c->path, damping, way, way / c->spacing, least_way * c->spacing,
-              weight * c->end / (least_way * c->spacing));
+              c->path, damping, way, way / c->spacing, least_displacement * c->spacing,
+              weight * c->end / (least_displacement * c->spacing));
     return MOR_OK;
 }
 

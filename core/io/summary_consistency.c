@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/io/summary_judge.h"
+#include "core/io/summary_consistency.h"
 
 #include <math.h>
 #include <string.h>
@@ -93,7 +93,7 @@ static mor_status check_expectations(mor_context *context, const mor_summary *su
     return MOR_OK;
 }
 
-mor_status mor_summary_judge(mor_context *context, const mor_summary *summary)
+mor_status mor_summary_check_consistency(mor_context *context, const mor_summary *summary)
 {
     MOR_TRY(context, check_texts(context, summary));
     MOR_TRY(context, check_expectations(context, summary));

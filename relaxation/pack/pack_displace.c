@@ -16,11 +16,11 @@ static const double progress = 0.7;   /* the displacements must shrink to this i
                                        * space */
 
 /* What resolving one rock needs. */
-typedef struct press_work {
+typedef struct displace_work {
     mor_pack_state *state;
     int self;
     double way; /* displaced so far in this sweep, m */
-} press_work;
+} displace_work;
 
 /* Inverse mass of a rock, 1 over the volume of a ball (disc) of its diameter; and of its inertia. */
 static double find_mobility(const mor_pack_state *state, const mor_pack_item *item, double *angular)
@@ -96,7 +96,7 @@ static double open_contact(const mor_pack_state *state, mor_pack_item *owner, mo
 
 static bool open_pair(void *user, const mor_pack_state *state, const mor_pack_item *item, int index)
 {
-    press_work *work = user;
+    displace_work *work = user;
     const bool *is_awake = state->is_awake;
     if (index == work->self || (is_awake[index] && index < work->self)) { /* this pair has been treated */
         return true;
@@ -117,7 +117,7 @@ static bool open_pair(void *user, const mor_pack_state *state, const mor_pack_it
     return true;
 }
 
-static void open_shape(press_work *work, const mor_shape *shape, double sign, double wanted)
+static void open_shape(displace_work *work, const mor_shape *shape, double sign, double wanted)
 {
     mor_pack_state *state = work->state;
     mor_pack_contact contact = {.gap = wanted};
@@ -133,13 +133,13 @@ static double sweep(mor_pack_state *state)
 {
     const mor_pack_request *request = state->request;
     bool *moved = state->is_awake + state->n_items_max;
-    press_work work = {.state = state};
+    displace_work work = {.state = state};
     mor_pack_list(state);
     for (work.self = 0; work.self < state->n_items; ++work.self) {
         if (!state->is_awake[work.self]) {
             continue;
         }
-        state->n_pushes += 1;
+        state->n_evaluations += 1;
         open_shape(&work, request->region, -1.0, request->margin);
         if (request->obstacle != NULL) {
             open_shape(&work, request->obstacle, 1.0, request->gap);
@@ -213,7 +213,7 @@ static void find_spot(const mor_pack_state *state, int n_before, int round, mor_
     *item = best;
 }
 
-bool mor_pack_press(mor_pack_state *state, int n_before, const mor_pack_item *item)
+bool mor_pack_displace(mor_pack_state *state, int n_before, const mor_pack_item *item)
 {
     const size_t bytes = (size_t)state->n_items * sizeof *state->items;
     memcpy(state->kept, state->items, bytes);

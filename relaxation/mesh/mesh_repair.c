@@ -92,7 +92,7 @@ static bool span_hole(const mor_mesh *mesh, hole *it)
 }
 
 /* Appends the triangles over the corners i .. j. */
-static void append_lid(mor_mesh *mesh, const hole *it)
+static void append_patch(mor_mesh *mesh, const hole *it)
 {
     int stack[2 * N_MAX][2] = {{0, it->n - 1}};
     for (int depth = 1; depth > 0;) {
@@ -144,7 +144,7 @@ mor_status mor_mesh_fill_holes(mor_context *context, mor_mesh_work *work)
         if (work->partner[half] == MOR_MESH_NO_PARTNER && !is_met[half]) {
             (void)walk_rim(work, half, is_met, &it);
             if (span_hole(&work->mesh, &it)) {
-                append_lid(&work->mesh, &it);
+                append_patch(&work->mesh, &it);
                 work->report.n_holes_filled += 1;
             }
         }

@@ -1,16 +1,16 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_IO_SUMMARY_JUDGE_H
-#define MOR_CORE_IO_SUMMARY_JUDGE_H
+#ifndef MOR_CORE_IO_SUMMARY_CONSISTENCY_H
+#define MOR_CORE_IO_SUMMARY_CONSISTENCY_H
 
 #include "core/io/summary.h"
 
 /** @file
- *  Whether a summary that is to be written agrees with itself. For the writer of summaries alone. */
+ *  Whether a summary that is to be written is consistent. For the writer of summaries alone. */
 
 /** Checks a summary before it is written.
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT as mor_summary_write. */
-mor_status mor_summary_judge(mor_context *context, const mor_summary *summary);
+mor_status mor_summary_check_consistency(mor_context *context, const mor_summary *summary);
 
 /** Returns the result of a probe, or NULL.
  *  @param probe   [in]  zero-terminated */
