@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* How much soil a body drags along. docs/theory/coupling.md, "Bodies lighter than the soil around them". */
+/* Added mass of soil of a body. docs/theory/coupling.md, "Bodies lighter than the soil around them". */
 #include "bodies/body_internal.h"
 
 #include "core/geometry/shape_analytic.h"

@@ -21,10 +21,10 @@ typedef struct mor_total_block {
     double nonfinite[MOR_LANES]; /* 0 when all results are finite, else NaN; 1 */
 } mor_total_block;
 
-/** The stress of one block: reads motion and swelling; writes stress, and logarithm if it needs it. */
+/** The stress of one block: reads deformation gradient and J - 1; writes stress, and logarithm if it needs it. */
 typedef void (*mor_total_law)(const mor_hooke *constants, mor_total_block *b);
 
-/** The energy density [J/m3] of a law as a function of strain [1] and swelling [1]. */
+/** The energy density [J/m3] of a law as a function of strain [1] and J - 1 [1]. */
 typedef double (*mor_total_density)(const mor_hooke *constants, mor_symmetric strain, double j_minus_1);
 
 /** Green-Lagrange strain (H + H^T + H^T H)/2, Zhang et al. (2024) eq. 41; unit 1. */

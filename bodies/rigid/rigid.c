@@ -195,7 +195,7 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
         const double by_spring = rigid->courant * 2.0 * MOR_PI / spring_rate;
         if (by_way < *step_length) {
             *step_length = by_way;
-            *limit = "the way of a rigid body";
+            *limit = "displacement per step of a rigid body";
         }
         if (by_spring < *step_length) {
             *step_length = by_spring;

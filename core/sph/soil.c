@@ -68,7 +68,7 @@ static const mor_stage soil_stages[] = {
     {"angular momentum", mor_soil_keep_angular_momentum, SHARED(RECORDS) | SHARED(LISTS) | SHARED(SHORT_LISTS),
      SHARED(MOMENTS) | SHARED(SPIN_STRESS), BIT(ACCELERATION),
      "takes out what turns the soil by itself, when switched on", has_angular_momentum},
-    {"wall push", mor_soil_sum_boundary_forces,
+    {"boundary forces", mor_soil_sum_boundary_forces,
      SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES), SHARED(WALL_FORCES),
      BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
     {"kick", mor_soil_kick, 0, 0,
@@ -76,7 +76,7 @@ static const mor_stage soil_stages[] = {
      "velocities to the end of the step", NULL},
     {"velocity gradient", mor_soil_sum_gradient, SHARED(RECORDS) | SHARED(SHORT_LISTS),
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0, "velocity gradient and density rate by the neighbors", NULL},
-    {"wall drag", mor_soil_sum_boundary_gradient, SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES), 0,
+    {"boundary gradient", mor_soil_sum_boundary_gradient, SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES), 0,
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(WALL_SUMS), "the part of walls and rocks in both", NULL},
     {"energy of forces", mor_soil_audit_forces,
      SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(SPIN_STRESS) | BIT(MASS) |
@@ -370,7 +370,7 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
     *limit = "the speed of sound in the soil";
     if (added_mass_ratio > 1.0) {
         *step_length /= sqrt(added_mass_ratio);
-        *limit = "a body lighter than the soil it drags along";
+        *limit = "a body lighter than its added mass of soil";
         by_barrier /= sqrt(added_mass_ratio);
     }
     if (soil->largest_acceleration > 0.0) {

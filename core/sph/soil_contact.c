@@ -258,7 +258,7 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->patch_slots, capacity, "slots by patch"));
     MOR_TRY(context, MOR_NEW(context, &contact->sums, n_lanes * MOR_KERNEL_SUMS, "wall sums"));
     MOR_TRY(context, MOR_NEW(context, &contact->stick, n_lanes, "wall stick"));
-    MOR_TRY(context, MOR_NEW(context, &contact->push, n_lanes * 3, "wall push"));
+    MOR_TRY(context, MOR_NEW(context, &contact->push, n_lanes * 3, "boundary forces"));
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
     MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_borrowed * 3, "velocity of a boundary"));
     MOR_TRY(context, MOR_NEW(context, &contact->given, n_borrowed * MOR_SHARES, "force given to a boundary"));

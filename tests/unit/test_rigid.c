@@ -428,8 +428,9 @@ static void step_is_limited_by_way_spring_and_contact(void **state)
     const double way = 0.2 * SPACING;
     rigid_scene *it = rigid_open(&box, 1, 3, SPACING, 1.0, 1.0);
     assert_true(isinf(find_proposal(it, "nothing")));
-    it->rigid.group.gravity[1] = -8.0;
-    assert_near(find_proposal(it, "the way of a rigid body"), sqrt(2.0 * way / 8.0), 1e-15); /* free fall; rounding */
+    it->rigid.group.gravity[1] = -8.0; /* free fall */
+    assert_near(find_proposal(it, "displacement per step of a rigid body"), sqrt(2.0 * way / 8.0),
+                1e-15); /* rounding */
     const double contact = 1e-4;
     it->rigid.group.contact = &contact;
     it->rigid.group.longest_contact_step = contact_step;
@@ -439,7 +440,8 @@ static void step_is_limited_by_way_spring_and_contact(void **state)
     box.spin[2] = 4.0;
     it = rigid_open(&box, 1, 3, SPACING, 1.0, 1.0);
     const double outermost = SPACING * (0.5 * sqrt(3.0) + 0.5); /* of a corner particle, and half a spacing */
-    assert_near(find_proposal(it, "the way of a rigid body"), way / (2.0 + 4.0 * outermost), 1e-15); /* rounding */
+    assert_near(find_proposal(it, "displacement per step of a rigid body"), way / (2.0 + 4.0 * outermost),
+                1e-15); /* rounding */
     rigid_close(it);
     box = spring_box(1e8, 0.0);
     box.motion.spring_length = 4.4; /* at rest */

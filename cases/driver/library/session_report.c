@@ -158,7 +158,7 @@ static void let_touch(mor_simulation *s, bool is_touching)
     }
 }
 
-/* The body that drags along most soil for its own mass, where that shortens the steps. */
+/* The body that has the largest added mass for its own, where that shortens the steps. */
 static void print_lightest(FILE *out, const mor_simulation *s)
 {
     const mor_body *lightest = NULL;
@@ -173,15 +173,16 @@ static void print_lightest(FILE *out, const mor_simulation *s)
         }
     }
     if (lightest != NULL) {
-        fprintf(out,
-                "  lightest body           '%s' drags along up to %.3g times its own mass of soil: steps %.2g times "
-                "shorter\n",
-                lightest->name, ratio, sqrt(ratio));
+        fprintf(
+            out,
+            "  lightest body           '%s' has an added mass of soil up to %.3g times its own mass: steps %.2g times "
+            "shorter\n",
+            lightest->name, ratio, sqrt(ratio));
     }
 }
 
-/* The longest step of each stepper, and how often it moves in a common step. */
-static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, const pace *touching)
+/* The longest step of each stepper, and its sub-steps in a common step. */
+static void print_steps(FILE *out, const mor_simulation *s, const pace *now, const pace *touching)
 {
     const mor_schedule *schedule = &s->schedule;
     const double length = now->length;
@@ -190,7 +191,7 @@ static void print_clocks(FILE *out, const mor_simulation *s, const pace *now, co
     fprintf(out, "  steps                   about %.0f for %g s\n", ceil(s->the_case->end / length), s->the_case->end);
     print_lightest(out, s);
     for (int k = 0; k < schedule->n_steppers; ++k) {
-        fprintf(out, "  clock of %-14s ", schedule->steppers[k].name);
+        fprintf(out, "  step of %-15s ", schedule->steppers[k].name);
         if (schedule->proposals[k] < INFINITY) {
             fprintf(out, "longest step %.4g s, limited by %s; ", schedule->proposals[k], schedule->limits[k]);
         } else {
@@ -288,7 +289,7 @@ static mor_status print_explanation(mor_context *context, FILE *out, mor_simulat
     const bool is_same =
         touching.length == now.length && memcmp(touching.substeps, now.substeps, sizeof now.substeps) == 0;
     print_sizes(out, s);
-    print_clocks(out, s, &now, &touching);
+    print_steps(out, s, &now, &touching);
     char *warnings = NULL;
     MOR_TRY(context, find_warnings(context, s, &warnings));
     const mor_status status = print_speed(context, out, s, &now, &touching, is_same);
