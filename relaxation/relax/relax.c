@@ -218,13 +218,13 @@ static void find_moves(mor_context *context, relaxation *it)
 {
     const double factor = it->volume * mor_kernel_gradient_factor(MOR_RELAX_SMOOTHING, it->frame.dimension);
     enum { CHUNK = 64 };
-    static const mor_relax_push push_apart[MOR_ISA_COUNT] = MOR_ISA_VARIANTS(mor_relax_push);
+    static const mor_relax_forces sum_forces[MOR_ISA_COUNT] = MOR_ISA_VARIANTS(mor_relax_forces);
     const int isa = mor_isa_select(NULL);
     MOR_PARALLEL_FOR (context, chunk, (it->n + CHUNK - 1) / CHUNK, 1) {
         const int64_t first = chunk * CHUNK;
         const int64_t end = first + CHUNK < it->n ? first + CHUNK : it->n;
-        double pushes[CHUNK][4];
-        push_apart[isa](&it->neighbors, it->x, first, end, pushes);
+        double forces[CHUNK][4];
+        sum_forces[isa](&it->neighbors, it->x, first, end, forces);
         for (int64_t i = first; i < end; ++i) {
             const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
             double force[3];

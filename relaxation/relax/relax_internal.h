@@ -133,14 +133,14 @@ mor_status mor_relax_neighbors_find(mor_context *context, mor_relax_neighbors *n
 /** Frees the rows; accepts empty ones. */
 void mor_relax_neighbors_clear(mor_context *context, mor_relax_neighbors *neighbors);
 
-/** Pushes of the neighbors on the particles [first, end), compiled once per instruction set.
+/** Forces of the neighbors on the particles [first, end), compiled once per instruction set.
  *  @param x         [in]      shape [3, n]; unit spacing; first all x, then all y, then all z
- *  @param out       [out]     shape [end - first, 4]; the push with unit 1, and how many neighbors are close */
-typedef void (*mor_relax_push)(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end,
-                               double (*out)[4]);
+ *  @param out       [out]     shape [end - first, 4]; the forces with unit 1, and how many neighbors are close */
+typedef void (*mor_relax_forces)(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end,
+                                 double (*out)[4]);
 
 /** Its variants, see core/base/isa.h. */
-MOR_ISA_DECLARE(void, mor_relax_push,
+MOR_ISA_DECLARE(void, mor_relax_forces,
                 (const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end, double (*out)[4]));
 
 #endif

@@ -549,7 +549,7 @@ static void numbers_that_are_none_and_wrong_indices_are_refused(void **state)
     it->triangles[4] = 8;
     expect_refusal(it, "triangle 1 refers to corner 8 of 8");
     it->triangles[4] = -1;
-    expect_refusal(it, "triangle 1 names corner -1 of 8");
+    expect_refusal(it, "triangle 1 refers to corner -1 of 8");
     it->n_triangles = 0;
     expect_refusal(it, "0 triangles");
     it->n_triangles = 1;

@@ -397,7 +397,7 @@ static void what_is_no_mesh_is_refused(void **state)
          "'4000000000' of element 'vertex'"},
         {"minus.ply", "ply\nformat ascii 1.0\nelement vertex -3\nend_header\n", "'-3' of element 'vertex'"},
         {"rock.fbx", "v 0 0 0\n", "extension 'fbx'"},
-        {"rock", "v 0 0 0\n", "ending ''"},
+        {"rock", "v 0 0 0\n", "extension ''"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
         written it = {.n_bytes = 0};

@@ -6,10 +6,10 @@
 
 #include <math.h>
 
-/* Pushes of the neighbors on the particles from first on: sum of (1 - r / support)^3 (x_i - x_j), and how many of them
+/* Forces of the neighbors on the particles from first on: sum of (1 - r / support)^3 (x_i - x_j), and how many of them
  * are close. Lanes are added in a fixed order, so that the result is that of any instruction set. */
-void MOR_ISA_NAME(mor_relax_push)(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end,
-                                  double (*out)[4])
+void MOR_ISA_NAME(mor_relax_forces)(const mor_relax_neighbors *neighbors, const double *x, int64_t first, int64_t end,
+                                    double (*out)[4])
 {
     const int64_t n = neighbors->n;
     const double *y = x + n;
