@@ -223,7 +223,7 @@ static void kick_block(void *job, int64_t first, int64_t last, double *values)
     values[KICK_STRENGTH] = strongest;
 }
 
-/* Names the first particle that is not a number or faster than sound, which is outside the weakly compressible range. */
+/* Names the first particle that is not a number or faster than sound, outside the weakly compressible range. */
 static mor_status report_runaway(mor_context *context, const mor_soil *soil, const mor_view *view, const mor_step *step)
 {
     for (int64_t i = 0; i < soil->set.n_particles; ++i) {
