@@ -37,8 +37,8 @@
  *  Errors are values: every function that can fail returns a mor_status, and mor_session_message says what was found,
  *  what is allowed and what to do; what is wrong in a case is told with file and line. The library never ends the
  *  process, prints only to streams that it was given, and does not read the environment. A program may have many
- *  sessions; each is used by one thread at a time and computes with as many threads as it is told. Results do not
- *  depend on their number. Signals and the locale are left alone. Numbers are in SI units; stress is positive in
+ *  sessions, of which one is at work at a time; it computes with as many threads as it is told. Results do not depend
+ *  on their number. Signals and the locale are left alone. Numbers are in SI units; stress is positive in
  *  tension. */
 
 #ifdef __cplusplus
@@ -73,7 +73,7 @@ mor_status mor_session_new(mor_session **session);
 void mor_session_free(mor_session **session);
 
 /** Returns the message of the last function that failed, zero-terminated, "" when none has; valid until the next
- *  call. */
+ *  call. NULL is accepted: the session that could not be made. */
 const char *mor_session_message(const mor_session *session);
 
 /** Chooses who receives log lines: everything of level MOR_LOG_INFO and above, from loading on.

@@ -11,7 +11,7 @@
 
 /** @file
  *  A case file after reading: every value in SI, every default filled in, everything multiplied by the case's scale.
- *  Made by case_read.c, written back by case_write.c, consumed by simulation.c. Which key goes where: case_schema.c.
+ *  Made by case_read.c, written back by case_write.c, consumed by scene/build. Which key goes where: case_schema.c.
  *
  *  Members named `written` have bit k set when the file gave key k of the group's table in case_schema.c; the other
  *  values are defaults. */

@@ -98,7 +98,7 @@ void mor_session_clear_case(mor_session *session)
 
 const char *mor_session_message(const mor_session *session)
 {
-    return session->context.message;
+    return session == NULL ? "no memory for a session" : session->context.message;
 }
 
 mor_status mor_session_enter(mor_session *session, mor_session_stage first, mor_session_stage last)

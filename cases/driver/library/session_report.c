@@ -37,14 +37,20 @@ static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *s
     }
 }
 
-/* What is to be warned of, to be printed later: the steps that are timed spoil the state. The caller frees the text. */
+/* What is to be warned of, to be printed later: the steps that are timed spoil the state.
+ * The caller frees the text, which is NULL after a failure. */
 static mor_status find_warnings(mor_context *context, const mor_simulation *s, char **text)
 {
     size_t n_bytes = 0;
     FILE *stream = open_memstream(text, &n_bytes);
     MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
     const mor_status status = mor_simulation_print_warnings(context, s, stream);
-    MOR_CHECK(context, fclose(stream) == 0, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
+    const bool is_whole = fclose(stream) == 0;
+    if (status != MOR_OK || !is_whole) {
+        free(*text);
+        *text = NULL;
+    }
+    MOR_CHECK(context, is_whole, MOR_ERROR_MEMORY, "no memory for the warnings about a case");
     return status;
 }
 

@@ -8,7 +8,7 @@
 
 /** @file
  *  Particles that follow the ground: walls of terrain and soil of releases. Everything else is filled from the lattice
- *  (simulation.c). */
+ *  (simulation_build.c). */
 
 /** Fills a wall whose shape is a terrain, in the placed frame. Places inside earlier walls are left out.
  *  @param wall     [in]      index of the wall
