@@ -169,7 +169,8 @@ mor_status mor_session_build(mor_session *session);
 mor_status mor_session_settle(mor_session *session);
 
 /** Takes the next step of a run: not beyond its next snapshot nor its end. Stepping to the end computes, bit for bit,
- *  what mor_session_run computes.
+ *  the state that mor_session_run computes. Statistics of probes that are measured at an interval of steps are those of
+ *  these steps; a run adds the times of its rows.
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT before settling and at the end of the case; MOR_ERROR_NUMERIC when the
  *  computation broke down: the state is then worthless, and the case is to be built anew. */
 mor_status mor_session_step(mor_session *session);
@@ -201,7 +202,7 @@ int mor_session_n_probes(const mor_session *session);
  *  @param index [in]  0 <= index < mor_session_n_probes */
 const char *mor_session_probe_name(const mor_session *session, int index);
 
-/** Reads a probe on the state as it is.
+/** Reads a probe on the state as it is; changes nothing.
  *  @param name  [in]   zero-terminated
  *  @param value [out]  one number, in the unit told; NaN where there is nothing to measure
  *  @param unit  [out]  one pointer to a static string, as "m"; NULL: not wanted
@@ -254,8 +255,9 @@ mor_status mor_session_read_numbers(mor_session *session, const char *set, int64
 /* ---- Folders ----------------------------------------------------------------------------------------------------- */
 
 /** Saves the state as the checkpoint of a folder, with the case as it was used; the checkpoint before is kept as well.
- *  @param folder [in]  zero-terminated; made when missing
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT before settling; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  @param folder [in]  zero-terminated; made when missing; new, or one that was saved into before for the same case
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT before settling; MOR_ERROR_CONFIG for the folder of a run, of another case or
+ *  one that another program is at work in, and for a folder that cannot be made; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_save(mor_session *session, const char *folder);
 
 /** Takes up the newest state of a folder, in place of settling: stepping then gives the bits it would have given.
@@ -269,11 +271,12 @@ typedef enum mor_session_outcome {
     MOR_SESSION_FINISHED,   /* to its end, and every expectation of the case is met */
     MOR_SESSION_MISSED,     /* to its end, and an expectation was missed */
     MOR_SESSION_STOPPED,    /* at the time asked for, with a checkpoint */
-    MOR_SESSION_INTERRUPTED /* by a requested stop, with a checkpoint */
+    MOR_SESSION_INTERRUPTED /* by a requested stop, with a checkpoint unless the initial stress was still settling */
 } mor_session_outcome;
 
 /** Computes the case that was loaded to its end, as the program does: builds and settles it, and writes snapshots,
- *  series, checkpoints, summary and pictures into a folder. Then only results can be read; load again for more.
+ *  series, checkpoints, summary and pictures into a folder. Then only results can be read; load again for more. A run
+ *  that was refused, or ended before its first step, has none and leaves the session without a case.
  *  @param folder    [in]   zero-terminated; made when missing
  *  @param is_resume [in]   go on from the folder's checkpoint; else a folder that holds a run is refused
  *  @param stop_time [in]   stop with a checkpoint at the first step at or after this time, unit s; NaN: at the end

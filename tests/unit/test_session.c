@@ -1,6 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/library/session_internal.h"
+
+#include "cases/driver/probe/probe_track.h"
 #include "core/base/hash.h"
 #include "tests/common/laws.h"
 #include "tests/common/program.h"
@@ -229,11 +231,12 @@ static void a_saved_state_goes_on_as_if_never_saved(void **state)
     run_folder_file(folder, path, "kept/state");
     expect(first, mor_session_save(first, path), MOR_OK, "");
     expect(first, mor_session_save(first, path), MOR_OK, "");
+    const double saved = mor_session_time(first);
     expect(first, mor_session_step_to(first, 0.06), MOR_OK, "");
     expect(second, mor_session_build(second), MOR_OK, "");
     expect(second, mor_session_resume(second, "/nowhere"), MOR_ERROR_IO, "no checkpoint in '/nowhere'");
     expect(second, mor_session_resume(second, path), MOR_OK, "");
-    assert_true(mor_session_time(second) == mor_session_time(second));
+    assert_true(mor_session_time(second) == saved); /* exact: restored */
     expect(second, mor_session_step_to(second, 0.06), MOR_OK, "");
     assert_true(mor_session_state_hash(first) == mor_session_state_hash(second));
     expect(second, mor_session_override(second, "spacing=20 mm"), MOR_OK, "");
@@ -243,6 +246,77 @@ static void a_saved_state_goes_on_as_if_never_saved(void **state)
     expect(second, mor_session_resume(second, path), MOR_ERROR_CONFIG, "spacing");
     mor_session_free(&first);
     mor_session_free(&second);
+}
+
+static void a_state_is_saved_into_no_run_and_over_no_other_case(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char case_path[MOR_PATH_BYTES];
+    unsigned char *before = NULL;
+    unsigned char *after = NULL;
+    size_t n_bytes[2];
+    mor_session *first = load(folder);
+    mor_session *second = NULL;
+    const session_run run = {
+        .case_path = run_folder_file(folder, case_path, "case.cfg"), .name = "run", .stop_at = 0.01, .n_threads = 1};
+    assert_int_equal(session_run_do(folder, &run, "part"), MOR_SESSION_STOPPED);
+    make_ready(first);
+    before = run_folder_load(finished_run_file(folder, path, "run", MOR_CHECKPOINT_FILE), &n_bytes[0]);
+    expect(first, mor_session_save(first, run_folder_file(folder, path, "run")), MOR_ERROR_CONFIG, "holds a run");
+    after = run_folder_load(finished_run_file(folder, path, "run", MOR_CHECKPOINT_FILE), &n_bytes[1]);
+    assert_int_equal(n_bytes[0], n_bytes[1]);
+    assert_memory_equal(before, after, n_bytes[0]);
+    free(before);
+    free(after);
+    expect(first, mor_session_save(first, run_folder_file(folder, path, "state")), MOR_OK, "");
+    assert_int_equal(mor_session_new(&second), MOR_OK);
+    expect(second, mor_session_override(second, "spacing=20 mm"), MOR_OK, "");
+    expect(second, mor_session_load_file(second, case_path), MOR_OK, "");
+    make_ready(second);
+    expect(second, mor_session_save(second, path), MOR_ERROR_CONFIG, "spacing");
+    mor_session_free(&first);
+    mor_session_free(&second);
+}
+
+/* The extreme over an interval is of the steps that are due, however often it was looked at between. */
+static void reading_a_probe_changes_nothing(void **state)
+{
+    mor_session *watched = load(*state);
+    mor_session *alone = load(*state);
+    make_ready(watched);
+    make_ready(alone);
+    while (mor_session_time(watched) < 0.02) {
+        expect(watched, mor_session_step(watched), MOR_OK, "");
+        expect(alone, mor_session_step(alone), MOR_OK, "");
+        for (int k = 0; k < mor_session_n_probes(watched); ++k) {
+            double value = 0.0;
+            const mor_probe_track *track = watched->simulation.probes;
+            const int64_t measured_at = track->measured_at[k];
+            expect(watched, mor_session_read_probe(watched, mor_session_probe_name(watched, k), &value, NULL), MOR_OK,
+                   "");
+            assert_int_equal(track->measured_at[k], measured_at);
+            assert_memory_equal(&track->values[k], &alone->simulation.probes->values[k], sizeof value);
+        }
+    }
+    mor_session_free(&watched);
+    mor_session_free(&alone);
+}
+
+static void an_end_while_settling_leaves_no_results(void **state)
+{
+    char path[MOR_PATH_BYTES];
+    mor_session_outcome outcome = MOR_SESSION_FINISHED;
+    mor_session *session = NULL;
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    expect(session, mor_session_override(session, "spacing=40 mm"), MOR_OK, "");
+    expect(session, mor_session_load_file(session, MOR_SOURCE_DIR "/cases/column-at-rest/case.cfg"), MOR_OK, "");
+    mor_session_request_stop(session);
+    expect(session, mor_session_run(session, run_folder_file(*state, path, "run"), false, NAN, &outcome), MOR_OK, "");
+    assert_int_equal(outcome, MOR_SESSION_INTERRUPTED);
+    assert_int_equal(mor_session_n_probes(session), 0);
+    expect(session, mor_session_save(session, path), MOR_ERROR_ARGUMENT, "no case is loaded");
+    mor_session_free(&session);
 }
 
 static void two_sessions_do_not_know_of_each_other(void **state)
@@ -396,6 +470,9 @@ int main(void)
                                        TEST(stepping_gives_the_bits_of_a_run),
                                        TEST(fields_are_described_and_particles_numbered),
                                        TEST(a_saved_state_goes_on_as_if_never_saved),
+                                       TEST(a_state_is_saved_into_no_run_and_over_no_other_case),
+                                       TEST(reading_a_probe_changes_nothing),
+                                       TEST(an_end_while_settling_leaves_no_results),
                                        TEST(two_sessions_do_not_know_of_each_other),
                                        TEST(a_case_in_memory_is_as_good_as_a_file),
                                        TEST(a_law_of_ones_own_gives_the_bits_of_the_built_in_one),

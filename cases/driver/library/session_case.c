@@ -110,14 +110,15 @@ static mor_status take_step(mor_session *session, int64_t until)
     mor_simulation *simulation = &session->simulation;
     const int64_t snapshot = mor_run_snapshot_tick(simulation, session->next_snapshot);
     mor_stop_enter(&session->stop, MOR_STOP_AFTER_STEP);
-    const mor_status status = mor_run_step(&session->context, simulation, until < snapshot ? until : snapshot);
+    double seconds = 0.0;
+    const mor_status status =
+        mor_run_step(&session->context, simulation, until < snapshot ? until : snapshot, &seconds);
     mor_stop_enter(&session->stop, MOR_STOP_AT_ONCE);
     if (status != MOR_OK) { /* arrays are half changed */
         session->is_failed = true;
         session->stage = MOR_SESSION_ENDED;
         return status;
     }
-    mor_run_warn_of_overlap(&session->context, simulation);
     session->next_snapshot = mor_run_find_snapshot(simulation, session->next_snapshot);
     return MOR_OK;
 }

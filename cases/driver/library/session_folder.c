@@ -12,14 +12,18 @@
 #include <string.h>
 #include <unistd.h>
 
+static bool has_checkpoint(mor_context *context, const char *folder)
+{
+    return mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
+           mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
+}
+
 mor_status mor_session_save(mor_session *session, const char *folder)
 {
     mor_context *context = &session->context;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_READY, MOR_SESSION_READY));
-    mor_session_set_folder(session, folder, false);
-    MOR_TRY(context, mor_run_files_make_folders(context, folder));
-    MOR_TRY(context, mor_run_files_keep_case(context, &session->files, session->registry));
-    return mor_run_files_save(context, &session->files);
+    mor_session_set_folder(session, folder, has_checkpoint(context, folder));
+    return mor_run_files_save_state(context, &session->files, session->registry);
 }
 
 mor_status mor_session_resume(mor_session *session, const char *folder)
@@ -28,10 +32,8 @@ mor_status mor_session_resume(mor_session *session, const char *folder)
     bool is_restored = false;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     mor_session_set_folder(session, folder, true);
-    MOR_CHECK(context,
-              mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
-                  mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE),
-              MOR_ERROR_IO, "found no checkpoint in '%s'; give a folder that mor_session_save or a run wrote", folder);
+    MOR_CHECK(context, has_checkpoint(context, folder), MOR_ERROR_IO,
+              "found no checkpoint in '%s'; give a folder that mor_session_save or a run wrote", folder);
     MOR_TRY(context, mor_run_files_keep_case(context, &session->files, session->registry));
     const mor_status status = mor_run_files_restore(context, &session->files, &is_restored);
     if (status != MOR_OK) {
@@ -52,11 +54,12 @@ mor_status mor_session_run(mor_session *session, const char *folder, bool is_res
     mor_session_set_folder(session, folder, is_resume);
     session->options.stop_at = stop_time;
     const mor_status status = mor_run(context, &session->files, session->registry, &found);
+    const bool has_results = session->files.series.stream != NULL;
     mor_run_files_close(context, &session->files);
     memset(&session->files, 0, sizeof session->files);
     session->is_failed = status != MOR_OK;
     session->stage = MOR_SESSION_ENDED;
-    if (session->simulation.the_case == NULL) { /* refused: there are no results */
+    if (!has_results) { /* refused, or ended while it settled */
         mor_session_clear_case(session);
     }
     *outcome = found.is_interrupted ? MOR_SESSION_INTERRUPTED

@@ -58,7 +58,7 @@ mor_status mor_session_read_probe(mor_session *session, const char *name, double
         *value = mor_probe_last(&session->simulation, probe);
         return MOR_OK;
     }
-    return mor_probe_value(context, &session->simulation, probe, value);
+    return mor_probe_peek(context, &session->simulation, probe, value);
 }
 
 /* ---- Sets -------------------------------------------------------------------------------------------------------- */

@@ -47,6 +47,12 @@ mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation);
  *  Returns: MOR_OK; what the measurement returns. */
 mor_status mor_probe_value(mor_context *context, mor_simulation *simulation, int probe, double *value);
 
+/** Returns the value of a probe on the state as it is, without keeping it: statistics do not change.
+ *  @param probe [in]   index of the probe in the case
+ *  @param value [out]  one number, in the unit of the probe; NaN where there is nothing to measure
+ *  Returns: as mor_probe_evaluate. */
+mor_status mor_probe_peek(mor_context *context, const mor_simulation *simulation, int probe, double *value);
+
 /** Returns a probe as it was measured last, in the unit of mor_probe_unit; NaN when it never was.
  *  @param probe      [in]  index of the probe in the case */
 double mor_probe_last(const mor_simulation *simulation, int probe);

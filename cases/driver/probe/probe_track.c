@@ -264,6 +264,16 @@ mor_status mor_probe_value(mor_context *context, mor_simulation *simulation, int
     return MOR_OK;
 }
 
+mor_status mor_probe_peek(mor_context *context, const mor_simulation *simulation, int probe, double *value)
+{
+    const mor_probe_track *track = simulation->probes;
+    if (track->measured_at[probe] != (int64_t)simulation->schedule.n_steps) {
+        return mor_probe_evaluate(context, simulation, probe, value);
+    }
+    *value = track->values[probe];
+    return MOR_OK;
+}
+
 double mor_probe_last(const mor_simulation *simulation, int probe)
 {
     return simulation->probes->values[probe];

@@ -103,17 +103,13 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
             MOR_TRY(context, mor_run_files_keep(context, files, p->next_snapshot));
         }
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_STEP);
-        const double before = mor_clock_now();
-        MOR_TRY(context, mor_schedule_step(context, &s->schedule, mor_run_snapshot_tick(s, p->next_snapshot)));
-        p->loop_seconds += mor_clock_now() - before;
+        MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, p->next_snapshot), &p->loop_seconds));
         p->n_loop_steps += 1;
-        mor_run_warn_of_overlap(context, s);
         p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
         if (s->soil.largest_speed > p->fastest) {
             p->fastest = s->soil.largest_speed;
             p->fastest_time = mor_schedule_time(&s->schedule);
         }
-        MOR_TRY(context, mor_probe_follow(context, s));
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_WRITING);
         MOR_TRY(context, write_outputs(context, files, p));
         show_progress(&files->progress, s, p);
@@ -124,7 +120,8 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
 /* A step without its files. */
 static mor_status retake_step(mor_context *context, mor_simulation *s, int64_t *next_snapshot)
 {
-    MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, *next_snapshot)));
+    double seconds = 0.0;
+    MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, *next_snapshot), &seconds));
     *next_snapshot = mor_run_find_snapshot(s, *next_snapshot);
     return MOR_OK;
 }

@@ -17,6 +17,10 @@ static mor_status print_case(mor_context *context, mor_run_files *files, const m
     MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory to print the case");
     const mor_status status = mor_case_write_stream(context, files->the_case, registry, stream);
     const int is_bad = fclose(stream);
+    if (status != MOR_OK || is_bad != 0) { /* what is cut off is no case to compare with */
+        free(files->case_text);
+        files->case_text = NULL;
+    }
     MOR_CHECK(context, status != MOR_OK || is_bad == 0, MOR_ERROR_MEMORY, "no memory to print the case");
     return status;
 }

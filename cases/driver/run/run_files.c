@@ -99,6 +99,23 @@ static void begin_log(mor_context *context, mor_run_files *files, FILE *log)
     files->early_text = NULL;
 }
 
+/* One program at a time works in a folder; the lock goes with the stream. */
+static mor_status open_log(mor_context *context, const char *folder, FILE **log)
+{
+    char path[MOR_PATH_BYTES];
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, LOG_FILE));
+    *log = fopen(path, "a");
+    MOR_CHECK(context, *log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    if (fcntl(fileno(*log), F_SETLK, &lock) != 0) {
+        fclose(*log);
+        return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                        "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
+                        folder);
+    }
+    return MOR_OK;
+}
+
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
 {
     char path[MOR_PATH_BYTES];
@@ -115,15 +132,8 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
     if (options->is_resume) {
         mor_run_warnings_load(context, &files->warnings, path);
     }
-    FILE *log = fopen(path, "a");
-    MOR_CHECK(context, log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
-    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (fcntl(fileno(log), F_SETLK, &lock) != 0) {
-        fclose(log);
-        return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
-                        options->folder);
-    }
+    FILE *log = NULL;
+    MOR_TRY(context, open_log(context, options->folder, &log));
     begin_log(context, files, log);
     return MOR_OK;
 }
@@ -238,6 +248,28 @@ mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
         MOR_TRY(context, mor_table_sync(context, &files->series));
     }
     return mor_checkpoint_write(context, files->options->folder, &checkpoint);
+}
+
+static mor_status save_state(mor_context *context, mor_run_files *files, const mor_registry *registry)
+{
+    const char *folder = files->options->folder;
+    MOR_CHECK(context,
+              !mor_run_files_has(context, folder, MOR_TABLE_SERIES_FILE) &&
+                  !mor_run_files_has(context, folder, MOR_SUMMARY_FILE),
+              MOR_ERROR_CONFIG, "the folder '%s' holds a run, whose state and results belong together; choose another",
+              folder);
+    MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
+    return mor_run_files_save(context, files);
+}
+
+mor_status mor_run_files_save_state(mor_context *context, mor_run_files *files, const mor_registry *registry)
+{
+    FILE *log = NULL;
+    MOR_TRY(context, mor_run_files_make_folders(context, files->options->folder));
+    MOR_TRY(context, open_log(context, files->options->folder, &log));
+    const mor_status status = save_state(context, files, registry);
+    fclose(log);
+    return status;
 }
 
 mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_t next_snapshot)

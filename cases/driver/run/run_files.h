@@ -134,6 +134,13 @@ mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files);
 
+/** Saves the state alone, without a run's other files, into options->folder, which is made when missing.
+ *  options->is_resume says that it holds a checkpoint already, which must be of the same case.
+ *  @param registry [in]  the models that the case was read with
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for the folder of a run, for another case, naming the first difference, and for a
+ *  folder that another program is at work in; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_save_state(mor_context *context, mor_run_files *files, const mor_registry *registry);
+
 /** Keeps the present state in memory, in place of the one kept before.
  *  @param files         [in,out]  started
  *  @param next_snapshot [in]      number of the next snapshot

@@ -3,6 +3,7 @@
 #include "cases/driver/run/run_step.h"
 
 #include "cases/driver/probe/probe.h"
+#include "cases/driver/run/clock.h"
 
 #include <math.h>
 
@@ -23,14 +24,8 @@ int64_t mor_run_find_snapshot(const mor_simulation *simulation, int64_t number)
     return number;
 }
 
-mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until)
-{
-    MOR_TRY(context, mor_schedule_step(context, &simulation->schedule, until));
-    return mor_probe_follow(context, simulation);
-}
-
 /* Springs that are loaded before anything has moved throw bodies apart. */
-void mor_run_warn_of_overlap(mor_context *context, const mor_simulation *simulation)
+static void warn_of_overlap(mor_context *context, const mor_simulation *simulation)
 {
     const double advisable = 0.01;
     double kinetic = 0.0;
@@ -49,4 +44,13 @@ void mor_run_warn_of_overlap(mor_context *context, const mor_simulation *simulat
             "spacing)",
             simulation->bodies.contact.deepest, stored, simulation->the_case->dimension == 2 ? "J/m" : "J");
     }
+}
+
+mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until, double *seconds)
+{
+    const double before = mor_clock_now();
+    MOR_TRY(context, mor_schedule_step(context, &simulation->schedule, until));
+    *seconds += mor_clock_now() - before;
+    warn_of_overlap(context, simulation);
+    return mor_probe_follow(context, simulation);
 }

@@ -16,13 +16,11 @@ int64_t mor_run_snapshot_tick(const mor_simulation *simulation, int64_t number);
  *  @param number [in]  of a snapshot that is not behind it */
 int64_t mor_run_find_snapshot(const mor_simulation *simulation, int64_t number);
 
-/** Takes a step and lets the probes follow.
- *  @param until [in]  tick not to be passed, > now
+/** Takes a step and measures the probes that are due; warns after the first step of bodies that overlap.
+ *  @param context [in,out]  logs the warning
+ *  @param until   [in]      tick not to be passed, > now
+ *  @param seconds [in,out]  the time that the step took without the probes is added, unit s
  *  Returns: MOR_OK; what mor_schedule_step and mor_probe_follow return. */
-mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until);
-
-/** Warns of bodies that overlap; to be called after the first step.
- *  @param context [in,out]  logs the warning */
-void mor_run_warn_of_overlap(mor_context *context, const mor_simulation *simulation);
+mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until, double *seconds);
 
 #endif
