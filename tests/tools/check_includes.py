@@ -1,7 +1,8 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
-"""Refuses an include that the folder may not have, an include cycle, an outside library away from its door, and OpenMP
-away from core/base/parallel.h. Who may include whom stands in CMakeLists.txt, in the calls of mor_add_room."""
+"""Refuses an include that the folder may not have, an include cycle, an outside library away from its door, OpenMP
+away from core/base/parallel.h, and a unit test outside the folder of a room. The rooms, and who may include whom, stand
+in CMakeLists.txt, in the calls of mor_add_room."""
 
 import posixpath
 import re
@@ -79,6 +80,17 @@ def check_outside_header(path, header):
     return f"<{header}> is neither libc nor a library with a door in tests/tools/check_includes.py"
 
 
+def check_place(path, rooms):
+    """Unit tests lie as the rooms do: what core/io holds is tested in tests/unit/core/io."""
+    if not path.startswith("tests/unit/"):
+        return None
+    room = posixpath.dirname(path).removeprefix("tests/unit").lstrip("/")
+    if room in rooms:
+        return None
+    return (f"{path}:1: " + (f"{room} is no room" if room else "it lies in no room") + " of CMakeLists.txt; move it to "
+            "tests/unit/<room of what it tests>, as tests/unit/core/base")
+
+
 def find_cycle(graph):
     """One cycle of the include graph as a list of files, or None."""
     state = {}
@@ -110,6 +122,9 @@ def check(root):
     problems = []
     graph = {}
     for path in files:
+        problem = check_place(path, rooms)
+        if problem:
+            problems.append(problem)
         text = source.without_comments(source.read_text(root, path))
         graph[path] = []
         for match in INCLUDE.finditer(text):
@@ -130,5 +145,5 @@ def check(root):
 
 
 if __name__ == "__main__":
-    sys.exit(source.report("Forbidden includes", check(source.parse_root().root),
+    sys.exit(source.report("Forbidden includes and misplaced tests", check(source.parse_root().root),
                            "Move the code to the folder that may see what it needs, or pass it as an argument."))

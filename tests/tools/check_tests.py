@@ -4,7 +4,6 @@
 in single precision."""
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -26,11 +25,10 @@ def list_registered(build, ctest):
 
 def registered_name(path):
     """The name CTest must know for a test source, or None for a file that is no test."""
-    folder, name = os.path.split(path)
-    stem, suffix = os.path.splitext(name)
-    tier = os.path.basename(folder)
-    if suffix != ".c" or os.path.dirname(folder) != "tests":
+    match = re.fullmatch(r"tests/(\w+)/(?:.+/)?([^/]+)\.c", path)
+    if match is None:
         return None
+    tier, stem = match.groups()
     if tier in TIERS:
         return f"{tier}/{stem}"
     return f"fuzz/{stem}" if tier == "fuzz" and stem.startswith("fuzz_") else None

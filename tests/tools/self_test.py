@@ -66,7 +66,7 @@ double mor_length(const double *a)
 """,
     "core/particle/set.h": header("core/particle/set.h", '#include "core/base/context.h"\n'),
     "materials/clay.c": TAG + '#include "core/base/context.h"\n',
-    "tests/unit/test_length.c": TAG + """#include "core/base/length.h"
+    "tests/unit/core/base/test_length.c": TAG + """#include "core/base/length.h"
 
 static void length_is_positive(void **state)
 {
@@ -149,6 +149,18 @@ class Includes(Sample):
     def test_nobody_includes_tests(self):
         self.write("tests/common/tools.h", TAG)
         self.refuse("cases/driver/bad.c", '#include "tests/common/tools.h"', "cases/driver may include")
+
+    def test_unit_tests_lie_in_the_folder_of_a_room(self):
+        self.write("tests/unit/core/particle/test_set.c", TAG)
+        self.write("tests/property/test_any.c", TAG)
+        self.expect(check_includes.check(self.root))
+        for folder, fragment in (("tests/unit", "in no room"), ("tests/unit/core", "core is no room"),
+                                 ("tests/unit/core/base/more", "core/base/more is no room")):
+            with self.subTest(folder):
+                path = f"{folder}/test_bad.c"
+                self.write(path, TAG)
+                self.expect(check_includes.check(self.root), path + ":1", fragment, "move it to")
+                os.remove(os.path.join(self.root, path))
 
     def test_paths_start_at_the_top(self):
         self.refuse("core/base/bad.c", '#include "context.h"', "write the path from the top folder")
@@ -498,25 +510,30 @@ class Tests(Sample):
         self.expect(check_tests.check(self.root, {"unit/test_length"}))
 
     def test_unregistered_test_is_refused(self):
-        self.expect(check_tests.check(self.root, {"unit/other"}), "tests/unit/test_length.c", "CTest does not run it")
+        self.expect(check_tests.check(self.root, {"unit/other"}), "tests/unit/core/base/test_length.c",
+                    "CTest does not run it")
+
+    def test_unregistered_test_below_a_tier_is_refused(self):
+        self.write("tests/property/deep/test_a.c", TAG + "static void f(void) { assert_true(1); }\n")
+        self.expect(check_tests.check(self.root, {"unit/test_length"}), "deep/test_a.c", "CTest does not run it")
 
     def test_unregistered_fuzzer_is_refused(self):
         self.write("tests/fuzz/fuzz_a.c", TAG)
         self.expect(check_tests.check(self.root, {"unit/test_length"}), "fuzz_a.c", "CTest does not run it")
 
     def test_file_without_assertion_is_refused(self):
-        text = GOOD["tests/unit/test_length.c"].replace("assert_true(1)", "/* assert_true(1) */")
-        self.write("tests/unit/test_length.c", text)
+        text = GOOD["tests/unit/core/base/test_length.c"].replace("assert_true(1)", "/* assert_true(1) */")
+        self.write("tests/unit/core/base/test_length.c", text)
         self.expect(check_tests.check(self.root, {"unit/test_length"}), "nothing in it asserts")
 
     def test_comparison_in_single_precision_is_refused(self):
-        text = GOOD["tests/unit/test_length.c"].replace("assert_true(1)", "assert_float_equal(1.0, 1.0, 0.0)")
-        self.write("tests/unit/test_length.c", text)
+        text = GOOD["tests/unit/core/base/test_length.c"].replace("assert_true(1)", "assert_float_equal(1.0, 1.0, 0.0)")
+        self.write("tests/unit/core/base/test_length.c", text)
         self.expect(check_tests.check(self.root, {"unit/test_length"}), "compares in single precision")
 
     def test_function_in_no_group_is_refused(self):
-        text = GOOD["tests/unit/test_length.c"].replace("cmocka_unit_test(length_is_positive)", "")
-        self.write("tests/unit/test_length.c", text)
+        text = GOOD["tests/unit/core/base/test_length.c"].replace("cmocka_unit_test(length_is_positive)", "")
+        self.write("tests/unit/core/base/test_length.c", text)
         self.expect(check_tests.check(self.root, {"unit/test_length"}), "length_is_positive is in no group")
 
     def test_registered_tests_are_read_from_ctest(self):
