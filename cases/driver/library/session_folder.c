@@ -12,17 +12,11 @@
 #include <string.h>
 #include <unistd.h>
 
-static bool has_checkpoint(mor_context *context, const char *folder)
-{
-    return mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
-           mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
-}
-
 mor_status mor_session_save(mor_session *session, const char *folder)
 {
     mor_context *context = &session->context;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_READY, MOR_SESSION_READY));
-    mor_session_set_folder(session, folder, has_checkpoint(context, folder));
+    mor_session_set_folder(session, folder, mor_run_folder_has_checkpoint(context, folder));
     return mor_run_files_save_state(context, &session->files, session->registry);
 }
 
@@ -32,7 +26,7 @@ mor_status mor_session_resume(mor_session *session, const char *folder)
     bool is_restored = false;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     mor_session_set_folder(session, folder, true);
-    MOR_CHECK(context, has_checkpoint(context, folder), MOR_ERROR_IO,
+    MOR_CHECK(context, mor_run_folder_has_checkpoint(context, folder), MOR_ERROR_IO,
               "found no checkpoint in '%s'; give a folder that mor_session_save or a run wrote", folder);
     MOR_TRY(context, mor_run_files_keep_case(context, &session->files, session->registry));
     const mor_status status = mor_run_files_restore(context, &session->files, &is_restored);
@@ -77,9 +71,9 @@ mor_status mor_session_preview(mor_session *session, const char *folder)
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     const int n_sets = mor_simulation_sets(&session->simulation, false, sets);
-    MOR_TRY(context, mor_run_files_refuse_run(context, folder, "choose another folder with -o"));
+    MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder with -o"));
     MOR_TRY(context, mor_durable_file_join(context, images, folder, "images"));
-    MOR_TRY(context, mor_run_files_make_folders(context, images));
+    MOR_TRY(context, mor_run_folder_make(context, images));
     MOR_TRY(context, mor_session_write_snapshot(session, folder, sets, n_sets));
     mor_rocks_report_print(&session->the_case, session->output);
     return mor_pictures_render(context, &session->the_case, folder, MOR_PICTURES_FIRST, session->output);

@@ -303,9 +303,9 @@ static mor_status fill_shape(mor_session *session, filling *it)
 static mor_status write_results(mor_session *session, const filling *it, const char *folder)
 {
     char images[MOR_PATH_BYTES];
-    MOR_TRY(&session->context, mor_run_files_refuse_run(&session->context, folder, "choose another folder with -o"));
+    MOR_TRY(&session->context, mor_run_folder_refuse_run(&session->context, folder, "choose another folder with -o"));
     MOR_TRY(&session->context, mor_durable_file_join(&session->context, images, folder, "images"));
-    MOR_TRY(&session->context, mor_run_files_make_folders(&session->context, images));
+    MOR_TRY(&session->context, mor_run_folder_make(&session->context, images));
     MOR_TRY(&session->context, write_table(session, it, folder));
     MOR_TRY(&session->context, write_snapshot(session, it, folder));
     return draw_points(session, it, folder);

@@ -57,8 +57,7 @@ static mor_status store_case(mor_context *context, const mor_run_files *files, c
 static mor_status find_saved(mor_context *context, mor_run_files *files, const char *path)
 {
     const char *folder = files->options->folder;
-    if (!mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) &&
-        !mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE)) {
+    if (!mor_run_folder_has_checkpoint(context, folder)) {
         return load_text(context, path, &files->saved_text);
     }
     MOR_TRY(context, mor_checkpoint_read_identity(context, folder, &files->saved_text));

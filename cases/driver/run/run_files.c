@@ -16,7 +16,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LOG_FILE "log.txt"
 #define IMAGES_FOLDER "images"
 
 /* Everything goes into log.txt, and to the sink that was there before. */
@@ -32,44 +31,6 @@ static void log_line(void *user, mor_log_level level, const char *text)
     if (files->previous_sink != NULL) {
         files->previous_sink(files->previous_user, level, text);
     }
-}
-
-bool mor_run_files_has(mor_context *context, const char *folder, const char *name)
-{
-    char path[MOR_PATH_BYTES];
-    return mor_durable_file_join(context, path, folder, name) == MOR_OK && access(path, F_OK) == 0;
-}
-
-/* The user chose the folder, so it is the user's input that is refused. */
-static mor_status make_folder(mor_context *context, const char *path)
-{
-    const mor_status status = mor_durable_file_make_folder(context, path);
-    return status != MOR_ERROR_IO
-               ? status
-               : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s; choose the folder with -o", context->message);
-}
-
-mor_status mor_run_files_make_folders(mor_context *context, const char *path)
-{
-    char part[MOR_PATH_BYTES];
-    MOR_CHECK(context, strlen(path) < sizeof part, MOR_ERROR_CONFIG, "the name of the run's folder is too long: %s",
-              path);
-    strcpy(part, path);
-    for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        MOR_TRY(context, make_folder(context, part));
-        *slash = '/';
-    }
-    return make_folder(context, part);
-}
-
-mor_status mor_run_files_refuse_run(mor_context *context, const char *folder, const char *advice)
-{
-    const bool holds_run = mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
-                           mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE) ||
-                           mor_run_files_has(context, folder, MOR_SUMMARY_FILE);
-    MOR_CHECK(context, !holds_run, MOR_ERROR_CONFIG, "the folder '%s' already holds a run; %s", folder, advice);
-    return MOR_OK;
 }
 
 mor_status mor_run_files_listen(mor_context *context, mor_run_files *files)
@@ -99,41 +60,24 @@ static void begin_log(mor_context *context, mor_run_files *files, FILE *log)
     files->early_text = NULL;
 }
 
-/* One program at a time works in a folder; the lock goes with the stream. */
-static mor_status open_log(mor_context *context, const char *folder, FILE **log)
-{
-    char path[MOR_PATH_BYTES];
-    MOR_TRY(context, mor_durable_file_join(context, path, folder, LOG_FILE));
-    *log = fopen(path, "a");
-    MOR_CHECK(context, *log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
-    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (fcntl(fileno(*log), F_SETLK, &lock) != 0) {
-        fclose(*log);
-        return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
-                        folder);
-    }
-    return MOR_OK;
-}
-
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
 {
     char path[MOR_PATH_BYTES];
     const mor_run_options *options = files->options;
     if (!options->is_resume) {
-        MOR_TRY(context, mor_run_files_refuse_run(context, options->folder,
-                                                  "add --resume to go on with it, or choose another folder with -o"));
+        MOR_TRY(context, mor_run_folder_refuse_run(context, options->folder,
+                                                   "add --resume to go on with it, or choose another folder with -o"));
     }
     files->is_folder_new = access(options->folder, F_OK) != 0;
-    MOR_TRY(context, mor_run_files_make_folders(context, options->folder));
+    MOR_TRY(context, mor_run_folder_make(context, options->folder));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, IMAGES_FOLDER));
-    MOR_TRY(context, make_folder(context, path));
-    MOR_TRY(context, mor_durable_file_join(context, path, options->folder, LOG_FILE));
+    MOR_TRY(context, mor_run_folder_make(context, path));
+    MOR_TRY(context, mor_durable_file_join(context, path, options->folder, MOR_RUN_LOG_FILE));
     if (options->is_resume) {
         mor_run_warnings_load(context, &files->warnings, path);
     }
     FILE *log = NULL;
-    MOR_TRY(context, open_log(context, options->folder, &log));
+    MOR_TRY(context, mor_run_folder_lock(context, options->folder, &log));
     begin_log(context, files, log);
     return MOR_OK;
 }
@@ -185,7 +129,7 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
 
 void mor_run_files_discard(mor_context *context, mor_run_files *files)
 {
-    static const char *const names[] = {LOG_FILE, MOR_RUN_CASE_FILE, IMAGES_FOLDER};
+    static const char *const names[] = {MOR_RUN_LOG_FILE, MOR_RUN_CASE_FILE, IMAGES_FOLDER};
     char path[MOR_PATH_BYTES];
     for (size_t k = 0; k < sizeof names / sizeof *names && files->is_folder_new; ++k) {
         if (mor_durable_file_join(context, path, files->options->folder, names[k]) == MOR_OK) {
@@ -254,8 +198,8 @@ static mor_status save_state(mor_context *context, mor_run_files *files, const m
 {
     const char *folder = files->options->folder;
     MOR_CHECK(context,
-              !mor_run_files_has(context, folder, MOR_TABLE_SERIES_FILE) &&
-                  !mor_run_files_has(context, folder, MOR_SUMMARY_FILE),
+              !mor_run_folder_has(context, folder, MOR_TABLE_SERIES_FILE) &&
+                  !mor_run_folder_has(context, folder, MOR_SUMMARY_FILE),
               MOR_ERROR_CONFIG, "the folder '%s' holds a run, whose state and results belong together; choose another",
               folder);
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
@@ -265,8 +209,8 @@ static mor_status save_state(mor_context *context, mor_run_files *files, const m
 mor_status mor_run_files_save_state(mor_context *context, mor_run_files *files, const mor_registry *registry)
 {
     FILE *log = NULL;
-    MOR_TRY(context, mor_run_files_make_folders(context, files->options->folder));
-    MOR_TRY(context, open_log(context, files->options->folder, &log));
+    MOR_TRY(context, mor_run_folder_make(context, files->options->folder));
+    MOR_TRY(context, mor_run_folder_lock(context, files->options->folder, &log));
     const mor_status status = save_state(context, files, registry);
     fclose(log);
     return status;
@@ -321,8 +265,7 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
     const char *folder = files->options->folder;
     mor_simulation *s = files->simulation;
     const mor_checkpoint checkpoint = {&s->state, NULL};
-    *is_restored = mor_run_files_has(context, folder, MOR_CHECKPOINT_FILE) ||
-                   mor_run_files_has(context, folder, MOR_CHECKPOINT_PREVIOUS_FILE);
+    *is_restored = mor_run_folder_has_checkpoint(context, folder);
     if (!*is_restored) {
         mor_context_log(context, MOR_LOG_WARNING, "'%s' holds no checkpoint yet; the run starts from the beginning",
                         folder);

@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_RUN_RUN_FILES_H
 #define MOR_CASES_DRIVER_RUN_RUN_FILES_H
 
+#include "cases/driver/run/run_folder.h"
 #include "cases/driver/run/run_progress.h"
 #include "cases/driver/run/run_warnings.h"
 #include "cases/driver/run/stop.h"
@@ -93,26 +94,10 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_run_files_renew_case(mor_context *context, mor_run_files *files);
 
-/** Whether a folder has a file.
- *  @param folder  [in]      zero-terminated
- *  @param name    [in]      zero-terminated */
-bool mor_run_files_has(mor_context *context, const char *folder, const char *name);
-
 /** Opens snapshots and series, for a new run or behind the restored state.
  *  @param is_resume [in]      whether the state was restored from a checkpoint
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool is_resume);
-
-/** Makes a folder and the folders it lies in.
- *  @param path    [in]      zero-terminated
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for a path that is too long or cannot be made. */
-mor_status mor_run_files_make_folders(mor_context *context, const char *path);
-
-/** Refuses a folder that holds a run.
- *  @param folder  [in]      zero-terminated
- *  @param advice  [in]      zero-terminated; what to do
- *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
-mor_status mor_run_files_refuse_run(mor_context *context, const char *folder, const char *advice);
 
 /** Takes away a folder that was made by mor_run_files_open, with its log and the case, so that a case that is refused
  *  leaves no results behind. A folder that was there before, or holds anything else, stays, as do folders above it.

@@ -27,7 +27,7 @@ static mor_status keep_state(mor_context *context, mor_run_files *files, const c
     mor_snapshot_writer writer;
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     const int n_sets = mor_simulation_sets(files->simulation, false, sets);
-    MOR_TRY(context, mor_run_files_make_folders(context, folder));
+    MOR_TRY(context, mor_run_folder_make(context, folder));
     MOR_TRY(context, mor_snapshot_writer_init(context, &writer, folder, &options, -1));
     const mor_status status = mor_snapshot_writer_add(context, &writer, sets, n_sets, (int64_t)schedule->n_steps,
                                                       mor_schedule_time(schedule));
