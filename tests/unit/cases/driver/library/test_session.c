@@ -279,6 +279,29 @@ static void a_state_is_saved_into_no_run_and_over_no_other_case(void **state)
     mor_session_free(&second);
 }
 
+static void a_folder_at_work_is_left_alone(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char case_path[MOR_PATH_BYTES];
+    FILE *log = NULL;
+    mor_session_outcome outcome = MOR_SESSION_FINISHED;
+    mor_session *session = load(folder);
+    make_ready(session);
+    run_folder_file(folder, path, "state");
+    run_folder_file(folder, case_path, "case.cfg");
+    assert_int_equal(mor_run_folder_make(&folder->context, path), MOR_OK);
+    assert_int_equal(mor_run_folder_lock(&folder->context, path, &log), MOR_OK);
+    expect(session, mor_session_save(session, path), MOR_ERROR_CONFIG, "another program is at work");
+    expect(session, mor_session_load_file(session, case_path), MOR_OK, "");
+    expect(session, mor_session_run(session, path, false, 0.01, &outcome), MOR_ERROR_CONFIG,
+           "another program is at work");
+    fclose(log);
+    expect(session, mor_session_load_file(session, case_path), MOR_OK, "");
+    expect(session, mor_session_run(session, path, false, 0.01, &outcome), MOR_OK, "");
+    mor_session_free(&session);
+}
+
 /* The extreme over an interval is of the steps that are due, however often it was looked at between. */
 static void reading_a_probe_changes_nothing(void **state)
 {
@@ -471,6 +494,7 @@ int main(void)
                                        TEST(fields_are_described_and_particles_numbered),
                                        TEST(a_saved_state_goes_on_as_if_never_saved),
                                        TEST(a_state_is_saved_into_no_run_and_over_no_other_case),
+                                       TEST(a_folder_at_work_is_left_alone),
                                        TEST(reading_a_probe_changes_nothing),
                                        TEST(an_end_while_settling_leaves_no_results),
                                        TEST(two_sessions_do_not_know_of_each_other),
