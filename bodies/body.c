@@ -361,7 +361,8 @@ static void find_spin(const mor_body_group *group, const mor_body_sums *sums, do
     }
 }
 
-/* Rotation nearest to a linear map by Newton's iteration R <- (R + R^-T)/2; leaves turn alone when the map has none. */
+/* Rotation nearest to a linear map by Newton's iteration R <- (R + R^-T)/2; leaves rotation as it is when the map has
+ * none. */
 static void find_rotation(const double *map, double *rotation)
 {
     enum { ITERATIONS = 40 };

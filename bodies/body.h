@@ -31,7 +31,7 @@ typedef struct mor_body_start {
     double angular_velocity[3]; /* about it, rad/s */
     bool is_resting;            /* nothing moves yet */
     bool is_held;               /* waits where it is until it is started again: no force moves it */
-    bool is_prescribed;         /* keeps these velocities, whatever pushes it */
+    bool is_prescribed;         /* keeps these velocities, whatever the forces on it */
     /** Adds the velocity beyond a rigid motion at a reference position, shape [3], m; NULL: none. Deformable bodies. */
     void (*add_velocity)(const void *user, const double *reference, double *velocity);
     /** Whether a reference position, shape [3], m, is in the clamp; NULL: there is none. Deformable bodies. */
@@ -90,7 +90,7 @@ typedef struct mor_body {
     double rotation[9];         /* rotation since the reference configuration, shape [3,3], 1 */
     double rotation_angle[3];   /* integral of the angular velocity since the start, rad */
     bool is_held;               /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
-    double added_mass_ratio;    /* soil that it drags along over its own mass, see mor_body_meet_soil, 1; 0: no soil */
+    double added_mass_ratio;    /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
     bool is_light;              /* that ratio is above 1, or it is less dense than the soil */
     /* Forces. */
     double contact_force[3];  /* of other bodies and walls on a rigid body, at its center, in this sub-step, N (N/m) */
@@ -147,7 +147,7 @@ typedef struct mor_body_group {
     double gravity_ramp;                         /* time over which gravity grows from zero, s */
     double damping;                              /* rate of velocity damping, for settling, 1/s */
     double domain_minimum[3], domain_maximum[3]; /* m, before the placement */
-    const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither turned nor moved */
+    const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither rotated nor translated */
     /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Hung in by mor_contact_init. */
     double (*longest_contact_step)(const void *contact, const struct mor_body_group *group);
     const void *contact;    /* first argument of longest_contact_step; borrowed */
@@ -215,8 +215,8 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
  *  Returns: as mor_state_add. */
 mor_status mor_body_group_list_state(mor_context *context, mor_body_group *group, mor_state_list *list);
 
-/** Finds how much soil a body drags along, compared with its own mass: the soil within one spacing of its surface, that
- *  which slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
+/** Finds the added mass of soil of a body over its own mass: the soil within one spacing of its surface, that which
+ *  slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
  *  largest. Of an elastic body also the square of half the soil's impedance over its own. A body with a ratio above 1
  *  is light: the soil sees its velocity at the end of a step in place of the mean over the step, and takes steps
  *  shorter by the root of the ratio (core/particle/boundary.h). To be called before the first step.
@@ -225,7 +225,7 @@ mor_status mor_body_group_list_state(mor_context *context, mor_body_group *group
  *  @param density         [in]      of the soil, unit kg/m3
  *  @param sound_speed     [in]      of the soil, unit m/s
  *  @param locked          [in]      bit a: no motion along axis a; bit 3 + a: no rotation about axis a */
-void mor_body_meet_soil(mor_body_group *group, int body, double density, double sound_speed, unsigned locked);
+void mor_body_find_added_mass(mor_body_group *group, int body, double density, double sound_speed, unsigned locked);
 
 /** Finds an elastic body's motion as a whole from its particles: center, mean velocity, angular velocity (angular
  *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map), rotation angle.

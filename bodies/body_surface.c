@@ -492,7 +492,7 @@ static mor_status carry_node(mor_context *context, mor_body_group *group, const 
         for (int k = 0; k < n; ++k) {
             particles[k] = list[k].particle;
         }
-        const bool is_crowd = n >= mor_body_point_crowd(group->dimension) || n == body->n_particles;
+        const bool is_crowd = n >= mor_body_point_support_size(group->dimension) || n == body->n_particles;
         if (is_crowd && mor_body_linear_weights(group->dimension, group->reference, particles, n, point, radius,
                                                 weights, NULL, NULL)) {
             group->node_count[node] = n;

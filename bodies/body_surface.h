@@ -30,9 +30,9 @@ mor_status mor_body_group_make_nodes(mor_context *context, mor_body_group *group
 #define MOR_BODY_POINT_RADIUS 2.3
 #define MOR_BODY_POINT_GROWTH 1.15
 
-/** Particles that make a point soft enough for a step of ordinary length.
+/** Least number of particles that carry a point: fewer would make it too stiff for a step of ordinary length.
  *  @param dimension [in]  2 or 3 */
-static inline int mor_body_point_crowd(int dimension)
+static inline int mor_body_point_support_size(int dimension)
 {
     return dimension == 3 ? 16 : 6;
 }
@@ -88,8 +88,8 @@ void mor_body_node_place(const mor_body_group *group, int body, int64_t node, do
  *  @param body    [in]      index of the body
  *  @param place   [in]      shape [3]; where the point is, unit m
  *  @param force   [in]      shape [3], unit N (N/m in plane strain) */
-void mor_body_point_push(mor_body_group *group, int body, const mor_body_support *support, const double *place,
-                         const double *force);
+void mor_body_point_apply_force(mor_body_group *group, int body, const mor_body_support *support, const double *place,
+                                const double *force);
 
 /** Force of contact on a body in the last sub-step.
  *  @param body      [in]  index of the body

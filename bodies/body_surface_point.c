@@ -210,8 +210,8 @@ void mor_body_node_place(const mor_body_group *group, int body, int64_t node, do
     }
 }
 
-void mor_body_point_push(mor_body_group *group, int body, const mor_body_support *support, const double *place,
-                         const double *force)
+void mor_body_point_apply_force(mor_body_group *group, int body, const mor_body_support *support, const double *place,
+                                const double *force)
 {
     for (int k = 0; k < support->count; ++k) {
         double *sum = group->contact_force + 3 * (int64_t)support->particles[k];

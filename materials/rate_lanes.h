@@ -108,8 +108,8 @@ static MOR_LANES_INLINE mor_symmetric mor_rate_predict(double two_shear, double 
                                    two_shear * strain.zz + mean, two_shear * strain.xy,
                                    two_shear * strain.yz,        two_shear * strain.zx};
     const mor_symmetric increment = mor_symmetric_add(elastic, 1.0, extra);
-    const mor_symmetric turned = mor_symmetric_spin(mor_symmetric_add(stress, 0.5, increment), gradient);
-    return mor_symmetric_add(turned, 0.5, increment);
+    const mor_symmetric rotated = mor_symmetric_spin(mor_symmetric_add(stress, 0.5, increment), gradient);
+    return mor_symmetric_add(rotated, 0.5, increment);
 }
 
 /** Stores the end stress [Pa] of a lane. */
@@ -123,9 +123,9 @@ static MOR_LANES_INLINE void mor_rate_write(mor_rate_block *b, int lane, mor_sym
     b->stress[5][lane] = stress.zx;
 }
 
-/** Finds the first lane that may not pass, and why.
+/** Finds the first lane whose results are not valid, and why.
  *  @param n_lanes     [in]   1 to MOR_LANES
- *  @param failed_lane [out]  one number; worthless when all may pass
+ *  @param failed_lane [out]  one number; without meaning when all are valid
  *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small; MOR_ERROR_NUMERIC. */
 static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t n_lanes, int64_t *failed_lane)
 {
@@ -144,8 +144,8 @@ static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t 
     return MOR_OK;
 }
 
-/** Sets what tells whether the lanes may pass, and tells it. Returns: 0 or 1. */
-static MOR_LANES_INLINE int mor_rate_judge(mor_rate_block *b, int has_state)
+/** Sets increment2 and nonfinite; whether the results of all lanes are valid. Returns: 0 or 1. */
+static MOR_LANES_INLINE int mor_rate_check_block(mor_rate_block *b, int has_state)
 {
     double worst = 0.0;
     double zero = 0.0;
@@ -180,7 +180,7 @@ static MOR_LANES_INLINE mor_status mor_rate_run(const void *constants, const mor
             mor_rate_load(batch, first, n_lanes, has_state, &b);
         }
         law(constants, &b);
-        if (!mor_rate_judge(&b, has_state)) {
+        if (!mor_rate_check_block(&b, has_state)) {
             int64_t failed_lane = 0;
             const mor_status status = mor_rate_find_failure(&b, n_lanes, &failed_lane);
             if (batch->failed != NULL) {

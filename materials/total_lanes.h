@@ -103,8 +103,8 @@ static MOR_LANES_INLINE void mor_total_store(const mor_total_block *b, int64_t n
     }
 }
 
-/** Says why a lane may not pass: MOR_OK; MOR_RETRY_SMALLER_STEP for det F <= 0; MOR_ERROR_NUMERIC. Units 1. */
-static inline mor_status mor_total_judge(double j_minus_1, double nonfinite)
+/** Checks the results of a lane: MOR_OK; MOR_RETRY_SMALLER_STEP for det F <= 0; MOR_ERROR_NUMERIC. Units 1. */
+static inline mor_status mor_total_check(double j_minus_1, double nonfinite)
 {
     if (isfinite(j_minus_1) && !(j_minus_1 > -1.0)) {
         return MOR_RETRY_SMALLER_STEP;
@@ -112,14 +112,14 @@ static inline mor_status mor_total_judge(double j_minus_1, double nonfinite)
     return isfinite(j_minus_1) && nonfinite == 0.0 ? MOR_OK : MOR_ERROR_NUMERIC;
 }
 
-/** Finds the first lane that may not pass.
+/** Finds the first lane whose results are not valid.
  *  @param n_lanes     [in]   1 to MOR_LANES
- *  @param failed_lane [out]  one number; untouched when all may pass
- *  Returns: as mor_total_judge of that lane. */
+ *  @param failed_lane [out]  one number; unchanged when all are valid
+ *  Returns: as mor_total_check of that lane. */
 static inline mor_status mor_total_find_failure(const mor_total_block *b, int64_t n_lanes, int64_t *failed_lane)
 {
     for (int64_t lane = 0; lane < n_lanes; ++lane) {
-        const mor_status status = mor_total_judge(b->j_minus_1[lane], b->nonfinite[lane]);
+        const mor_status status = mor_total_check(b->j_minus_1[lane], b->nonfinite[lane]);
         if (status != MOR_OK) {
             *failed_lane = lane;
             return status;
@@ -128,8 +128,8 @@ static inline mor_status mor_total_find_failure(const mor_total_block *b, int64_
     return MOR_OK;
 }
 
-/** Whether all lanes may pass. Returns: 0 or 1. */
-static MOR_LANES_INLINE int mor_total_is_fine(const mor_total_block *b)
+/** Whether the results of all lanes are valid. Returns: 0 or 1. */
+static MOR_LANES_INLINE int mor_total_is_valid(const mor_total_block *b)
 {
     double least = 0.0;
     double zero = 0.0;
@@ -143,7 +143,7 @@ static MOR_LANES_INLINE int mor_total_is_fine(const mor_total_block *b)
 /** Runs a law over a batch. The last block runs through the same code with empty lanes: a result must not depend on a
  *  particle's place.
  *  @param law       [in]      the stress of one block
- *  Returns: MOR_OK; as mor_total_judge of the first particle that may not pass. */
+ *  Returns: MOR_OK; as mor_total_check of the first particle whose results are not valid. */
 static MOR_LANES_INLINE mor_status mor_total_run(const mor_hooke *constants, const mor_batch *batch, mor_total_law law)
 {
     const mor_hooke c = *constants;
@@ -168,7 +168,7 @@ static MOR_LANES_INLINE mor_status mor_total_run(const mor_hooke *constants, con
             }
             b.nonfinite[lane] = zero;
         }
-        if (!mor_total_is_fine(&b)) {
+        if (!mor_total_is_valid(&b)) {
             int64_t failed_lane = 0;
             const mor_status status = mor_total_find_failure(&b, n_lanes, &failed_lane);
             if (batch->failed != NULL) {
@@ -188,7 +188,7 @@ static MOR_LANES_INLINE mor_status mor_total_run(const mor_hooke *constants, con
 /** The operation energy of a law.
  *  @param stored   [out]  shape [n]; unit J/m3
  *  @param density  [in]   the law's energy density; unit J/m3
- *  Returns: MOR_OK; as mor_total_judge of the first particle that may not pass. */
+ *  Returns: MOR_OK; as mor_total_check of the first particle whose results are not valid. */
 static inline mor_status mor_total_energy(const mor_material_instance *instance, const mor_batch *batch, double *stored,
                                           mor_total_density density)
 {
@@ -198,7 +198,7 @@ static inline mor_status mor_total_energy(const mor_material_instance *instance,
         const mor_gradient h = {f[0] - 1.0, f[1], f[2], f[3], f[4] - 1.0, f[5], f[6], f[7], f[8] - 1.0};
         const double j_minus_1 = mor_total_j_minus_1(h);
         const double value = j_minus_1 > -1.0 ? density(constants, mor_total_strain(h), j_minus_1) : 0.0;
-        const mor_status status = mor_total_judge(j_minus_1, 0.0 * value);
+        const mor_status status = mor_total_check(j_minus_1, 0.0 * value);
         if (status != MOR_OK) {
             if (batch->failed != NULL) {
                 *batch->failed = i;

@@ -419,11 +419,11 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     MOR_TRY(context, mor_contact_search(context, contact, members));
     MOR_PARALLEL_FOR (context, k, work->n_touches, TOUCHES_PER_CHUNK) {
         mor_contact_touch *touch = &work->touches[k];
-        mor_contact_look_up(contact, &work->near[touch->near], touch, true,
-                            work->support_particles + MOR_CONTACT_SUPPORT * k,
-                            work->support_weights + MOR_CONTACT_SUPPORT * k);
+        mor_contact_find_touch(contact, &work->near[touch->near], touch, true,
+                               work->support_particles + MOR_CONTACT_SUPPORT * k,
+                               work->support_weights + MOR_CONTACT_SUPPORT * k);
     }
-    mor_contact_act(contact, members, step->length);
+    mor_contact_apply_forces(contact, members, step->length);
     MOR_TRY(context, mor_contact_check_depth(context, contact));
     move_walls(contact, step->time + step->length);
     return MOR_OK;

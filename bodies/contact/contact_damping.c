@@ -25,7 +25,7 @@ void mor_contact_measure_inertia(mor_contact_body *c)
     }
 }
 
-/* What a node's force moves and turns, in the reference configuration of the body: direction and lever. */
+/* What a node's force translates and rotates, in the reference configuration of the body: direction and lever. */
 static void find_lever(const mor_body *body, const mor_contact_touch *touch, double *lever)
 {
     const double arm[3] = {touch->place[0] - body->center[0], touch->place[1] - body->center[1],
@@ -105,11 +105,11 @@ static double respond(const mor_contact *contact, int which, int64_t begin, int6
     }
     for (int j = 0; j < MOTIONS; ++j) {
         const double column[3] = {sums[3][j], sums[4][j], sums[5][j]};
-        double turned[3];
-        mor_symmetric_apply(c->inverse_inertia, column, turned);
+        double rotated[3];
+        mor_symmetric_apply(c->inverse_inertia, column, rotated);
         for (int i = 0; i < 3; ++i) {
             matrix[i][j] = inverse * sums[i][j];
-            matrix[3 + i][j] = turned[i];
+            matrix[3 + i][j] = rotated[i];
         }
     }
     return bound_eigenvalue(matrix);

@@ -102,7 +102,7 @@ static void name_side(const mor_contact *contact, int side, const char **kind, c
                     : work->bodies[side].group->bodies[work->bodies[side].body].name;
 }
 
-/* Sides that no force moves, as a body that is driven into a wall, do not push each other. */
+/* No contact force acts between sides that no force moves, as a body that is driven into a wall. */
 static void warn_of_driven(mor_context *context, mor_contact *contact)
 {
     mor_contact_work *work = contact->work;
@@ -131,12 +131,12 @@ static void warn_of_edge(mor_context *context, mor_contact *contact)
     name_side(contact, it->first, &kind, &name);
     name_side(contact, it->second, &other_kind, &other_name);
     it->is_told = true;
-    mor_context_log(context, MOR_LOG_WARNING,
-                    "%s '%s' touches %s '%s' at an edge or a corner, (%.4g, %.4g, %.4g) m, at t = %.6g s; walls are "
-                    "felt along their faces, so that it may rebound or turn wrongly there: use a finer spacing, or, if "
-                    "'%s' lies within the domain, make it a body with motion = \"prescribed\"",
-                    kind, name, other_kind, other_name, it->place[0], it->place[1], it->place[2], contact->time,
-                    other_name);
+    mor_context_log(
+        context, MOR_LOG_WARNING,
+        "%s '%s' touches %s '%s' at an edge or a corner, (%.4g, %.4g, %.4g) m, at t = %.6g s; walls are "
+        "felt along their faces, so that it may rebound or rotate wrongly there: use a finer spacing, or, if "
+        "'%s' lies within the domain, make it a body with motion = \"prescribed\"",
+        kind, name, other_kind, other_name, it->place[0], it->place[1], it->place[2], contact->time, other_name);
 }
 
 mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact)

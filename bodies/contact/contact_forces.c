@@ -117,7 +117,7 @@ static void whole_velocity(const mor_contact *contact, int second, const double 
 }
 
 /* Force at a place on a whole body: an elastic one is accelerated as if it were rigid. */
-static void push_whole(mor_contact *contact, int second, const double *place, const double *force)
+static void apply_to_whole(mor_contact *contact, int second, const double *place, const double *force)
 {
     mor_contact_work *work = contact->work;
     if (second >= work->n_bodies) {
@@ -127,7 +127,7 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     mor_body_group *group = c->group;
     const mor_body *body = &group->bodies[c->body];
     if (!group->operations->is_deformable) {
-        mor_body_point_push(group, c->body, &(mor_body_support){0, NULL, NULL}, place, force);
+        mor_body_point_apply_force(group, c->body, &(mor_body_support){0, NULL, NULL}, place, force);
         return;
     }
     const double arm[3] = {place[0] - c->center[0], place[1] - c->center[1], place[2] - c->center[2]};
@@ -150,7 +150,7 @@ static void push_whole(mor_contact *contact, int second, const double *place, co
     }
 }
 
-static void push_wall(mor_contact *contact, const mor_contact_near *near, const double *place, const double *force)
+static void apply_to_wall(mor_contact *contact, const mor_contact_near *near, const double *place, const double *force)
 {
     const mor_contact_work *work = contact->work;
     if (near->second < work->n_bodies) {
@@ -165,22 +165,22 @@ static void push_wall(mor_contact *contact, const mor_contact_near *near, const 
 }
 
 /* Force on the node of a touch; the opposite on its partner. */
-static void push_both(mor_contact *contact, const mor_contact_near *near, int64_t index, const double *force)
+static void apply_to_both(mor_contact *contact, const mor_contact_near *near, int64_t index, const double *force)
 {
     const mor_contact_work *work = contact->work;
     const mor_contact_touch *touch = &work->touches[index];
     const double opposite[3] = {-force[0], -force[1], -force[2]};
     const mor_contact_body *owner = &work->bodies[touch->side == 0 ? near->first : near->second];
     const mor_body_support node = mor_body_node_support(owner->group, touch->node);
-    mor_body_point_push(owner->group, owner->body, &node, touch->place, force);
+    mor_body_point_apply_force(owner->group, owner->body, &node, touch->place, force);
     const int other = touch->side == 0 ? near->second : near->first;
     if (other < work->n_bodies) {
         const mor_contact_body *partner = &work->bodies[other];
         const mor_body_support support = {touch->support_count, work->support_particles + MOR_CONTACT_SUPPORT * index,
                                           work->support_weights + MOR_CONTACT_SUPPORT * index};
-        mor_body_point_push(partner->group, partner->body, &support, touch->place, opposite);
+        mor_body_point_apply_force(partner->group, partner->body, &support, touch->place, opposite);
     } else {
-        push_wall(contact, near, touch->place, force);
+        apply_to_wall(contact, near, touch->place, force);
     }
 }
 
@@ -270,11 +270,11 @@ static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, do
     const double extra = resultant * (sums->factor - 1.0);
     const double force[3] = {extra * sums->normal[0], extra * sums->normal[1], extra * sums->normal[2]};
     const double opposite[3] = {-force[0], -force[1], -force[2]};
-    push_whole(contact, sums->near->first, sums->center, force);
-    push_whole(contact, sums->near->second, sums->center, opposite);
-    push_wall(contact, sums->near, sums->center, force);
+    apply_to_whole(contact, sums->near->first, sums->center, force);
+    apply_to_whole(contact, sums->near->second, sums->center, opposite);
+    apply_to_wall(contact, sums->near, sums->center, force);
     /* What the motion loses is force times the velocity in the middle of the kick; of that, the pair's own part, as
-     * if nothing turned. */
+     * if nothing rotates. */
     const double kick = (resultant + extra) * inverse * sums->length;
     contact->damping_energy += extra * (closing - 0.5 * kick) * sums->length;
 }
@@ -304,7 +304,7 @@ static double find_mean_closing(const mor_contact *contact, const pair_sums *sum
 }
 
 /* Books what damping of each node takes, with the speed in the middle of the kick as above. */
-static void book_nodes(mor_contact *contact, const pair_sums *sums, double inverse)
+static void record_nodes(mor_contact *contact, const pair_sums *sums, double inverse)
 {
     const mor_contact_work *work = contact->work;
     double whole = 0.0;
@@ -381,7 +381,7 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
     sums->rate = fmin(y / *impact, limit_damping(contact, sums, inverse));
     if (sums->is_hertzian) {
         sums->closing = find_mean_closing(contact, sums);
-        book_nodes(contact, sums, inverse);
+        record_nodes(contact, sums, inverse);
     } else {
         damp_whole(contact, sums, closing, inverse);
     }
@@ -436,19 +436,19 @@ static void apply_tangential_force(mor_contact *contact, const pair_sums *sums, 
     const double before2 = mor_vector_dot(spring, spring);
     const double along = mor_vector_dot(spring, touch->normal);
     const double off = mor_vector_dot(touch->slip, touch->normal);
-    double turned[3], slide[3], force[3];
+    double rotated[3], slide[3], force[3];
     for (int a = 0; a < 3; ++a) {
-        turned[a] = spring[a] - along * touch->normal[a];
+        rotated[a] = spring[a] - along * touch->normal[a];
         slide[a] = touch->slip[a] - off * touch->normal[a];
     }
     /* The spring turns with the tangent plane and keeps its length. */
-    const double turned2 = mor_vector_dot(turned, turned);
-    const double stretch = turned2 > 0.0 ? sqrt(before2 / turned2) : 0.0;
+    const double rotated2 = mor_vector_dot(rotated, rotated);
+    const double stretch = rotated2 > 0.0 ? sqrt(before2 / rotated2) : 0.0;
     const double damping =
         inverse > 0.0 ? fmin(2.0 * STICK_DAMPING * sqrt(stiffness / inverse), DAMPING_LIMIT / (inverse * sums->length))
                       : 0.0;
     for (int a = 0; a < 3; ++a) {
-        spring[a] = turned[a] * stretch + slide[a] * sums->length;
+        spring[a] = rotated[a] * stretch + slide[a] * sums->length;
         force[a] = -stiffness * spring[a] - damping * slide[a];
     }
     /* Spring and whole force are capped each on its own: a damper must not load the spring. */
@@ -467,10 +467,10 @@ static void apply_tangential_force(mor_contact *contact, const pair_sums *sums, 
         work->slot_mark[MOR_CONTACT_SLOTS * entry + slot] = 1;
         work->kept_slots[work->n_kept++] = MOR_CONTACT_SLOTS * entry + slot;
     }
-    push_both(contact, sums->near, index, force);
+    apply_to_both(contact, sums->near, index, force);
 }
 
-static void act_on_pair(mor_contact *contact, int k, double length)
+static void apply_to_pair(mor_contact *contact, int k, double length)
 {
     mor_contact_work *work = contact->work;
     pair_sums sums = {.near = &work->near[work->active[k]], .length = length};
@@ -501,7 +501,7 @@ static void act_on_pair(mor_contact *contact, int k, double length)
             force[a] =
                 normal_force(&sums, touch) * (sums.is_hertzian ? node_factor(&sums, touch) : 1.0) * touch->normal[a];
         }
-        push_both(contact, sums.near, index, force);
+        apply_to_both(contact, sums.near, index, force);
         if (sums.law->friction_coefficient > 0.0) {
             apply_tangential_force(contact, &sums, index);
         }
@@ -561,15 +561,15 @@ static void add_wall_energy(mor_contact *contact, uint64_t members, double lengt
     }
 }
 
-void mor_contact_act(mor_contact *contact, uint64_t members, double length)
+void mor_contact_apply_forces(mor_contact *contact, uint64_t members, double length)
 {
-    mor_contact_recall(contact);
+    mor_contact_list_history(contact);
     clear_sums(contact, members);
     mor_contact_count_pairs(contact);
     for (int k = 0; k < contact->work->n_active; ++k) {
-        act_on_pair(contact, k, length);
+        apply_to_pair(contact, k, length);
     }
-    mor_contact_forget(contact, members);
+    mor_contact_release_history(contact, members);
     add_wall_energy(contact, members, length);
     mor_contact_add_sums(contact);
 }

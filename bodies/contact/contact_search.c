@@ -67,14 +67,14 @@ static void measure_travel(mor_contact_body *c)
     const mor_body *body = &c->group->bodies[c->body];
     double far = 0.0;
     if (!c->group->operations->is_deformable) {
-        double turned = 0.0;
+        double rotated = 0.0;
         for (int a = 0; a < 9; ++a) {
             const double d = body->rotation[a] - c->previous[3 + a];
-            turned += d * d;
+            rotated += d * d;
         }
         const double d[3] = {body->center[0] - c->previous[0], body->center[1] - c->previous[1],
                              body->center[2] - c->previous[2]};
-        far = mor_vector_length(d) + sqrt(turned) * c->radius;
+        far = mor_vector_length(d) + sqrt(rotated) * c->radius;
         memcpy(c->previous, body->center, sizeof body->center);
         memcpy(c->previous + 3, body->rotation, sizeof body->rotation);
     } else {
@@ -255,7 +255,7 @@ static void fill_lane(const mor_contact *contact, mor_contact_near *near, int si
                 continue;
             }
         }
-        mor_contact_look_up(contact, near, &touch, false, particles, weights);
+        mor_contact_find_touch(contact, near, &touch, false, particles, weights);
         if (touch.gap <= SKIN * spacing) {
             lane->nodes[lane->n_nodes++] = node;
         }

@@ -190,8 +190,8 @@ double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near 
     return area_stiffness * weigh(contact, near->first, near->second, own + other) / largest * area;
 }
 
-void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
-                      double curvature)
+void mor_contact_set_curvature(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
+                               double curvature)
 {
     const mor_contact_work *work = contact->work;
     const mor_contact_body *c = &work->bodies[touch->side == 0 ? near->first : near->second];

@@ -11,7 +11,7 @@
  *  no result depends on when. */
 
 enum {
-    MOR_CONTACT_SLOTS = 3,    /* partners whose friction a node remembers */
+    MOR_CONTACT_SLOTS = 3,    /* partners of a node whose friction springs are kept */
     MOR_CONTACT_SUPPORT = 96, /* particles of an elastic body around a point, at most */
     MOR_CONTACT_WINDOW = 21   /* points across the surface around a node */
 };
@@ -185,8 +185,8 @@ double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near 
 
 /** Fills in what the curvature of the other side, at a place on it, does to a touch of rigid sides: curvature, share.
  *  @param curvature [in]      of the other side there, unit 1/m */
-void mor_contact_meet(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
-                      double curvature);
+void mor_contact_set_curvature(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
+                               double curvature);
 
 /** Distance of a point from the surface of a shape, that of the whole where parts meet; unit m, negative inside.
  *  @param dimension [in]   2 or 3
@@ -329,29 +329,29 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_contact_search(mor_context *context, mor_contact *contact, uint64_t members);
 
-/** Looks one node up in its partner: fills in gap and, when is_whole and it touches, all else; depth is zero
+/** Finds how a node touches its partner: fills in gap and, when is_whole and it touches, all else; depth is zero
  *  when it does not.
  *  @param touch     [in,out]  near, side and node are set
  *  @param is_whole  [in]      also fill in what only touching nodes need
  *  @param particles [out]     shape [MOR_CONTACT_SUPPORT]; of an elastic partner
  *  @param weights   [out]     shape [MOR_CONTACT_SUPPORT], unit 1 */
-void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
-                         bool is_whole, int32_t *particles, double *weights);
+void mor_contact_find_touch(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
+                            bool is_whole, int32_t *particles, double *weights);
 
 /** Stiffness of a friction spring over that of the normal spring, 1. */
 #define MOR_CONTACT_TANGENTIAL_RATIO 0.8
 
-/** Lists what the state remembers, once after a start or a resume. */
-void mor_contact_recall(mor_contact *contact);
+/** Lists the entries of the history that are in use, once after a start or a resume. */
+void mor_contact_list_history(mor_contact *contact);
 
-/** Forgets friction springs and speeds of impact of contacts that ended; those of other members' bodies stay.
+/** Removes friction springs and speeds of impact of contacts that ended; those of other members' bodies stay.
  *  @param members [in]      bits of steppers */
-void mor_contact_forget(mor_contact *contact, uint64_t members);
+void mor_contact_release_history(mor_contact *contact, uint64_t members);
 
-/** Turns touches into forces, pair by pair; keeps the books.
+/** Applies the forces of all touches, pair by pair, and accounts for their energy.
  *  @param members [in]      bits of steppers
  *  @param length  [in]      of the sub-step, unit s */
-void mor_contact_act(mor_contact *contact, uint64_t members, double length);
+void mor_contact_apply_forces(mor_contact *contact, uint64_t members, double length);
 
 /** Sums over the groups what each had in its last sub-step: spring energy, deepest penetration, forces on walls. */
 void mor_contact_add_sums(mor_contact *contact);

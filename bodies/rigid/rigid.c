@@ -281,12 +281,12 @@ double mor_rigid_energy(const mor_rigid *rigid, int body, double *momentum, doub
     } else {
         mor_rigid_angular_momentum(constants, state->quaternion, b->angular_velocity, angular_momentum);
     }
-    const double turning = 0.5 * mor_vector_dot(b->angular_velocity, angular_momentum);
+    const double rotational = 0.5 * mor_vector_dot(b->angular_velocity, angular_momentum);
     for (int a = 0; a < 3; ++a) {
         momentum[a] = b->mass * state->velocity[a];
     }
     mor_vector_cross_add(1.0, state->center, momentum, angular_momentum);
-    return 0.5 * mor_vector_dot(momentum, state->velocity) + turning;
+    return 0.5 * mor_vector_dot(momentum, state->velocity) + rotational;
 }
 
 /* ---- A kind of body ---------------------------------------------------------------------------------------------- */
@@ -311,7 +311,7 @@ static int64_t rigid_start(mor_body_group *group, int body, const mor_body_start
     const mor_body *own = &group->bodies[body];
     double relative[3];
     double momentum[3];
-    double turned[3];
+    double rotated[3];
     motion->is_prescribed = start->is_prescribed || start->is_held;
     for (int a = 0; a < 3; ++a) {
         state->velocity[a] = start->is_resting ? 0.0 : start->velocity[a];
@@ -320,9 +320,9 @@ static int64_t rigid_start(mor_body_group *group, int body, const mor_body_start
     }
     mor_matrix_apply_transposed(own->rotation, motion->angular_velocity, relative);
     mor_symmetric_apply(own->geometry.inertia, relative, momentum);
-    mor_matrix_apply(own->rotation, momentum, turned);
+    mor_matrix_apply(own->rotation, momentum, rotated);
     for (int a = 0; a < 3; ++a) {
-        state->angular_momentum[a] = own->density * turned[a];
+        state->angular_momentum[a] = own->density * rotated[a];
         state->rotation_angle[a] = 0.0;
         state->soil_impulse[a] = 0.0;
         state->contact_impulse[a] = 0.0;
@@ -348,7 +348,7 @@ static double rigid_spring_energy(const mor_body_group *group, int body)
     const mor_rigid_motion *motion = &rigid->motions[body];
     const mor_body *it = &group->bodies[body];
     double arm[3];
-    double turned[3];
+    double rotated[3];
     double offset[3];
     if (!motion->has_spring) {
         return 0.0;
@@ -356,9 +356,9 @@ static double rigid_spring_energy(const mor_body_group *group, int body)
     for (int a = 0; a < 3; ++a) {
         arm[a] = motion->spring_point[a] - it->geometry.center[a];
     }
-    mor_matrix_apply(it->rotation, arm, turned);
+    mor_matrix_apply(it->rotation, arm, rotated);
     for (int a = 0; a < 3; ++a) {
-        offset[a] = it->center[a] + turned[a] - motion->spring_anchor[a];
+        offset[a] = it->center[a] + rotated[a] - motion->spring_anchor[a];
     }
     const double stretch = mor_vector_length(offset) - motion->spring_length;
     return 0.5 * motion->spring_stiffness * stretch * stretch;

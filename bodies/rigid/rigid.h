@@ -12,10 +12,10 @@
 
 /** How one rigid body moves. Plain data; all vectors in the frame of the run. */
 typedef struct mor_rigid_motion {
-    bool is_prescribed;         /* moves with the velocity and angular velocity given, whatever pushes it */
+    bool is_prescribed;         /* moves with the velocity and angular velocity given, whatever the forces on it */
     double velocity[3];         /* prescribed, m/s */
     double angular_velocity[3]; /* prescribed, about the center of mass, rad/s */
-    unsigned locked;            /* bit a: no motion along axis a; bit 3 + a: no turn about axis a */
+    unsigned locked;            /* bit a: no motion along axis a; bit 3 + a: no rotation about axis a */
     bool has_spring;            /* spring and damper between a point of the body and a fixed point */
     double spring_point[3];     /* of the body, reference configuration, m */
     double spring_anchor[3];    /* fixed, m */
@@ -51,7 +51,7 @@ extern const mor_body_operations mor_rigid_operations;
 /** Makes a group of rigid bodies.
  *  @param rigid     [out]     cleared after a failure
  *  @param name      [in]      zero-terminated
- *  @param dimension [in]      2 (turns about z only) or 3
+ *  @param dimension [in]      2 (rotates about z only) or 3
  *  @param spacing   [in]      unit m
  *  @param requests  [in]      shape [n_bodies]
  *  @param motions   [in]      shape [n_bodies]; copied

@@ -10,7 +10,7 @@
  *  What the files of the rigid solver share: constants of a body and its rotation. docs/theory/rigid.md. */
 
 /** What does not change of a body. Inverse moments of inertia are written as one common to all axes and two
- *  differences, 1/I = common 1 + sum rates_k axes_k (x) axes_k: the common part turns a body about its angular
+ *  differences, 1/I = common 1 + sum rates_k axes_k (x) axes_k: the common part rotates a body about its angular
  *  momentum, each difference about its own axis. */
 typedef struct mor_rigid_constants {
     double inertia[6];     /* about the center, reference configuration, kg m2 (kg m) */
@@ -19,7 +19,7 @@ typedef struct mor_rigid_constants {
     double axes[2][3];     /* shape [2,3], unit vectors of the reference configuration, 1 */
     double outermost;      /* distance of the outermost point from the center, m */
     unsigned locked;       /* as in mor_rigid_motion, with what plane strain adds */
-    int n_rotation_axes;   /* free axes of turning */
+    int n_rotation_axes;   /* number of free axes of rotation */
     int rotation_axes[3];  /* the free axes, then the locked ones */
     double held_force[3];  /* of the soil, held over a common step, N (N/m) */
     double held_moment[3]; /* likewise, about the origin of coordinates, N m (N) */
@@ -41,7 +41,7 @@ mor_status mor_rigid_find_constants(mor_context *context, const mor_rigid *rigid
  *  @param rotation   [out]  shape [3,3], unit 1 */
 void mor_rigid_matrix(const double *quaternion, double *rotation);
 
-/** Quaternion of a turn by a rotation vector.
+/** Quaternion of a rotation vector.
  *  @param vector     [in]   shape [3], unit rad
  *  @param quaternion [out]  shape [4], unit 1 */
 void mor_rigid_quaternion(const double *vector, double *quaternion);
@@ -60,7 +60,7 @@ void mor_rigid_angular_velocity(const mor_rigid_constants *constants, const doub
 void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const double *quaternion,
                                 const double *angular_velocity, double *angular_momentum);
 
-/** Turns a body on which no moment acts.
+/** Rotates a body on which no moment acts.
  *  @param length    [in]      time, unit s
  *  @param state     [in,out]  quaternion and rotation angle */
 void mor_rigid_rotate(const mor_rigid_constants *constants, double length, mor_rigid_state *state);

@@ -48,20 +48,20 @@ static void place_piece(const mor_body_group *group, const mor_body_piece *piece
         double *x = position + 3 * i;
         double *v = velocity + 3 * i;
         double arm[3];
-        double turned[3];
+        double rotated[3];
         for (int a = 0; a < 3; ++a) {
             arm[a] = group->reference[3 * i + a] - body->geometry.center[a];
         }
-        mor_matrix_apply(body->rotation, arm, turned);
+        mor_matrix_apply(body->rotation, arm, rotated);
         for (int a = 0; a < 3; ++a) {
-            x[a] = body->center[a] + turned[a];
+            x[a] = body->center[a] + rotated[a];
             v[a] = body->velocity[a];
         }
-        mor_vector_cross_add(1.0, body->angular_velocity, turned, v);
+        mor_vector_cross_add(1.0, body->angular_velocity, rotated, v);
     }
 }
 
-/* Center, velocity and turn of the bodies, as the states say. */
+/* Sets center, velocity and rotation of the bodies from their states. */
 static void place_bodies(mor_rigid *rigid)
 {
     mor_body_group *group = &rigid->group;
@@ -269,8 +269,8 @@ static double find_point_speed(const mor_rigid_constants *constants, const mor_r
 }
 
 /* Impulse along a direction at the end of an arm. */
-static void push_point(const mor_rigid_constants *constants, const mor_body *body, const double *arm,
-                       const double *direction, double impulse, mor_rigid_state *state)
+static void apply_impulse(const mor_rigid_constants *constants, const mor_body *body, const double *arm,
+                          const double *direction, double impulse, mor_rigid_state *state)
 {
     for (int a = 0; a < 3; ++a) {
         state->velocity[a] += impulse * direction[a] / body->mass;
@@ -280,7 +280,7 @@ static void push_point(const mor_rigid_constants *constants, const mor_body *bod
 }
 
 /* The damper acts on the mean of the velocities before and after the kick: it never overshoots. */
-static void pull_spring(mor_rigid *rigid, int b, double length, const mor_rigid_state *before)
+static void apply_spring(mor_rigid *rigid, int b, double length, const mor_rigid_state *before)
 {
     const mor_rigid_motion *motion = &rigid->motions[b];
     const mor_rigid_constants *constants = &rigid->work->constants[b];
@@ -290,11 +290,11 @@ static void pull_spring(mor_rigid *rigid, int b, double length, const mor_rigid_
     double direction[3];
     double flexion = 0.0;
     const double stretch = mor_rigid_spring(rigid, b, arm, direction, &flexion);
-    push_point(constants, body, arm, direction, -length * motion->spring_stiffness * stretch, state);
+    apply_impulse(constants, body, arm, direction, -length * motion->spring_stiffness * stretch, state);
     const double part = 0.5 * length * motion->spring_damping;
     const double speed =
         find_point_speed(constants, before, arm, direction) + find_point_speed(constants, state, arm, direction);
-    push_point(constants, body, arm, direction, -part * speed / (1.0 + part * flexion), state);
+    apply_impulse(constants, body, arm, direction, -part * speed / (1.0 + part * flexion), state);
 }
 
 static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
@@ -327,7 +327,7 @@ static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
     }
     apply_locks(constants, state);
     if (rigid->motions[b].has_spring) {
-        pull_spring(rigid, b, h, &before);
+        apply_spring(rigid, b, h, &before);
     }
 }
 

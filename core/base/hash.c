@@ -133,7 +133,7 @@ mor_status mor_hash_file(mor_context *context, const char *path, uint64_t *value
     return MOR_OK;
 }
 
-void mor_hash_print(uint64_t value, char *text)
+void mor_hash_format(uint64_t value, char *text)
 {
     static const char digits[] = "0123456789abcdef";
     for (int k = 0; k < MOR_HASH_TEXT_BYTES - 1; ++k) {

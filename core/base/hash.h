@@ -45,6 +45,6 @@ mor_status mor_hash_file(mor_context *context, const char *path, uint64_t *value
 /** Writes a hash as 16 lower-case hexadecimal digits, most significant first.
  *  @param value [in]   the hash
  *  @param text  [out]  shape [MOR_HASH_TEXT_BYTES]; zero-terminated */
-void mor_hash_print(uint64_t value, char *text);
+void mor_hash_format(uint64_t value, char *text);
 
 #endif

@@ -94,7 +94,7 @@ bool mor_dimension_equal(const mor_dimension *a, const mor_dimension *b)
     return memcmp(a->power, b->power, sizeof a->power) == 0;
 }
 
-void mor_dimension_print(const mor_dimension *dimension, char *text, size_t text_bytes)
+void mor_dimension_format(const mor_dimension *dimension, char *text, size_t text_bytes)
 {
     static const mor_base_quantity order[MOR_BASE_COUNT] = {MOR_BASE_MASS,   MOR_BASE_LENGTH,      MOR_BASE_ANGLE,
                                                             MOR_BASE_TIME,   MOR_BASE_TEMPERATURE, MOR_BASE_CURRENT,
@@ -341,7 +341,7 @@ mor_status mor_units_convert(mor_context *context, const mor_units *units, const
     unit_parts found;
     MOR_TRY(context, take_apart(context, units, trimmed, &found));
     char dimension[MOR_UNITS_TEXT_BYTES];
-    mor_dimension_print(&found.dimension, dimension, sizeof dimension);
+    mor_dimension_format(&found.dimension, dimension, sizeof dimension);
     MOR_CHECK(context, mor_dimension_equal(&found.dimension, &wanted.dimension), MOR_ERROR_ARGUMENT,
               "'%s' is a unit of another kind (%s)", trimmed,
               strcmp(dimension, "1") == 0 ? "a plain number" : dimension);
@@ -349,7 +349,7 @@ mor_status mor_units_convert(mor_context *context, const mor_units *units, const
     return MOR_OK;
 }
 
-void mor_units_print(const mor_units *units, double value, char *text, size_t text_bytes)
+void mor_units_format(const mor_units *units, double value, char *text, size_t text_bytes)
 {
     const locale_t previous = uselocale(units->locale);
     for (int digits = 15; digits <= 17; ++digits) {

@@ -79,7 +79,7 @@ bool mor_dimension_equal(const mor_dimension *a, const mor_dimension *b);
 /** Writes a dimension for people, as "kg m-1 s-2", or "1" for none.
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
-void mor_dimension_print(const mor_dimension *dimension, char *text, size_t text_bytes);
+void mor_dimension_format(const mor_dimension *dimension, char *text, size_t text_bytes);
 
 /** Returns the power of two that a value of this dimension is multiplied by when lengths, masses and times are
  *  multiplied by 2^length, 2^mass and 2^time; use it with ldexp, which is exact.
@@ -94,6 +94,6 @@ int mor_dimension_scale(const mor_dimension *dimension, int length, int mass, in
  *  @param text       [out]  shape [text_bytes]; zero-terminated
  *  @param text_bytes [in]   room in text in bytes, at least 32
  *  Threads: safe to call concurrently. */
-void mor_units_print(const mor_units *units, double value, char *text, size_t text_bytes);
+void mor_units_format(const mor_units *units, double value, char *text, size_t text_bytes);
 
 #endif

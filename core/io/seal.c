@@ -26,10 +26,10 @@ static void render_seal(const seal *says, char *text)
 {
     memset(text, 0, MOR_SEAL_BYTES);
     char hash[MOR_HASH_TEXT_BYTES];
-    mor_hash_print(says->content_hash, hash);
+    mor_hash_format(says->content_hash, hash);
     const int n_bytes = snprintf(text, MOR_SEAL_BYTES, "moraine %s %d\nbytes %020" PRIu64 "\nxxh64 %s\n", says->what,
                                  says->version, says->n_bytes, hash);
-    mor_hash_print(mor_hash_bytes(text, (size_t)n_bytes), hash);
+    mor_hash_format(mor_hash_bytes(text, (size_t)n_bytes), hash);
     snprintf(text + n_bytes, MOR_SEAL_BYTES - (size_t)n_bytes, "seal %s\n", hash);
 }
 

@@ -20,7 +20,7 @@ enum { NAME_BYTES = 256, FILE_NAME_BYTES = 64, LIST_CAPACITY_FIRST = 32 };
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-static void print_file_name(char *name, int64_t step)
+static void format_file_name(char *name, int64_t step)
 {
     snprintf(name, FILE_NAME_BYTES, MOR_SNAPSHOT_FOLDER "/step_%06" PRId64 ".h5", step);
 }
@@ -28,7 +28,7 @@ static void print_file_name(char *name, int64_t step)
 static mor_status join_path(mor_context *context, char *path, const char *folder, int64_t step)
 {
     char name[FILE_NAME_BYTES];
-    print_file_name(name, step);
+    format_file_name(name, step);
     MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
     return MOR_OK;
 }
@@ -331,7 +331,7 @@ static int64_t parse_file_name(const char *name, const char *suffix)
     if (sscanf(name, "step_%18" SCNd64 ".h5", &step) != 1 || step < 0) {
         return -1;
     }
-    print_file_name(stem, step);
+    format_file_name(stem, step);
     const char *expected = stem + sizeof MOR_SNAPSHOT_FOLDER;
     const size_t n_bytes = strlen(expected);
     return strncmp(expected, name, n_bytes) == 0 && strcmp(name + n_bytes, suffix) == 0 ? step : -1;
@@ -457,7 +457,7 @@ static mor_status write_links(mor_context *context, mor_hdf5_file *file, const m
         const int64_t step = writer->list.items[k].step;
         char target[FILE_NAME_BYTES];
         char name[NAME_BYTES];
-        print_file_name(target, step);
+        format_file_name(target, step);
         MOR_TRY(context, join_name(context, name, step, NULL, NULL));
         MOR_TRY(context, mor_hdf5_file_link(context, file, name, target, name));
     }

@@ -48,7 +48,7 @@ static json_t *make_text(mor_context *context, const char *text)
 static json_t *make_hash(uint64_t hash)
 {
     char text[MOR_HASH_TEXT_BYTES];
-    mor_hash_print(hash, text);
+    mor_hash_format(hash, text);
     return json_string(text);
 }
 

@@ -74,7 +74,7 @@ static void describe_from_schemas(const mor_services *services, const mor_materi
     const int used = snprintf(text, text_bytes, "%s %s: %s\nsource: %s\ndensity = %.17g kg/m3\n", material->name,
                               material->version, material->text, material->literature, instance->density);
     if (used >= 0 && (size_t)used < text_bytes) {
-        mor_params_print(material->parameters, instance->parameters, text + used, text_bytes - (size_t)used);
+        mor_params_format(material->parameters, instance->parameters, text + used, text_bytes - (size_t)used);
     }
 }
 

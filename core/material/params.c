@@ -136,7 +136,7 @@ void mor_params_defaults(const mor_schema *schema, double *values)
 }
 
 /* Bounds in multiples of a size, with its name. */
-static void print_bounds(const mor_schema *entry, double size, const char *unit, char *text, size_t text_bytes)
+static void format_bounds(const mor_schema *entry, double size, const char *unit, char *text, size_t text_bytes)
 {
     const char *space = unit[0] == '\0' ? "" : " ";
     const int has_minimum = isfinite(entry->minimum);
@@ -167,11 +167,11 @@ void mor_params_range(const mor_schema *entry, char *text, size_t text_bytes)
         /* People write degrees; a number without a unit is in radians. */
         char degrees[RANGE_BYTES];
         char radians[RANGE_BYTES];
-        print_bounds(entry, degree, "deg", degrees, sizeof degrees);
-        print_bounds(entry, 1.0, "rad", radians, sizeof radians);
+        format_bounds(entry, degree, "deg", degrees, sizeof degrees);
+        format_bounds(entry, 1.0, "rad", radians, sizeof radians);
         snprintf(text, text_bytes, "%s, or %s", degrees, radians);
     } else {
-        print_bounds(entry, 1.0, strcmp(entry->unit, "1") == 0 ? "" : entry->unit, text, text_bytes);
+        format_bounds(entry, 1.0, strcmp(entry->unit, "1") == 0 ? "" : entry->unit, text, text_bytes);
     }
 }
 
@@ -294,7 +294,7 @@ mor_status mor_params_verify_schema(mor_context *context, const mor_schema *sche
     return MOR_OK;
 }
 
-static void print_entry(const mor_schema *entry, const double *values, char *line, size_t line_bytes)
+static void format_entry(const mor_schema *entry, const double *values, char *line, size_t line_bytes)
 {
     char numbers[RANGE_BYTES] = "";
     size_t used = 0;
@@ -310,12 +310,12 @@ static void print_entry(const mor_schema *entry, const double *values, char *lin
     snprintf(line, line_bytes, "%s = %s%s%s\n", entry->key, numbers, has_unit ? " " : "", has_unit ? entry->unit : "");
 }
 
-void mor_params_print(const mor_schema *schema, const double *values, char *text, size_t text_bytes)
+void mor_params_format(const mor_schema *schema, const double *values, char *text, size_t text_bytes)
 {
     text[0] = '\0';
     size_t used = 0;
     for (const mor_schema *entry = schema; entry->key != NULL && used + 1 < text_bytes; ++entry) {
-        print_entry(entry, values, text + used, text_bytes - used);
+        format_entry(entry, values, text + used, text_bytes - used);
         used += strlen(text + used);
         values += entry->n_components;
     }

@@ -106,6 +106,6 @@ void mor_params_range(const mor_schema *entry, char *text, size_t text_bytes);
  *  @param values     [in]   shape [mor_params_count]; units of the schema
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
-void mor_params_print(const mor_schema *schema, const double *values, char *text, size_t text_bytes);
+void mor_params_format(const mor_schema *schema, const double *values, char *text, size_t text_bytes);
 
 #endif

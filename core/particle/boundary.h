@@ -32,7 +32,7 @@ enum {
 /** One patch: a rock, or a wall. */
 typedef struct mor_boundary_patch {
     int64_t first, n_points;     /* range of points */
-    bool is_driven;              /* moves as prescribed, whatever pushes it; for the audit of energy alone */
+    bool is_driven;              /* moves as prescribed, whatever the forces on it; for the audit of energy alone */
     mor_wall_friction friction;  /* of the pair soil - patch */
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
     double force[3];             /* [written by the soil] of the soil on the patch in the last step, N (N/m) */
@@ -43,18 +43,18 @@ typedef struct mor_boundary_patch {
 /** A moving boundary. Owner: whoever moves it; the soil borrows it. Points of a patch are contiguous and sorted so that
  *  every eight form a compact cluster (mor_tree_order); neither order nor number changes during a run.
  *
- *  When the soil reads: positions and velocities at the start of its stages; velocities once more after the push, when
- *  the owner has replaced them by the means over the step. When it writes: force of points, force and moment of patches
- *  in the push, impulse in the kick that follows. The forces of a patch's points add up to its force and, about the
- *  origin, to its moment; both are minus what the soil got. */
+ *  When the soil reads: positions and velocities at the start of its stages; velocities once more after the boundary
+ *  forces, when the owner has replaced them by the means over the step. When it writes: force of points, force and
+ *  moment of patches with the boundary forces, impulse in the kick that follows. The forces of a patch's points add up
+ *  to its force and, about the origin, to its moment; both are minus what the soil got. */
 typedef struct mor_boundary {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_points;
     double *records;             /* shape [n_points padded to 8, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
     mor_boundary_patch *patches; /* shape [n_patches]; by rising range, without gaps */
     int n_patches;
-    double largest_speed;    /* of any point, m/s; bounds how far points move in a step */
-    double added_mass_ratio; /* mass of the soil that a patch drags along over its own, the largest of all patches, 1;
+    double largest_speed;        /* of any point, m/s; bounds how far points move in a step */
+    double added_mass_ratio;     /* added mass of soil over the mass of the patch, the largest of all patches, 1;
                               * 0: moved by others than the soil. Above 1 it shortens the soil's steps by its root */
     const double *mean_velocity; /* shape [n_points, 3]; over the present step, for the work of forces on points, m/s;
                                   * NULL: the velocity in the records */

@@ -65,7 +65,7 @@ static const mor_stage soil_stages[] = {
     {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
-    {"angular momentum", mor_soil_keep_angular_momentum, SHARED(RECORDS) | SHARED(LISTS) | SHARED(SHORT_LISTS),
+    {"angular momentum", mor_soil_conserve_angular_momentum, SHARED(RECORDS) | SHARED(LISTS) | SHARED(SHORT_LISTS),
      SHARED(MOMENTS) | SHARED(SPIN_STRESS), BIT(ACCELERATION),
      "takes out what turns the soil by itself, when switched on", has_angular_momentum},
     {"boundary forces", mor_soil_sum_boundary_forces,
@@ -406,7 +406,7 @@ void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
                              .is_leader = true,
                              .set = &soil->set,
                              .visit_shared = visit_shared};
-    /* Forces on walls and rocks are known once the walls have pushed. */
+    /* Forces on walls and rocks are known once the boundary forces are summed. */
     for (int k = 0; k < n_stages; ++k) {
         stepper->n_before = soil_stages[k].run == mor_soil_sum_boundary_forces ? k + 1 : stepper->n_before;
     }

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Boundaries of the soil: how they are made, moved and listed. What they do to the soil: soil_contact_push.c; what the
- * soil does to them: soil_contact_share.c. */
+/* Boundaries of the soil: how they are made, moved and listed. What they do to the soil: soil_contact_forces.c; what
+ * the soil does to them: soil_contact_share.c. */
 #include "core/sph/soil_contact_internal.h"
 
 #include "core/base/math.h"
@@ -138,7 +138,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->mean_velocity);
     MOR_FREE(context, &contact->sums);
     MOR_FREE(context, &contact->stick);
-    MOR_FREE(context, &contact->push);
+    MOR_FREE(context, &contact->acceleration);
     MOR_FREE(context, &contact->divergence);
     MOR_FREE(context, &contact->given);
     MOR_FREE(context, &contact->repulsion);
@@ -258,7 +258,7 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->patch_slots, capacity, "slots by patch"));
     MOR_TRY(context, MOR_NEW(context, &contact->sums, n_lanes * MOR_KERNEL_SUMS, "wall sums"));
     MOR_TRY(context, MOR_NEW(context, &contact->stick, n_lanes, "wall stick"));
-    MOR_TRY(context, MOR_NEW(context, &contact->push, n_lanes * 3, "boundary forces"));
+    MOR_TRY(context, MOR_NEW(context, &contact->acceleration, n_lanes * 3, "boundary forces"));
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
     MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_borrowed * 3, "velocity of a boundary"));
     MOR_TRY(context, MOR_NEW(context, &contact->given, n_borrowed * MOR_SHARES, "force given to a boundary"));

@@ -62,7 +62,7 @@ typedef struct mor_soil_contact {
     double *mean_velocity;   /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: wall */
     double *sums;            /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
     double *stick;           /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *push;            /* shape [capacity * 8, 3]; acceleration of the soil by the patch, m/s2 */
+    double *acceleration;    /* shape [capacity * 8, 3]; acceleration of the soil by the patch, m/s2 */
     double *divergence;      /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
                                * NULL with uniform stress */
     double *given;           /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
@@ -124,8 +124,8 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
  *  @param contact   [in,out]  lists must be current
  *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
-void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                             const mor_pair_constants *constants, const double *records);
+void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                                      const mor_pair_constants *constants, const double *records);
 
 /** Sums the divergence of the soil's stress along and across the wall, unless the wall's stress is uniform.
  *  A wall that holds a particle's own stress everywhere hides how stress varies, and the particle gets only the part of
@@ -135,8 +135,9 @@ void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, co
  *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param inner     [in]      soil -> soil, current */
-void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                               const mor_pair_constants *constants, const double *records, const mor_relation *inner);
+void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                                     const mor_pair_constants *constants, const double *records,
+                                     const mor_relation *inner);
 
 /** Adds the boundary's part of the acceleration and sets stick, and force and moment of the patches.
  *  @param contact      [in,out]  sums must be current
@@ -148,14 +149,14 @@ void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, 
 void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
                                  double limiter_rate, const double *records, int64_t n_particles, double *acceleration);
 
-/** Hands out the force of the push to the points of a borrowed boundary, so that force and moment of each patch are
- *  those of the push to rounding. Does nothing for a wall.
- *  @param contact     [in,out]  the push must be current
+/** Distributes the boundary forces to the points of a borrowed boundary, so that force and moment of each patch are
+ *  kept to rounding. Does nothing for a wall.
+ *  @param contact     [in,out]  the boundary forces must be current
  *  @param table       [in]      pair routines
  *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles [in]      number of soil particles */
-void mor_soil_contact_share(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                            const mor_pair_constants *constants, const double *records, int64_t n_particles);
+void mor_soil_contact_share_forces(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                                   const mor_pair_constants *constants, const double *records, int64_t n_particles);
 
 /** Adds the wall's part of the velocity gradient and of the density rate.
  *  @param contact           [in,out]  sums and stick must be current

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What the soil does to a boundary: the push, handed out to the points so that force and moment of each patch are kept.
- * A patch is served by one thread, slot by slot in fixed order. */
+/* What the soil does to a boundary: the reaction to the boundary forces is distributed to the points so that force and
+ * moment of each patch are kept. One thread works on a patch, slot by slot in fixed order. */
 #include "core/sph/soil_contact_internal.h"
 
 #include "core/base/math.h"
@@ -15,11 +15,11 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
  * the gradient over the value, times h, below which this is so, 1; it is over 1 at a face. */
 #define SMALLEST_GRADIENT 0.1
 
-/* A patch turns about an axis when its moment of inertia there is more than this part of the largest; else its points
- * stand in a line and carry no moment about it. */
+/* A patch carries a moment about an axis when its moment of inertia there is more than this part of the largest; else
+ * its points lie on a line. */
 #define SMALLEST_INERTIA 1.0e-9
 
-/* How each particle of a slot gives its force: by V grad W . n, which is how the push arises, eqs. 48 and 50. */
+/* How each particle of a slot gives its force: in proportion to V grad W . n, as in eqs. 48 and 50. */
 static void prepare_slot(const mor_soil_contact *contact, double smoothing_length, int64_t slot, const double *records,
                          int64_t n_particles)
 {
@@ -36,12 +36,12 @@ static void prepare_slot(const mor_soil_contact *contact, double smoothing_lengt
         const double length2 = mor_vector_dot(gradient, gradient);
         double *own = given + k * MOR_SHARES;
         if (!(value > 0.0) || !(length2 > 0.0)) {
-            continue; /* out of reach, and the push is zero */
+            continue; /* out of reach: no force */
         }
         const bool is_facing = sqrt(length2) * smoothing_length > SMALLEST_GRADIENT * value;
         own[MOR_SHARE_VALUE] = is_facing ? 0.0 : 1.0 / value;
         for (int a = 0; a < 3; ++a) {
-            own[MOR_SHARE_FORCE + a] = -mass * contact->push[3 * lane + a];
+            own[MOR_SHARE_FORCE + a] = -mass * contact->acceleration[3 * lane + a];
             own[MOR_SHARE_DIRECTION + a] = is_facing ? gradient[a] / length2 : 0.0;
         }
     }
@@ -83,7 +83,7 @@ static void add_moment(const double *place, const double *center, const double *
     mor_vector_cross_add(1.0, s, force, moment);
 }
 
-/* Solves inertia * turn = moment; false for a patch that cannot carry a moment. In plane strain it is about z. */
+/* Solves inertia * rotation = moment; false for a patch that cannot carry a moment. In plane strain it is about z. */
 static bool find_rotation(const double *inertia, const double *moment, int dimension, double *rotation)
 {
     const double *m = inertia;
@@ -121,8 +121,8 @@ static void sum_given(const mor_soil_contact *contact, int patch, const double *
     }
 }
 
-/* The forces stand at the points and no longer at the particles. The moment this costs is given back by forces as of a
- * rigid body that begins to turn: they add up to zero, and a body of even density feels no stress by them. */
+/* The forces act at the points and no longer at the particles, which changes their moment. Forces proportional to the
+ * accelerations of a rigid rotation restore it: they add up to zero, and stress no body of uniform density. */
 static void restore_moment(const mor_soil_contact *contact, int patch, const double *records, int64_t n_particles)
 {
     const mor_boundary *boundary = contact->boundary;
@@ -152,8 +152,8 @@ static void restore_moment(const mor_soil_contact *contact, int patch, const dou
     }
 }
 
-void mor_soil_contact_share(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                            const mor_pair_constants *constants, const double *records, int64_t n_particles)
+void mor_soil_contact_share_forces(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                                   const mor_pair_constants *constants, const double *records, int64_t n_particles)
 {
     if (contact->is_wall) {
         return;

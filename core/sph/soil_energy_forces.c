@@ -51,7 +51,7 @@ static void audit_lane(const mor_soil_contact *contact, int64_t slot, int64_t k,
     }
     const double normal = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
     for (int a = 0; a < 3; ++a) {
-        double force = mass * contact->push[3 * lane + a];
+        double force = mass * contact->acceleration[3 * lane + a];
         force += contact->barrier.is_on ? contact->repulsion[3 * lane + a] : 0.0;
         across[a] = normal * gradient[a];
         along[a] = stick * (relative[a] - across[a]);

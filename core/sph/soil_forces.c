@@ -119,10 +119,11 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
-        mor_soil_contact_continue(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner);
+        mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner);
         mor_soil_contact_sum_forces(context, contact, (mor_dissipation)soil->settings.scheme.wall_dissipation,
                                     soil->constants.limiter_rate, arrays.records, arrays.n_particles, acceleration);
-        mor_soil_contact_share(context, contact, soil->table, &soil->constants, arrays.records, arrays.n_particles);
+        mor_soil_contact_share_forces(context, contact, soil->table, &soil->constants, arrays.records,
+                                      arrays.n_particles);
     }
     return MOR_OK;
 }
@@ -149,8 +150,9 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
-        /* Rocks have moved since the push; their velocity is now the mean over this step, eq. 60. */
-        mor_soil_contact_follow(context, contact, soil->table, &soil->constants, records);
+        /* Rocks have moved since the boundary forces were summed; their velocity is now the mean over this step, eq.
+         * 60. */
+        mor_soil_contact_update_velocity(context, contact, soil->table, &soil->constants, records);
         mor_soil_contact_sum_gradient(context, contact, records, soil->set.n_particles, gradient, rate);
     }
     return MOR_OK;

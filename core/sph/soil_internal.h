@@ -16,7 +16,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
-mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_conserve_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);

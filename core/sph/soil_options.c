@@ -198,15 +198,15 @@ static void find_spin_stress(const double *m, const double *s, double *spin)
         const double u[3] = {axes[a], axes[3 + a], axes[6 + a]};
         const double v[3] = {axes[b], axes[3 + b], axes[6 + b]};
         const double sum = values[a] + values[b];
-        double turned[3];
-        mor_symmetric_apply(s, v, turned);
+        double rotated[3];
+        mor_symmetric_apply(s, v, rotated);
         /* Without neighbors in this plane there is no moment either. */
-        const double part = sum > 0.0 ? mor_vector_dot(u, turned) * (values[b] - values[a]) / sum : 0.0;
+        const double part = sum > 0.0 ? mor_vector_dot(u, rotated) * (values[b] - values[a]) / sum : 0.0;
         mor_vector_cross_add(part, u, v, spin);
     }
 }
 
-mor_status mor_soil_keep_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+mor_status mor_soil_conserve_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
     (void)step;

@@ -43,14 +43,14 @@ static mor_status report_stray(mor_context *context, const mor_soil *soil, const
     return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
 }
 
-/* What is looked at to find particles that are not where they should be. */
-typedef struct patrol {
+/* What the check of positions and densities reads. */
+typedef struct domain_check {
     const mor_soil_settings *settings;
     const double *position, *density;
-} patrol;
+} domain_check;
 
 /* Sorts out what the quick look found, from one particle on: what stops the run, and what leaves. */
-static mor_status judge_particles(mor_context *context, mor_soil *soil, const patrol *job, const mor_view *view,
+static mor_status check_particles(mor_context *context, mor_soil *soil, const domain_check *job, const mor_view *view,
                                   const mor_step *step, int64_t first)
 {
     for (int64_t i = first; i < soil->set.n_particles; ++i) {
@@ -71,7 +71,7 @@ static mor_status judge_particles(mor_context *context, mor_soil *soil, const pa
 
 static int64_t find_stray(const void *job, int64_t first, int64_t last)
 {
-    const patrol *it = job;
+    const domain_check *it = job;
     for (int64_t i = first; i < last; ++i) {
         if (!(is_inside(it->settings, it->position + 3 * i) && it->density[i] > 0.0)) {
             return i;
@@ -82,22 +82,22 @@ static int64_t find_stray(const void *job, int64_t first, int64_t last)
 
 mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step)
 {
-    const patrol job = {&soil->settings, mor_view_read(view, MOR_FIELD_POSITION),
-                        mor_view_read(view, MOR_FIELD_DENSITY)};
+    const domain_check job = {&soil->settings, mor_view_read(view, MOR_FIELD_POSITION),
+                              mor_view_read(view, MOR_FIELD_DENSITY)};
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
     const int64_t stray = mor_reduce_first(&blocks, context->n_threads, find_stray, &job, soil->room.indices);
     soil->has_outflow = false;
-    return stray < 0 ? MOR_OK : judge_particles(context, soil, &job, view, step, stray);
+    return stray < 0 ? MOR_OK : check_particles(context, soil, &job, view, step, stray);
 }
 
 /* What those that leave take along is read from here. */
-typedef struct leaving {
+typedef struct outflow_fields {
     const double *position, *velocity, *mass, *density, *stress;
     const double *state[MOR_MATERIAL_STATES_MAX];
-} leaving;
+} outflow_fields;
 
 /* Stored energy of a particle by the material's own operation; NaN when the model cannot tell. */
-static double find_stored(const mor_soil *soil, const leaving *from, int64_t i)
+static double find_stored(const mor_soil *soil, const outflow_fields *from, int64_t i)
 {
     const double *state[MOR_MATERIAL_STATES_MAX];
     double stored = NAN;
@@ -111,7 +111,7 @@ static double find_stored(const mor_soil *soil, const leaving *from, int64_t i)
 }
 
 /* Adds what a particle takes along. */
-static void count_out(mor_soil *soil, const leaving *from, int64_t i)
+static void count_out(mor_soil *soil, const outflow_fields *from, int64_t i)
 {
     const double mass = from->mass[i];
     const double *x = from->position + 3 * i;
@@ -144,11 +144,11 @@ mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *
     if (!soil->has_outflow) {
         return MOR_OK;
     }
-    leaving from = {.position = mor_view_read(view, MOR_FIELD_POSITION),
-                    .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
-                    .mass = mor_view_read(view, MOR_FIELD_MASS),
-                    .density = mor_view_read(view, MOR_FIELD_DENSITY),
-                    .stress = mor_view_read(view, MOR_FIELD_STRESS)};
+    outflow_fields from = {.position = mor_view_read(view, MOR_FIELD_POSITION),
+                           .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
+                           .mass = mor_view_read(view, MOR_FIELD_MASS),
+                           .density = mor_view_read(view, MOR_FIELD_DENSITY),
+                           .stress = mor_view_read(view, MOR_FIELD_STRESS)};
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, from.state);
     int32_t *removed = mor_view_write_shared(view, MOR_RESOURCE_ORDER, soil->order);
     for (int64_t i = 0; i < soil->set.n_particles; ++i) {

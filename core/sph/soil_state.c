@@ -13,7 +13,7 @@ static mor_status list_walls(mor_context *context, mor_soil *soil, mor_state_lis
     return mor_state_add(context, list, name, "wall_impulse", MOR_STATE_DOUBLE, n, soil->wall_impulse);
 }
 
-/* The step that the barrier of a boundary allows is found in the push, and the next step depends on it. */
+/* The step that the barrier of a boundary allows is found with the boundary forces, and the next step depends on it. */
 static mor_status list_boundaries(mor_context *context, mor_soil *soil, mor_state_list *list)
 {
     return mor_state_add_member(context, list, soil->set.name, "barrier_steps", soil->n_boundaries, 1,

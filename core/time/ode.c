@@ -237,7 +237,7 @@ static void fill_report(const mor_ode *ode, mor_ode_report *report)
     *report = (mor_ode_report){.n_steps = n_steps, .n_rates = ode->n_rates, .n_rejected = n_rejected};
 }
 
-static mor_status judge(mor_ode *ode, outcome result)
+static mor_status check_result(mor_ode *ode, outcome result)
 {
     switch (result) {
     case REACHED:
@@ -288,7 +288,7 @@ mor_status mor_ode_solve(mor_ode *ode, mor_ode_rate rate, void *user, const doub
     double reached = 0.0;
     const outcome result =
         ode->method == MOR_ODE_STIFF ? run_stiff(ode, length, &reached) : run_explicit(ode, length, &reached);
-    const mor_status status = judge(ode, result);
+    const mor_status status = check_result(ode, result);
     for (int k = 0; k < ode->n && status == MOR_OK; ++k) {
         y[k] = work[k];
     }

@@ -171,7 +171,7 @@ void mor_mesh_center(mor_mesh *mesh)
     }
 }
 
-void mor_mesh_report_print(const mor_mesh_report *report, char *text, size_t room)
+void mor_mesh_report_format(const mor_mesh_report *report, char *text, size_t room)
 {
     const struct {
         const char *words;

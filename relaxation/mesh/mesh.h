@@ -83,7 +83,7 @@ void mor_mesh_clear(mor_context *context, mor_mesh *mesh);
 /** Writes a report as text, one finding per line.
  *  @param text   [out]  shape [room]; zero-terminated
  *  @param room   [in]   bytes */
-void mor_mesh_report_print(const mor_mesh_report *report, char *text, size_t room);
+void mor_mesh_report_format(const mor_mesh_report *report, char *text, size_t room);
 
 /** Exact volume, center and inertia of the inside, by the divergence theorem over the triangles.
  *  @param mesh    [in]   closed and oriented */

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/run/clock.h"
+#include "cases/driver/run/wall_time.h"
 #include "tests/bench/bench.h"
 #include "tests/common/elastic_bodies.h"
 
@@ -27,7 +27,7 @@ static const elastic_row rows[] = {
 
 static double run_steps(elastic_bodies *it, int n_steps, double *stage_seconds)
 {
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     const mor_stepper *stepper = &it->stepper;
     double length = 0.0;
     const char *limit = "";
@@ -35,15 +35,15 @@ static double run_steps(elastic_bodies *it, int n_steps, double *stage_seconds)
         elastic_require(it, stepper->operations->propose(&it->context, stepper->owner, &length, &limit));
         /* The first of two sub-steps: only the last one has to find the stress for the output. */
         const mor_step step = {.length = length, .number = (uint64_t)n, .n_parts = 2};
-        double before = mor_clock_now();
+        double before = mor_wall_time();
         for (int k = 0; k < stepper->n_stages; ++k) {
             elastic_require(it, mor_stepper_run_stage(&it->context, stepper, k, &step));
-            const double now = mor_clock_now();
+            const double now = mor_wall_time();
             stage_seconds[k] += now - before;
             before = now;
         }
     }
-    return mor_clock_now() - start;
+    return mor_wall_time() - start;
 }
 
 /* Returns million particle-steps per second. */

@@ -80,12 +80,12 @@ static rocks_timing time_steps(scene *it, meter *m, int n_repetitions, int n_ste
     rocks_timing timing = {0};
     meter_reset(m);
     for (int k = 0; k < n_repetitions; ++k) {
-        const double start = mor_clock_now();
+        const double start = mor_wall_time();
         for (int n = 0; n < n_steps; ++n) {
             scene_step(it, 1);
             timing.rate_ratio += (double)mor_schedule_rate_ratio(schedule) / (n_steps * n_repetitions);
         }
-        seconds[k] = mor_clock_now() - start;
+        seconds[k] = mor_wall_time() - start;
         sum += seconds[k];
     }
     timing.speed =

@@ -71,7 +71,7 @@ static double time_repetition(soil_bench *it, soil_timing *timing)
     meter_stepper *stepper = &it->meter.steppers[0];
     double sorting = 0.0;
     double others = 0.0;
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     for (int n = 0; n < it->n_steps; ++n) {
         const bool is_sorting = schedule->n_steps % (uint64_t)it->n_steps == 0;
         const double drift = soil->drift;
@@ -82,7 +82,7 @@ static double time_repetition(soil_bench *it, soil_timing *timing)
     const double excess = sorting - others / (it->n_steps - 1);
     const double surplus = excess * (1.0 - (double)it->n_steps / it->sort_interval);
     stepper->stage_seconds[it->neighbors] -= surplus;
-    return mor_clock_now() - start - surplus;
+    return mor_wall_time() - start - surplus;
 }
 
 static void print_stages(const mor_stepper *stepper, const double *stage_seconds)

@@ -3,7 +3,7 @@
 #ifndef MOR_TESTS_BENCH_METER_H
 #define MOR_TESTS_BENCH_METER_H
 
-#include "cases/driver/run/clock.h"
+#include "cases/driver/run/wall_time.h"
 #include "core/time/schedule.h"
 
 #include <stdlib.h>
@@ -39,12 +39,12 @@ typedef struct meter {
 static inline mor_status meter_run_stage(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     meter_stepper *it = owner;
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     const int stage = it->next;
     const mor_stage *plain = &it->plain.stages[stage];
     const bool is_active = plain->is_active == NULL || plain->is_active(it->plain.owner);
     const mor_status status = is_active ? plain->run(context, it->plain.owner, view, step) : MOR_OK;
-    it->last_seconds[stage] = mor_clock_now() - start;
+    it->last_seconds[stage] = mor_wall_time() - start;
     it->stage_seconds[stage] += it->last_seconds[stage];
     it->next = (stage + 1) % it->plain.n_stages;
     return status;
@@ -53,9 +53,9 @@ static inline mor_status meter_run_stage(mor_context *context, void *owner, mor_
 static inline mor_status meter_propose(mor_context *context, void *owner, double *step_length, const char **limit)
 {
     meter_stepper *it = owner;
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     const mor_status status = it->plain.operations->propose(context, it->plain.owner, step_length, limit);
-    it->limit_seconds += mor_clock_now() - start;
+    it->limit_seconds += mor_wall_time() - start;
     return status;
 }
 
@@ -63,9 +63,9 @@ static inline mor_status meter_propose(mor_context *context, void *owner, double
 static inline mor_status meter_run_once(meter_stepper *it, mor_context *context, const mor_step *step,
                                         mor_status (*run)(mor_context *context, void *owner, const mor_step *step))
 {
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     const mor_status status = run(context, it->plain.owner, step);
-    it->begin_seconds += mor_clock_now() - start;
+    it->begin_seconds += mor_wall_time() - start;
     return status;
 }
 
@@ -85,19 +85,19 @@ static inline mor_status meter_find_partners(mor_context *context, void *owner, 
                                              int n_steppers)
 {
     meter *it = owner;
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     const mor_status status =
         it->plain_exchange->find_partners(context, it->plain_exchange->owner, length, partners, n_steppers);
-    it->exchange_seconds += mor_clock_now() - start;
+    it->exchange_seconds += mor_wall_time() - start;
     return status;
 }
 
 static inline mor_status meter_run_exchange(mor_context *context, void *owner, uint64_t members, const mor_step *step)
 {
     meter *it = owner;
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     const mor_status status = it->plain_exchange->run(context, it->plain_exchange->owner, members, step);
-    it->exchange_seconds += mor_clock_now() - start;
+    it->exchange_seconds += mor_wall_time() - start;
     return status;
 }
 

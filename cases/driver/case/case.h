@@ -274,13 +274,13 @@ enum {
 
 /** What sets a type of probe apart, beside its keys. */
 enum {
-    MOR_CASE_PROBE_OF_SOIL = 1,    /* makes sense in a case with soil only */
-    MOR_CASE_PROBE_OF_BODIES = 2,  /* makes sense in a case with bodies only */
-    MOR_CASE_PROBE_OF_TURN = 4,    /* direction is an axis, in plane strain always z */
-    MOR_CASE_PROBE_OF_AUDIT = 8,   /* needs the audit of the soil's energy */
-    MOR_CASE_PROBE_OF_STEP = 16,   /* holds over a step, as a force; others have a value at each instant */
-    MOR_CASE_PROBE_OF_FORCE = 32,  /* a force, which has an impulse */
-    MOR_CASE_PROBE_OF_CONTACT = 64 /* changes with each sub-step of the bodies */
+    MOR_CASE_PROBE_OF_SOIL = 1,     /* makes sense in a case with soil only */
+    MOR_CASE_PROBE_OF_BODIES = 2,   /* makes sense in a case with bodies only */
+    MOR_CASE_PROBE_OF_ROTATION = 4, /* direction is an axis, in plane strain always z */
+    MOR_CASE_PROBE_OF_AUDIT = 8,    /* needs the audit of the soil's energy */
+    MOR_CASE_PROBE_OF_STEP = 16,    /* holds over a step, as a force; others have a value at each instant */
+    MOR_CASE_PROBE_OF_FORCE = 32,   /* a force, which has an impulse */
+    MOR_CASE_PROBE_OF_CONTACT = 64  /* changes with each sub-step of the bodies */
 };
 
 /** What a type of probe measures. */

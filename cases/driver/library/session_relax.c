@@ -4,7 +4,7 @@
 #include "cases/driver/library/session_internal.h"
 
 #include "cases/driver/picture/view/picture.h"
-#include "cases/driver/run/clock.h"
+#include "cases/driver/run/wall_time.h"
 #include "cases/driver/scene/build/point_cache.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -87,7 +87,7 @@ static mor_status shape_mesh(mor_session *session, filling *it)
     char text[1024];
     mor_status status = annotate_input_error(context, mor_mesh_read(context, it->path, &mesh, &report), "");
     if (status == MOR_OK) {
-        mor_mesh_report_print(&report, text, sizeof text);
+        mor_mesh_report_format(&report, text, sizeof text);
         fprintf(session->output, "%s", text);
     }
     if (status == MOR_OK && it->kind != MOR_SESSION_SIZE_OF_FILE) {
@@ -287,12 +287,12 @@ static mor_status fill_shape(mor_session *session, filling *it)
     it->request.shape = it->shape;
     it->request.spacing = it->spacing;
     it->request.volume = it->moments.volume;
-    const double start = mor_clock_now();
+    const double start = mor_wall_time();
     char place[256];
     snprintf(place, sizeof place, "%.250s: ", it->name);
     MOR_TRY(context, annotate_input_error(
                          context, mor_point_cache_relax(context, &it->cache, &it->request, &it->points), place));
-    it->seconds = mor_clock_now() - start;
+    it->seconds = mor_wall_time() - start;
     MOR_TRY(context, MOR_NEW(context, &it->depths, it->points.n_points, "depths of particles"));
     for (int64_t i = 0; i < it->points.n_points; ++i) {
         it->depths[i] = -mor_shape_distance(it->shape, it->points.positions + 3 * i);

@@ -6,7 +6,7 @@
 #include "bodies/contact/contact.h"
 #include "cases/driver/case/schema/contact_report.h"
 #include "cases/driver/picture/rocks_report.h"
-#include "cases/driver/run/clock.h"
+#include "cases/driver/run/wall_time.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
 #include "relaxation/terrain/terrain.h"
 
@@ -37,7 +37,7 @@ static void print_stages(FILE *out, const mor_stepper *stepper, const mor_set *s
     }
 }
 
-/* What is to be warned of, to be printed later: the steps that are timed spoil the state.
+/* What is to be warned of, to be printed later: the steps that are timed change the state.
  * The caller frees the text, which is NULL after a failure. */
 static mor_status find_warnings(mor_context *context, const mor_simulation *s, char **text)
 {
@@ -70,11 +70,11 @@ static mor_status time_steps(mor_context *context, mor_simulation *s, double *se
     for (int k = 0; k < WARM_UP; ++k) {
         MOR_TRY(context, take_step(context, &s->schedule));
     }
-    const double before = mor_clock_now();
+    const double before = mor_wall_time();
     for (int k = 0; k < TIMED; ++k) {
         MOR_TRY(context, take_step(context, &s->schedule));
     }
-    *seconds_per_step = (mor_clock_now() - before) / TIMED;
+    *seconds_per_step = (mor_wall_time() - before) / TIMED;
     return MOR_OK;
 }
 
@@ -139,22 +139,22 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     mor_rocks_report_print(c, out);
 }
 
-/* What a step is like: as the scene begins, or once bodies touch. */
-typedef struct pace {
+/* Length and cost of a common step: at the start, or once bodies touch. */
+typedef struct step_cost {
     double length;  /* s */
-    double seconds; /* of waiting for one */
+    double seconds; /* wall time of one step */
     int substeps[MOR_SCHEDULE_STEPPERS_MAX];
-} pace;
+} step_cost;
 
-static mor_status find_pace(mor_context *context, mor_simulation *s, pace *found)
+static mor_status find_step(mor_context *context, mor_simulation *s, step_cost *found)
 {
     MOR_TRY(context, mor_schedule_preview(context, &s->schedule, &found->length));
     memcpy(found->substeps, s->schedule.substeps, sizeof found->substeps);
     return MOR_OK;
 }
 
-/* Lets bodies step as if they touched, or as they lie. */
-static void let_touch(mor_simulation *s, bool is_touching)
+/* Selects the longest step of bodies that touch, or of bodies as they lie. */
+static void set_touching(mor_simulation *s, bool is_touching)
 {
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         mor_body_group *group = s->bodies.groups[g];
@@ -188,7 +188,7 @@ static void print_lightest(FILE *out, const mor_simulation *s)
 }
 
 /* The longest step of each stepper, and its sub-steps in a common step. */
-static void print_steps(FILE *out, const mor_simulation *s, const pace *now, const pace *touching)
+static void print_steps(FILE *out, const mor_simulation *s, const step_cost *now, const step_cost *touching)
 {
     const mor_schedule *schedule = &s->schedule;
     const double length = now->length;
@@ -231,7 +231,8 @@ static void print_duration(FILE *out, double seconds)
 }
 
 /* What contacts will cost cannot be timed before there are any. */
-static void print_expected_time(FILE *out, const mor_simulation *s, const pace *now, const pace *touching, bool is_same)
+static void print_expected_time(FILE *out, const mor_simulation *s, const step_cost *now, const step_cost *touching,
+                                bool is_same)
 {
     const double end = s->the_case->end;
     const double least = ceil(end / now->length) * now->seconds;
@@ -246,25 +247,25 @@ static void print_expected_time(FILE *out, const mor_simulation *s, const pace *
     fprintf(out, "\n");
 }
 
-static mor_status time_paces(mor_context *context, mor_simulation *s, pace *now, pace *touching, bool is_same)
+static mor_status time_both(mor_context *context, mor_simulation *s, step_cost *now, step_cost *touching, bool is_same)
 {
     MOR_TRY(context, time_steps(context, s, &now->seconds));
     touching->seconds = now->seconds;
     if (!is_same) {
-        let_touch(s, true);
+        set_touching(s, true);
         const mor_status status = time_steps(context, s, &touching->seconds);
-        let_touch(s, false);
+        set_touching(s, false);
         MOR_TRY(context, status);
     }
     return MOR_OK;
 }
 
-/* Speed and expected time. A scene that comes to grief within the steps that are timed is told so: to explain it is
- * still what was asked for. */
-static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s, pace *now, pace *touching,
+/* Speed and expected time. A failure within the steps that are timed is printed as a warning: the rest of the
+ * explanation still holds. */
+static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s, step_cost *now, step_cost *touching,
                               bool is_same)
 {
-    const mor_status status = time_paces(context, s, now, touching, is_same);
+    const mor_status status = time_both(context, s, now, touching, is_same);
     fprintf(out, "  memory                  %.1f MiB", (double)context->memory_peak_bytes / 1048576.0);
     if (s->has_soil) {
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
@@ -286,12 +287,12 @@ static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s
 
 static mor_status print_explanation(mor_context *context, FILE *out, mor_simulation *s)
 {
-    pace now;
-    pace touching;
-    let_touch(s, true);
-    MOR_TRY(context, find_pace(context, s, &touching));
-    let_touch(s, false);
-    MOR_TRY(context, find_pace(context, s, &now));
+    step_cost now;
+    step_cost touching;
+    set_touching(s, true);
+    MOR_TRY(context, find_step(context, s, &touching));
+    set_touching(s, false);
+    MOR_TRY(context, find_step(context, s, &now));
     const bool is_same =
         touching.length == now.length && memcmp(touching.substeps, now.substeps, sizeof now.substeps) == 0;
     print_sizes(out, s);
@@ -312,7 +313,7 @@ mor_status mor_session_explain(mor_session *session)
 {
     MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     const mor_status status = print_explanation(&session->context, session->output, &session->simulation);
-    mor_session_clear_simulation(session); /* the steps that were timed have spoiled it */
+    mor_session_clear_simulation(session); /* the steps that were timed have changed its state */
     return status;
 }
 

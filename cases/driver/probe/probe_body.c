@@ -321,7 +321,7 @@ const mor_probe_measure mor_probe_body_measures[] = {
               "velocity of the center of mass of a body along direction"},
      .run = velocity},
     {.type = {"body_rotation_angle", "rad", "rad", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES | OF_TURN, 100.0,
-              "angle that a body has turned about direction since the start, full turns counted"},
+              "angle of rotation of a body about direction since the start, full revolutions included"},
      .run = rotation_angle},
     {.type = {"body_angular_velocity", "rad/s", "rad/s", BODY | DIRECTION, BODY | DIRECTION, OF_BODIES | OF_TURN, 100.0,
               "angular velocity of a body about direction"},

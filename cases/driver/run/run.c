@@ -5,11 +5,11 @@
 #include "cases/driver/picture/pictures.h"
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/probe/probe.h"
-#include "cases/driver/run/clock.h"
 #include "cases/driver/run/run_failure.h"
 #include "cases/driver/run/run_settle.h"
 #include "cases/driver/run/run_step.h"
 #include "cases/driver/run/run_warnings.h"
+#include "cases/driver/run/wall_time.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
 #include "core/base/math.h"
 #include "core/material/params.h"
@@ -17,8 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The clockwork of a run beside the simulation itself. */
-typedef struct pace {
+/* Counters, timers and next outputs of the loop over steps. */
+typedef struct loop_state {
     double loop_seconds;   /* wall time spent in steps, s */
     uint64_t n_loop_steps; /* steps behind loop_seconds */
     uint64_t n_sub_steps;  /* of the bodies in these steps */
@@ -27,7 +27,7 @@ typedef struct pace {
     int64_t next_snapshot; /* number of the next snapshot */
     double fastest;        /* largest speed of the soil in these steps, m/s */
     double fastest_time;   /* when that was, s */
-} pace;
+} loop_state;
 
 /* Rows closer than ticks would be a row in each step all the same. */
 static double row_interval(const mor_simulation *s)
@@ -40,7 +40,7 @@ static int64_t row_tick(const mor_simulation *s, int64_t number)
     return mor_schedule_ticks(&s->schedule, (double)number * row_interval(s));
 }
 
-static void find_next_outputs(const mor_simulation *s, pace *p)
+static void find_next_outputs(const mor_simulation *s, loop_state *p)
 {
     const int64_t n_passed = (int64_t)(mor_schedule_time(&s->schedule) / row_interval(s));
     p->next_row = n_passed > p->next_row ? n_passed : p->next_row; /* one by one would take as long as there are rows */
@@ -50,10 +50,10 @@ static void find_next_outputs(const mor_simulation *s, pace *p)
     p->next_snapshot = mor_run_find_snapshot(s, p->next_snapshot);
 }
 
-static void show_progress(mor_run_progress *progress, const mor_simulation *s, const pace *p)
+static void show_progress(mor_run_progress *progress, const mor_simulation *s, const loop_state *p)
 {
     char line[MOR_RUN_PROGRESS_BYTES];
-    if (p->n_loop_steps == 0 || !mor_run_progress_is_due(progress, mor_clock_now())) {
+    if (p->n_loop_steps == 0 || !mor_run_progress_is_due(progress, mor_wall_time())) {
         return;
     }
     const mor_schedule *schedule = &s->schedule;
@@ -70,7 +70,7 @@ static void show_progress(mor_run_progress *progress, const mor_simulation *s, c
 }
 
 /* Rows and snapshots that are due now. */
-static mor_status write_outputs(mor_context *context, mor_run_files *files, pace *p)
+static mor_status write_outputs(mor_context *context, mor_run_files *files, loop_state *p)
 {
     const mor_simulation *s = files->simulation;
     if (row_tick(s, p->next_row) <= s->schedule.now || s->schedule.now >= s->schedule.end) {
@@ -80,9 +80,9 @@ static mor_status write_outputs(mor_context *context, mor_run_files *files, pace
         MOR_TRY(context, mor_run_files_add_snapshot(context, files));
     }
     find_next_outputs(s, p);
-    if (mor_clock_now() - p->last_save >= files->the_case->output.checkpoint_seconds) {
+    if (mor_wall_time() - p->last_save >= files->the_case->output.checkpoint_seconds) {
         MOR_TRY(context, mor_run_files_save(context, files));
-        p->last_save = mor_clock_now();
+        p->last_save = mor_wall_time();
     }
     return MOR_OK;
 }
@@ -95,7 +95,7 @@ static bool is_stopping(const mor_run_options *options, const mor_simulation *s)
 
 /* Steps until the end or until the user stops. Snapshots fall on their times exactly; rows of the series are written at
  * the first step at or after theirs, so that they do not change the steps. */
-static mor_status run_steps(mor_context *context, mor_run_files *files, pace *p)
+static mor_status run_steps(mor_context *context, mor_run_files *files, loop_state *p)
 {
     mor_simulation *s = files->simulation;
     while (s->schedule.now < s->schedule.end && !is_stopping(files->options, s)) {
@@ -127,7 +127,7 @@ static mor_status retake_step(mor_context *context, mor_simulation *s, int64_t *
 }
 
 /* First state: restored, or built, settled and saved. */
-static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
+static mor_status start_run(mor_context *context, mor_run_files *files, loop_state *p)
 {
     bool is_restored = false;
     if (files->options->is_resume) {
@@ -150,12 +150,12 @@ static mor_status start_run(mor_context *context, mor_run_files *files, pace *p)
         MOR_TRY(context, mor_run_files_save(context, files));
     }
     find_next_outputs(files->simulation, p);
-    p->last_save = mor_clock_now();
+    p->last_save = mor_wall_time();
     return MOR_OK;
 }
 
 /* The method takes soil to be hardly compressible, which needs speeds far below that of sound. */
-static void warn_of_speed(mor_context *context, const mor_simulation *s, const pace *p)
+static void warn_of_speed(mor_context *context, const mor_simulation *s, const loop_state *p)
 {
     const double advisable = 0.1;
     if (s->has_soil && p->fastest > advisable * s->soil.sound_speed) {
@@ -265,7 +265,7 @@ static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
 }
 
 /* Particles, steps and speed of a run that has reached its end. */
-static void print_end(const mor_run_files *files, const pace *p, double speed)
+static void print_end(const mor_run_files *files, const loop_state *p, double speed)
 {
     const mor_simulation *s = files->simulation;
     FILE *out = files->options->output;
@@ -293,7 +293,7 @@ static void print_end(const mor_run_files *files, const pace *p, double speed)
     }
 }
 
-static mor_status finish_run(mor_context *context, mor_run_files *files, const pace *p, mor_run_outcome *outcome)
+static mor_status finish_run(mor_context *context, mor_run_files *files, const loop_state *p, mor_run_outcome *outcome)
 {
     const mor_simulation *s = files->simulation;
     const mor_run_options *options = files->options;
@@ -351,9 +351,9 @@ static void log_reason(const mor_context *context, FILE *log)
 static mor_status run_simulation(mor_context *context, mor_run_files *files, const mor_registry *registry,
                                  mor_run_outcome *outcome)
 {
-    pace p = {.next_snapshot = 1};
+    loop_state p = {.next_snapshot = 1};
     files->progress = (mor_run_progress){
-        .stream = files->options->progress, .is_terminal = files->options->is_terminal, .last = mor_clock_now()};
+        .stream = files->options->progress, .is_terminal = files->options->is_terminal, .last = mor_wall_time()};
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
     mor_rocks_report_log(context, files->the_case);
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static mor_status print_case(mor_context *context, mor_run_files *files, const mor_registry *registry)
+static mor_status format_case(mor_context *context, mor_run_files *files, const mor_registry *registry)
 {
     size_t n_bytes = 0;
     FILE *stream = open_memstream(&files->case_text, &n_bytes);
@@ -74,7 +74,7 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
     const char *folder = files->options->folder;
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_RUN_CASE_FILE));
     if (files->case_text == NULL) {
-        MOR_TRY(context, print_case(context, files, registry));
+        MOR_TRY(context, format_case(context, files, registry));
     }
     if (!files->options->is_resume) {
         return store_case(context, files, path);

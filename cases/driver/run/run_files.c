@@ -95,7 +95,7 @@ static void add_fact(mor_run_files *files, const char *key, const char *value)
 static void set_facts(mor_run_files *files)
 {
     snprintf(files->seed_text, sizeof files->seed_text, "%" PRIu64, files->the_case->seed);
-    mor_hash_print(files->case_hash, files->hash_text);
+    mor_hash_format(files->case_hash, files->hash_text);
     add_fact(files, "version", files->options->version);
     add_fact(files, "commit", files->options->commit);
     add_fact(files, "command", files->options->command);

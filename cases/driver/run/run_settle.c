@@ -3,7 +3,7 @@
 #include "cases/driver/run/run_settle.h"
 
 #include "cases/driver/picture/pictures.h"
-#include "cases/driver/run/clock.h"
+#include "cases/driver/run/wall_time.h"
 #include "core/io/durable_file.h"
 
 #include <stdio.h>
@@ -56,7 +56,7 @@ static void show_progress(void *user, const mor_settle_course *course)
 {
     mor_run_files *files = user;
     char line[MOR_RUN_PROGRESS_BYTES];
-    if (mor_run_progress_is_due(&files->progress, mor_clock_now())) {
+    if (mor_run_progress_is_due(&files->progress, mor_wall_time())) {
         snprintf(
             line, sizeof line,
             "settling  t = %.4g s of at most %.4g s  step %llu  99 %% of the soil slower than %.3g m/s, at rest below "

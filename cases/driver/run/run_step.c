@@ -3,7 +3,7 @@
 #include "cases/driver/run/run_step.h"
 
 #include "cases/driver/probe/probe.h"
-#include "cases/driver/run/clock.h"
+#include "cases/driver/run/wall_time.h"
 
 #include <math.h>
 
@@ -48,9 +48,9 @@ static void warn_of_overlap(mor_context *context, const mor_simulation *simulati
 
 mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until, double *seconds)
 {
-    const double before = mor_clock_now();
+    const double before = mor_wall_time();
     MOR_TRY(context, mor_schedule_step(context, &simulation->schedule, until));
-    *seconds += mor_clock_now() - before;
+    *seconds += mor_wall_time() - before;
     warn_of_overlap(context, simulation);
     return mor_probe_follow(context, simulation);
 }

@@ -402,7 +402,7 @@ static mor_status follow_index(mor_context *context, const source *from, const c
         char path[MOR_CASE_NODE_TEXT_BYTES];
         char held[MOR_CASE_NODE_TEXT_BYTES];
         mor_case_node_path(*node, path, sizeof path);
-        mor_case_node_print(*node, held, sizeof held);
+        mor_case_node_format(*node, held, sizeof held);
         return MOR_FAIL(context, MOR_ERROR_CONFIG,
                         "--set '%s': found entry [%d] of %s, which is %s; allowed: an entry that the file has, counted "
                         "from 0; correct the key",

@@ -83,7 +83,7 @@ const mor_case_node *mor_case_node_find(const mor_case_node *group, const char *
 /** Writes the value of a setting as text: "5 kg", 0.4, true, "a list of 3", "a group".
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
-void mor_case_node_print(const mor_case_node *node, char *text, size_t text_bytes);
+void mor_case_node_format(const mor_case_node *node, char *text, size_t text_bytes);
 
 /** Writes where in the tree a setting is: "soil[0].material.density"; "the file" for the root.
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long

@@ -24,7 +24,7 @@ const mor_case_node *mor_case_node_find(const mor_case_node *group, const char *
     return NULL;
 }
 
-void mor_case_node_print(const mor_case_node *node, char *text, size_t text_bytes)
+void mor_case_node_format(const mor_case_node *node, char *text, size_t text_bytes)
 {
     switch (node->kind) {
     case MOR_CASE_NODE_GROUP:

@@ -537,8 +537,8 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
             square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
         const vec overlap = 1.0 - p.distance / c->shift_diameter;
         const vec floored = -smaller(-overlap, broadcast(0.1));
-        const vec push = select_lanes(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
-        const vec inside = select_lanes(p.reach > 0.0, push, broadcast(0.0));
+        const vec repulsion = select_lanes(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
+        const vec inside = select_lanes(p.reach > 0.0, repulsion, broadcast(0.0));
         for (int a = 0; a < 3; ++a) {
             sums[a] += weight * (target[MOR_RECORD_VELOCITY + a] - v[a]);
             sums[3 + a] += inside * p.r[a];

@@ -162,7 +162,7 @@ static mor_status fit_level_set(const mor_case_reader *reader, mor_mesh *mesh, m
 static void log_report(const mor_case_reader *reader, const char *file, const mor_mesh_report *report)
 {
     char text[REPORT_BYTES];
-    mor_mesh_report_print(report, text, sizeof text);
+    mor_mesh_report_format(report, text, sizeof text);
     for (char *line = text, *end = strchr(text, '\n'); end != NULL; line = end + 1, end = strchr(line, '\n')) {
         *end = '\0';
         mor_context_log(reader->context, MOR_LOG_INFO, "%s: %s", file, line);

@@ -108,7 +108,7 @@ mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_
     char allowed[LIST_BYTES];
     char advice[MOR_CASE_NODE_TEXT_BYTES];
     mor_case_node_path(node, path, sizeof path);
-    mor_case_node_print(node, found, sizeof found);
+    mor_case_node_format(node, found, sizeof found);
     join_words(words, n_words, allowed, sizeof allowed);
     advise_word(node->kind == MOR_CASE_NODE_TEXT ? node->text : "", words, n_words, advice, sizeof advice);
     return MOR_CASE_NODE_FAIL(reader->context, node, "found %s = %s; allowed: %s (%s); %s", path, found,
@@ -141,7 +141,7 @@ static mor_status check_kind(const mor_case_reader *reader, const mor_case_node 
     char path[MOR_CASE_NODE_TEXT_BYTES];
     char found[MOR_CASE_NODE_TEXT_BYTES];
     mor_case_node_path(node, path, sizeof path);
-    mor_case_node_print(node, found, sizeof found);
+    mor_case_node_format(node, found, sizeof found);
     return MOR_CASE_NODE_FAIL(reader->context, node, "found %s = %s; allowed: %s; write it in that form", path, found,
                               name_kind(kind));
 }
@@ -167,7 +167,7 @@ mor_status mor_case_reader_list(const mor_case_reader *reader, const mor_case_no
         return MOR_OK;
     }
     char found[MOR_CASE_NODE_TEXT_BYTES];
-    mor_case_node_print(*list, found, sizeof found);
+    mor_case_node_format(*list, found, sizeof found);
     if ((*list)->kind != MOR_CASE_NODE_LIST || (*list)->n_children < 1 || (*list)->n_children > n_max) {
         return MOR_CASE_NODE_FAIL(reader->context, *list,
                                   "found %s = %s; allowed: a list of 1 to %d groups; write %s = "

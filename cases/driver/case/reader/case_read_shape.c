@@ -25,7 +25,7 @@ static mor_status read_kind(const mor_case_reader *reader, const mor_case_node *
 {
     if (node->kind != MOR_CASE_NODE_GROUP) {
         char found[MOR_CASE_NODE_TEXT_BYTES];
-        mor_case_node_print(node, found, sizeof found);
+        mor_case_node_format(node, found, sizeof found);
         return MOR_CASE_NODE_FAIL(reader->context, node,
                                   "found a shape that is %s; allowed: { type = \"box\"; ... }; "
                                   "write it in that form",

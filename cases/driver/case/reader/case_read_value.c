@@ -59,7 +59,7 @@ static mor_status fail_value(const mor_case_reader *reader, const mor_case_node 
     char found[MOR_CASE_NODE_TEXT_BYTES];
     char allowed[ALLOWED_BYTES];
     mor_case_node_path(node, path, sizeof path);
-    mor_case_node_print(node, found, sizeof found);
+    mor_case_node_format(node, found, sizeof found);
     describe_allowed(reader, schema, allowed, sizeof allowed);
     return MOR_CASE_NODE_FAIL(reader->context, node, "found %s = %s%s%s; allowed: %s (%s); %s", path, found,
                               why[0] == '\0' ? "" : ", ", why, allowed, schema->text, advice);

@@ -276,11 +276,11 @@ static const mor_case_key cone_keys[] = {
 static const mor_case_key sphere_keys[] = {{{"center", VECTOR, "m", REQUIRED, ANY, NULL, "center"}, SHAPE(first)},
                                            {{"radius", SCALAR, "m", REQUIRED, POSITIVE, NULL, "radius"}, SHAPE(radius)},
                                            END};
-static const mor_case_key ellipsoid_keys[] = {
-    {{"center", VECTOR, "m", REQUIRED, ANY, NULL, "center"}, SHAPE(first)},
-    {{"radii", VECTOR, "m", REQUIRED, NOT_NEGATIVE, NULL, "half of its extent along x, y and z; rotate turns it"},
-     SHAPE(second)},
-    END};
+static const mor_case_key ellipsoid_keys[] = {{{"center", VECTOR, "m", REQUIRED, ANY, NULL, "center"}, SHAPE(first)},
+                                              {{"radii", VECTOR, "m", REQUIRED, NOT_NEGATIVE, NULL,
+                                                "half of its extent along x, y and z; use rotate for other axes"},
+                                               SHAPE(second)},
+                                              END};
 static const mor_case_key half_space_keys[] = {
     {{"point", VECTOR, "m", REQUIRED, ANY, NULL, "a point of the face"}, SHAPE(first)},
     {{"normal", VECTOR, "1", REQUIRED, ANY, NULL, "direction out of the solid"}, SHAPE(second), .is_direction = true},
@@ -305,7 +305,7 @@ static const mor_case_part union_parts[] = {{"parts", true, "list of shapes", "w
 static const mor_case_part difference_parts[] = {{"from", true, "shape", "what is kept"},
                                                  {"minus", true, "shape or list of shapes", "what is taken away"},
                                                  {NULL, false, NULL, NULL}};
-static const mor_case_part moved_parts[] = {{"shape", true, "shape", "what is moved or turned"},
+static const mor_case_part moved_parts[] = {{"shape", true, "shape", "shape to be translated or rotated"},
                                             {NULL, false, NULL, NULL}};
 
 #define WRITTEN offsetof(mor_case_shape, written)
@@ -321,7 +321,7 @@ const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
     [MOR_CASE_SHAPE_UNION] = {"union", "Shapes put together", no_keys, union_parts, WRITTEN},
     [MOR_CASE_SHAPE_DIFFERENCE] = {"difference", "One shape without others", no_keys, difference_parts, WRITTEN},
     [MOR_CASE_SHAPE_TRANSLATE] = {"translate", "A shape moved", translate_keys, moved_parts, WRITTEN},
-    [MOR_CASE_SHAPE_ROTATE] = {"rotate", "A shape turned about an axis", rotate_keys, moved_parts, WRITTEN},
+    [MOR_CASE_SHAPE_ROTATE] = {"rotate", "A shape rotated about an axis", rotate_keys, moved_parts, WRITTEN},
     [MOR_CASE_SHAPE_TERRAIN] = {"terrain", "Ground from an elevation raster; a wall of it follows the surface",
                                 mor_case_terrain_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_RELEASE] = {"release", "Layer on the ground inside a polygon; soil of it follows the surface",

@@ -138,7 +138,7 @@ extern const char *const mor_case_probe_key_names[];
  *  @param name    [in]  zero-terminated */
 const mor_case_probe_type *mor_case_probe_type_find(mor_case_probe_catalog catalog, const char *name);
 
-/** Returns the MOR_CASE_PROBE_ bits of the keys a type cannot do without: in plane strain the axis of a turn is known.
+/** Returns the MOR_CASE_PROBE_ bits of the keys a type requires: in plane strain the axis of a rotation is known.
  *  @param dimension [in]  2 or 3 */
 unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension);
 

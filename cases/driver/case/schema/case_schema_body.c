@@ -73,7 +73,8 @@ static const mor_case_key body_keys[] = {
      MOR_CASE_STORE_REALS,
      BODY(contact_poisson)},
     {{"motion", CHOICE, "1", DEFAULT(0.0), ANY, "free|prescribed",
-      "of a rigid body; free: as it is pushed; prescribed: with velocity and angular_velocity whatever pushes it"},
+      "of a rigid body; free: as forces move it; prescribed: with constant velocity and angular_velocity, whatever the "
+      "forces"},
      MOR_CASE_STORE_BOOL,
      BODY(is_prescribed)},
     {{"particles", CHOICE, "1", DEFAULT(0.0), ANY, "by_shape|lattice|relaxed",
@@ -86,7 +87,7 @@ static const mor_case_key body_keys[] = {
 static const mor_case_part body_parts[] = {
     {"shape", true, "shape", "the body, in a frame of its own"},
     {"material", true, "group", "model, density, and the parameters of the model"},
-    {"locked", false, "list of words", "of a free rigid body: no motion along x, y, z, no turn about rx, ry, rz"},
+    {"locked", false, "list of words", "of a free rigid body: no motion along x, y, z, no rotation about rx, ry, rz"},
     {"spring", false, "group", "of a free rigid body: spring and damper to a fixed point"},
     {"clamp", false, "shape", "of an elastic body: what lies in this shape, placed in the case, does not move"},
     {"start", false, "group", "of an elastic body: velocity at the start, added to velocity and angular_velocity"},
@@ -121,7 +122,7 @@ static const mor_case_key spring_keys[] = {
 
 static const mor_case_key start_keys[] = {
     {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "uniform|cantilever|twist",
-      "uniform: nothing added; cantilever: first bending mode; twist: a turn about axis that grows as "
+      "uniform: nothing added; cantilever: first bending mode; twist: a rotation about axis that grows as "
       "sin(pi x / (2 length))"},
      MOR_CASE_STORE_CHOICE,
      BODY(motion)},
@@ -147,7 +148,7 @@ static const mor_case_key start_keys[] = {
      BODY(motion_speed),
      .computed = "needed with cantilever",
      .shares_member = true},
-    {{"rate", SCALAR, "rad/s", DEFAULT(0.0), ANY, NULL, "at which the free end turns"},
+    {{"rate", SCALAR, "rad/s", DEFAULT(0.0), ANY, NULL, "rate of rotation of the free end"},
      MOR_CASE_STORE_REALS,
      BODY(motion_speed),
      .computed = "needed with twist",
@@ -259,7 +260,7 @@ const char *mor_case_start_condition(mor_case_motion motion, const char *name)
 
 /* ---- Contact modulus --------------------------------------------------------------------------------------------- */
 
-/* Square of the speed that the edges of a body have by a turn about its middle, m2/s2. */
+/* Square of the speed that the edges of a body have by a rotation about its middle, m2/s2. */
 static double find_edge_speed(const mor_case_body *body, int dimension, double squared_rate)
 {
     mor_bounds bounds;
@@ -279,8 +280,8 @@ static double find_body_speed(const mor_case_body *body, int dimension)
 {
     const double own = body->motion_speed * body->motion_speed;
     const bool is_twisted = body->motion == MOR_CASE_MOTION_TWIST;
-    const double turning = mor_vector_dot(body->angular_velocity, body->angular_velocity);
-    const double edge = find_edge_speed(body, dimension, fmax(turning, is_twisted ? own : 0.0));
+    const double rate2 = mor_vector_dot(body->angular_velocity, body->angular_velocity);
+    const double edge = find_edge_speed(body, dimension, fmax(rate2, is_twisted ? own : 0.0));
     return fmax(fmax(mor_vector_dot(body->velocity, body->velocity), is_twisted ? 0.0 : own), edge);
 }
 

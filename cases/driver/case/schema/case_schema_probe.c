@@ -17,7 +17,7 @@ static const mor_case_key probe_keys[] = {
     {{"type", MOR_SCHEMA_TEXT, 1, "1", 1, 0.0, ANY, NULL, "what is measured; see the table of types"},
      MOR_CASE_STORE_NAME,
      AT(mor_case_probe, type)},
-    {{"wall", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the wall that is pushed"},
+    {{"wall", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the wall on which the force acts"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case_probe, wall)},
     {{"body", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the body that is watched"},
@@ -41,7 +41,7 @@ static const mor_case_key probe_keys[] = {
     {{"direction", MOR_SCHEMA_VECTOR, 3, "1", 0, NAN, ANY, NULL, "direction that is measured along, or about"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_probe, direction),
-     .computed = "(1, 0, 0); (0, 0, 1) of a turn in plane strain",
+     .computed = "(1, 0, 0); (0, 0, 1) of a rotation in plane strain",
      .is_direction = true},
     {{"radial", MOR_SCHEMA_BOOLEAN, 1, "1", 0, NAN, ANY, NULL,
       "distance from the vertical through origin instead of along direction"},
@@ -112,8 +112,8 @@ const mor_case_probe_type *mor_case_probe_type_find(mor_case_probe_catalog catal
 
 unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension)
 {
-    const bool is_turn_of_plane = dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_TURN) != 0;
-    return is_turn_of_plane ? type->required & ~(unsigned)MOR_CASE_PROBE_DIRECTION : type->required;
+    const bool is_rotation_in_plane = dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_ROTATION) != 0;
+    return is_rotation_in_plane ? type->required & ~(unsigned)MOR_CASE_PROBE_DIRECTION : type->required;
 }
 
 const char *mor_case_probe_impulse_unit(const mor_case_probe_type *type, int dimension)

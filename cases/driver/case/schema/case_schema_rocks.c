@@ -45,7 +45,9 @@ static const mor_case_key rocks_keys[] = {
       "rocks drawn of each form of type rock, with seeds that count up from its own"},
      MOR_CASE_STORE_INT,
      ROCKS(n_variants)},
-    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "of places and turns"}, MOR_CASE_STORE_SEED, ROCKS(seed)},
+    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "of the random positions and orientations"},
+     MOR_CASE_STORE_SEED,
+     ROCKS(seed)},
     {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "of the centers of mass, at the start"},
      MOR_CASE_STORE_REALS,
      ROCKS(body.velocity)},
@@ -70,7 +72,7 @@ static const mor_case_key rocks_keys[] = {
 
 static const mor_case_part rocks_parts[] = {
     {"region", false, "shape",
-     "where the rocks are packed, in the frame of the case; with an end on every side; needed but with list"},
+     "where the rocks are packed, in the frame of the case; bounded in every direction; required unless list is given"},
     {"sizes", false, "list of groups",
      "curve of sizes, from the smallest; a single one: all rocks have that size; needed but with list"},
     {"forms", true, "list of groups",

@@ -156,10 +156,10 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
         probe->thickness = 0.5 * spacing;
     }
     if (!has_direction) {
-        const bool is_plane_rotation = reader->dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_TURN) != 0;
+        const bool is_plane_rotation = reader->dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_ROTATION) != 0;
         memset(probe->direction, 0, sizeof probe->direction);
         probe->direction[is_plane_rotation ? 2 : 0] = 1.0;
-    } else if ((type->traits & MOR_CASE_PROBE_OF_TURN) != 0) {
+    } else if ((type->traits & MOR_CASE_PROBE_OF_ROTATION) != 0) {
         MOR_TRY(reader->context, mor_case_reader_out_of_plane(reader, node, "direction", probe->direction));
     } else {
         MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "direction", probe->direction));
@@ -245,7 +245,7 @@ static mor_status check_body(const mor_case_reader *reader, const mor_case_node 
         return MOR_OK;
     }
     mor_case_node_path(child, path, sizeof path);
-    mor_case_node_print(child, found, sizeof found);
+    mor_case_node_format(child, found, sizeof found);
     list_bodies(the_case, allowed, sizeof allowed);
     return MOR_CASE_NODE_FAIL(
         reader->context, child,

@@ -99,7 +99,7 @@ static void write_hash(const mor_case_writer *w, uint64_t file_hash)
 {
     if (file_hash != 0) {
         char hash[MOR_HASH_TEXT_BYTES];
-        mor_hash_print(file_hash, hash);
+        mor_hash_format(file_hash, hash);
         fprintf(w->stream, "%*s# content of the file: xxh64 %s\n", w->depth * MOR_CASE_INDENT, "", hash);
     }
 }

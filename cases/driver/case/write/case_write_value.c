@@ -38,10 +38,10 @@ void mor_case_writer_whole(int64_t value, char *out, size_t out_bytes)
     snprintf(out, out_bytes, "%" PRId64 "%s", value, value > INT_MAX || value < INT_MIN ? "L" : "");
 }
 
-static void print_real(const mor_case_writer *w, double value, const char *unit, char *out, size_t out_bytes)
+static void format_real(const mor_case_writer *w, double value, const char *unit, char *out, size_t out_bytes)
 {
     char number[NUMBER_BYTES];
-    mor_units_print(w->reader.units, value, number, sizeof number);
+    mor_units_format(w->reader.units, value, number, sizeof number);
     if (strcmp(unit, "1") == 0) {
         snprintf(out, out_bytes, "%s", number);
     } else {
@@ -59,13 +59,13 @@ mor_status mor_case_writer_numbers(const mor_case_writer *w, const mor_schema *s
         MOR_TRY(w->reader.context, mor_case_reader_scale(&w->reader, schema->unit, values, n, -1));
     }
     if (schema->kind != MOR_SCHEMA_VECTOR) {
-        print_real(w, values[0], schema->unit, out, out_bytes);
+        format_real(w, values[0], schema->unit, out, out_bytes);
         return MOR_OK;
     }
     size_t used = (size_t)snprintf(out, out_bytes, "(");
     for (int k = 0; k < n && used + NUMBER_BYTES < out_bytes; ++k) {
         char number[2 * NUMBER_BYTES];
-        print_real(w, values[k], schema->unit, number, sizeof number);
+        format_real(w, values[k], schema->unit, number, sizeof number);
         used += (size_t)snprintf(out + used, out_bytes - used, "%s%s", k > 0 ? ", " : "", number);
     }
     snprintf(out + used, out_bytes - used, ")");

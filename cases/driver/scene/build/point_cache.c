@@ -55,7 +55,7 @@ static mor_status name_file(mor_context *context, const mor_point_cache *cache, 
 {
     char digits[MOR_HASH_TEXT_BYTES];
     char name[64];
-    mor_hash_print(hash, digits);
+    mor_hash_format(hash, digits);
     snprintf(name, sizeof name, "particles-%s", digits);
     return mor_durable_file_join(context, path, cache->folder, name);
 }

@@ -123,33 +123,33 @@ static double fit_decay(const mor_settle_watch *watch, double *speed)
     return -slope;
 }
 
-void mor_settle_watch_judge(const mor_settle_watch *watch, double limit, double spacing, mor_settle_judgment *judgment)
+void mor_settle_watch_evaluate(const mor_settle_watch *watch, double limit, double spacing, mor_settle_result *result)
 {
-    *judgment = (mor_settle_judgment){.verdict = MOR_SETTLE_OPEN, .time_needed = INFINITY, .strain_rates = {NAN, NAN}};
+    *result = (mor_settle_result){.outcome = MOR_SETTLE_OPEN, .time_needed = INFINITY, .strain_rates = {NAN, NAN}};
     if (watch->n == 0) {
         return;
     }
     const mor_settle_sample *last = &watch->samples[watch->n - 1];
     double speed = 0.0;
-    judgment->displacement = last->displacement;
+    result->displacement = last->displacement;
     if (watch->n < SAMPLES_LEAST) {
         return;
     }
-    judgment->decay = fit_decay(watch, &speed);
-    judgment->strain_rates[0] = strain_rate(sample_at(watch, 0.5), sample_at(watch, 0.75));
-    judgment->strain_rates[1] = strain_rate(sample_at(watch, 0.75), last);
-    if (judgment->decay > 0.0) {
-        judgment->time_needed = last->time + fmax(0.0, log(speed / limit)) / judgment->decay;
+    result->decay = fit_decay(watch, &speed);
+    result->strain_rates[0] = strain_rate(sample_at(watch, 0.5), sample_at(watch, 0.75));
+    result->strain_rates[1] = strain_rate(sample_at(watch, 0.75), last);
+    if (result->decay > 0.0) {
+        result->time_needed = last->time + fmax(0.0, log(speed / limit)) / result->decay;
     }
     /* Soil that yields as fast as before, and does not slow down or will be elsewhere until it does. */
     const bool is_yielding =
-        judgment->strain_rates[1] > 0.0 && judgment->strain_rates[1] >= steady * judgment->strain_rates[0];
+        result->strain_rates[1] > 0.0 && result->strain_rates[1] >= steady * result->strain_rates[0];
     const bool is_decaying =
-        judgment->time_needed < far_away * last->time && 0.5 * judgment->decay * last->time > decay_least;
-    const double to_come = is_decaying ? speed / judgment->decay : INFINITY;
+        result->time_needed < far_away * last->time && 0.5 * result->decay * last->time > decay_least;
+    const double to_come = is_decaying ? speed / result->decay : INFINITY;
     if ((is_yielding && last->displacement + to_come > spacing) || (!is_decaying && last->displacement > spacing)) {
-        judgment->verdict = MOR_SETTLE_FAILS;
+        result->outcome = MOR_SETTLE_FAILS;
     } else if (is_decaying) {
-        judgment->verdict = MOR_SETTLE_NEEDS_TIME;
+        result->outcome = MOR_SETTLE_NEEDS_TIME;
     }
 }

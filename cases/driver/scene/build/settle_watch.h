@@ -30,21 +30,21 @@ typedef struct mor_settle_watch {
     double *moved; /* shape [particles], scratch: displacements, m; owned */
 } mor_settle_watch;
 
-/** What is the matter with soil that did not come to rest. */
-typedef enum mor_settle_verdict {
-    MOR_SETTLE_FAILS,      /* it goes on to flow under its own weight */
+/** Why soil did not come to rest. */
+typedef enum mor_settle_outcome {
+    MOR_SETTLE_FAILS,      /* it keeps flowing under its own weight */
     MOR_SETTLE_NEEDS_TIME, /* its speed decays, and it will be at rest later */
-    MOR_SETTLE_OPEN        /* neither is clear */
-} mor_settle_verdict;
+    MOR_SETTLE_OPEN        /* cannot be decided */
+} mor_settle_outcome;
 
-/** The verdict and what it rests on. */
-typedef struct mor_settle_judgment {
-    mor_settle_verdict verdict;
+/** The outcome and the values it was derived from. */
+typedef struct mor_settle_result {
+    mor_settle_outcome outcome;
     double decay;           /* rate at which the speed decays over the second half, 1/s; <= 0: it does not */
     double time_needed;     /* to reach the limit at that rate, from the start of settling, s; INFINITY: never */
     double displacement;    /* so far, m */
     double strain_rates[2]; /* mean plastic strain / time over the third and the last quarter, 1/s; NaN: not known */
-} mor_settle_judgment;
+} mor_settle_result;
 
 /** Begins to watch.
  *  @param set     [in]      the soil's particles, with ids from 0 to their number - 1
@@ -65,9 +65,9 @@ mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, c
 /** Keeps a sample, or leaves it out where samples are thinned. */
 void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sample);
 
-/** Judges from the course so far.
+/** Evaluates the samples so far.
  *  @param limit    [in]   speed below which soil is at rest, m/s; > 0
  *  @param spacing  [in]   of particles, m */
-void mor_settle_watch_judge(const mor_settle_watch *watch, double limit, double spacing, mor_settle_judgment *judgment);
+void mor_settle_watch_evaluate(const mor_settle_watch *watch, double limit, double spacing, mor_settle_result *result);
 
 #endif

@@ -93,7 +93,7 @@ static mor_status annotate_error(mor_context *context, const mor_case *c, const 
 }
 
 /* The thickness of a shape, nearly and never too much. */
-static double guess_thickness(const mor_shape *shape, int dimension)
+static double estimate_thickness(const mor_shape *shape, int dimension)
 {
     enum { ACROSS = 20 };
     mor_bounds bounds;
@@ -122,7 +122,7 @@ static mor_status explain_thin_body(mor_context *context, const mor_case *c, con
     }
     double least = INFINITY;
     for (int k = 0; k < rocks->n_shapes; ++k) {
-        least = fmin(least, guess_thickness(rocks->shapes[k], c->dimension));
+        least = fmin(least, estimate_thickness(rocks->shapes[k], c->dimension));
     }
     return MOR_FAIL(
         context, MOR_ERROR_CONFIG,
@@ -139,7 +139,7 @@ static mor_status try_thinnest(mor_context *context, const mor_case *c, mor_poin
     for (int b = 0; b < c->n_bodies; ++b) {
         const mor_case_body *it = &c->bodies[b];
         const double thickness = it->packed_diameter > 0.0 && mor_simulation_fill_is_relaxed(it)
-                                     ? guess_thickness(it->shape, c->dimension)
+                                     ? estimate_thickness(it->shape, c->dimension)
                                      : INFINITY;
         if (thickness < least) {
             least = thickness;
@@ -452,7 +452,7 @@ static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil
 }
 
 /* Tells each body the soil it may lie in. What is prescribed or clamped does not give way as a whole. */
-static void meet_soil(mor_simulation_bodies *bodies, const mor_case *c, const mor_soil *soil)
+static void find_added_masses(mor_simulation_bodies *bodies, const mor_case *c, const mor_soil *soil)
 {
     enum { ALL = 0x3f, OUT_OF_PLANE = 0x1c };
     for (int b = 0; b < c->n_bodies; ++b) {
@@ -463,7 +463,7 @@ static void meet_soil(mor_simulation_bodies *bodies, const mor_case *c, const mo
             locked |= it->is_locked[k] ? 1u << k : 0u;
         }
         locked = it->is_prescribed || it->clamp != NULL ? ALL : locked;
-        mor_body_meet_soil(body->group, body->index, soil->settings.reference_density, soil->sound_speed, locked);
+        mor_body_find_added_mass(body->group, body->index, soil->settings.reference_density, soil->sound_speed, locked);
     }
 }
 
@@ -481,7 +481,7 @@ mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodie
         }
     }
     if (soil != NULL) {
-        meet_soil(bodies, the_case, soil);
+        find_added_masses(bodies, the_case, soil);
     }
     schedule->exchange = bodies->has_contact ? &bodies->exchange : NULL;
     return MOR_OK;

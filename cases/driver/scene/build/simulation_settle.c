@@ -80,39 +80,38 @@ static mor_status report_unrest(mor_context *context, const mor_simulation *simu
     const double spacing = simulation->the_case->spacing;
     const mor_scheme *numerics = &simulation->the_case->numerics;
     const bool may_creep = numerics->stress_diffusion > 0.0 && numerics->stress_diffusion_limiter == 0;
-    mor_settle_judgment judgment;
+    mor_settle_result result;
     char found[FOUND_BYTES];
-    mor_settle_watch_judge(watch, limit, spacing, &judgment);
+    mor_settle_watch_evaluate(watch, limit, spacing, &result);
     snprintf(
         found, sizeof found,
         "after settling for %.4g s in %llu steps the 99th percentile of the speed is %.3g m/s, %.3g times the limit "
         "of %.3g m/s",
         mor_schedule_time(&simulation->schedule), (unsigned long long)simulation->schedule.n_steps, speed,
         speed / limit, limit);
-    if (judgment.verdict == MOR_SETTLE_FAILS) {
+    if (result.outcome == MOR_SETTLE_FAILS) {
         return MOR_FAIL(
             context, MOR_NOT_CONVERGED,
             "the soil does not stand under its own weight: %s; it has moved by up to %.3g m (%.3g spacings) "
             "and goes on: the mean plastic strain grew by %.3g 1/s in the last quarter of that time, by %.3g "
             "1/s in the one before. A longer 'settle_time' does not help; give the soil more strength, a "
             "gentler slope or a wall that holds it, or let it flow from the start with type = \"k0\"",
-            found, judgment.displacement, judgment.displacement / spacing, judgment.strain_rates[1],
-            judgment.strain_rates[0]);
+            found, result.displacement, result.displacement / spacing, result.strain_rates[1], result.strain_rates[0]);
     }
-    if (judgment.verdict == MOR_SETTLE_NEEDS_TIME) {
+    if (result.outcome == MOR_SETTLE_NEEDS_TIME) {
         return MOR_FAIL(context, MOR_NOT_CONVERGED,
                         "the soil needs longer to settle: %s, and it decays by a factor of e every %.3g s, so that the "
                         "limit is reached after about %.3g s; it has moved by up to %.3g m (%.3g spacings). Raise "
                         "'settle_time' to %.2g s or more",
-                        found, 1.0 / judgment.decay, judgment.time_needed, judgment.displacement,
-                        judgment.displacement / spacing, TIME_MARGIN * judgment.time_needed);
+                        found, 1.0 / result.decay, result.time_needed, result.displacement,
+                        result.displacement / spacing, TIME_MARGIN * result.time_needed);
     }
     return MOR_FAIL(context, MOR_NOT_CONVERGED,
                     "the soil did not come to rest: %s; it has moved by up to %.3g m (%.3g spacings), and its speed "
                     "neither decays steadily nor does the soil yield steadily, as far as that can be told in the time "
                     "given. Give a longer 'settle_time' to see which, "
                     "or a larger 'settle_speed_ratio'%s",
-                    found, judgment.displacement, judgment.displacement / spacing, may_creep ? creep_advice : "");
+                    found, result.displacement, result.displacement / spacing, may_creep ? creep_advice : "");
 }
 
 /* Soil that came to rest in another form than the one described. */

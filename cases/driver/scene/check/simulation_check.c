@@ -36,7 +36,7 @@ const char *mor_simulation_duration(double seconds, char *text, size_t n_bytes)
     return text;
 }
 
-static double guess_seconds(const mor_context *context, const mor_simulation *s, double n_steps)
+static double estimate_seconds(const mor_context *context, const mor_simulation *s, double n_steps)
 {
     const double each = step_overhead + (double)mor_simulation_particles(s) / (usual_speed * context->n_threads);
     return n_steps * each;
@@ -48,7 +48,7 @@ static mor_status check_steps(mor_context *context, const mor_simulation *s, con
 {
     char duration[DURATION_BYTES];
     const double n_steps = ceil(time / s->first_step);
-    const double seconds = guess_seconds(context, s, n_steps);
+    const double seconds = estimate_seconds(context, s, n_steps);
     mor_simulation_duration(seconds, duration, sizeof duration);
     MOR_CHECK(
         context, n_steps <= STEPS_MOST, MOR_ERROR_CONFIG,

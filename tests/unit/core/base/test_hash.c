@@ -20,7 +20,7 @@ static void published_values_are_met(void **state)
     assert_true(mor_hash_bytes("abc", 3) == 0x44BC2CF5AD770999u);
     /* Over one stripe: printf 'Nobody inspects the spammish repetition' | xxhsum -H64 */
     assert_true(mor_hash_bytes("Nobody inspects the spammish repetition", 39) == 0xFBCEA83C8A378BF1u);
-    mor_hash_print(0x0123456789ABCDEFu, text);
+    mor_hash_format(0x0123456789ABCDEFu, text);
     assert_string_equal(text, "0123456789abcdef");
 }
 

@@ -171,12 +171,12 @@ static void dimensions_count_powers(void **state)
     assert_int_equal(pressure.power[MOR_BASE_MASS], 1);
     assert_int_equal(pressure.power[MOR_BASE_TIME], -2);
     assert_int_equal(pressure.power[MOR_BASE_ANGLE], 0);
-    mor_dimension_print(&pressure, text, sizeof text);
+    mor_dimension_format(&pressure, text, sizeof text);
     assert_string_equal(text, "kg m-1 s-2");
     assert_int_equal(mor_dimension_scale(&pressure, 2, 4, 6), -2 + 4 - 12);
     assert_int_equal(mor_units_dimension(&f->context, f->units, "1", &none), MOR_OK);
     assert_false(mor_dimension_equal(&none, &pressure));
-    mor_dimension_print(&none, text, sizeof text);
+    mor_dimension_format(&none, text, sizeof text);
     assert_string_equal(text, "1");
     assert_int_equal(mor_units_dimension(&f->context, f->units, "bad unit", &none), MOR_ERROR_ARGUMENT);
 }
@@ -196,7 +196,7 @@ static void printed_numbers_read_back_to_the_same_bits(void **state)
     for (size_t k = 0; k < sizeof values / sizeof values[0]; ++k) {
         char text[64];
         double again = NAN;
-        mor_units_print(f->units, values[k], text, sizeof text);
+        mor_units_format(f->units, values[k], text, sizeof text);
         const char *rest = mor_units_number(f->units, text, &again);
         assert_non_null(rest);
         assert_string_equal(rest, "");
@@ -223,7 +223,7 @@ static void a_decimal_comma_of_the_locale_changes_nothing(void **state)
     const mor_status made = mor_units_new(&f->context, &loaded);
     const mor_status converted = made == MOR_OK ? mor_units_convert(&f->context, loaded, "1.5 in", "m", &value) : made;
     if (made == MOR_OK) {
-        mor_units_print(loaded, 0.25, text, sizeof text);
+        mor_units_format(loaded, 0.25, text, sizeof text);
     }
     mor_units_free(&f->context, &loaded);
     uselocale(previous);

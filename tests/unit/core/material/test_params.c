@@ -151,13 +151,13 @@ static void printing_names_every_value_and_never_overflows(void **state)
     values[0] = 5.98e6;
     values[4] = 1.0;
     char text[TEXT_BYTES];
-    mor_params_print(SCHEMA, values, text, sizeof text);
+    mor_params_format(SCHEMA, values, text, sizeof text);
     assert_string_equal(text, "modulus = 5980000 Pa\ndirection = 0.25, 0.25, 0.25\ncone = outer\nis_wet = true\n"
                               "count = 2\n");
     for (size_t bytes = 1; bytes < 90; ++bytes) {
         char guarded[96];
         memset(guarded, 'x', sizeof guarded);
-        mor_params_print(SCHEMA, values, guarded, bytes);
+        mor_params_format(SCHEMA, values, guarded, bytes);
         assert_true(strlen(guarded) < bytes);
         assert_true(guarded[bytes] == 'x');
     }

@@ -124,7 +124,7 @@ static void taken_name_leaves_the_registry_as_it_was(void **state)
 {
     (void)state;
     char path[PATH_BYTES + 32];
-    compile("twin", "-DNAME='\"drucker_prager\"'", path);
+    compile("duplicate", "-DNAME='\"drucker_prager\"'", path);
     mor_context context;
     mor_context_init(&context);
     mor_plugin *plugin = NULL;

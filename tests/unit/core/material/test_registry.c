@@ -132,9 +132,9 @@ static void many_models_fit_and_names_are_unique(void **state)
         assert_ptr_equal(mor_registry_get(registry, k), &models[k]);
         assert_ptr_equal(mor_registry_find(registry, names[k]), &models[k]);
     }
-    mor_material twin = models[3];
-    twin.version = "9.9";
-    assert_int_equal(mor_registry_add(&context, registry, &twin), MOR_ERROR_PLUGIN);
+    mor_material duplicate = models[3];
+    duplicate.version = "9.9";
+    assert_int_equal(mor_registry_add(&context, registry, &duplicate), MOR_ERROR_PLUGIN);
     assert_non_null(strstr(context.message, "model_03"));
     assert_int_equal(mor_registry_count(registry), MANY);
     mor_registry_free(&context, &registry);

@@ -93,10 +93,10 @@ static void run(meeting *m, const mor_pair_table *table)
     memset(m->acceleration, 0, sizeof m->acceleration);
     assert_int_equal(mor_soil_contact_build(context, &m->contact, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &m->contact, table, c, m->soil.records);
-    mor_soil_contact_continue(context, &m->contact, table, c, m->soil.records, &m->soil.relation);
+    mor_soil_contact_sum_divergence(context, &m->contact, table, c, m->soil.records, &m->soil.relation);
     mor_soil_contact_sum_forces(context, &m->contact, MOR_DISSIPATION_BOTH, c->limiter_rate, m->soil.records, m->soil.n,
                                 m->acceleration);
-    mor_soil_contact_share(context, &m->contact, table, c, m->soil.records, m->soil.n);
+    mor_soil_contact_share_forces(context, &m->contact, table, c, m->soil.records, m->soil.n);
 }
 
 static void cross(const double *a, const double *b, double *out)

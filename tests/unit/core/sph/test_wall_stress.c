@@ -190,8 +190,8 @@ static void divergence_of_every_table_is_that_of_a_double_loop(void **state)
         floor_case f;
         open_layer(&f, 2 + option % 2, MOR_WALL_ROUGH, MOR_WALL_STRESS_LINEAR);
         floor_run(&f, MOR_DISSIPATION_BOTH);
-        mor_soil_contact_continue(&f.soil.context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
-                                  &f.soil.relation);
+        mor_soil_contact_sum_divergence(&f.soil.context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
+                                        &f.soil.relation);
         int n_touching = 0;
         for (int64_t slot = 0; slot < MOR_CLUSTER * f.wall.relation.n_occupied; ++slot) {
             const int i = f.wall.relation.occupied[slot / MOR_CLUSTER] * MOR_CLUSTER + (int)(slot % MOR_CLUSTER);
@@ -224,10 +224,11 @@ static void wide_registers_give_the_same_divergence_as_wider_ones(void **state)
         floor_run(&f, MOR_DISSIPATION_BOTH);
         const size_t n_bytes = (size_t)f.wall.relation.n_occupied * MOR_CLUSTER * 6 * sizeof(double);
         double narrow[6 * ASSEMBLY_MAX];
-        mor_soil_contact_continue(&f.soil.context, &f.wall, avx2, &f.soil.constants, f.soil.records, &f.soil.relation);
+        mor_soil_contact_sum_divergence(&f.soil.context, &f.wall, avx2, &f.soil.constants, f.soil.records,
+                                        &f.soil.relation);
         memcpy(narrow, f.wall.divergence, n_bytes);
-        mor_soil_contact_continue(&f.soil.context, &f.wall, avx512, &f.soil.constants, f.soil.records,
-                                  &f.soil.relation);
+        mor_soil_contact_sum_divergence(&f.soil.context, &f.wall, avx512, &f.soil.constants, f.soil.records,
+                                        &f.soil.relation);
         assert_memory_equal(narrow, f.wall.divergence, n_bytes);
         floor_close(&f);
     }

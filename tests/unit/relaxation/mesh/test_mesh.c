@@ -347,11 +347,11 @@ static void small_holes_are_filled(void **state)
     assert_int_equal(it->report.n_open_edges, 0);
     assert_int_equal(it->report.n_flipped, 0);
     char text[512];
-    mor_mesh_report_print(&it->report, text, sizeof text);
+    mor_mesh_report_format(&it->report, text, sizeof text);
     assert_non_null(strstr(text, "2 holes filled\n"));
     assert_non_null(strstr(text, "1 connected part\n"));
     char short_text[10];
-    mor_mesh_report_print(&it->report, short_text, sizeof short_text);
+    mor_mesh_report_format(&it->report, short_text, sizeof short_text);
     assert_int_equal(strlen(short_text), 9);
 }
 

@@ -169,7 +169,7 @@ static void stepping_gives_the_bits_of_a_run(void **state)
         expect(session, mor_session_step(session), MOR_OK, "");
     }
     finished_run_read_hash(folder, "run", hash);
-    mor_hash_print(mor_session_state_hash(session), own_hash);
+    mor_hash_format(mor_session_state_hash(session), own_hash);
     assert_string_equal(own_hash, hash);
     run_folder_file(folder, path, "run");
     assert_int_equal(mor_snapshot_list_init(&folder->context, &list, path), MOR_OK);

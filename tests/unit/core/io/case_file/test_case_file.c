@@ -108,7 +108,7 @@ static void a_node_tells_its_path_its_place_and_its_value(void **state)
     assert_string_equal(text, "soil[1].m.rho");
     mor_case_node_place(rho, text, sizeof text);
     assert_string_equal(text, "a.cfg:2");
-    mor_case_node_print(rho, text, sizeof text);
+    mor_case_node_format(rho, text, sizeof text);
     assert_string_equal(text, "\"5 kg\"");
     mor_case_node_path(root, text, sizeof text);
     assert_string_equal(text, "the file");

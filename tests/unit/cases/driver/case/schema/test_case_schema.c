@@ -124,7 +124,7 @@ static void the_tables_are_sound(void **state)
         assert_int_equal(type->required & ~type->allowed, 0);
         assert_int_equal(mor_case_probe_required(type, 3), type->required);
         const bool is_free_of_axis = (mor_case_probe_required(type, 2) & MOR_CASE_PROBE_DIRECTION) == 0;
-        assert_true((type->traits & MOR_CASE_PROBE_OF_TURN) == 0 || is_free_of_axis);
+        assert_true((type->traits & MOR_CASE_PROBE_OF_ROTATION) == 0 || is_free_of_axis);
         /* A key that names a body or a wall is never left open. */
         const unsigned named = MOR_CASE_PROBE_BODY | MOR_CASE_PROBE_WALL;
         assert_int_equal(type->allowed & named, type->required & named);

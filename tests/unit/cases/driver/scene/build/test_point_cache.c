@@ -25,7 +25,7 @@ static kept_ball new_kept_ball(run_folder *scratch)
     ball.shape = new_relax_shape(&scratch->context, "ball", 0.1);
     ball.request = new_relax_request(ball.shape, 3, 0.212);
     mor_relax_request_hash(&ball.request, &hash);
-    mor_hash_print(hash, digits);
+    mor_hash_format(hash, digits);
     snprintf(name, sizeof name, "particles-%s", digits);
     assert_int_equal(mor_durable_file_join(&scratch->context, ball.folder, scratch->path, "kept"), MOR_OK);
     assert_int_equal(mor_durable_file_join(&scratch->context, ball.file, ball.folder, name), MOR_OK);
@@ -140,7 +140,7 @@ static void file_of_another_request_is_not_taken(void **state)
     uint64_t hash = 0;
     char digits[MOR_HASH_TEXT_BYTES];
     mor_relax_request_hash(&ball.request, &hash);
-    mor_hash_print(hash, digits);
+    mor_hash_format(hash, digits);
     snprintf(strrchr(ball.file, '-'), sizeof digits + 1, "-%s", digits);
     assert_int_equal(rename(own, ball.file), 0);
     assert_int_equal(relax_once(scratch, &ball, ball.folder).n_found, 1);

@@ -21,10 +21,10 @@ typedef struct course {
     double amplitude; /* of a vibration, m/s */
 } course;
 
-static mor_settle_judgment judge(const course *c, double end, int n)
+static mor_settle_result evaluate(const course *c, double end, int n)
 {
     mor_settle_watch watch = {.stride = 1};
-    mor_settle_judgment judgment;
+    mor_settle_result result;
     for (int k = 1; k <= n; ++k) {
         const double t = end * k / n;
         const double way = c->decay > 0.0 ? c->speed * (1.0 - exp(-c->decay * t)) / c->decay : c->speed * t;
@@ -33,8 +33,8 @@ static mor_settle_judgment judge(const course *c, double end, int n)
         mor_settle_watch_keep(&watch, &sample);
         assert_true(watch.n <= MOR_SETTLE_SAMPLES);
     }
-    mor_settle_watch_judge(&watch, LIMIT, SPACING, &judgment);
-    return judgment;
+    mor_settle_watch_evaluate(&watch, LIMIT, SPACING, &result);
+    return result;
 }
 
 /* v = 0.1 exp(-2 t) is at 1e-3 after ln(100) / 2 = 2.30 s. */
@@ -43,8 +43,8 @@ static void decay_is_extrapolated_to_the_time_of_rest(void **state)
     (void)state;
     const course decaying = {.decay = 2.0, .speed = 0.1, .strain = 0.0};
     for (int n = 20; n <= 2000; n *= 10) { /* with room for all samples, and thinned */
-        const mor_settle_judgment it = judge(&decaying, 1.5, n);
-        assert_int_equal(it.verdict, MOR_SETTLE_NEEDS_TIME);
+        const mor_settle_result it = evaluate(&decaying, 1.5, n);
+        assert_int_equal(it.outcome, MOR_SETTLE_NEEDS_TIME);
         assert_true(fabs(it.decay - 2.0) < 1e-9);                             /* rounding of the fit */
         assert_true(fabs(it.time_needed - 0.5 * log(100.0)) < 1e-9);          /* likewise */
         assert_true(fabs(it.displacement - 0.05 * (1.0 - exp(-3.0))) < 2e-3); /* the last sample may be thinned out */
@@ -56,8 +56,8 @@ static void soil_that_yields_less_and_less_needs_time(void **state)
 {
     (void)state;
     const course decaying = {.decay = 2.0, .speed = 0.1, .strain = 1.0};
-    const mor_settle_judgment it = judge(&decaying, 2.0, 100);
-    assert_int_equal(it.verdict, MOR_SETTLE_NEEDS_TIME);
+    const mor_settle_result it = evaluate(&decaying, 2.0, 100);
+    assert_int_equal(it.outcome, MOR_SETTLE_NEEDS_TIME);
     assert_true(it.strain_rates[1] > 0.0 && it.strain_rates[1] < 0.5 * it.strain_rates[0]); /* exp(-1) of it */
 }
 
@@ -65,17 +65,17 @@ static void steady_flow_is_told_from_soil_that_needs_time(void **state)
 {
     (void)state;
     const course flowing = {.speed = 0.2, .strain = 3.0};
-    const mor_settle_judgment it = judge(&flowing, 2.0, 100);
-    assert_int_equal(it.verdict, MOR_SETTLE_FAILS);
+    const mor_settle_result it = evaluate(&flowing, 2.0, 100);
+    assert_int_equal(it.outcome, MOR_SETTLE_FAILS);
     assert_true(fabs(it.displacement - 0.4) < 1e-12);   /* rounding */
     assert_true(fabs(it.strain_rates[0] - 0.6) < 1e-9); /* 3 times 0.2, rounding */
     assert_true(fabs(it.strain_rates[1] - 0.6) < 1e-9);
     /* Too slow to have come far yet, but it goes on. */
     const course creeping = {.speed = 0.002, .strain = 3.0};
-    assert_int_equal(judge(&creeping, 2.0, 100).verdict, MOR_SETTLE_FAILS);
+    assert_int_equal(evaluate(&creeping, 2.0, 100).outcome, MOR_SETTLE_FAILS);
     /* It slows down, but will have moved by 0.4 / 0.5 = 0.8 m, eight spacings, when it does. */
     const course slowing = {.decay = 0.5, .speed = 0.4, .strain = 3.0};
-    assert_int_equal(judge(&slowing, 2.0, 100).verdict, MOR_SETTLE_FAILS);
+    assert_int_equal(evaluate(&slowing, 2.0, 100).outcome, MOR_SETTLE_FAILS);
 }
 
 /* Soil that only swings does neither; too few samples tell nothing. */
@@ -83,9 +83,9 @@ static void what_is_not_clear_is_left_open(void **state)
 {
     (void)state;
     const course swinging = {.decay = 50.0, .speed = 0.1, .strain = 0.0, .amplitude = 0.01};
-    assert_int_equal(judge(&swinging, 2.0, 200).verdict, MOR_SETTLE_OPEN);
+    assert_int_equal(evaluate(&swinging, 2.0, 200).outcome, MOR_SETTLE_OPEN);
     const course flowing = {.speed = 0.2, .strain = 3.0};
-    assert_int_equal(judge(&flowing, 2.0, 4).verdict, MOR_SETTLE_OPEN);
+    assert_int_equal(evaluate(&flowing, 2.0, 4).outcome, MOR_SETTLE_OPEN);
 }
 
 int main(void)

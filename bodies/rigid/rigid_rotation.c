@@ -148,7 +148,7 @@ void mor_rigid_angular_velocity(const mor_rigid_constants *constants, const doub
         angular_velocity[axes[0]] = (second * l[axes[0]] - mixed * l[axes[1]]) / determinant;
         angular_velocity[axes[1]] = (first * l[axes[1]] - mixed * l[axes[0]]) / determinant;
     } else if (constants->n_rotation_axes == 1) {
-        /* A turn about the axis does not change the inertia about it. */
+        /* A rotation about the axis does not change the inertia about it. */
         angular_velocity[axes[0]] = l[axes[0]] / constants->inertia[axes[0]];
     }
 }
@@ -165,7 +165,7 @@ void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const doub
     mor_matrix_apply(rotation, local_momentum, angular_momentum);
 }
 
-/* Turns about an axis of the body with the share of the angular velocity that is due to it: exact. */
+/* Rotates about an axis of the body with the part of the angular velocity that is due to it: exact. */
 static void rotate_about_axis(const double *axis, double rate, const double *angular_momentum, double *quaternion)
 {
     double rotation[9];

@@ -123,7 +123,7 @@ static double find_largest_ratio(const double *added, const own_mass *own)
     return ratio;
 }
 
-void mor_body_meet_soil(mor_body_group *group, int index, double density, double sound_speed, unsigned locked)
+void mor_body_find_added_mass(mor_body_group *group, int index, double density, double sound_speed, unsigned locked)
 {
     mor_body *body = &group->bodies[index];
     double added[MOTIONS * MOTIONS] = {0.0};

@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What a boundary does to the soil: kernel sums, push and drag, slot by slot. */
+/* What a boundary does to the soil, slot by slot: kernel sums, boundary forces and its part of the velocity
+ * gradient. */
 #include "core/sph/soil_contact_internal.h"
 
 #include "core/base/math.h"
@@ -10,7 +11,7 @@
 
 enum { GRAIN = MOR_CONTACT_GRAIN };
 
-/* Tractions below this part of the bulk modulus are rounding: whether such a particle slides is not theirs to say. */
+/* Tractions below this part of the bulk modulus are rounding, and do not tell whether a particle slides. */
 #define NOISE 1.0e-9
 
 /* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
@@ -28,11 +29,11 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
                                          sums,    contact->slots};
         table->kernel(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
     }
-    mor_soil_contact_follow(context, contact, table, constants, records);
+    mor_soil_contact_update_velocity(context, contact, table, constants, records);
 }
 
-void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                             const mor_pair_constants *constants, const double *records)
+void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                                      const mor_pair_constants *constants, const double *records)
 {
     const int64_t n = contact->n_slots;
     if (contact->is_wall) {
@@ -45,8 +46,9 @@ void mor_soil_contact_follow(mor_context *context, mor_soil_contact *contact, co
     }
 }
 
-void mor_soil_contact_continue(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
-                               const mor_pair_constants *constants, const double *records, const mor_relation *inner)
+void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
+                                     const mor_pair_constants *constants, const double *records,
+                                     const mor_relation *inner)
 {
     const int64_t n = contact->n_slots;
     if (contact->stress == MOR_WALL_STRESS_UNIFORM) {
@@ -78,9 +80,9 @@ static void add_continuation(const mor_soil_contact *contact, mor_wall_friction 
     if (!(length2 > 0.0)) {
         return;
     }
-    double turned[3];
-    mor_symmetric_apply(moment, gradient, turned);
-    const double across = mor_vector_dot(turned, gradient) / length2;
+    double moment_gradient[3];
+    mor_symmetric_apply(moment, gradient, moment_gradient);
+    const double across = mor_vector_dot(moment_gradient, gradient) / length2;
     const double along = (mor_symmetric_trace(moment) - across) / (contact->dimension - 1);
     const double factor_along = continuation(along) / record[MOR_RECORD_DENSITY];
     const double factor_across =
@@ -100,20 +102,20 @@ static double limited_speed(double closing, mor_dissipation dissipation)
     return dissipation == MOR_DISSIPATION_APPROACH && closing < 0.0 ? 0.0 : fabs(closing);
 }
 
-/* What one push needs beside the particle. */
-typedef struct pusher {
+/* What the boundary force on a particle depends on beside the particle. */
+typedef struct boundary_terms {
     mor_dissipation dissipation;
     double limiter_rate;             /* eta / c0, s/m */
     const mor_boundary_patch *patch; /* its friction */
     const double *velocity;          /* of the boundary, m/s */
     const double *gradient;          /* sum V grad_i W, 1/m */
     const double *repulsion;         /* acceleration by the barrier, m/s2; NULL without */
-} pusher;
+} boundary_terms;
 
-/* Acceleration of one particle by the wall, in which is what a continued stress adds; returns the part of the
- * tangential motion that is mirrored. At a Coulomb wall the cap holds for all of the tangential part, and the barrier
- * presses, too. */
-static double push_particle(const pusher *p, const double *record, double *acceleration)
+/* Adds the acceleration of one particle by the wall to what the continued stress gave; returns the part of the
+ * tangential motion that is mirrored. At a Coulomb wall the friction limit holds for the whole tangential part, and the
+ * barrier contributes to the normal force. */
+static double find_boundary_acceleration(const boundary_terms *p, const double *record, double *acceleration)
 {
     const double *gradient = p->gradient;
     const double length = mor_vector_length(gradient);
@@ -158,9 +160,9 @@ static double push_particle(const pusher *p, const double *record, double *accel
     return stick;
 }
 
-/* The push of one slot; adds it to the acceleration of its particles. */
-static void push_slot(mor_soil_contact *contact, pusher p, int64_t slot, const double *records, int64_t n_particles,
-                      double *acceleration)
+/* Finds the boundary forces of one slot and adds them to the acceleration of its particles. */
+static void add_slot_acceleration(mor_soil_contact *contact, boundary_terms p, int64_t slot, const double *records,
+                                  int64_t n_particles, double *acceleration)
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
     p.patch = &contact->boundary->patches[contact->slots[slot].patch];
@@ -168,11 +170,11 @@ static void push_slot(mor_soil_contact *contact, pusher p, int64_t slot, const d
         const int64_t lane = slot * MOR_CLUSTER + k;
         const double *record = records + (first + k) * MOR_RECORD_SIZE;
         const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
-        double *push = contact->push + 3 * lane;
+        double *own = contact->acceleration + 3 * lane;
         double repulsion[3] = {0.0, 0.0, 0.0};
-        push[0] = push[1] = push[2] = 0.0;
+        own[0] = own[1] = own[2] = 0.0;
         if (contact->stress != MOR_WALL_STRESS_UNIFORM) {
-            add_continuation(contact, p.patch->friction, lane, record, push);
+            add_continuation(contact, p.patch->friction, lane, record, own);
         }
         for (int a = 0; a < 3 && contact->barrier.is_on; ++a) {
             repulsion[a] = contact->repulsion[3 * lane + a] / mass;
@@ -180,9 +182,9 @@ static void push_slot(mor_soil_contact *contact, pusher p, int64_t slot, const d
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
-        contact->stick[lane] = push_particle(&p, record, push);
+        contact->stick[lane] = find_boundary_acceleration(&p, record, own);
         for (int a = 0; a < 3; ++a) {
-            acceleration[(first + k) * 3 + a] += contact->barrier.is_on ? push[a] + repulsion[a] : push[a];
+            acceleration[(first + k) * 3 + a] += contact->barrier.is_on ? own[a] + repulsion[a] : own[a];
         }
     }
 }
@@ -198,12 +200,12 @@ static void sum_patch(mor_soil_contact *contact, int patch, const double *record
         for (int64_t lane = 0; lane < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++lane) {
             const double *record = records + (first + lane) * MOR_RECORD_SIZE;
             const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
-            const double *push = contact->push + (slot * MOR_CLUSTER + lane) * 3;
+            const double *own = contact->acceleration + (slot * MOR_CLUSTER + lane) * 3;
             const double *repulsion =
                 contact->barrier.is_on ? contact->repulsion + (slot * MOR_CLUSTER + lane) * 3 : NULL;
             double part[3];
             for (int a = 0; a < 3; ++a) {
-                part[a] = repulsion != NULL ? mass * push[a] + repulsion[a] : mass * push[a];
+                part[a] = repulsion != NULL ? mass * own[a] + repulsion[a] : mass * own[a];
                 force[a] -= part[a];
             }
             mor_vector_cross_add(-1.0, record, part, moment);
@@ -217,13 +219,13 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
                                  double limiter_rate, const double *records, int64_t n_particles, double *acceleration)
 {
     const int n_patches = contact->boundary->n_patches;
-    const pusher shared = {.dissipation = dissipation, .limiter_rate = limiter_rate};
+    const boundary_terms shared = {.dissipation = dissipation, .limiter_rate = limiter_rate};
     if (contact->barrier.is_on) {
         mor_soil_contact_repel(context, contact, records, n_particles);
     }
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
-            push_slot(contact, shared, slot, records, n_particles, acceleration);
+            add_slot_acceleration(contact, shared, slot, records, n_particles, acceleration);
         }
     }
     MOR_PARALLEL_FOR (context, patch, n_patches, 1) {
@@ -253,8 +255,8 @@ static void mirrored_difference(const double *velocity, const double *record, co
     }
 }
 
-static void drag_slot(const mor_soil_contact *contact, int64_t slot, const double *records, int64_t n_particles,
-                      double *velocity_gradient, double *density_rate)
+static void add_slot_gradient(const mor_soil_contact *contact, int64_t slot, const double *records, int64_t n_particles,
+                              double *velocity_gradient, double *density_rate)
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
@@ -277,7 +279,7 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
-            drag_slot(contact, slot, records, n_particles, velocity_gradient, density_rate);
+            add_slot_gradient(contact, slot, records, n_particles, velocity_gradient, density_rate);
         }
     }
 }

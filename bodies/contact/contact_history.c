@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What contacts remember from one sub-step to the next: friction springs and speeds of impact. */
+/* What contacts keep from one sub-step to the next: friction springs and speeds of impact. */
 #include "bodies/contact/contact_work.h"
 
 #include "core/base/math.h"
@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists what the state remembers, once after a start or a resume. */
-void mor_contact_recall(mor_contact *contact)
+void mor_contact_list_history(mor_contact *contact)
 {
     mor_contact_work *work = contact->work;
     const double *partners = contact->history.data[work->field_partners];
@@ -69,9 +68,9 @@ static int compare_slots(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* Forgets springs of contacts that ended; those of other members' bodies stay. Energies add up by rising slot: a resume
- * knows nothing of the order in which slots came to be held. */
-static void forget_slots(mor_contact *contact, uint64_t members)
+/* Removes the springs of contacts that ended; those of other members' bodies stay. Energies add up by rising slot: a
+ * resume knows nothing of the order in which slots came to be held. */
+static void release_slots(mor_contact *contact, uint64_t members)
 {
     mor_contact_work *work = contact->work;
     int64_t n_ended = 0; /* at the front of held_slots */
@@ -103,7 +102,7 @@ static void forget_slots(mor_contact *contact, uint64_t members)
     work->n_held = work->n_kept;
 }
 
-static void forget_impacts(mor_contact *contact, uint64_t members)
+static void release_impacts(mor_contact *contact, uint64_t members)
 {
     mor_contact_work *work = contact->work;
     for (int64_t k = 0; k < work->n_hit; ++k) {
@@ -130,8 +129,8 @@ static void forget_impacts(mor_contact *contact, uint64_t members)
     work->n_hit = work->n_kept_pairs;
 }
 
-void mor_contact_forget(mor_contact *contact, uint64_t members)
+void mor_contact_release_history(mor_contact *contact, uint64_t members)
 {
-    forget_slots(contact, members);
-    forget_impacts(contact, members);
+    release_slots(contact, members);
+    release_impacts(contact, members);
 }

@@ -27,8 +27,8 @@ static void normalize(int dimension, double *vector)
 }
 
 /* Whether the surface around the node may touch; then normal and curvature are filled in. */
-static bool look_at_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
-                         bool is_whole, mor_contact_touch *touch)
+static bool find_touch_on_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
+                               bool is_whole, mor_contact_touch *touch)
 {
     const mor_body_group *group = contact->work->bodies[near->first].group;
     double place[3], normal[3];
@@ -45,12 +45,12 @@ static bool look_at_wall(const mor_contact *contact, const mor_contact_near *nea
     }
     mor_matrix_apply(wall->rotation, normal, touch->normal);
     normalize(group->dimension, touch->normal);
-    mor_contact_meet(contact, near, touch, curvature);
+    mor_contact_set_curvature(contact, near, touch, curvature);
     return true;
 }
 
-static bool look_at_rigid(const mor_contact *contact, const mor_contact_near *near, const mor_contact_body *partner,
-                          bool is_whole, mor_contact_touch *touch)
+static bool find_touch_on_rigid(const mor_contact *contact, const mor_contact_near *near,
+                                const mor_contact_body *partner, bool is_whole, mor_contact_touch *touch)
 {
     const mor_body *body = &partner->group->bodies[partner->body];
     double reference[3], normal[3];
@@ -63,7 +63,7 @@ static bool look_at_rigid(const mor_contact *contact, const mor_contact_near *ne
     mor_contact_reference_gap(partner->group, body, reference, normal, &curvature);
     mor_matrix_apply(body->rotation, normal, touch->normal);
     normalize(partner->group->dimension, touch->normal);
-    mor_contact_meet(contact, near, touch, curvature);
+    mor_contact_set_curvature(contact, near, touch, curvature);
     return true;
 }
 
@@ -77,8 +77,8 @@ static double spread_of(const double *weights, int n)
 }
 
 /* Maps the point back into the reference configuration by weights that are exact for linear fields now. */
-static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *touch, int32_t *particles,
-                            double *weights)
+static void find_touch_on_elastic(const mor_contact_body *partner, mor_contact_touch *touch, int32_t *particles,
+                                  double *weights)
 {
     const mor_body_group *group = partner->group;
     const mor_body *body = &group->bodies[partner->body];
@@ -95,7 +95,7 @@ static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *
             return;
         }
         const bool is_all = n == body->n_particles || n == MOR_CONTACT_SUPPORT;
-        const bool is_fit = (is_all || n >= mor_body_point_crowd(group->dimension)) &&
+        const bool is_fit = (is_all || n >= mor_body_point_support_size(group->dimension)) &&
                             mor_body_linear_weights(group->dimension, positions, particles, n, touch->place, radius,
                                                     weights, group->reference, gradient);
         touch->support_count = is_fit ? n : 0;
@@ -121,8 +121,8 @@ static void look_at_elastic(const mor_contact_body *partner, mor_contact_touch *
     normalize(group->dimension, touch->normal);
 }
 
-void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
-                         bool is_whole, int32_t *particles, double *weights)
+void mor_contact_find_touch(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
+                            bool is_whole, int32_t *particles, double *weights)
 {
     const int own = touch->side == 0 ? near->first : near->second;
     const int other = touch->side == 0 ? near->second : near->first;
@@ -136,11 +136,11 @@ void mor_contact_look_up(const mor_contact *contact, const mor_contact_near *nea
     touch->depth = 0.0;
     touch->is_followed = false;
     if (wall != NULL) {
-        may_touch = look_at_wall(contact, near, wall, is_whole, touch);
+        may_touch = find_touch_on_wall(contact, near, wall, is_whole, touch);
     } else if (!partner->group->operations->is_deformable) {
-        may_touch = look_at_rigid(contact, near, partner, is_whole, touch);
+        may_touch = find_touch_on_rigid(contact, near, partner, is_whole, touch);
     } else {
-        look_at_elastic(partner, touch, particles, weights);
+        find_touch_on_elastic(partner, touch, particles, weights);
         may_touch = is_whole && touch->gap < 0.0;
     }
     if (!may_touch) {
