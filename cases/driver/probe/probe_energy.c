@@ -201,41 +201,40 @@ double mor_probe_bodies_error(const mor_simulation *s, double *share)
     return error;
 }
 
-const mor_probe_measure mor_probe_energy_measures[] = {
-    {.type = {"plastic_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-              "energy lost to plastic strain since the start"},
-     .run = plastic_energy},
-    {.type = {"numerical_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-              "energy lost to what the method adds to the soil since the start: Riemann dissipation, artificial "
-              "stress, stress "
-              "diffusion, damping, XSPH, shifting, gradient correction, angular momentum"},
-     .run = numerical_dissipation},
-    {.type = {"riemann_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-              "of numerical_dissipation: Riemann dissipation"},
-     .run = riemann_energy},
-    {.type = {"artificial_stress_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-              "of numerical_dissipation: artificial stress"},
-     .run = artificial_stress_energy},
-    {.type = {"stress_diffusion_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-              "of numerical_dissipation: stress diffusion"},
-     .run = stress_diffusion_energy},
-    {.type = {"boundary_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-              "energy the soil lost to friction and impact at walls and rocks since the start"},
-     .run = boundary_dissipation},
-    {.type =
-         {"friction_strain_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-          "of boundary_dissipation: what Coulomb friction passed on to the stress of the soil, where it is lost again"},
-     .run = friction_strain_energy},
-    {.type = {"soil_work_on_bodies", "J", "J/m", 0, 0, OF_BOTH | AUDIT, 100.0,
-              "work of the soil on bodies that move freely since the start"},
-     .run = soil_work_on_bodies},
-    {.type = {"external_work", "J", "J/m", 0, 0, AUDIT, 100.0,
-              "work of moving walls, driven bodies and the gravity ramp since the start"},
-     .run = external_work},
-    {.type =
-         {"energy_balance", "1", "1", 0, 0, AUDIT, 100.0,
-          "1 + change of the sum of all energies and losses, less external work / energy that changed hands so far"},
-     .run = energy_balance,
-     .past = turned_energy,
-     .cost = MOR_PROBE_COST_ENERGIES},
-    {.run = NULL}};
+const mor_probe_measure mor_probe_energy_measures[] =
+    {{.type = {"plastic_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "energy lost to plastic strain since the start"},
+      .run = plastic_energy},
+     {.type = {"numerical_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "energy lost to the numerical scheme of the soil since the start: Riemann dissipation, artificial "
+               "stress, stress diffusion, damping, XSPH, shifting, gradient correction, angular momentum"},
+      .run = numerical_dissipation},
+     {.type = {"riemann_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "part of numerical_dissipation: Riemann dissipation"},
+      .run = riemann_energy},
+     {.type = {"artificial_stress_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "part of numerical_dissipation: artificial stress"},
+      .run = artificial_stress_energy},
+     {.type = {"stress_diffusion_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "part of numerical_dissipation: stress diffusion"},
+      .run = stress_diffusion_energy},
+     {.type = {"boundary_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "energy the soil lost to friction and impact at walls and rocks since the start"},
+      .run = boundary_dissipation},
+     {.type = {"friction_strain_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "part of boundary_dissipation: work of Coulomb friction that strains the soil and is dissipated by its "
+               "stress"},
+      .run = friction_strain_energy},
+     {.type = {"soil_work_on_bodies", "J", "J/m", 0, 0, OF_BOTH | AUDIT, 100.0,
+               "work of the soil on bodies that move freely since the start"},
+      .run = soil_work_on_bodies},
+     {.type = {"external_work", "J", "J/m", 0, 0, AUDIT, 100.0,
+               "work of moving walls, driven bodies and the gravity ramp since the start"},
+      .run = external_work},
+     {.type =
+          {"energy_balance", "1", "1", 0, 0, AUDIT, 100.0,
+           "1 + (change of the sum of all energies and losses - external work) / energy converted so far; 1: balanced"},
+      .run = energy_balance,
+      .past = turned_energy,
+      .cost = MOR_PROBE_COST_ENERGIES},
+     {.run = NULL}};

@@ -26,14 +26,14 @@ static const mor_case_key root_keys[] = {
     {{"gravity", VECTOR, "m/s2", REQUIRED, ANY, NULL, "acceleration by gravity"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, gravity)},
-    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "seed of everything random"},
+    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "seed of all random numbers"},
      MOR_CASE_STORE_SEED,
      AT(mor_case, seed)},
     END};
 
 static const mor_case_part root_parts[] = {
-    {"domain", true, "group", "box that particles may not leave"},
-    {"lattice", false, "group", "lattice that regions are filled from"},
+    {"domain", true, "group", "computational domain, a box; see outflow for soil that leaves it"},
+    {"lattice", false, "group", "lattice of the initial positions of soil particles"},
     {"placement", false, "group", "rotation and translation of the whole scene, gravity included"},
     {"scale", false, "group", "change of units of the whole case, to check that results do not depend on them"},
     {"soil", false, "list of groups", "soil regions; a case has soil, or bodies, or both"},
@@ -41,7 +41,7 @@ static const mor_case_part root_parts[] = {
     {"bodies", false, "list of groups", "rocks, elastic or rigid"},
     {"rocks", false, "list of groups", "rocks packed at random into a region; each becomes a body"},
     {"contact", false, "group", "contact of bodies with bodies and walls"},
-    {"numerics", false, "group", "settings of the method"},
+    {"numerics", false, "group", "settings of the numerical scheme"},
     {"probes", false, "list of groups", "results to measure"},
     {"expect", false, "list of groups", "reference values that results are compared with"},
     {"output", false, "group", "what the run writes"},
@@ -53,21 +53,23 @@ static const mor_case_key domain_keys[] = {
     {{"min", VECTOR, "m", REQUIRED, ANY, NULL, "lowest corner"}, MOR_CASE_STORE_REALS, AT(mor_case, domain_minimum)},
     {{"max", VECTOR, "m", REQUIRED, ANY, NULL, "highest corner"}, MOR_CASE_STORE_REALS, AT(mor_case, domain_maximum)},
     {{"outflow", CHOICE, "1", DEFAULT(0.0), ANY, "stop|remove",
-      "what becomes of soil that leaves: it stops the run, or is removed and counted; rocks always stop the run"},
+      "soil that leaves the domain; stop: ends the run with an error; remove: is removed, and its mass, momentum and "
+      "energy are counted; rocks that leave always end the run with an error"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case, outflow)},
     END};
 
-static const mor_case_key lattice_keys[] = {
-    {{"origin", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "a corner of a lattice cell; particles fill the cells"},
-     MOR_CASE_STORE_REALS,
-     AT(mor_case, lattice_origin),
-     .needs = MOR_CASE_NEEDS_SOIL},
-    {{"jitter", SCALAR, "1", DEFAULT(0.0), BELOW(0.0, 0.5), NULL, "random displacement of particles / spacing"},
-     MOR_CASE_STORE_REALS,
-     AT(mor_case, jitter_ratio),
-     .needs = MOR_CASE_NEEDS_SOIL},
-    END};
+static const mor_case_key lattice_keys[] = {{{"origin", VECTOR, "m", DEFAULT(0.0), ANY, NULL,
+                                              "a corner of a lattice cell; particles lie at the centers of cells"},
+                                             MOR_CASE_STORE_REALS,
+                                             AT(mor_case, lattice_origin),
+                                             .needs = MOR_CASE_NEEDS_SOIL},
+                                            {{"jitter", SCALAR, "1", DEFAULT(0.0), BELOW(0.0, 0.5), NULL,
+                                              "largest random displacement of particles along each axis / spacing"},
+                                             MOR_CASE_STORE_REALS,
+                                             AT(mor_case, jitter_ratio),
+                                             .needs = MOR_CASE_NEEDS_SOIL},
+                                            END};
 
 static const mor_case_key placement_keys[] = {
     {{"axis", VECTOR, "1", DEFAULT(NAN), ANY, NULL, "axis of the rotation, through the origin"},
@@ -86,13 +88,13 @@ static const mor_case_key placement_keys[] = {
     END};
 
 static const mor_case_key scale_keys[] = {
-    {{"length", SCALAR, "1", DEFAULT(1.0), POSITIVE, NULL, "all lengths are multiplied by it; an even power of two"},
+    {{"length", SCALAR, "1", DEFAULT(1.0), POSITIVE, NULL, "factor on all lengths; an even power of two"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, scale_length)},
-    {{"time", SCALAR, "1", DEFAULT(1.0), POSITIVE, NULL, "all times are multiplied by it; an even power of two"},
+    {{"time", SCALAR, "1", DEFAULT(1.0), POSITIVE, NULL, "factor on all times; an even power of two"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, scale_time)},
-    {{"mass", SCALAR, "1", DEFAULT(1.0), POSITIVE, NULL, "all masses are multiplied by it; an even power of two"},
+    {{"mass", SCALAR, "1", DEFAULT(1.0), POSITIVE, NULL, "factor on all masses; an even power of two"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, scale_mass)},
     END};
@@ -130,14 +132,15 @@ static const mor_case_key numerics_keys[] = {
 
 #define OUTPUT(member) AT(mor_case, output.member)
 static const mor_case_key output_keys[] = {
-    {{"snapshots", WHOLE, "1", DEFAULT(20.0), BETWEEN(0.0, 1.0e6), NULL, "snapshots after the first, evenly spaced"},
+    {{"snapshots", WHOLE, "1", DEFAULT(20.0), BETWEEN(0.0, 1.0e6), NULL,
+      "number of snapshots after the first, evenly spaced in time"},
      MOR_CASE_STORE_INT,
      OUTPUT(n_snapshots)},
     {{"series_interval", SCALAR, "s", DEFAULT(NAN), POSITIVE, NULL, "simulated time between rows of series.csv"},
      MOR_CASE_STORE_REALS,
      OUTPUT(series_interval),
      .computed = "end / 200"},
-    {{"checkpoint_seconds", SCALAR, "s", DEFAULT(60.0), POSITIVE, NULL, "time on the clock between checkpoints"},
+    {{"checkpoint_seconds", SCALAR, "s", DEFAULT(60.0), POSITIVE, NULL, "wall time between checkpoints"},
      MOR_CASE_STORE_REALS,
      OUTPUT(checkpoint_seconds),
      .keeps_scale = true},
@@ -148,21 +151,23 @@ static const mor_case_key output_keys[] = {
      MOR_CASE_STORE_NAME,
      OUTPUT(color_field),
      .computed = "speed"},
-    {{"view", VECTOR, "1", DEFAULT(0.0), ANY, NULL, "direction from the scene to the camera; zero: chosen"},
+    {{"view", VECTOR, "1", DEFAULT(0.0), ANY, NULL,
+      "direction from the scene to the camera; zero: chosen automatically"},
      MOR_CASE_STORE_REALS,
      OUTPUT(view)},
-    {{"cut", SWITCH, "1", DEFAULT(0.0), ANY, NULL, "whether the part nearest to the camera is left out"},
+    {{"cut", SWITCH, "1", DEFAULT(0.0), ANY, NULL, "whether the part of the scene nearest to the camera is cut away"},
      MOR_CASE_STORE_BOOL,
      OUTPUT(has_cut)},
     END};
 
 const mor_case_group mor_case_settings_groups[] = {
-    {"domain", "Box that particles may not leave", domain_keys, NULL, offsetof(mor_case, written_domain)},
-    {"lattice", "Lattice that regions are filled from", lattice_keys, NULL, offsetof(mor_case, written_lattice)},
+    {"domain", "Computational domain", domain_keys, NULL, offsetof(mor_case, written_domain)},
+    {"lattice", "Lattice of the initial positions of soil particles", lattice_keys, NULL,
+     offsetof(mor_case, written_lattice)},
     {"placement", "Rotation and translation of the whole scene", placement_keys, NULL,
      offsetof(mor_case, written_placement)},
     {"scale", "Change of units", scale_keys, NULL, offsetof(mor_case, written_scale)},
-    {"numerics", "Settings of the method", numerics_keys, NULL, offsetof(mor_case, written_numerics)},
+    {"numerics", "Settings of the numerical scheme", numerics_keys, NULL, offsetof(mor_case, written_numerics)},
     {"output", "What the run writes", output_keys, NULL, offsetof(mor_case, written_output)},
     {NULL, NULL, NULL, NULL, 0}};
 
@@ -176,9 +181,9 @@ static const mor_case_key soil_keys[] = {
     END};
 
 static const mor_case_part soil_parts[] = {
-    {"shape", true, "shape", "region that is filled"},
+    {"shape", true, "shape", "region to be filled with particles"},
     {"material", true, "group", "model, density, and the parameters of the model"},
-    {"initial_stress", false, "group", "stress at the start"},
+    {"initial_stress", false, "group", "initial stress"},
     {NULL, false, NULL, NULL}};
 
 static const mor_case_key material_keys[] = {{{"model", WORDS, "1", REQUIRED, ANY, NULL, "name of the material model"},
@@ -191,8 +196,8 @@ static const mor_case_key material_keys[] = {{{"model", WORDS, "1", REQUIRED, AN
 
 static const mor_case_key stress_keys[] = {
     {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled",
-      "none: free of stress; k0: weight above and a lateral ratio; settled: as k0, then brought to rest before the "
-      "start"},
+      "none: zero; k0: vertical stress by the weight above, lateral stress by lateral_ratio; settled: as k0, then "
+      "brought to rest under damping before the start"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_soil, initial_stress)},
     {{"lateral_ratio", SCALAR, "1", DEFAULT(-1.0), NOT_NEGATIVE, NULL, "lateral stress / vertical stress"},
@@ -203,7 +208,7 @@ static const mor_case_key stress_keys[] = {
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, surface_level),
      .computed = "top of the region"},
-    {{"settle_time", SCALAR, "s", DEFAULT(NAN), POSITIVE, NULL, "longest time to settle"},
+    {{"settle_time", SCALAR, "s", DEFAULT(NAN), POSITIVE, NULL, "longest simulated time of settling"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, settle_time),
      .computed = "end"},
@@ -219,12 +224,12 @@ static const mor_case_key wall_keys[] = {
      .offset = offsetof(mor_case_wall, name),
      .size = MOR_FIELD_NAME_BYTES},
     {{"friction", CHOICE, "1", DEFAULT(0.0), ANY, "rough|smooth|coulomb",
-      "rough: no slip; smooth: free slip; coulomb: "
-      "slip at friction_coefficient"},
+      "with soil; rough: no slip; smooth: free slip; coulomb: Coulomb friction"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_wall, friction),
      .needs = MOR_CASE_NEEDS_SOIL},
-    {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL, "needed with coulomb, refused without"},
+    {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL,
+      "Coulomb friction coefficient with soil; required with coulomb, else refused"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, friction_coefficient),
      .needs = MOR_CASE_NEEDS_SOIL},
@@ -232,11 +237,11 @@ static const mor_case_key wall_keys[] = {
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, velocity)},
     {{"contact_modulus", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "Young's modulus of its surface, for rigid bodies that touch it; 0: it does not yield"},
+      "Young's modulus of its surface, for contact with rigid bodies; 0: a rigid surface"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, contact_modulus)},
     {{"contact_poissons_ratio", SCALAR, "1", DEFAULT(0.25), BELOW(0.0, 0.5), NULL,
-      "Poisson's ratio of its surface, with contact_modulus"},
+      "Poisson's ratio of its surface, for contact with rigid bodies"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, contact_poisson),
      .needs = MOR_CASE_NEEDS_BODIES | MOR_CASE_NEEDS_COMPLIANCE},
@@ -248,8 +253,8 @@ const mor_case_group mor_case_soil_group = {"soil", "Soil regions (list)", soil_
                                             offsetof(mor_case_soil, written)};
 const mor_case_group mor_case_material_group = {"material", "Material of a soil region", material_keys, NULL,
                                                 offsetof(mor_case_soil, written_material)};
-const mor_case_group mor_case_stress_group = {"initial_stress", "Stress of a soil region at the start", stress_keys,
-                                              NULL, offsetof(mor_case_soil, written_stress)};
+const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys, NULL,
+                                              offsetof(mor_case_soil, written_stress)};
 const mor_case_group mor_case_wall_group = {"walls", "Walls (list)", wall_keys, wall_parts,
                                             offsetof(mor_case_wall, written)};
 
@@ -282,8 +287,8 @@ static const mor_case_key ellipsoid_keys[] = {{{"center", VECTOR, "m", REQUIRED,
                                                SHAPE(second)},
                                               END};
 static const mor_case_key half_space_keys[] = {
-    {{"point", VECTOR, "m", REQUIRED, ANY, NULL, "a point of the face"}, SHAPE(first)},
-    {{"normal", VECTOR, "1", REQUIRED, ANY, NULL, "direction out of the solid"}, SHAPE(second), .is_direction = true},
+    {{"point", VECTOR, "m", REQUIRED, ANY, NULL, "a point of the plane"}, SHAPE(first)},
+    {{"normal", VECTOR, "1", REQUIRED, ANY, NULL, "outward normal of the solid"}, SHAPE(second), .is_direction = true},
     END};
 static const mor_case_key no_keys[] = {END};
 static const mor_case_key translate_keys[] = {
@@ -298,12 +303,12 @@ static const mor_case_key rotate_keys[] = {
     END};
 
 static const mor_case_part polygon_parts[] = {
-    {"points", true, "list of pairs [m]", "corners in order, the first not repeated; without end in z"},
+    {"points", true, "list of pairs [m]", "corners in order, the first not repeated; unbounded in z"},
     {NULL, false, NULL, NULL}};
-static const mor_case_part union_parts[] = {{"parts", true, "list of shapes", "what is put together"},
+static const mor_case_part union_parts[] = {{"parts", true, "list of shapes", "shapes whose union is formed"},
                                             {NULL, false, NULL, NULL}};
-static const mor_case_part difference_parts[] = {{"from", true, "shape", "what is kept"},
-                                                 {"minus", true, "shape or list of shapes", "what is taken away"},
+static const mor_case_part difference_parts[] = {{"from", true, "shape", "shape from which the others are subtracted"},
+                                                 {"minus", true, "shape or list of shapes", "what is subtracted"},
                                                  {NULL, false, NULL, NULL}};
 static const mor_case_part moved_parts[] = {{"shape", true, "shape", "shape to be translated or rotated"},
                                             {NULL, false, NULL, NULL}};
@@ -316,12 +321,12 @@ const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
     [MOR_CASE_SHAPE_SPHERE] = {"sphere", "Ball; a disc in plane strain", sphere_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_ELLIPSOID] = {"ellipsoid", "Ellipsoid with its axes along x, y and z; an ellipse in plane strain",
                                   ellipsoid_keys, NULL, WRITTEN},
-    [MOR_CASE_SHAPE_HALF_SPACE] = {"half_space", "Everything behind a plane", half_space_keys, NULL, WRITTEN},
+    [MOR_CASE_SHAPE_HALF_SPACE] = {"half_space", "Half-space behind a plane", half_space_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_POLYGON] = {"polygon", "Polygon in x and y", no_keys, polygon_parts, WRITTEN},
-    [MOR_CASE_SHAPE_UNION] = {"union", "Shapes put together", no_keys, union_parts, WRITTEN},
-    [MOR_CASE_SHAPE_DIFFERENCE] = {"difference", "One shape without others", no_keys, difference_parts, WRITTEN},
-    [MOR_CASE_SHAPE_TRANSLATE] = {"translate", "A shape moved", translate_keys, moved_parts, WRITTEN},
-    [MOR_CASE_SHAPE_ROTATE] = {"rotate", "A shape rotated about an axis", rotate_keys, moved_parts, WRITTEN},
+    [MOR_CASE_SHAPE_UNION] = {"union", "Union of shapes", no_keys, union_parts, WRITTEN},
+    [MOR_CASE_SHAPE_DIFFERENCE] = {"difference", "Difference of shapes", no_keys, difference_parts, WRITTEN},
+    [MOR_CASE_SHAPE_TRANSLATE] = {"translate", "Translated shape", translate_keys, moved_parts, WRITTEN},
+    [MOR_CASE_SHAPE_ROTATE] = {"rotate", "Shape rotated about an axis", rotate_keys, moved_parts, WRITTEN},
     [MOR_CASE_SHAPE_TERRAIN] = {"terrain", "Ground from an elevation raster; a wall of it follows the surface",
                                 mor_case_terrain_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_RELEASE] = {"release", "Layer on the ground inside a polygon; soil of it follows the surface",
@@ -332,7 +337,7 @@ const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
                              mor_case_mesh_keys, NULL, WRITTEN},
     [MOR_CASE_SHAPE_OUTLINE] = {"outline", "Solid of an outline from a file; its center of area is the origin",
                                 mor_case_outline_keys, NULL, WRITTEN},
-    [MOR_CASE_SHAPE_ROCK] = {"rock", "Rock drawn at random; its center of volume is the origin", mor_case_rock_keys,
+    [MOR_CASE_SHAPE_ROCK] = {"rock", "Rock of a random form; its center of volume is the origin", mor_case_rock_keys,
                              NULL, WRITTEN},
 };
 

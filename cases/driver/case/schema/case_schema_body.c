@@ -28,14 +28,14 @@ static const mor_case_key body_keys[] = {
      MOR_CASE_STORE_NAME,
      .offset = offsetof(mor_case_body, name),
      .size = MOR_FIELD_NAME_BYTES},
-    {{"position", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "where the origin of the frame of its shape is placed"},
+    {{"position", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "position of the origin of the frame of its shape"},
      MOR_CASE_STORE_REALS,
      BODY(position)},
     {{"height_over_ground", SCALAR, "m", DEFAULT(NAN), NOT_NEGATIVE, NULL,
-      "least distance from walls and soil: the body is moved along gravity from the top of the domain until it has it"},
+      "distance from walls and soil: the body is lowered along gravity, from the top of the domain, to this distance"},
      MOR_CASE_STORE_REALS,
      BODY(height_over_ground),
-     .computed = "none: it stays where position says"},
+     .computed = "none: it stays at position"},
     {{"axis", VECTOR, "1", DEFAULT(NAN), ANY, NULL, "axis of the rotation of its shape, through position"},
      MOR_CASE_STORE_REALS,
      BODY(axis),
@@ -45,31 +45,32 @@ static const mor_case_key body_keys[] = {
     {{"angle", SCALAR, "rad", DEFAULT(0.0), ANY, NULL, "angle of that rotation, right-handed"},
      MOR_CASE_STORE_REALS,
      BODY(angle)},
-    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "of the center of mass, at the start; prescribed: always"},
+    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL,
+      "initial velocity of the center of mass; with prescribed motion, at all times"},
      MOR_CASE_STORE_REALS,
      BODY(velocity)},
     {{"angular_velocity", VECTOR, "rad/s", DEFAULT(0.0), ANY, NULL,
-      "about the center of mass, at the start; prescribed: always"},
+      "initial angular velocity about the center of mass; with prescribed motion, at all times"},
      MOR_CASE_STORE_REALS,
      BODY(angular_velocity)},
     {{"friction", CHOICE, "1", DEFAULT(0.0), ANY, "rough|smooth|coulomb",
-      "with soil; rough: no slip; smooth: free slip; coulomb: slip at friction_coefficient"},
+      "with soil; rough: no slip; smooth: free slip; coulomb: Coulomb friction"},
      MOR_CASE_STORE_CHOICE,
      BODY(soil_friction),
      .needs = MOR_CASE_NEEDS_SOIL},
     {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "with soil; needed with coulomb, refused without"},
+      "Coulomb friction coefficient with soil; required with coulomb, else refused"},
      MOR_CASE_STORE_REALS,
      BODY(soil_friction_coefficient),
      .needs = MOR_CASE_NEEDS_SOIL},
     {{"contact_modulus", SCALAR, "Pa", DEFAULT(NAN), POSITIVE, NULL,
-      "Young's modulus of its surface in contact with bodies and walls; two rigid sides touch by Hertz's law"},
+      "Young's modulus of its surface in contact with bodies and walls; between rigid surfaces Hertz's law holds"},
      MOR_CASE_STORE_REALS,
      BODY(contact_modulus),
-     .computed = "youngs_modulus; of a rigid body density * (1000 m/s)^2, which is chosen for speed: forces of its "
-                 "contacts depend on it"},
+     .computed = "youngs_modulus; of a rigid body density * (1000 m/s)^2, chosen for long time steps: give the true "
+                 "modulus where contact forces matter"},
     {{"contact_poissons_ratio", SCALAR, "1", DEFAULT(0.25), BELOW(0.0, 0.5), NULL,
-      "Poisson's ratio of its surface, with contact_modulus"},
+      "Poisson's ratio of its surface in contact"},
      MOR_CASE_STORE_REALS,
      BODY(contact_poisson)},
     {{"motion", CHOICE, "1", DEFAULT(0.0), ANY, "free|prescribed",
@@ -78,19 +79,20 @@ static const mor_case_key body_keys[] = {
      MOR_CASE_STORE_BOOL,
      BODY(is_prescribed)},
     {{"particles", CHOICE, "1", DEFAULT(0.0), ANY, "by_shape|lattice|relaxed",
-      "lattice: nodes of a lattice in the shape; relaxed: evenly up to its surface; by_shape: relaxed for a mesh, an "
-      "outline or a rock, a lattice for others"},
+      "how the shape is filled; lattice: with the nodes of a lattice; relaxed: with relaxed positions that follow its "
+      "surface; by_shape: relaxed for a mesh, an outline or a rock, else lattice"},
      MOR_CASE_STORE_CHOICE,
      BODY(particles)},
     END};
 
 static const mor_case_part body_parts[] = {
-    {"shape", true, "shape", "the body, in a frame of its own"},
+    {"shape", true, "shape", "shape of the body, in its own frame"},
     {"material", true, "group", "model, density, and the parameters of the model"},
     {"locked", false, "list of words", "of a free rigid body: no motion along x, y, z, no rotation about rx, ry, rz"},
     {"spring", false, "group", "of a free rigid body: spring and damper to a fixed point"},
-    {"clamp", false, "shape", "of an elastic body: what lies in this shape, placed in the case, does not move"},
-    {"start", false, "group", "of an elastic body: velocity at the start, added to velocity and angular_velocity"},
+    {"clamp", false, "shape",
+     "of an elastic body: particles inside this shape, given in the frame of the case, are fixed"},
+    {"start", false, "group", "of an elastic body: initial velocity field, added to velocity and angular_velocity"},
     {NULL, false, NULL, NULL}};
 
 static const mor_case_key material_keys[] = {
@@ -101,20 +103,21 @@ static const mor_case_key material_keys[] = {
     END};
 
 static const mor_case_key spring_keys[] = {
-    {{"point", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "where it holds the body, in the frame of the body's shape"},
+    {{"point", VECTOR, "m", DEFAULT(0.0), ANY, NULL,
+      "where it is attached to the body, in the frame of the body's shape"},
      MOR_CASE_STORE_REALS,
      BODY(spring_point)},
-    {{"anchor", VECTOR, "m", REQUIRED, ANY, NULL, "its fixed end"}, MOR_CASE_STORE_REALS, BODY(spring_anchor)},
-    {{"length", SCALAR, "m", DEFAULT(NAN), NOT_NEGATIVE, NULL, "length without force"},
+    {{"anchor", VECTOR, "m", REQUIRED, ANY, NULL, "fixed end"}, MOR_CASE_STORE_REALS, BODY(spring_anchor)},
+    {{"length", SCALAR, "m", DEFAULT(NAN), NOT_NEGATIVE, NULL, "length at which the force is zero"},
      MOR_CASE_STORE_REALS,
      BODY(spring_length),
-     .computed = "distance at the start",
+     .computed = "initial distance of its ends",
      .needs = MOR_CASE_NEEDS_STIFF_SPRING},
-    {{"stiffness", SCALAR, "N/m", REQUIRED, NOT_NEGATIVE, NULL, "force / change of length"},
+    {{"stiffness", SCALAR, "N/m", REQUIRED, NOT_NEGATIVE, NULL, "spring force / elongation"},
      MOR_CASE_STORE_REALS,
      BODY(spring_stiffness),
      .unit_plane = "N/m2"},
-    {{"damping", SCALAR, "N s/m", DEFAULT(0.0), NOT_NEGATIVE, NULL, "force / rate of the length"},
+    {{"damping", SCALAR, "N s/m", DEFAULT(0.0), NOT_NEGATIVE, NULL, "damping force / rate of elongation"},
      MOR_CASE_STORE_REALS,
      BODY(spring_damping),
      .unit_plane = "N s/m2"},
@@ -126,29 +129,30 @@ static const mor_case_key start_keys[] = {
       "sin(pi x / (2 length))"},
      MOR_CASE_STORE_CHOICE,
      BODY(motion)},
-    {{"axis", VECTOR, "1", DEFAULT(0.0), ANY, NULL, "along the bar, away from the clamped end"},
+    {{"axis", VECTOR, "1", DEFAULT(0.0), ANY, NULL, "direction of the bar, away from the clamped end"},
      MOR_CASE_STORE_REALS,
      BODY(motion_axis),
      .computed = "needed with cantilever and twist",
      .is_direction = true},
-    {{"direction", VECTOR, "1", DEFAULT(0.0), ANY, NULL, "of bending, at right angles to axis"},
+    {{"direction", VECTOR, "1", DEFAULT(0.0), ANY, NULL, "direction of bending, perpendicular to axis"},
      MOR_CASE_STORE_REALS,
      BODY(motion_direction),
      .computed = "needed with cantilever",
      .is_direction = true},
-    {{"origin", VECTOR, "m", DEFAULT(0.0), ANY, NULL, "a point of the axis at the clamped end, in the case"},
+    {{"origin", VECTOR, "m", DEFAULT(0.0), ANY, NULL,
+      "a point of the axis at the clamped end, in the frame of the case"},
      MOR_CASE_STORE_REALS,
      BODY(motion_origin)},
-    {{"length", SCALAR, "m", DEFAULT(0.0), POSITIVE, NULL, "of the bar"},
+    {{"length", SCALAR, "m", DEFAULT(0.0), POSITIVE, NULL, "length of the bar"},
      MOR_CASE_STORE_REALS,
      BODY(motion_length),
      .computed = "needed with cantilever and twist"},
-    {{"speed", SCALAR, "m/s", DEFAULT(0.0), ANY, NULL, "of the free end"},
+    {{"speed", SCALAR, "m/s", DEFAULT(0.0), ANY, NULL, "initial speed of the free end"},
      MOR_CASE_STORE_REALS,
      BODY(motion_speed),
      .computed = "needed with cantilever",
      .shares_member = true},
-    {{"rate", SCALAR, "rad/s", DEFAULT(0.0), ANY, NULL, "rate of rotation of the free end"},
+    {{"rate", SCALAR, "rad/s", DEFAULT(0.0), ANY, NULL, "initial rate of rotation of the free end"},
      MOR_CASE_STORE_REALS,
      BODY(motion_speed),
      .computed = "needed with twist",
@@ -161,23 +165,24 @@ const mor_case_group mor_case_body_material_group = {"material", "Material of a 
                                                      WRITTEN(written_material)};
 const mor_case_group mor_case_spring_group = {"spring", "Spring of a rigid body", spring_keys, NULL,
                                               WRITTEN(written_spring)};
-const mor_case_group mor_case_start_group = {"start", "Velocity of an elastic body at the start", start_keys, NULL,
+const mor_case_group mor_case_start_group = {"start", "Initial velocity field of an elastic body", start_keys, NULL,
                                              WRITTEN(written_motion)};
 
 /* ---- Contact ----------------------------------------------------------------------------------------------------- */
 
 static const mor_case_key contact_keys[] = {
-    {{"friction_coefficient", SCALAR, "1", DEFAULT(0.5), NOT_NEGATIVE, NULL, "of every pair without one of its own"},
+    {{"friction_coefficient", SCALAR, "1", DEFAULT(0.5), NOT_NEGATIVE, NULL,
+      "Coulomb friction coefficient of pairs without their own"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_contact, friction_coefficient)},
     {{"restitution", SCALAR, "1", DEFAULT(0.5), BETWEEN(0.01, 1.0), NULL,
-      "speed after / speed before an impact of every pair without one of its own; 0.01 for what does not rebound"},
+      "coefficient of restitution of pairs without their own: normal speed after / before an impact; 0.01: no rebound"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_contact, restitution)},
     END};
 
-static const mor_case_part contact_parts[] = {{"pairs", false, "list of groups", "pairs that differ"},
-                                              {NULL, false, NULL, NULL}};
+static const mor_case_part contact_parts[] = {
+    {"pairs", false, "list of groups", "pairs with coefficients of their own"}, {NULL, false, NULL, NULL}};
 
 static const mor_case_key pair_keys[] = {
     {{"first", WORDS, "1", REQUIRED, ANY, NULL, "name of a body or a wall"},
@@ -186,11 +191,12 @@ static const mor_case_key pair_keys[] = {
     {{"second", WORDS, "1", REQUIRED, ANY, NULL, "name of a body, or of a wall if the first is a body"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case_contact_pair, second)},
-    {{"friction_coefficient", SCALAR, "1", DEFAULT(NAN), NOT_NEGATIVE, NULL, "of this pair"},
+    {{"friction_coefficient", SCALAR, "1", DEFAULT(NAN), NOT_NEGATIVE, NULL,
+      "Coulomb friction coefficient of this pair"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_contact_pair, friction_coefficient),
      .computed = "that of contact"},
-    {{"restitution", SCALAR, "1", DEFAULT(NAN), BETWEEN(0.01, 1.0), NULL, "of this pair"},
+    {{"restitution", SCALAR, "1", DEFAULT(NAN), BETWEEN(0.01, 1.0), NULL, "coefficient of restitution of this pair"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_contact_pair, restitution),
      .computed = "that of contact"},
@@ -198,7 +204,7 @@ static const mor_case_key pair_keys[] = {
 
 const mor_case_group mor_case_contact_group = {"contact", "Contact of bodies with bodies and walls", contact_keys,
                                                contact_parts, offsetof(mor_case_contact, written)};
-const mor_case_group mor_case_pair_group = {"pairs", "Pairs with a contact of their own (list)", pair_keys, NULL,
+const mor_case_group mor_case_pair_group = {"pairs", "Pairs with coefficients of their own (list)", pair_keys, NULL,
                                             offsetof(mor_case_contact_pair, written)};
 
 /* ---- What depends on the kind of a body -------------------------------------------------------------------------- */

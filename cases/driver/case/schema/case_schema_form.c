@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* Keys of the shapes of rocks: from a mesh, from an outline, drawn at random. */
+/* Keys of the shapes of rocks: from a mesh, from an outline, of a random form. */
 
 #define FORM(member) SHAPE(form.member)
 #define FOLLOWS "follows from the other sizes"
@@ -19,10 +19,10 @@
 
 const mor_case_key mor_case_mesh_keys[] = {
     FILE_KEY("closed mesh of triangles (.stl, .obj, .ply, .gltf, .glb)"),
-    {{"scale", SCALAR, "1", DEFAULT(NAN), POSITIVE, NULL, "factor on the lengths of the file, which are meters"},
+    {{"scale", SCALAR, "1", DEFAULT(NAN), POSITIVE, NULL, "factor on the lengths in the file, which are in meters"},
      FORM(scale),
-     .computed = "1, where no other size is given"},
-    {{"length", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "longest side of the box around it"},
+     .computed = "1 if no other size is given"},
+    {{"length", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "longest side of its bounding box"},
      FORM(length),
      .computed = FOLLOWS},
     {{"volume", SCALAR, "m3", DEFAULT(NAN), POSITIVE, NULL, "volume"}, FORM(volume), .computed = FOLLOWS},
@@ -33,9 +33,9 @@ const mor_case_key mor_case_mesh_keys[] = {
 
 const mor_case_key mor_case_outline_keys[] = {
     FILE_KEY("text with one corner \"x y\" per line"),
-    {{"scale", SCALAR, "1", DEFAULT(NAN), POSITIVE, NULL, "factor on the lengths of the file, which are meters"},
+    {{"scale", SCALAR, "1", DEFAULT(NAN), POSITIVE, NULL, "factor on the lengths in the file, which are in meters"},
      FORM(scale),
-     .computed = "1, where no other size is given"},
+     .computed = "1 if no other size is given"},
     {{"diameter", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "diameter of the disc of the same area"},
      FORM(diameter),
      .computed = FOLLOWS},
@@ -52,7 +52,7 @@ const mor_case_key mor_case_rock_keys[] = {
      FORM(flatness)},
     {{"angularity", SCALAR, "1", DEFAULT(0.5), BETWEEN(0.0, 1.0), NULL, "0: rounded; 1: angular"}, FORM(angularity)},
     {{"roughness", SCALAR, "1", DEFAULT(0.2), BETWEEN(0.0, 1.0), NULL, "0: smooth; 1: rough"}, FORM(roughness)},
-    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "which rock of this form"},
+    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "seed of the random form"},
      MOR_CASE_STORE_SEED,
      AT(mor_case_shape, form.seed)},
     END};

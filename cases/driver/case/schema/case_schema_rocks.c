@@ -18,44 +18,46 @@ static const mor_case_key rocks_keys[] = {
      .offset = offsetof(mor_case_rocks, body.name),
      .size = MOR_FIELD_NAME_BYTES - NUMBER_BYTES},
     {{"content", SCALAR, "1", DEFAULT(NAN), INSIDE(0.0, 1.0), NULL,
-      "volume of the rocks over that of the region (areas in plane strain); this, count or list"},
+      "volume of the rocks / volume of the region (areas in plane strain); give content, count or list"},
      MOR_CASE_STORE_REALS,
      ROCKS(content),
      .computed = "follows from the others"},
     {{"count", WHOLE, "1", DEFAULT(0.0), BETWEEN(0.0, MOR_CASE_BODIES_MAX), NULL,
-      "number of rocks; this, content or list"},
+      "number of rocks; give content, count or list"},
      MOR_CASE_STORE_INT,
      ROCKS(count),
      .computed = "follows from the others"},
     {{"list", WORDS, "1", DEFAULT(0.0), ANY, NULL,
-      "table of rocks, a .csv with columns x, y, z, diameter and, if wanted, density; path from the folder of the case "
-      "file; this, content or count"},
+      "table of rocks, a .csv with columns x, y, z, diameter and, optionally, density; path from the folder of the "
+      "case "
+      "file; give content, count or list"},
      MOR_CASE_STORE_TEXT,
      ROCKS(list)},
-    {{"gap", SCALAR, "m", DEFAULT(NAN), NOT_NEGATIVE, NULL, "least distance between two rocks, and to listed bodies"},
+    {{"gap", SCALAR, "m", DEFAULT(NAN), NOT_NEGATIVE, NULL,
+      "smallest distance between two rocks, and to listed bodies"},
      MOR_CASE_STORE_REALS,
      ROCKS(gap),
      .computed = "spacing"},
     {{"margin", SCALAR, "m", DEFAULT(NAN), ANY, NULL,
-      "least depth of a rock under the surface of the region; below zero: may stick out so far"},
+      "smallest distance of a rock from the surface of the region; negative: a rock may protrude by as much"},
      MOR_CASE_STORE_REALS,
      ROCKS(margin),
      .computed = "spacing"},
     {{"n_forms", WHOLE, "1", DEFAULT(8.0), BETWEEN(1.0, 16.0), NULL,
-      "rocks drawn of each form of type rock, with seeds that count up from its own"},
+      "number of random rocks made from each form of type rock, with consecutive seeds"},
      MOR_CASE_STORE_INT,
      ROCKS(n_variants)},
-    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "of the random positions and orientations"},
+    {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "seed of the random positions and orientations"},
      MOR_CASE_STORE_SEED,
      ROCKS(seed)},
-    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "of the centers of mass, at the start"},
+    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "initial velocity of the centers of mass"},
      MOR_CASE_STORE_REALS,
      ROCKS(body.velocity)},
     {{"friction", CHOICE, "1", DEFAULT(0.0), ANY, "rough|smooth|coulomb", "with soil, as of a body"},
      MOR_CASE_STORE_CHOICE,
      ROCKS(body.soil_friction)},
     {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "with soil; needed with coulomb, refused without"},
+      "Coulomb friction coefficient with soil; required with coulomb, else refused"},
      MOR_CASE_STORE_REALS,
      ROCKS(body.soil_friction_coefficient)},
     {{"contact_modulus", SCALAR, "Pa", DEFAULT(NAN), POSITIVE, NULL, "as of a body"},
@@ -74,9 +76,10 @@ static const mor_case_part rocks_parts[] = {
     {"region", false, "shape",
      "where the rocks are packed, in the frame of the case; bounded in every direction; required unless list is given"},
     {"sizes", false, "list of groups",
-     "curve of sizes, from the smallest; a single one: all rocks have that size; needed but with list"},
+     "size distribution curve, from the smallest; a single entry: all rocks have that size; required unless list is "
+     "given"},
     {"forms", true, "list of groups",
-     "rock, sphere, ellipsoid, outline or mesh; each rock draws one, scaled to its size"},
+     "rock, sphere, ellipsoid, outline or mesh; each rock gets one at random, scaled to its size"},
     {"material", true, "group", "as of a body"},
     {NULL, false, NULL, NULL}};
 
@@ -84,16 +87,16 @@ const mor_case_group mor_case_rocks_group = {"rocks", "Rocks packed into a regio
                                              offsetof(mor_case_rocks, written)};
 
 static const mor_case_key size_keys[] = {
-    {{"diameter", SCALAR, "m", REQUIRED, POSITIVE, NULL, "of the ball (disc) of the same volume (area)"},
+    {{"diameter", SCALAR, "m", REQUIRED, POSITIVE, NULL, "diameter of the ball (disc) of the same volume (area)"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_size, diameter)},
     {{"passing", SCALAR, "1", REQUIRED, BETWEEN(0.0, 1.0), NULL,
-      "share of the rocks' volume of rocks up to this diameter; the last is 1"},
+      "volume fraction of the rocks up to this diameter; the last is 1"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_size, passing)},
     END};
 
-const mor_case_group mor_case_size_group = {"sizes", "Curve of sizes (list)", size_keys, NULL,
+const mor_case_group mor_case_size_group = {"sizes", "Size distribution curve (list)", size_keys, NULL,
                                             offsetof(mor_case_size, written)};
 
 static const mor_case_key file_keys[] = {
@@ -115,7 +118,7 @@ static const mor_case_key ellipsoid_form_keys[] = {
 
 /* The keys of a rock but for its diameter, which is the first. */
 const mor_case_group mor_case_rock_form_groups[MOR_CASE_ROCK_FORM_COUNT] = {
-    {"rock", "Form drawn at random", mor_case_rock_keys + 1, NULL, offsetof(mor_case_shape, written)},
+    {"rock", "Random form", mor_case_rock_keys + 1, NULL, offsetof(mor_case_shape, written)},
     {"sphere", "Form of a ball; a disc in plane strain", sphere_form_keys, NULL, offsetof(mor_case_shape, written)},
     {"ellipsoid", "Form of an ellipsoid; an ellipse in plane strain", ellipsoid_form_keys, NULL,
      offsetof(mor_case_shape, written)},

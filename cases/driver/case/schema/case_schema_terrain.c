@@ -15,11 +15,13 @@ const mor_case_key mor_case_terrain_keys[] = {
       "elevation raster in meters (GeoTIFF, ESRI ASCII, ...); path from the folder of the case file"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case_shape, ground.file)},
-    {{"crop_min", PAIR, "m", DEFAULT(-INFINITY), ANY, NULL, "nodes from here on are kept; coordinates of the raster"},
+    {{"crop_min", PAIR, "m", DEFAULT(-INFINITY), ANY, NULL,
+      "lower left corner of the window that is used, in coordinates of the raster"},
      SHAPE(ground.crop_minimum),
      .computed = "all",
      .keeps_scale = true},
-    {{"crop_max", PAIR, "m", DEFAULT(INFINITY), ANY, NULL, "nodes up to here are kept; coordinates of the raster"},
+    {{"crop_max", PAIR, "m", DEFAULT(INFINITY), ANY, NULL,
+      "upper right corner of the window that is used, in coordinates of the raster"},
      SHAPE(ground.crop_maximum),
      .computed = "all",
      .keeps_scale = true},
@@ -29,18 +31,19 @@ const mor_case_key mor_case_terrain_keys[] = {
      .keeps_scale = true},
     {{"offset", VECTOR, "m", DEFAULT(NAN), ANY, NULL, "subtracted from the raster's coordinates and heights"},
      SHAPE(ground.offset),
-     .computed = "lower left node and lowest height that are kept",
+     .computed = "lower left node and lowest height of the window",
      .keeps_scale = true},
     {{"fill_no_data", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "whether holes without data are filled from their rims, instead of refused"},
+      "whether cells without data are interpolated from their neighbors; otherwise they are refused"},
      MOR_CASE_STORE_BOOL,
      AT(mor_case_shape, ground.fills_no_data)},
     {{"extend_edge", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "whether ground goes on at the height of its edge where the domain reaches beyond the raster, instead of "
-      "refused"},
+      "whether the ground continues at the height of its edge where the domain reaches beyond the raster; otherwise "
+      "such "
+      "a domain is refused"},
      MOR_CASE_STORE_BOOL,
      AT(mor_case_shape, ground.extends_edge)},
-    {{"thickness", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "of the solid below its lowest place"},
+    {{"thickness", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "thickness of the solid below its lowest point"},
      SHAPE(ground.thickness),
      .computed = "8 * spacing"},
     END};
@@ -54,25 +57,26 @@ const mor_case_key mor_case_terrain_keys[] = {
 
 const mor_case_key mor_case_release_keys[] = {
     GROUND,
-    {{"thickness", SCALAR, "m", REQUIRED, POSITIVE, NULL, "of the layer, vertically"}, SHAPE(ground.thickness)},
+    {{"thickness", SCALAR, "m", REQUIRED, POSITIVE, NULL, "vertical thickness of the layer"}, SHAPE(ground.thickness)},
     {{"rim", SCALAR, "m", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "distance from the edge, seen from above, over which the thickness grows from zero; 0: upright sides"},
+      "horizontal distance from the edge over which the thickness grows from zero; 0: vertical sides"},
      SHAPE(ground.rim)},
     END};
 
 const mor_case_key mor_case_posts_keys[] = {
     GROUND,
-    {{"size", PAIR, "m", REQUIRED, POSITIVE, NULL, "of each along x and y"}, SHAPE(ground.size)},
-    {{"height", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "above the ground at the middle of each; or give top"},
+    {{"size", PAIR, "m", REQUIRED, POSITIVE, NULL, "side lengths of each post along x and y"}, SHAPE(ground.size)},
+    {{"height", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL,
+      "height above the ground at the center of each post; give height or top"},
      SHAPE(ground.height),
      .computed = "follows from top"},
-    {{"top", SCALAR, "m", DEFAULT(NAN), ANY, NULL, "height of all tops; or give height"},
+    {{"top", SCALAR, "m", DEFAULT(NAN), ANY, NULL, "elevation of the tops of all posts; give height or top"},
      SHAPE(ground.top),
      .computed = "follows from height"},
     END};
 
 const mor_case_part mor_case_release_parts[] = {
-    {"points", true, "list of pairs [m]", "corners seen from above, in order, the first not repeated"},
+    {"points", true, "list of pairs [m]", "corners in plan view, in order, the first not repeated"},
     {NULL, false, NULL, NULL}};
-const mor_case_part mor_case_posts_parts[] = {{"at", true, "list of pairs [m]", "middles seen from above"},
+const mor_case_part mor_case_posts_parts[] = {{"at", true, "list of pairs [m]", "centers in plan view"},
                                               {NULL, false, NULL, NULL}};
