@@ -150,7 +150,9 @@ typedef struct mor_body_group {
     const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither rotated nor translated */
     /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Hung in by mor_contact_init. */
     double (*longest_contact_step)(const void *contact, const struct mor_body_group *group);
-    const void *contact;    /* first argument of longest_contact_step; borrowed */
+    /** Of a checked run: shows what contact remembers. Likewise. */
+    void (*visit_contact)(const void *contact, mor_shared_visit visit, void *job);
+    const void *contact;    /* first argument of both; borrowed */
     mor_body_piece *pieces; /* shape [n_pieces]; by rising range, without gaps */
     int64_t n_pieces;
     /* Scratch of loops over pieces. */
@@ -214,6 +216,12 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
  *  @param list    [in,out]  borrows from the group
  *  Returns: as mor_state_add. */
 mor_status mor_body_group_list_state(mor_context *context, mor_body_group *group, mor_state_list *list);
+
+/** Shows a checked run the arrays that every kind of body has beside the fields of its set, those of contact included;
+ *  see mor_stepper.visit_shared. A solver adds what is its own.
+ *  @param visit [in]      called for each array
+ *  @param job   [in,out]  handed to visit */
+void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, void *job);
 
 /** Finds the added mass of soil of a body over its own mass: the soil within one spacing of its surface, that which
  *  slides along a face counting a third, for the free motion of the body as a whole for which the ratio is

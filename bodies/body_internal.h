@@ -24,6 +24,12 @@ static inline mor_body_team mor_body_team_for(const mor_context *context, int64_
     return (mor_body_team){n_particles < MOR_BODY_TEAM_PARTICLES ? 1 : context->n_threads};
 }
 
+/** Bits that hold valid data when a sub-step of a body of any kind begins; see mor_schedule_add. */
+#define MOR_BODY_EVOLVING                                                                                              \
+    (MOR_BIT(MOR_FIELD_POSITION) | MOR_BIT(MOR_FIELD_VELOCITY) | MOR_BIT(MOR_FIELD_MASS) |                             \
+     MOR_BIT(MOR_FIELD_DENSITY) | MOR_BIT(MOR_RESOURCE_BODIES) | MOR_BIT(MOR_RESOURCE_BOUNDARIES) |                    \
+     MOR_BIT(MOR_RESOURCE_WALL_FORCES) | MOR_BIT(MOR_RESOURCE_CONTACT) | MOR_BIT(MOR_RESOURCE_REFERENCE))
+
 /** Finds the order in which a body keeps its particles: cluster by cluster, clusters that are near close together.
  *  order: shape [n_particles], indices into the request's positions. Returns MOR_OK or MOR_ERROR_MEMORY. */
 mor_status mor_body_order(mor_context *context, const mor_body_request *request, int dimension, double spacing,

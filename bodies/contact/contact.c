@@ -269,6 +269,7 @@ mor_status mor_contact_init(mor_context *context, mor_contact *contact, const mo
     }
     for (int g = 0; g < n_groups; ++g) {
         groups[g]->longest_contact_step = mor_contact_longest_step;
+        groups[g]->visit_contact = mor_contact_visit;
         groups[g]->contact = contact;
     }
     return MOR_OK;
@@ -315,6 +316,7 @@ void mor_contact_clear(mor_context *context, mor_contact *contact)
     for (int g = 0; g < contact->n_groups; ++g) {
         if (contact->groups[g]->contact == contact) {
             contact->groups[g]->longest_contact_step = NULL;
+            contact->groups[g]->visit_contact = NULL;
             contact->groups[g]->contact = NULL;
         }
     }
@@ -431,5 +433,10 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
 
 void mor_contact_exchange(mor_contact *contact, mor_exchange *exchange)
 {
-    *exchange = (mor_exchange){contact, find_partners, run_contact};
+    *exchange = (mor_exchange){.owner = contact,
+                               .find_partners = find_partners,
+                               .run = run_contact,
+                               .name = "contact",
+                               .accumulates = MOR_BIT(MOR_RESOURCE_BODIES),
+                               .remembers = MOR_BIT(MOR_RESOURCE_CONTACT)};
 }

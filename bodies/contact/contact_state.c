@@ -13,6 +13,31 @@ void mor_contact_restart(mor_contact *contact)
     contact->wall_energy = 0.0;
 }
 
+void mor_contact_visit(const void *owner, mor_shared_visit visit, void *job)
+{
+    mor_contact *contact = (mor_contact *)owner; /* what is shown has no other owner */
+    const mor_contact_work *work = contact->work;
+    const int64_t n = contact->history.n_particles;
+    const struct {
+        double *numbers;
+        int64_t n;
+    } members[] = {{contact->history.data[work->field_partners], MOR_CONTACT_SLOTS * n},
+                   {contact->history.data[work->field_springs], 3 * MOR_CONTACT_SLOTS * n},
+                   {contact->impacts, contact->n_impacts},
+                   {contact->group_spring, contact->n_groups},
+                   {contact->group_deepest, contact->n_groups},
+                   {contact->wall_force, 3 * (int64_t)contact->n_groups * contact->n_walls},
+                   {work->curvatures, n},
+                   {work->normals, 3 * n},
+                   {work->node_distances, n},
+                   {&contact->friction_energy, 1},
+                   {&contact->damping_energy, 1},
+                   {&contact->wall_energy, 1}};
+    for (size_t k = 0; k < sizeof members / sizeof *members; ++k) {
+        visit(job, MOR_RESOURCE_CONTACT, members[k].numbers, members[k].n);
+    }
+}
+
 mor_status mor_contact_list_state(mor_context *context, mor_contact *contact, mor_state_list *list)
 {
     const struct {

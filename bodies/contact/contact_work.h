@@ -134,6 +134,12 @@ typedef struct mor_contact_work {
     int field_partners, field_springs; /* of the history */
 } mor_contact_work;
 
+/** Shows a checked run what contact remembers; see mor_body_group.visit_contact.
+ *  @param owner [in]      a mor_contact
+ *  @param visit [in]      called for each array
+ *  @param job   [in,out]  handed to visit */
+void mor_contact_visit(const void *owner, mor_shared_visit visit, void *job);
+
 /** Index of a pair of bodies, first < second; or of a body and wall second - n_bodies.
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */

@@ -25,7 +25,7 @@ enum { FIELD_GRADIENT = MOR_FIELD_CORE_COUNT, FIELD_RATE };
 static const mor_stage elastic_stages[] = {
     {"first drift", mor_elastic_drift_first, BIT(VELOCITY), 0, BIT(POSITION), "positions to the middle of the sub-step",
      NULL},
-    {"stress", mor_elastic_find_stress, BIT(POSITION) | RATE, RECORDS, GRADIENT | BIT(STRESS) | STATE | ENERGY_SUMS,
+    {"stress", mor_elastic_find_stress, BIT(POSITION) | RATE, 0, RECORDS | GRADIENT | BIT(STRESS) | STATE | ENERGY_SUMS,
      "deformation gradients to the middle of the sub-step; the material's stress and the Kelvin-Voigt damper", NULL},
     {"forces", mor_elastic_sum_forces, RECORDS, BIT(ACCELERATION), 0,
      "acceleration by the neighbors, hourglass control included", NULL},
@@ -37,8 +37,8 @@ static const mor_stage elastic_stages[] = {
      NULL},
 };
 
-static const uint64_t evolving_fields = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS) |
-                                        GRADIENT | RATE | STATE | ENERGY_SUMS | BODIES | BOUNDS;
+static const uint64_t evolving_fields =
+    MOR_BODY_EVOLVING | BIT(STRESS) | GRADIENT | RATE | STATE | ENERGY_SUMS | BOUNDS | RECORDS;
 
 enum { BATCH = 64 };
 
@@ -281,6 +281,22 @@ static mor_status resume(mor_context *context, void *owner)
     return mor_elastic_prepare(context, owner);
 }
 
+static void visit_shared(void *owner, mor_shared_visit visit, void *job)
+{
+    mor_elastic *elastic = owner;
+    const mor_elastic_work *work = elastic->work;
+    const int64_t n_slots = work->n_clusters * MOR_CLUSTER;
+    const int d = elastic->group.dimension;
+    mor_body_group_visit_shared(&elastic->group, visit, job);
+    visit(job, MOR_RESOURCE_RECORDS, work->stressed, n_slots * (2 * d + d * d));
+    visit(job, MOR_RESOURCE_RECORDS, work->moving, n_slots * 2 * d);
+    visit(job, MOR_RESOURCE_REFERENCE, work->inverses, n_slots * 6);
+    visit(job, MOR_RESOURCE_REFERENCE, work->sums, n_slots * 3);
+    visit(job, MOR_RESOURCE_ENERGY_SUMS, &elastic->damped_energy, 1);
+    visit(job, MOR_RESOURCE_BOUNDS, &elastic->largest_speed, 1);
+    visit(job, MOR_RESOURCE_BOUNDS, &elastic->largest_acceleration, 1);
+}
+
 void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *evolving)
 {
     static const mor_stepper_operations operations = {"elastic bodies", propose_step, begin_step,
@@ -293,7 +309,8 @@ void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *e
                              .n_before = 1,
                              .n_particles = elastic->group.set.n_particles,
                              .is_leader = false,
-                             .set = &elastic->group.set};
+                             .set = &elastic->group.set,
+                             .visit_shared = visit_shared};
     *evolving = evolving_fields;
 }
 

@@ -255,6 +255,31 @@ static mor_status resume(mor_context *context, void *owner)
     return MOR_OK;
 }
 
+static void visit_shared(void *owner, mor_shared_visit visit, void *job)
+{
+    mor_rigid *rigid = owner;
+    mor_body_group_visit_shared(&rigid->group, visit, job);
+    for (int b = 0; b < rigid->group.n_bodies; ++b) {
+        mor_rigid_state *state = &rigid->states[b];
+        mor_rigid_constants *constants = &rigid->work->constants[b];
+        const struct {
+            int resource;
+            double *numbers;
+            int n;
+        } members[] = {
+            {MOR_RESOURCE_BODIES, state->center, 3},          {MOR_RESOURCE_BODIES, state->velocity, 3},
+            {MOR_RESOURCE_BODIES, state->quaternion, 4},      {MOR_RESOURCE_BODIES, state->angular_momentum, 3},
+            {MOR_RESOURCE_BODIES, state->rotation_angle, 3},  {MOR_RESOURCE_BODIES, state->soil_impulse, 3},
+            {MOR_RESOURCE_BODIES, state->contact_impulse, 3}, {MOR_RESOURCE_BODIES, state->contact_angular_impulse, 3},
+            {MOR_RESOURCE_BODIES, constants->held_force, 3},  {MOR_RESOURCE_BODIES, constants->held_moment, 3},
+            {MOR_RESOURCE_REFERENCE, constants->inertia, 6},  {MOR_RESOURCE_REFERENCE, &constants->common, 1},
+            {MOR_RESOURCE_REFERENCE, constants->rates, 2}};
+        for (size_t k = 0; k < sizeof members / sizeof *members; ++k) {
+            visit(job, members[k].resource, members[k].numbers, members[k].n);
+        }
+    }
+}
+
 void mor_rigid_stepper(mor_rigid *rigid, mor_stepper *stepper, uint64_t *evolving)
 {
     static const mor_stepper_operations operations = {"rigid bodies", propose_step, begin_step,
@@ -267,8 +292,9 @@ void mor_rigid_stepper(mor_rigid *rigid, mor_stepper *stepper, uint64_t *evolvin
                              .n_before = 1,
                              .n_particles = rigid->group.set.n_particles,
                              .is_leader = false,
-                             .set = &rigid->group.set};
-    *evolving = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BODIES;
+                             .set = &rigid->group.set,
+                             .visit_shared = visit_shared};
+    *evolving = MOR_BODY_EVOLVING;
 }
 
 double mor_rigid_energy(const mor_rigid *rigid, int body, double *momentum, double *angular_momentum)

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/time/schedule.h"
 
+#include "core/time/stage_check.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -167,6 +169,32 @@ static mor_status run_stages(mor_context *context, const mor_stepper *stepper, i
     return MOR_OK;
 }
 
+/* Lets the members act on one another. In a checked run what the exchange does not declare is the same afterwards, in
+ * all followers. */
+static mor_status run_exchange(mor_context *context, const mor_schedule *schedule, uint64_t members,
+                               const mor_step *step)
+{
+    const mor_exchange *exchange = schedule->exchange;
+    const mor_stage on_members = {
+        .name = exchange->name, .reads = ~(uint64_t)0, .accumulates = exchange->accumulates | exchange->remembers};
+    const mor_stage on_others = {.name = exchange->name, .reads = ~(uint64_t)0, .accumulates = exchange->remembers};
+    mor_stage_check checks[MOR_SCHEDULE_STEPPERS_MAX];
+    for (int s = 0; s < schedule->n_steppers && context->is_checked; ++s) {
+        const mor_stage *stage = (members & MOR_BIT(s)) != 0 ? &on_members : &on_others;
+        if (!schedule->steppers[s].is_leader) {
+            mor_stage_check_before(&checks[s], &schedule->steppers[s], stage);
+        }
+    }
+    const mor_status status = exchange->run(context, exchange->owner, members, step);
+    for (int s = 0; s < schedule->n_steppers && context->is_checked; ++s) {
+        const mor_stage *stage = (members & MOR_BIT(s)) != 0 ? &on_members : &on_others;
+        if (!schedule->steppers[s].is_leader) {
+            MOR_TRY(context, mor_stage_check_after(context, &checks[s], &schedule->steppers[s], stage));
+        }
+    }
+    return status;
+}
+
 /* All sub-steps of the followers in one island. They add up to the common step to the tick. */
 static mor_status run_island(mor_context *context, mor_schedule *schedule, uint64_t members, int64_t ticks, int n_parts)
 {
@@ -182,7 +210,7 @@ static mor_status run_island(mor_context *context, mor_schedule *schedule, uint6
             }
         }
         if (schedule->exchange != NULL) {
-            MOR_TRY(context, schedule->exchange->run(context, schedule->exchange->owner, members, &step));
+            MOR_TRY(context, run_exchange(context, schedule, members, &step));
         }
         for (int s = 0; s < schedule->n_steppers; ++s) {
             if ((members & MOR_BIT(s)) != 0) {

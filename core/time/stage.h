@@ -33,7 +33,9 @@
     X(ENERGY_SUMS, "energy sums")       /* what the audit of energy carries from stage to stage */                     \
     X(BOUNDS, "bounds of motion")       /* largest speed and acceleration, drift since the lists were built */         \
     X(ORDER, "order of particles")      /* who stands where, and how many there are */                                 \
-    X(BODIES, "bodies")                 /* state of bodies as a whole, and forces on them */
+    X(BODIES, "bodies")                 /* state of bodies as a whole, and forces on them */                           \
+    X(CONTACT, "contact")               /* what contact between bodies remembers */                                    \
+    X(REFERENCE, "reference data")      /* of bodies in the reference configuration; no stage changes them */
 
 enum {
     MOR_RESOURCE_FIRST = MOR_FIELDS_MAX, /* no field shares a bit with them */

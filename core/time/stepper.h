@@ -45,7 +45,8 @@ typedef struct mor_stepper {
     mor_set *set;        /* whose fields the stages declare; borrowed; NULL: none */
     uint64_t evolving;   /* bits that hold valid data when a step begins; mor_schedule_add sets it */
     /** Of a checked run, NULL: none. Calls visit(job, ...) for each array of numbers that stages hand on beside the
-     *  fields: those of which a stage that declares to write them sets every value. */
+     *  fields, or must leave alone. A stage that declares to write one sets every value of it; what does not evolve is
+     *  filled with NaN when a step begins. */
     void (*visit_shared)(void *owner, mor_shared_visit visit, void *job);
 } mor_stepper;
 
@@ -63,6 +64,9 @@ typedef struct mor_exchange {
     mor_status (*find_partners)(mor_context *context, void *owner, double length, uint64_t *partners, int n_steppers);
     /** Lets the steppers of a set of bits act on one another. */
     mor_status (*run)(mor_context *context, void *owner, uint64_t members, const mor_step *step);
+    const char *name;     /* static string, for messages of a checked run */
+    uint64_t accumulates; /* bits of the members that it changes */
+    uint64_t remembers;   /* bits of its own data, which all followers show and no stage changes */
 } mor_exchange;
 
 #endif

@@ -128,7 +128,10 @@ static inline void meter_attach(meter *it, mor_schedule *schedule)
     }
     it->plain_exchange = schedule->exchange;
     if (schedule->exchange != NULL) {
-        it->exchange = (mor_exchange){it, meter_find_partners, meter_run_exchange};
+        it->exchange = *schedule->exchange;
+        it->exchange.owner = it;
+        it->exchange.find_partners = meter_find_partners;
+        it->exchange.run = meter_run_exchange;
         schedule->exchange = &it->exchange;
     }
 }

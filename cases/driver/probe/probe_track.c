@@ -70,7 +70,10 @@ static void watch_contact(mor_probe_track *track)
     }
     if (is_asked && s->schedule.exchange != NULL) {
         track->contact = s->schedule.exchange;
-        track->exchange = (mor_exchange){track, find_partners, run_contact};
+        track->exchange = *track->contact;
+        track->exchange.owner = track;
+        track->exchange.find_partners = find_partners;
+        track->exchange.run = run_contact;
         s->schedule.exchange = &track->exchange;
     }
 }

@@ -119,7 +119,7 @@ static crew *crew_open(double end, const double *proposals, int n, int n_leaders
                                      .is_leader = s < n_leaders};
         assert_int_equal(mor_schedule_add(&c->context, &c->schedule, &stepper, 0), MOR_OK);
     }
-    c->exchange = (mor_exchange){c, crew_partners, crew_exchange};
+    c->exchange = (mor_exchange){.owner = c, .find_partners = crew_partners, .run = crew_exchange};
     return c;
 }
 
