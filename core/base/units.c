@@ -3,6 +3,7 @@
 #include "core/base/units.h"
 
 #include "core/base/memory.h"
+#include "core/base/process_lock.h"
 
 #include <locale.h>
 #include <math.h>
@@ -28,8 +29,10 @@ typedef struct quiet {
     ut_error_message_handler handler;
 } quiet;
 
+/* UDUNITS has one state per process: one thread at a time. */
 static quiet enter_quiet(locale_t locale)
 {
+    mor_process_lock();
     return (quiet){uselocale(locale), ut_set_error_message_handler(ut_ignore)};
 }
 
@@ -37,6 +40,7 @@ static void leave_quiet(quiet previous)
 {
     ut_set_error_message_handler(previous.handler);
     uselocale(previous.locale);
+    mor_process_unlock();
 }
 
 static bool map_degrees(ut_system *system)
@@ -80,7 +84,9 @@ void mor_units_free(mor_context *context, mor_units **units)
     if (*units == NULL) {
         return;
     }
+    mor_process_lock();
     ut_free_system((*units)->system);
+    mor_process_unlock();
     if ((*units)->locale != (locale_t)0) {
         freelocale((*units)->locale);
     }

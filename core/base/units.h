@@ -41,7 +41,8 @@ typedef struct mor_units mor_units;
 /** Loads the unit tables.
  *  @param units   [out]     one pointer; owned by the caller; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_IO when the tables of UDUNITS-2 cannot be read; MOR_ERROR_MEMORY.
- *  Cost: some milliseconds; allocates. Threads: neither, UDUNITS keeps state of its own. */
+ *  Cost: some milliseconds; allocates. Threads: safe to call concurrently, each with a context of its own: UDUNITS has
+ *  one state per process, which the process lock guards. */
 mor_status mor_units_new(mor_context *context, mor_units **units);
 
 /** Frees the tables and sets the pointer to NULL; NULL is accepted.
@@ -58,7 +59,7 @@ const char *mor_units_number(const mor_units *units, const char *text, double *v
 /** Finds the dimension of a unit.
  *  @param unit      [in]      zero-terminated, as "kg/m3"; "1" for none
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when it is no unit.
- *  Threads: neither. */
+ *  Threads: as mor_units_new. */
 mor_status mor_units_dimension(mor_context *context, const mor_units *units, const char *unit,
                                mor_dimension *dimension);
 
@@ -69,7 +70,7 @@ mor_status mor_units_dimension(mor_context *context, const mor_units *units, con
  *  @param value   [out]     one number; unit: the wanted one; exact when text uses the same unit
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when text is no number with a unit of that dimension: the message tells what of
  *  it is wrong, for a message that already shows the text. MOR_ERROR_INTERNAL when the wanted unit itself is none.
- *  Threads: neither. */
+ *  Threads: as mor_units_new. */
 mor_status mor_units_convert(mor_context *context, const mor_units *units, const char *text, const char *unit,
                              double *value);
 

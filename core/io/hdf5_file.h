@@ -15,7 +15,8 @@
  *  is put together in memory and written as a whole, because HDF5 cannot recover from a full disk; so it needs as much
  *  memory as it has bytes for a moment. A written file is never changed.
  *
- *  Creating or opening a file turns off HDF5's own error printing in the calling process. Not thread-safe. */
+ *  Creating or opening a file turns off HDF5's own error printing in the calling thread. Threads may work at the same
+ *  time, each on files of its own, where HDF5 is the thread-safe build, as that of Debian is. */
 
 /** Type of the numbers of an array. In memory, MOR_HDF5_FLOAT is double; the file holds single precision. */
 typedef enum mor_hdf5_kind {

@@ -4,6 +4,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/memory.h"
+#include "core/base/process_lock.h"
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -52,8 +53,10 @@ void mor_terrain_request_init(mor_terrain_request *request)
                                      .offset = {NAN, NAN, NAN}};
 }
 
+/* They belong to the process; each is added once. */
 static void register_drivers(void)
 {
+    mor_process_lock();
     GDALRegister_GTiff();
     GDALRegister_AAIGrid();
     GDALRegister_GRASSASCIIGrid();
@@ -61,6 +64,7 @@ static void register_drivers(void)
     GDALRegister_GSAG();
     GDALRegister_GSBG();
     GDALRegister_GS7BG();
+    mor_process_unlock();
 }
 
 static mor_status check_request(mor_context *context, const mor_terrain_request *request)

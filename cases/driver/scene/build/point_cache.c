@@ -133,7 +133,8 @@ static mor_status make_folder(mor_context *context, mor_point_cache *cache)
     return MOR_OK;
 }
 
-/* Two runs may find the same particles at the same time: each writes to a name of its own first. */
+/* Two runs, of one process or of two, may find the same particles at the same time: each writes to a name of its own
+ * first. */
 static mor_status write_file(mor_context *context, const mor_point_cache *cache, uint64_t hash,
                              const mor_relax_points *points)
 {
@@ -144,7 +145,7 @@ static mor_status write_file(mor_context *context, const mor_point_cache *cache,
         hash, points->n_points, points->volume, points->residual, points->n_steps, points->is_converged};
     const size_t n_bytes = file_bytes(points->n_points);
     MOR_TRY(context, name_file(context, cache, hash, path));
-    const int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)getpid());
+    const int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)gettid());
     MOR_CHECK(context, length > 0 && (size_t)length < sizeof temporary, MOR_ERROR_IO, "the path '%s' is too long",
               path);
     MOR_TRY(context, MOR_NEW(context, &bytes, (int64_t)n_bytes, "file of relaxed positions"));
@@ -168,7 +169,8 @@ static void write_points(mor_context *context, mor_point_cache *cache, uint64_t 
     }
     if (status != MOR_OK) {
         mor_context_log(context, MOR_LOG_WARNING,
-                        "relaxed particles cannot be kept for the next run: %s; MORAINE_CACHE may name another folder",
+                        "relaxed particles cannot be kept for the next run: %s; "
+                        "keep them in another folder, or nowhere",
                         context->message);
         mor_context_clear_error(context);
         cache->folder[0] = '\0';

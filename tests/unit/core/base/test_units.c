@@ -4,6 +4,7 @@
 
 #include <locale.h>
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -246,6 +247,58 @@ static void the_locale_of_the_caller_is_left_as_it_was(void **state)
     assert_ptr_equal(after, own);
 }
 
+/* ---- Threads ----------------------------------------------------------------------------------------------------- */
+
+enum { THREADS = 4, ROUNDS = 2000 };
+
+/* Conversions by one thread with tables and a context of its own. */
+typedef struct crew_member {
+    const char *text;
+    const char *unit;
+    double value;
+    int n_wrong;
+} crew_member;
+
+static void *convert_again_and_again(void *argument)
+{
+    crew_member *it = argument;
+    mor_context context;
+    mor_units *units = NULL;
+    mor_context_init(&context);
+    for (int k = 0; k < ROUNDS; ++k) {
+        double value = NAN;
+        if (k % (ROUNDS / 4) == 0) {
+            mor_units_free(&context, &units);
+            it->n_wrong += mor_units_new(&context, &units) != MOR_OK;
+        }
+        it->n_wrong += mor_units_convert(&context, units, it->text, it->unit, &value) != MOR_OK || value != it->value;
+        it->n_wrong += mor_units_convert(&context, units, "1 no_such_unit", it->unit, &value) != MOR_ERROR_ARGUMENT;
+    }
+    mor_units_free(&context, &units);
+    it->n_wrong += context.memory_bytes != 0;
+    return NULL;
+}
+
+/* UDUNITS keeps one state per process: without its lock these threads crash or read the units of one another. */
+static void threads_convert_at_the_same_time(void **state)
+{
+    (void)state;
+    crew_member crew[THREADS] = {{"5.98 MPa", "Pa", 5.98e6, 0},
+                                 {"2.5 g/cm3", "kg/m3", 2500.0, 0},
+                                 {"35 mm", "m", 0.035, 0},
+                                 {"72 km/h", "m/s", 20.0, 0}};
+    pthread_t threads[THREADS];
+    for (int k = 0; k < THREADS; ++k) {
+        assert_int_equal(pthread_create(&threads[k], NULL, convert_again_and_again, &crew[k]), 0);
+    }
+    for (int k = 0; k < THREADS; ++k) {
+        assert_int_equal(pthread_join(threads[k], NULL), 0);
+    }
+    for (int k = 0; k < THREADS; ++k) {
+        assert_int_equal(crew[k].n_wrong, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +312,7 @@ int main(void)
         cmocka_unit_test(printed_numbers_read_back_to_the_same_bits),
         cmocka_unit_test(a_decimal_comma_of_the_locale_changes_nothing),
         cmocka_unit_test(the_locale_of_the_caller_is_left_as_it_was),
+        cmocka_unit_test(threads_convert_at_the_same_time),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
