@@ -338,8 +338,8 @@ static mor_status read_newest(mor_context *context, const char *folder, file_rea
     status = read(context, previous, target);
     if (status == MOR_ERROR_IO) {
         return MOR_FAIL(context, MOR_ERROR_IO,
-                        "no checkpoint can be used: %.700s; and the one before: %.700s; run without --resume to start "
-                        "again",
+                        "no checkpoint can be used: %.700s; and the one before: %.700s; start anew without "
+                        "resuming",
                         reason, context->message);
     }
     if (status == MOR_OK && is_logged) {

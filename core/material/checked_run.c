@@ -24,6 +24,6 @@ mor_status mor_checked_report(mor_context *context, const mor_material_instance 
     }
     return MOR_FAIL(context, MOR_ERROR_PLUGIN,
                     "%s, in set '%s' at t = %.6g s; a material must keep the contract of core/material/kit/material.h. "
-                    "Mend it, and try it with: moraine check-material",
+                    "Mend it, and let the check of materials try it",
                     fault, set, time);
 }

@@ -86,7 +86,7 @@ static void full_disk_is_told_and_the_run_goes_on(void **state)
     full_disk_end(&disk);
     assert_int_equal(outcome.exit_code, 1);
     program_expect_text(outcome.errors, "check the free space");
-    program_expect_text(outcome.errors, "; then go on with the same command and --resume");
+    program_expect_text(outcome.errors, "; then resume the run");
     program_clear(&outcome);
     outcome = program_run(folder, again, 0);
     program_clear(&outcome);

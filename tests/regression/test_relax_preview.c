@@ -187,7 +187,7 @@ static void preview_draws_the_first_state_and_spares_runs(void **state)
     program_outcome outcome = program_run(folder, run, 0);
     program_clear(&outcome);
     outcome = program_run(folder, over, 2);
-    program_expect_text(outcome.errors, "already holds a run; choose another folder with -o");
+    program_expect_text(outcome.errors, "already holds a run; choose another folder");
     program_clear(&outcome);
 }
 

@@ -1,7 +1,8 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
 """Refuses text that has no place in the project: missing licence tags, long lines, tabs, words of unfinished work,
-traces of one machine, and links of the documentation that lead nowhere."""
+traces of one machine, links of the documentation that lead nowhere, and options of the program in what the library
+says."""
 
 import os
 import posixpath
@@ -20,6 +21,11 @@ DELIBERATE = ("tests/regression/bad_", "tests/fuzz/corpus/")  # malformed on pur
 # The project speaks of itself alone. Paths outside it may be named in tests, which look for optional data there.
 OUTSIDE_PATHS = re.compile(r"\.\./shared\b|(?<![\w.])/root/|(?<![\w.])/home/")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b|\b(stub(bed)?|placeholders?|not (yet )?implemented|dummy value)\b")
+# A program that uses the library has no options: its messages say what to do in words of their own.
+OF_PROGRAM = ("tests/", "cases/driver/command/", "cases/driver/main.c")
+OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+|\bwith -[a-z]\b|"
+                    r"\bmoraine (?:run|render|list|check|explain|relax|preview)\b")
+STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s#]+)(?:#[^)\s]*)?\)")
 
 
@@ -49,6 +55,14 @@ def check_tag(path, text):
         yield f"{path}:1: no licence tag; begin as core/base/context.h does"
 
 
+def check_messages(path, text):
+    code = source.without_comments(text)
+    for string in STRING.finditer(code):
+        for match in OPTION.finditer(string.group(0)):
+            yield (f"{path}:{source.line_of(code, string.start())}: '{match.group(0)}' is of the program; the library "
+                   "serves other programs too: say what to do without it")
+
+
 def check_links(root, path, text):
     for match in LINK.finditer(text):
         target = match.group(1)
@@ -68,6 +82,8 @@ def check(root):
         problems.extend(check_lines(path, text))
         if path.endswith(TAGGED):
             problems.extend(check_tag(path, text))
+        if path.endswith((".c", ".h")) and not path.startswith(OF_PROGRAM):
+            problems.extend(check_messages(path, text))
         if path.endswith(".md"):
             problems.extend(check_links(root, path, text))
     return problems

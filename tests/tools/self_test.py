@@ -221,6 +221,15 @@ class Stages(Sample):
         self.write("core/base/kick.c", TAG + self.STAGE % "    double *v = soil->set.data[1];")
         self.expect(check_stages.check(self.root), "core/base/kick.c:5: 'set.data' goes past the view of a stage")
 
+    def test_what_a_stage_calls_and_other_names_of_a_set_are_held_to_the_same_rule(self):
+        helper = "static void drift(mor_view *mine,\n                  double time)\n{\n    %s\n}\n"
+        for line, found in (("double *x = group->set.data[0];", "set.data"),
+                            ("double *x = rocks->data[MOR_FIELD_POSITION];", "rocks->data[MOR_FIELD_"),
+                            ("double *x = rocks->data[it->field_rate];", "")):
+            with self.subTest(line):
+                self.write("core/base/drift.c", TAG + helper % line)
+                self.expect(check_stages.check(self.root), f"core/base/drift.c:6: '{found}")
+
 
 class Sizes(Sample):
     def write_function(self, n_lines):
@@ -287,6 +296,14 @@ class Symbols(Sample):
                      "_Thread_local int counter = 3;", 'const char *counter = "a";'):
             with self.subTest(code):
                 self.expect(self.check_code(code + "\n"), "counter", "mutable variable of file scope")
+
+    def test_the_lock_of_the_process_is_the_only_variable(self):
+        code = ("#include <pthread.h>\nstatic pthread_mutex_t {} = PTHREAD_MUTEX_INITIALIZER;\nint f(void);\n"
+                "int f(void) {{ return pthread_mutex_lock(&{}); }}\n")
+        self.expect(self.check_code(code.format("process_mutex", "process_mutex"), name="process_lock"))
+        self.expect(self.check_code(code.format("second", "second"), name="process_lock"), "second", "mutable variable")
+        os.remove(os.path.join(self.root, "libmor_core_base.a"))
+        self.expect(self.check_code(code.format("process_mutex", "process_mutex")), "part.o", "mutable variable")
 
     def test_calls_that_belong_to_the_program_are_refused(self):
         for call, reason in (("exit(1)", "ends the process"), ("abort()", "ends the process"), ('puts("a")', "prints"),
@@ -423,6 +440,14 @@ class Text(Sample):
     def refuse(self, path, text, *fragments):
         self.write(path, text)
         self.expect(check_text.check(self.root), path, *fragments)
+
+    def test_options_of_the_program_in_messages_of_the_library_are_refused(self):
+        for message, found in (("add --resume to go on", "--resume"), ("choose another one with -o", "with -o"),
+                               ("see moraine list fields", "moraine list")):
+            with self.subTest(message):
+                code = TAG + f'/* as with -o */\nconst char *const text = "{message}";\n'
+                self.write("cases/driver/command/command.c", code)
+                self.refuse("core/base/bad.c", code, ":4", f"'{found}' is of the program")
 
     def test_good_source_passes(self):
         self.expect(check_text.check(self.root))

@@ -4,6 +4,21 @@
 
 #include <unistd.h>
 
+/* How to go on, in words of the command line. */
+static void print_advice(const mor_command *command, const char *folder, mor_session_outcome outcome)
+{
+    const mor_session *session = command->session;
+    const bool is_at_end = mor_session_time(session) >= mor_session_end(session);
+    if (mor_session_n_sets(session) == 0) { /* it ended while the initial stress settled */
+        return;
+    }
+    if (is_at_end && outcome == MOR_SESSION_INTERRUPTED) {
+        fprintf(command->output, "'moraine render %s' draws its pictures\n", folder);
+    } else if (!is_at_end) {
+        fprintf(command->output, "go on with the same command and --resume\n");
+    }
+}
+
 static mor_status run(mor_command *command, int *exit_code)
 {
     static const int codes[] = {[MOR_SESSION_FINISHED] = MOR_EXIT_OK,
@@ -16,8 +31,9 @@ static mor_status run(mor_command *command, int *exit_code)
     MOR_TRY(command->context, mor_command_name_folder(command, "", folder));
     mor_session_set_progress(session, command->errors, isatty(fileno(command->errors)) != 0);
     MOR_TRY(command->context, mor_session_load_file(session, command->subject));
-    MOR_TRY(command->context, mor_session_run(session, command->folder != NULL ? command->folder : folder,
-                                              command->is_resume, command->stop_at, &outcome));
+    const char *chosen = command->folder != NULL ? command->folder : folder;
+    MOR_TRY(command->context, mor_session_run(session, chosen, command->is_resume, command->stop_at, &outcome));
+    print_advice(command, chosen, outcome);
     *exit_code = codes[outcome];
     return MOR_OK;
 }

@@ -170,8 +170,8 @@ mor_status mor_session_check_material(mor_session *session, const char *name, in
     *n_failed = 0;
     mor_context_clear_error(context);
     MOR_CHECK(context, material != NULL || access(name, F_OK) == 0, MOR_ERROR_CONFIG,
-              "found '%s', which is neither a material nor a file%s%s; allowed are the names that 'moraine list "
-              "materials' prints and paths of plug-ins",
+              "found '%s', which is neither a material nor a file%s%s; allowed are the names in the list of "
+              "materials and paths of plug-ins",
               name, near != NULL ? "; did you mean " : "", near != NULL ? near : "");
     MOR_TRY(context,
             material != NULL ? try_material(session, material, n_failed) : try_plugin(session, name, n_failed));

@@ -99,7 +99,7 @@ static mor_status shape_mesh(mor_session *session, filling *it)
         status = mor_shape_new_mesh(context, &mesh, &fineness, &it->shape);
         if (it->kind == MOR_SESSION_SIZE_OF_FILE) {
             status = mor_mesh_size_annotate_error(context, status, &mesh, 1.0, it->spacing,
-                                                  "give its size in meters with --length or --diameter");
+                                                  "give its length or its equivalent diameter in meters");
         }
         status = annotate_input_error(context, status, "");
     }
@@ -303,7 +303,7 @@ static mor_status fill_shape(mor_session *session, filling *it)
 static mor_status write_results(mor_session *session, const filling *it, const char *folder)
 {
     char images[MOR_PATH_BYTES];
-    MOR_TRY(&session->context, mor_run_folder_refuse_run(&session->context, folder, "choose another folder with -o"));
+    MOR_TRY(&session->context, mor_run_folder_refuse_run(&session->context, folder, "choose another folder"));
     MOR_TRY(&session->context, mor_durable_file_join(&session->context, images, folder, "images"));
     MOR_TRY(&session->context, mor_run_folder_make(&session->context, images));
     MOR_TRY(&session->context, write_table(session, it, folder));

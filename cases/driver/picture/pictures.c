@@ -65,8 +65,8 @@ mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, mo
     mor_picture_color_names(names);
     MOR_CHECK(context, is_found, MOR_ERROR_CONFIG,
               "%s: found output.color = \"%s\", which is no number or vector of the snapshots of %s; allowed: %s (of "
-              "stress only where there is stress) and the fields of 1 or 3 components that 'moraine list fields' shows "
-              "as in snapshots; use one of these",
+              "stress only where there is stress) and the fields of 1 or 3 components that the list of fields shows as "
+              "in snapshots; use one of these",
               the_case->path, color.name, has_soil ? "the soil" : "the bodies", names);
     return MOR_OK;
 }
@@ -185,7 +185,7 @@ static mor_status read_layers(mor_context *context, gallery *g, const mor_snapsh
     }
     MOR_CHECK(context, g->unit != NULL, MOR_ERROR_CONFIG,
               "the snapshots of %s have no field '%s' of 1 or 3 components to color by; allowed are the output fields "
-              "that 'moraine list fields' prints; change 'color' in the group 'output'",
+              "of the list of fields; change 'color' in the group 'output'",
               g->has_soil ? "the soil" : "the bodies", g->color.field);
     return MOR_OK;
 }

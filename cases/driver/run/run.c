@@ -308,8 +308,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     warn_of_speed(context, s, p); /* of this part of the run: one that goes on begins anew */
     if (!outcome->is_finished) {
         outcome->is_interrupted = mor_stop_is_requested(options->stop);
-        fprintf(options->output,
-                "stopped at t = %.6g s of %.6g s, step %llu; go on with the same command and --resume\n",
+        fprintf(options->output, "stopped at t = %.6g s of %.6g s, step %llu; the run can be resumed\n",
                 mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
         return MOR_OK;
     }
@@ -321,7 +320,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
     fflush(options->output); /* a signal may end the program while it draws */
     if (mor_stop_is_requested(options->stop)) {
-        fprintf(options->output, "the run is complete; 'moraine render %s' draws its pictures\n", options->folder);
+        fprintf(options->output, "the run is complete; its pictures are not drawn\n");
     } else if (s->the_case->output.has_pictures) {
         MOR_TRY(context, mor_pictures_render(context, s->the_case, options->folder, MOR_PICTURES_KEY, options->output));
     }
@@ -334,7 +333,7 @@ static void add_advice(mor_context *context, mor_status status)
     const size_t length = strlen(context->message);
     snprintf(context->message + length, sizeof context->message - length, "%s",
              status == MOR_ERROR_NUMERIC ? "; the last checkpoint is kept"
-             : status == MOR_ERROR_IO    ? "; then go on with the same command and --resume"
+             : status == MOR_ERROR_IO    ? "; then resume the run"
                                          : "");
 }
 

@@ -85,11 +85,10 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
         return store_case(context, files, path);
     }
     mor_case_compare(files->the_case->probe_types, files->case_text, files->saved_text, &first);
-    MOR_CHECK(
-        context, !first.is_found, MOR_ERROR_CONFIG,
-        "the case '%s' with its --set values is not the one that '%s' was started with; first difference: %s, was "
-        "%s%s; resume with the same case and values, or start a new run in another folder",
-        files->the_case->path, folder, first.found, first.expected, first.reason);
+    MOR_CHECK(context, !first.is_found, MOR_ERROR_CONFIG,
+              "the case '%s' with its overrides is not the one that '%s' was started with; first difference: %s, was "
+              "%s%s; resume with the same case and values, or start a new run in another folder",
+              files->the_case->path, folder, first.found, first.expected, first.reason);
     return MOR_OK;
 }
 

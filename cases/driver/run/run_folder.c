@@ -26,9 +26,8 @@ bool mor_run_folder_has_checkpoint(mor_context *context, const char *folder)
 static mor_status make_folder(mor_context *context, const char *path)
 {
     const mor_status status = mor_durable_file_make_folder(context, path);
-    return status != MOR_ERROR_IO
-               ? status
-               : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s; choose the folder with -o", context->message);
+    return status != MOR_ERROR_IO ? status
+                                  : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s; choose another folder", context->message);
 }
 
 mor_status mor_run_folder_make(mor_context *context, const char *path)
@@ -63,8 +62,7 @@ mor_status mor_run_folder_lock(mor_context *context, const char *folder, FILE **
     if (fcntl(fileno(*log), F_OFD_SETLK, &lock) != 0) {
         fclose(*log);
         return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "another program is at work on the run in '%s'; wait for it, or choose another folder with -o",
-                        folder);
+                        "another run is at work in '%s'; wait for its end, or choose another folder", folder);
     }
     return MOR_OK;
 }

@@ -32,10 +32,11 @@ mor_status mor_run_folder_make(mor_context *context, const char *path);
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_run_folder_refuse_run(mor_context *context, const char *folder, const char *advice);
 
-/** Opens the log of a folder behind what it holds and locks the folder with it: one program at a time works there.
+/** Opens the log of a folder behind what it holds and locks the folder with it: one run at a time works there, of
+ *  this process or another.
  *  @param folder [in]   zero-terminated; there already
  *  @param log    [out]  one stream; closing it frees the lock
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when another program holds the lock; MOR_ERROR_IO. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when another run holds the lock; MOR_ERROR_IO. */
 mor_status mor_run_folder_lock(mor_context *context, const char *folder, FILE **log);
 
 #endif

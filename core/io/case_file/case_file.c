@@ -341,10 +341,11 @@ static bool is_name_byte(char c, bool is_first)
 
 static mor_status fail_key(mor_context *context, const char *setting, const char *at)
 {
-    return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "--set '%s': found the key '%.*s', not understood from '%.20s' on; allowed: key=value with a key "
-                    "such as spacing, numerics.courant or soil[0].material.density; write one of that form",
-                    setting, (int)strcspn(setting, "="), setting, at);
+    return MOR_FAIL(
+        context, MOR_ERROR_CONFIG,
+        "override '%s': found the key '%.*s', not understood from '%.20s' on; allowed: key=value with a key "
+        "such as spacing, numerics.courant or soil[0].material.density; write one of that form",
+        setting, (int)strcspn(setting, "="), setting, at);
 }
 
 static mor_case_node *find_child(mor_case_node *group, const char *name, size_t length)
@@ -372,7 +373,7 @@ static mor_status follow_name(mor_context *context, const source *from, const ch
         char path[MOR_CASE_NODE_TEXT_BYTES];
         mor_case_node_path(*node, path, sizeof path);
         return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "--set '%s': found the name '%.*s' in %s, which is no group; allowed: a name in a group%s; "
+                        "override '%s': found the name '%.*s' in %s, which is no group; allowed: a name in a group%s; "
                         "correct the key",
                         from->origin, (int)length, *at, path,
                         (*node)->kind == MOR_CASE_NODE_LIST ? ", or [0], [1], ... in a list" : "");
@@ -403,10 +404,11 @@ static mor_status follow_index(mor_context *context, const source *from, const c
         char held[MOR_CASE_NODE_TEXT_BYTES];
         mor_case_node_path(*node, path, sizeof path);
         mor_case_node_format(*node, held, sizeof held);
-        return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "--set '%s': found entry [%d] of %s, which is %s; allowed: an entry that the file has, counted "
-                        "from 0; correct the key",
-                        from->origin, index, path, held);
+        return MOR_FAIL(
+            context, MOR_ERROR_CONFIG,
+            "override '%s': found entry [%d] of %s, which is %s; allowed: an entry that the file has, counted "
+            "from 0; correct the key",
+            from->origin, index, path, held);
     }
     mor_case_node *child = (*node)->first_child;
     for (int k = 0; k < index; ++k) {
@@ -445,7 +447,7 @@ static mor_status assign_value(mor_context *context, const source *from, const c
     node->first_child = NULL;
     MOR_TRY(context, make_locale(context, &locale));
     mor_status status = MOR_OK;
-    if (mor_case_scan(context, "--set", line, length) == MOR_OK) {
+    if (mor_case_scan(context, "override", line, length) == MOR_OK) {
         config_t config;
         const bool is_one =
             parse_text(&config, line, locale) && config_setting_length(config_root_setting(&config)) == 1;
@@ -469,10 +471,10 @@ mor_status mor_case_file_set(mor_context *context, mor_case_file *file, const ch
 {
     const char *equals = strchr(setting, '=');
     MOR_CHECK(context, strlen(setting) < SETTING_BYTES_MAX, MOR_ERROR_CONFIG,
-              "--set '%.40s...': found %zu bytes; allowed: fewer than %d; put the setting into the case file", setting,
-              strlen(setting), SETTING_BYTES_MAX);
+              "override '%.40s...': found %zu bytes; allowed: fewer than %d; put the setting into the case file",
+              setting, strlen(setting), SETTING_BYTES_MAX);
     MOR_CHECK(context, equals != NULL && equals[1 + strspn(equals + 1, " \t")] != '\0', MOR_ERROR_CONFIG,
-              "--set '%s': found no %s; allowed: key=value, such as numerics.courant=0.2; add it", setting,
+              "override '%s': found no %s; allowed: key=value, such as numerics.courant=0.2; add it", setting,
               equals == NULL ? "'='" : "value after '='");
     source from = {file, NULL, false};
     MOR_TRY(context, copy_text(context, file, setting, &from.origin));

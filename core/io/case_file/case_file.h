@@ -12,7 +12,7 @@
  *  parsed and copied into the tree. Which settings exist, and their meaning, is defined elsewhere.
  *
  *  Every message has the form "place: found ...; allowed ...; do ...", where place is "file:line" (line 0: the file as
- *  a whole) or "--set 'key=value'". */
+ *  a whole) or "override 'key=value'". */
 
 enum { MOR_CASE_NODE_TEXT_BYTES = 160, MOR_CASE_PLACE_BYTES = 320 };
 
@@ -90,7 +90,7 @@ void mor_case_node_format(const mor_case_node *node, char *text, size_t text_byt
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_case_node_path(const mor_case_node *node, char *text, size_t text_bytes);
 
-/** Writes where a setting was written: "case.cfg:12" or "--set 'spacing=5 mm'".
+/** Writes where a setting was written: "case.cfg:12" or "override 'spacing=5 mm'".
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0 */
 void mor_case_node_place(const mor_case_node *node, char *text, size_t text_bytes);

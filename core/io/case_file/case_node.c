@@ -78,7 +78,7 @@ void mor_case_node_path(const mor_case_node *node, char *text, size_t text_bytes
 void mor_case_node_place(const mor_case_node *node, char *text, size_t text_bytes)
 {
     if (node->line == 0 && node->parent != NULL) {
-        snprintf(text, text_bytes, "--set '%s'", node->origin);
+        snprintf(text, text_bytes, "override '%s'", node->origin);
     } else {
         snprintf(text, text_bytes, "%s:%d", node->origin, node->line);
     }

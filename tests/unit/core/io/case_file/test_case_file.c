@@ -292,7 +292,7 @@ static void a_setting_may_add_what_the_file_lacks(void **state)
     assert_int_equal(h->n_children, 2);
     assert_int_equal(mor_case_node_find(h, "c")->integer, 2);
     mor_case_node_place(mor_case_node_find(h, "d"), place, sizeof place);
-    assert_string_equal(place, "--set 'g.h.d=3'");
+    assert_string_equal(place, "override 'g.h.d=3'");
     mor_case_node_place(mor_case_node_find(root, "a"), place, sizeof place);
     assert_string_equal(place, "a.cfg:1");
 }
@@ -322,12 +322,12 @@ static void a_setting_that_fits_nothing_is_refused(void **state)
     (void)parse(f, "a = 1; g = { b = 2; }; l = ( 1, 2 );");
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         char start[PATH_BYTES];
-        snprintf(start, sizeof start, "--set '%s': found", rows[k].setting);
+        snprintf(start, sizeof start, "override '%s': found", rows[k].setting);
         expect_refusal(f, mor_case_file_set(&f->context, f->file, rows[k].setting), start, rows[k].fragment);
     }
     char long_setting[5000] = "a=";
     memset(long_setting + 2, 'x', sizeof long_setting - 3);
-    expect_refusal(f, mor_case_file_set(&f->context, f->file, long_setting), "--set 'a=xxx", "fewer than 4096");
+    expect_refusal(f, mor_case_file_set(&f->context, f->file, long_setting), "override 'a=xxx", "fewer than 4096");
 }
 
 static void a_decimal_comma_of_the_locale_changes_nothing(void **state)

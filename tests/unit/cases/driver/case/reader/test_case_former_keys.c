@@ -93,7 +93,7 @@ static void a_former_name_works_on_the_command_line(void **state)
     const char *const settings[] = {"placement.move=(0.4, 0.5)", NULL};
     note it = read_text(f, HEAD PLACEMENT("translation = (7, 7);") SOIL("translation"), settings, &f->first);
     assert_int_equal(it.n_lines, 1);
-    assert_non_null(strstr(it.last, "--set 'placement.move=(0.4, 0.5)'"));
+    assert_non_null(strstr(it.last, "override 'placement.move=(0.4, 0.5)'"));
     assert_true(f->first.translation[0] == 0.4 && f->first.translation[1] == 0.5); /* the setting, not the file */
     const char *const renamed[] = {"placement.translation=(0.4, 0.5)", NULL};
     it = read_text(f, HEAD PLACEMENT("move = (7, 7);") SOIL("translation"), renamed, &f->second);

@@ -198,11 +198,11 @@ static void settings_of_the_command_line_win(void **state)
     const double angle = f->first.soils[0].parameters[mor_params_find(schema, "friction_angle")];
     assert_true(fabs(angle - 40.0 * MOR_PI / 180.0) < 2e-16); /* two roundings */
     case_reading_refuse(f, full_text, (const char *[]){"spacing=5 kg", NULL},
-                        "--set 'spacing=5 kg': found spacing = \"5 kg\"", "allowed: > 0 m");
+                        "override 'spacing=5 kg': found spacing = \"5 kg\"", "allowed: > 0 m");
     case_reading_refuse(f, full_text, (const char *[]){"numerics.corant=1", NULL},
-                        "--set 'numerics.corant=1': found the unknown", "did you mean 'courant'?");
+                        "override 'numerics.corant=1': found the unknown", "did you mean 'courant'?");
     case_reading_refuse(f, full_text, (const char *[]){"soil[7].name=x", NULL},
-                        "--set 'soil[7].name=x': found entry [7]", "allowed");
+                        "override 'soil[7].name=x': found entry [7]", "allowed");
 }
 
 static void the_unit_of_an_energy_depends_on_the_dimension(void **state)
@@ -213,7 +213,7 @@ static void the_unit_of_an_energy_depends_on_the_dimension(void **state)
     case_reading_read(f, least_text, plane, &f->first);
     assert_true(f->first.expectations[0].value == 2000.0); /* exact */
     plane[1] = "expect=( { probe = \"kinetic_energy\"; value = \"2 kJ\"; tolerance = 0.1; } )";
-    case_reading_refuse(f, least_text, plane, "--set 'expect=", "converts to J/m");
+    case_reading_refuse(f, least_text, plane, "override 'expect=", "converts to J/m");
 }
 
 static void what_belongs_together_is_demanded_together(void **state)

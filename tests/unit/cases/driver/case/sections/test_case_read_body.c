@@ -221,7 +221,7 @@ static void what_has_no_effect_on_a_body_is_refused(void **state)
         {"bodies[3].start.speed=1", "found 'speed', which has no effect with this type of start"},
         {"bodies[4].start.rate=1", "allowed: with type = \"twist\""},
         {"bodies[3].start.direction=(0, 1, 0)", "allowed: with type = \"cantilever\""}};
-    refuse_all(*state, rocks_text, "--set", rows, sizeof rows / sizeof rows[0]);
+    refuse_all(*state, rocks_text, "override", rows, sizeof rows / sizeof rows[0]);
     case_reading_refuse(*state, rocks_text, (const char *[]){"bodies[4].start.type=uniform", NULL}, "t.cfg:29",
                         "found 'axis', which has no effect with this type of start");
 }
@@ -251,7 +251,7 @@ static void what_makes_no_body_is_refused(void **state)
         {"bodies[0].shape={ type = \"polygon\"; points = ((0, 0), (1, 0), (0, 1)); }", "unbounded along z"},
         {"bodies[0].name=a_name_of_forty_eight_bytes_is_one_byte_too_long_", "fewer than 48"},
         {"walls[0].name=a_name_of_forty_eight_bytes_is_one_byte_too_long_", "fewer than 48"}};
-    refuse_all(*state, rocks_text, "--set", rows, sizeof rows / sizeof rows[0]);
+    refuse_all(*state, rocks_text, "override", rows, sizeof rows / sizeof rows[0]);
     case_reading_refuse(*state, rocks_text,
                         (const char *[]){"bodies[1].spring.stiffness=0", "bodies[1].spring.damping=0", NULL},
                         "t.cfg:18", "found a spring of stiffness 0 and damping 0");
@@ -288,11 +288,11 @@ static void bodies_stay_in_the_plane(void **state)
         {"numerics.barrier_stiffness=1 N/m", "converts to N/m2"},
         {"bodies[1].start.direction=(0, 0, 1)", "found direction with a component along z"},
         {"probes[0].direction=(1, 0, 0)", "found direction with a component in the plane"}};
-    refuse_all(*state, plane_text, "--set", rows, sizeof rows / sizeof rows[0]);
+    refuse_all(*state, plane_text, "override", rows, sizeof rows / sizeof rows[0]);
     case_reading_refuse(
         *state, plane_text,
-        (const char *[]){"bodies[1].start={ type = \"twist\"; axis = (1, 0); length = 1; rate = 1; }", NULL}, "--set",
-        "found a twist in plane strain");
+        (const char *[]){"bodies[1].start={ type = \"twist\"; axis = (1, 0); length = 1; rate = 1; }", NULL},
+        "override", "found a twist in plane strain");
 }
 
 static void a_probe_of_what_is_not_there_is_refused(void **state)
@@ -309,10 +309,10 @@ static void a_probe_of_what_is_not_there_is_refused(void **state)
         {"probes=( { type = \"body_velocity\"; direction = (0, 1); } )", "found no 'body'"},
         {"probes=( { type = \"body_velocity\"; body = \"wheel\"; } )", "found no 'direction'"},
         {"probes=( { type = \"contact_energy\"; body = \"wheel\"; } )", "'body', which has no effect"}};
-    refuse_all(f, plane_text, "--set", without_soil, sizeof without_soil / sizeof without_soil[0]);
+    refuse_all(f, plane_text, "override", without_soil, sizeof without_soil / sizeof without_soil[0]);
     case_reading_refuse(f, rocks_text,
                         (const char *[]){"probes=( { type = \"body_rotation_angle\"; body = \"mill\"; } )", NULL},
-                        "--set", "found no 'direction'");
+                        "override", "found no 'direction'");
 }
 
 static const char soil_text[] =

@@ -124,8 +124,8 @@ static void a_barrier_beyond_the_kernel_is_refused(void **state)
 {
     case_reading *f = *state;
     case_reading_refuse(f, soil_text,
-                        (const char *[]){"numerics.barrier_stiffness=1e6", "numerics.barrier_radius=3", NULL}, "--set",
-                        "found numerics.barrier_radius = 3 m; allowed: up to the support of the kernel");
+                        (const char *[]){"numerics.barrier_stiffness=1e6", "numerics.barrier_radius=3", NULL},
+                        "override", "found numerics.barrier_radius = 3 m; allowed: up to the support of the kernel");
 }
 
 int main(void)
