@@ -35,11 +35,14 @@
  *      }
  *
  *  Errors are values: every function that can fail returns a mor_status, and mor_session_message says what was found,
- *  what is allowed and what to do; what is wrong in a case is told with file and line. The library never ends the
- *  process, prints only to streams that it was given, and does not read the environment. A program may have many
- *  sessions, of which one is at work at a time; it computes with as many threads as it is told. Results do not depend
- *  on their number. Signals and the locale are left alone. Numbers are in SI units; stress is positive in
- *  tension. */
+ *  what is allowed and what to do; what is wrong in a case is told with file and line. Below, "Returns:" lists what a
+ *  correct call can meet; any function may return MOR_ERROR_INTERNAL, which is a defect of the library. The library
+ *  never ends the process, prints only to streams that it was given, and does not read the environment.
+ *
+ *  A program may have many sessions, and each thread may work with one of its own at the same time; a session belongs
+ *  to one thread at a time. Each computes with as many threads as it is told; results do not depend on their number.
+ *  The guide says what else a process shares. Signals and the locale are left alone. Numbers are in SI units; stress
+ *  is positive in tension. */
 
 #ifdef __cplusplus
 extern "C" {
@@ -106,7 +109,8 @@ void mor_session_set_command(mor_session *session, const char *command);
 
 /** Adds a material law, which cases that are loaded afterwards may name.
  *  @param material [in]  borrowed, outlives the session; see core/material/kit/material.h
- *  Returns: MOR_OK; MOR_ERROR_PLUGIN when the descriptor is wrong or another law has its name; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK, also when it is there already; MOR_ERROR_PLUGIN when the descriptor is wrong or another law has its
+ *  name; MOR_ERROR_MEMORY. */
 mor_status mor_session_add_material(mor_session *session, const struct mor_material *material);
 
 /** Adds the laws of a plug-in, which stays loaded as long as the session.
@@ -115,7 +119,7 @@ mor_status mor_session_add_material(mor_session *session, const struct mor_mater
  *  MOR_ERROR_ARGUMENT beyond 16 plug-ins; MOR_ERROR_MEMORY. */
 mor_status mor_session_add_plugin(mor_session *session, const char *path);
 
-/* ---- Stopping: may be called from another thread or a signal handler while a function below runs ----------------- */
+/* ---- Stopping ---------------------------------------------------------------------------------------------------- */
 
 /** What a session is at. */
 typedef enum mor_session_phase {
@@ -124,30 +128,36 @@ typedef enum mor_session_phase {
     MOR_SESSION_WRITING   /* files of a run: they are finished */
 } mor_session_phase;
 
-/** Asks what runs to end in an orderly way: settling, stepping and running end after the step at hand. The request
- *  stays until mor_session_clear_stop. Async-signal-safe. */
+/** Asks what runs to end in an orderly way: stepping and running end after the step at hand, settling after a few. The
+ *  request stays until mor_session_clear_stop. This function and the three below may be called at any time while the
+ *  session lives, from a signal handler or from another thread, also while another function works with the session:
+ *  what they touch is atomic and free of locks. */
 void mor_session_request_stop(mor_session *session);
 
-/** Takes the request back. */
+/** Takes the request back. As mor_session_request_stop. */
 void mor_session_clear_stop(mor_session *session);
 
-/** Whether a stop is requested. Async-signal-safe. */
+/** Whether a stop is requested. As mor_session_request_stop. */
 bool mor_session_is_stopping(const mor_session *session);
 
-/** Returns what the session is at. Async-signal-safe. */
+/** Returns what the session is at. As mor_session_request_stop. */
 mor_session_phase mor_session_find_phase(const mor_session *session);
 
 /* ---- A case ------------------------------------------------------------------------------------------------------ */
 
-/** Overrides a key of the cases that are loaded afterwards, as --set of the program does.
+/** Overrides a key of the cases that are loaded afterwards, as --set of the program does, until
+ *  mor_session_clear_overrides. Which keys there are depends on the case: a wrong one is found by loading, and named.
  *  @param setting [in]  zero-terminated "key=value", as "soil[0].material.cohesion=1 kPa"; copied
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT beyond 256 of them; MOR_ERROR_MEMORY. A wrong key is found by loading. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT beyond 256 of them; MOR_ERROR_MEMORY. */
 mor_status mor_session_override(mor_session *session, const char *setting);
 
-/** Reads a case file, in place of the case before.
+/** Forgets all overrides, a wrong one among them. A case that is loaded keeps its values. */
+void mor_session_clear_overrides(mor_session *session);
+
+/** Reads a case file, in place of the case before. After a failure no case is loaded; the session is as good as new.
  *  @param path [in]  zero-terminated
- *  Returns: MOR_OK; MOR_ERROR_CONFIG with a message "file:line: found ...; allowed ...; do ..."; MOR_ERROR_IO;
- *  MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG, with a message "file:line: found ...; allowed ...; do ...", also for files that
+ *  cannot be read; MOR_ERROR_IO when the tables of units are missing; MOR_ERROR_MEMORY. */
 mor_status mor_session_load_file(mor_session *session, const char *path);
 
 /** Reads a case from memory, in place of the case before.
@@ -158,27 +168,30 @@ mor_status mor_session_load_file(mor_session *session, const char *path);
 mor_status mor_session_load_text(mor_session *session, const char *name, const char *text);
 
 /** Builds the case that was loaded: particles, walls, bodies, initial stress; checks that pictures can be colored.
+ *  After a failure the case is loaded still.
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line; MOR_ERROR_ARGUMENT when no case is loaded or one is built
  *  already; MOR_ERROR_MEMORY. */
 mor_status mor_session_build(mor_session *session);
 
 /** Brings the soil to rest where the case asks for it, logs what the method cannot resolve, and records the energy at
- *  the start. To be called once between building and the first step, unless a state is resumed.
- *  Returns: MOR_OK; MOR_NOT_CONVERGED when the soil does not come to rest, or a stop was requested: the session then is
- *  to be built anew; MOR_ERROR_ARGUMENT when nothing is built; what a step returns. */
+ *  the start. To be called once between building and the first step, unless a state is resumed. After a failure the
+ *  case is to be built anew, but for MOR_ERROR_ARGUMENT.
+ *  Returns: MOR_OK; MOR_NOT_CONVERGED when the soil does not come to rest, or a stop was requested; MOR_ERROR_ARGUMENT
+ *  unless the case is built and neither settled nor resumed; what a step returns. */
 mor_status mor_session_settle(mor_session *session);
 
 /** Takes the next step of a run: not beyond its next snapshot nor its end. Stepping to the end computes, bit for bit,
  *  the state that mor_session_run computes. Statistics of probes that are measured at an interval of steps are those of
  *  these steps; a run adds the times of its rows.
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT before settling and at the end of the case; MOR_ERROR_NUMERIC when the
- *  computation broke down: the state is then worthless, and the case is to be built anew. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT before settling and at the end of the case. After any other status the state is
+ *  worthless, probes tell what was measured last, and the case is to be loaded anew: MOR_ERROR_NUMERIC when the
+ *  computation broke down; MOR_ERROR_PLUGIN when a law did, in a checked build; MOR_ERROR_MEMORY. */
 mor_status mor_session_step(mor_session *session);
 
 /** Steps until a time is reached, exactly: the last step is cut there, which a run would not have done, unless a
  *  snapshot or the end falls on it. A requested stop ends it earlier.
- *  @param time [in]  unit s; not before the present one, not beyond the end of the case
- *  Returns: as mor_session_step. */
+ *  @param time [in]  unit s; not before the present one, not beyond the end of the case, else MOR_ERROR_ARGUMENT
+ *  Returns: MOR_OK, also when it was stopped; as mor_session_step. */
 mor_status mor_session_step_to(mor_session *session, double time);
 
 /** Returns the present time, unit s; 0 before building. */
@@ -207,7 +220,7 @@ const char *mor_session_probe_name(const mor_session *session, int index);
  *  @param value [out]  one number, in the unit told; NaN where there is nothing to measure
  *  @param unit  [out]  one pointer to a static string, as "m"; NULL: not wanted
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a name that the case does not have, with those that it has, or before
- *  settling; what the measurement returns. */
+ *  settling; MOR_ERROR_MEMORY. */
 mor_status mor_session_read_probe(mor_session *session, const char *name, double *value, const char **unit);
 
 /** Returns the number of particle sets: the soil, named "soil", and groups of bodies; 0 before building. */
@@ -231,7 +244,8 @@ int mor_session_n_fields(const mor_session *session, const char *set);
  *  @param name         [out]  one pointer; zero-terminated, owned by the session
  *  @param n_components [out]  one number; 1 scalar, 3 vector, 6 symmetric tensor (xx, yy, zz, xy, yz, zx), 9 matrix
  *  @param unit         [out]  one pointer; zero-terminated, owned by the session
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an unknown set, with those that there are, for an index out of range and
+ *  before building. */
 mor_status mor_session_describe_field(mor_session *session, const char *set, int index, const char **name,
                                       int *n_components, const char **unit);
 
@@ -240,8 +254,8 @@ mor_status mor_session_describe_field(mor_session *session, const char *set, int
  *  @param field    [in]   zero-terminated name, as "velocity"
  *  @param values   [out]  shape [n_particles, n_components]; unit: of the field
  *  @param capacity [in]   numbers that values has room for
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an unknown name, with those that there are, and for too little room;
- *  MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for an unknown name, with those that there are, for too little room and before
+ *  building; MOR_ERROR_MEMORY. */
 mor_status mor_session_read_field(mor_session *session, const char *set, const char *field, double *values,
                                   int64_t capacity);
 
@@ -260,10 +274,13 @@ mor_status mor_session_read_numbers(mor_session *session, const char *set, int64
  *  one that another program is at work in, and for a folder that cannot be made; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_save(mor_session *session, const char *folder);
 
-/** Takes up the newest state of a folder, in place of settling: stepping then gives the bits it would have given.
+/** Takes up the newest state of a folder, in place of settling: stepping then gives the bits it would have given. After
+ *  a failure the case is built still, and may be settled or resumed from another folder, unless the state itself was at
+ *  fault: then it is to be built anew, and mor_session_n_sets is 0.
  *  @param folder [in]  zero-terminated; written by mor_session_save, mor_session_run or the program
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for the state of another case, naming the first difference; MOR_ERROR_IO when
- *  there is none; MOR_ERROR_ARGUMENT when nothing is built or stepping has begun; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for the state of another case, naming the first difference, or one beyond the end
+ *  of the case; MOR_ERROR_IO when there is none, or it is damaged; MOR_ERROR_UNSUPPORTED for one of another version of
+ *  the library; MOR_ERROR_ARGUMENT unless the case is built and neither settled nor resumed; MOR_ERROR_MEMORY. */
 mor_status mor_session_resume(mor_session *session, const char *folder);
 
 /** How a run went. */
@@ -276,36 +293,45 @@ typedef enum mor_session_outcome {
 
 /** Computes the case that was loaded to its end, as the program does: builds and settles it, and writes snapshots,
  *  series, checkpoints, summary and pictures into a folder. Then only results can be read; load again for more. A run
- *  that was refused, or ended before its first step, has none and leaves the session without a case.
+ *  that was refused, or ended before its first row, has no results: the case is loaded still, and may be run into
+ *  another folder. A case that cannot be built leaves no new folder behind.
  *  @param folder    [in]   zero-terminated; made when missing
  *  @param is_resume [in]   go on from the folder's checkpoint; else a folder that holds a run is refused
  *  @param stop_time [in]   stop with a checkpoint at the first step at or after this time, unit s; NaN: at the end
  *  @param outcome   [out]  one word
- *  Returns: MOR_OK, also when stopped; MOR_ERROR_ARGUMENT when no case is loaded, or it is built already;
- *  MOR_ERROR_CONFIG; MOR_ERROR_NUMERIC when the computation broke down: results of the last finished step are written;
- *  MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK, also when stopped, interrupted, or an expectation was missed; MOR_ERROR_ARGUMENT when no case is
+ *  loaded, or it is built already; MOR_ERROR_CONFIG for a case that cannot be built, and for a folder that cannot be
+ *  made, holds a run, is resumed with another case or is in use by another run; MOR_NOT_CONVERGED when the soil does
+ *  not come to rest: pictures of it are in the folder; MOR_ERROR_NUMERIC when the computation broke down,
+ *  MOR_ERROR_PLUGIN when a law did, in a checked build: results of the last finished step are written; MOR_ERROR_IO;
+ *  MOR_ERROR_UNSUPPORTED for a checkpoint of another version of the library; MOR_ERROR_MEMORY. */
 mor_status mor_session_run(mor_session *session, const char *folder, bool is_resume, double stop_time,
                            mor_session_outcome *outcome);
 
 /** Writes the state that was built as a snapshot into a folder and draws it; prints the paths.
  *  @param folder [in]  zero-terminated; made when missing; one that holds a run is refused
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when nothing is built; MOR_ERROR_CONFIG; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT unless the case is built and neither settled nor resumed; MOR_ERROR_CONFIG for a
+ *  folder that holds a run or cannot be made; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_preview(mor_session *session, const char *folder);
 
-/** Draws all snapshots and the series of the folder of a run, whose case is loaded, with overrides; prints the paths.
+/** Draws all snapshots and the series of the folder of a run, whose case is loaded in place of the case before, with
+ *  overrides; prints the paths. The case before stays when the folder is refused.
  *  @param folder [in]  zero-terminated
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when it is not the folder of a run; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when it is not the folder of a run, or a color is no field of it; as
+ *  mor_session_load_file; MOR_ERROR_IO. */
 mor_status mor_session_render(mor_session *session, const char *folder);
 
 /* ---- Reports: printed to the stream of mor_session_set_output ---------------------------------------------------- */
 
 /** Prints how many particles, bodies, walls and probes were built, and warns of what the method cannot resolve.
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when nothing is built; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT unless the case is built and neither settled nor resumed; MOR_ERROR_MEMORY. */
 mor_status mor_session_print_check(mor_session *session);
 
 /** Prints what a run would do: sizes, clocks, memory, time, warnings, stages. Takes a few steps to measure the speed;
- *  the case is to be built anew afterwards.
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT unless the case is built and not settled; what a step returns. */
+ *  the case is to be built anew afterwards, but for MOR_ERROR_ARGUMENT.
+ *  Returns: MOR_OK, also when one of these steps breaks down, which is printed; MOR_ERROR_ARGUMENT unless the case is
+ *  built and neither settled nor resumed; MOR_ERROR_PLUGIN when a law breaks its contract, in a checked build;
+ *  MOR_ERROR_MEMORY. */
 mor_status mor_session_explain(mor_session *session);
 
 /** Returns the name of a list, a static string; NULL behind the last one.
@@ -313,14 +339,16 @@ mor_status mor_session_explain(mor_session *session);
 const char *mor_list_name(int index);
 
 /** Prints a list: materials (with those added), probes, fields, stages, shapes or keys of a case.
- *  @param name [in]  zero-terminated; one of mor_list_name
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+ *  @param name [in]  zero-terminated; one of mor_list_name, else MOR_ERROR_ARGUMENT
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_IO when the stream refuses; MOR_ERROR_MEMORY. */
 mor_status mor_session_print_list(mor_session *session, const char *name);
 
 /** Tries the laws of mechanics on a material and prints a table of them.
  *  @param name     [in]   zero-terminated; of a material, or of the file of a plug-in
  *  @param n_failed [out]  one number; laws that do not hold
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when it is neither; as mor_session_add_plugin. */
+ *  Returns: MOR_OK, whatever the laws say; MOR_ERROR_CONFIG when it is neither; MOR_ERROR_PLUGIN when the file is no
+ *  plug-in or its descriptor is wrong; MOR_ERROR_ARGUMENT when no parameters can be found that the law accepts;
+ *  MOR_ERROR_MEMORY. */
 mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed);
 
 /** Which length or volume of a mesh is given. */
@@ -339,7 +367,9 @@ typedef enum mor_session_size {
  *  @param kind    [in]  what size is
  *  @param size    [in]  that the mesh is scaled to, > 0; unit of kind; of no meaning with MOR_SESSION_SIZE_OF_FILE
  *  @param folder  [in]  zero-terminated; made when missing; one that holds a run is refused
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for a file that cannot be used; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a spacing, size or kind out of range; MOR_ERROR_CONFIG for a file that
+ *  cannot be used, and for a folder that holds a run or cannot be made; MOR_ERROR_IO when results cannot be written;
+ *  MOR_ERROR_MEMORY. */
 mor_status mor_session_relax(mor_session *session, const char *path, double spacing, mor_session_size kind, double size,
                              const char *folder);
 

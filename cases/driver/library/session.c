@@ -67,9 +67,7 @@ void mor_session_free(mor_session **session)
     for (int k = 0; k < it->n_plugins; ++k) {
         mor_plugin_unload(&it->context, &it->plugins[k]);
     }
-    for (int k = 0; k < it->n_overrides; ++k) {
-        MOR_FREE(&it->context, &it->overrides[k]);
-    }
+    mor_session_clear_overrides(it);
     if (it->silence != NULL) {
         fclose(it->silence);
     }
@@ -192,6 +190,13 @@ mor_status mor_session_override(mor_session *session, const char *setting)
     memcpy(copy, setting, n_bytes);
     session->overrides[session->n_overrides++] = copy;
     return MOR_OK;
+}
+
+void mor_session_clear_overrides(mor_session *session)
+{
+    while (session->n_overrides > 0) {
+        MOR_FREE(&session->context, &session->overrides[--session->n_overrides]);
+    }
 }
 
 mor_status mor_session_add_material(mor_session *session, const struct mor_material *material)

@@ -39,6 +39,15 @@ mor_status mor_session_resume(mor_session *session, const char *folder)
     return MOR_OK;
 }
 
+/* The case stays loaded: another folder, or another try, may do. */
+static void withdraw_run(mor_session *session)
+{
+    mor_session_clear_simulation(session);
+    if (mor_run_files_withdraw(&session->context, &session->files) != MOR_OK) {
+        mor_session_clear_case(session);
+    }
+}
+
 mor_status mor_session_run(mor_session *session, const char *folder, bool is_resume, double stop_time,
                            mor_session_outcome *outcome)
 {
@@ -48,13 +57,13 @@ mor_status mor_session_run(mor_session *session, const char *folder, bool is_res
     mor_session_set_folder(session, folder, is_resume);
     session->options.stop_at = stop_time;
     const mor_status status = mor_run(context, &session->files, session->registry, &found);
-    const bool has_results = session->files.series.stream != NULL;
-    mor_run_files_close(context, &session->files);
-    memset(&session->files, 0, sizeof session->files);
-    session->is_failed = status != MOR_OK;
-    session->stage = MOR_SESSION_ENDED;
-    if (!has_results) { /* refused, or ended while it settled */
-        mor_session_clear_case(session);
+    if (session->files.series.stream == NULL) { /* refused, or ended while it settled */
+        withdraw_run(session);
+    } else {
+        mor_run_files_close(context, &session->files);
+        memset(&session->files, 0, sizeof session->files);
+        session->is_failed = status != MOR_OK;
+        session->stage = MOR_SESSION_ENDED;
     }
     *outcome = found.is_interrupted ? MOR_SESSION_INTERRUPTED
                : found.n_missed > 0 ? MOR_SESSION_MISSED
@@ -71,7 +80,7 @@ mor_status mor_session_preview(mor_session *session, const char *folder)
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     const int n_sets = mor_simulation_sets(&session->simulation, false, sets);
-    MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder with -o"));
+    MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
     MOR_TRY(context, mor_durable_file_join(context, images, folder, "images"));
     MOR_TRY(context, mor_run_folder_make(context, images));
     MOR_TRY(context, mor_session_write_snapshot(session, folder, sets, n_sets));
@@ -99,9 +108,7 @@ mor_status mor_session_render(mor_session *session, const char *folder)
     mor_context_clear_error(context);
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_RUN_CASE_FILE));
     MOR_CHECK(context, access(path, R_OK) == 0, MOR_ERROR_CONFIG,
-              "'%s' is not the folder of a run: it holds no case.resolved.cfg; give the folder that 'moraine run' "
-              "wrote",
-              folder);
+              "'%s' is not the folder of a run: it holds no case.resolved.cfg; give a folder that a run wrote", folder);
     MOR_TRY(context, mor_session_load_file(session, path));
     return mor_pictures_render(context, &session->the_case, folder, MOR_PICTURES_ALL, session->output);
 }

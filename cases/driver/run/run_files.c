@@ -56,8 +56,6 @@ static void begin_log(mor_context *context, mor_run_files *files, FILE *log)
                     options->command);
     fwrite(files->early_text, 1, files->n_early_bytes, log);
     fflush(log);
-    free(files->early_text);
-    files->early_text = NULL;
 }
 
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
@@ -65,8 +63,7 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
     char path[MOR_PATH_BYTES];
     const mor_run_options *options = files->options;
     if (!options->is_resume) {
-        MOR_TRY(context, mor_run_folder_refuse_run(context, options->folder,
-                                                   "add --resume to go on with it, or choose another folder with -o"));
+        MOR_TRY(context, mor_run_folder_refuse_run(context, options->folder, "resume it, or choose another folder"));
     }
     files->is_folder_new = access(options->folder, F_OK) != 0;
     MOR_TRY(context, mor_run_folder_make(context, options->folder));
@@ -141,18 +138,42 @@ void mor_run_files_discard(mor_context *context, mor_run_files *files)
     }
 }
 
-void mor_run_files_close(mor_context *context, mor_run_files *files)
+/* Gives the sink back. What was logged before there was a folder stays in early_text. */
+static void end_log(mor_context *context, mor_run_files *files)
 {
-    if (files->series.stream != NULL) {
-        mor_table_close(context, &files->series);
-    }
-    mor_snapshot_writer_clear(context, &files->snapshots);
     if (files->log != NULL) {
         context->log_sink = files->previous_sink;
         context->log_user = files->previous_user;
         fclose(files->log);
         files->log = NULL;
     }
+}
+
+mor_status mor_run_files_withdraw(mor_context *context, mor_run_files *files)
+{
+    end_log(context, files);
+    char *text = files->early_text;
+    const mor_run_files before = *files;
+    files->early_text = NULL;
+    mor_run_files_close(context, files);
+    const mor_status status = mor_run_files_listen(context, files);
+    if (status == MOR_OK) {
+        fwrite(text, 1, before.n_early_bytes, files->log);
+        files->the_case = before.the_case;
+        files->simulation = before.simulation;
+        files->case_hash = before.case_hash;
+    }
+    free(text);
+    return status;
+}
+
+void mor_run_files_close(mor_context *context, mor_run_files *files)
+{
+    if (files->series.stream != NULL) {
+        mor_table_close(context, &files->series);
+    }
+    mor_snapshot_writer_clear(context, &files->snapshots);
+    end_log(context, files);
     free(files->early_text);
     files->early_text = NULL;
     mor_run_warnings_clear(context, &files->warnings);

@@ -50,7 +50,7 @@ typedef struct mor_run_files {
     const mor_case *the_case;       /* borrowed */
     mor_simulation *simulation;     /* borrowed */
     FILE *log;                      /* log.txt; before it is open, early_text */
-    char *early_text;               /* lines of the log before there was a folder; NULL: written */
+    char *early_text;               /* lines of the log before there was a folder */
     size_t n_early_bytes;           /* length of early_text */
     mor_run_warnings warnings;      /* what was warned of, before a resume as well */
     mor_log_sink previous_sink;     /* where warnings and errors go as well */
@@ -103,6 +103,12 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
  *  leaves no results behind. A folder that was there before, or holds anything else, stays, as do folders above it.
  *  @param files   [in,out]  still to be closed */
 void mor_run_files_discard(mor_context *context, mor_run_files *files);
+
+/** Leaves the folder of a run that was refused, or ended before its first row: listening again, with what was collected
+ *  before, so that another folder may be opened. To be closed after a failure, too.
+ *  @param context [in,out]  keeps its last error unless this fails
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_withdraw(mor_context *context, mor_run_files *files);
 
 /** Closes everything and gives the context its sink back; accepts a zeroed object. */
 void mor_run_files_close(mor_context *context, mor_run_files *files);

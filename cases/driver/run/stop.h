@@ -3,7 +3,7 @@
 #ifndef MOR_CASES_DRIVER_RUN_STOP_H
 #define MOR_CASES_DRIVER_RUN_STOP_H
 
-#include <signal.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -18,11 +18,14 @@ enum {
     MOR_STOP_AFTER_WRITING /* files of a run: they are finished */
 };
 
-/** One program that can be stopped. Written by a signal handler and by the run. */
+/** One program that can be stopped. Written by a signal handler or another thread, and by the run: both may touch an
+ *  atomic object at any time, a handler one that needs no lock. */
 typedef struct mor_stop {
-    volatile sig_atomic_t is_requested; /* non-zero once a signal has come that did not end the program at once */
-    volatile sig_atomic_t phase;        /* one of the words above */
+    atomic_int is_requested; /* non-zero once somebody wants the run to end in an orderly way */
+    atomic_int phase;        /* one of the words above */
 } mor_stop;
+
+_Static_assert(ATOMIC_INT_LOCK_FREE == 2, "a signal handler may not wait for a lock");
 
 /** Whether a run is to stop.
  *  @param stop [in]  NULL: never */

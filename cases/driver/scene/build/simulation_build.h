@@ -6,7 +6,7 @@
 #include "cases/driver/scene/simulation.h"
 #include "relaxation/relax/lattice.h"
 
-#include <signal.h>
+#include <stdatomic.h>
 
 /** @file
  *  The composition root: a case becomes particles, walls, a material and a schedule. It runs nothing but settling and
@@ -35,7 +35,7 @@ typedef struct mor_settle_course {
 
 /** Who looks on while soil settles. */
 typedef struct mor_settle_observer {
-    const volatile sig_atomic_t *stop; /* settling ends early when it becomes non-zero; NULL: never */
+    const atomic_int *stop; /* settling ends early when it becomes non-zero; NULL: never */
     /** Called every some steps; NULL: not. */
     void (*report)(void *user, const mor_settle_course *course);
     void *user; /* handed to report */
