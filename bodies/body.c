@@ -133,7 +133,7 @@ static void find_reference(mor_body_group *group, int b)
         }
     }
     if (group->dimension == 2) {
-        /* Any length will do out of the plane, where nothing moves; this one keeps the matrix well scaled. */
+        /* Out of the plane nothing moves; this length keeps the matrix well conditioned. */
         spread[8] = 0.5 * (spread[0] + spread[4]);
     }
     mor_matrix_invert(spread, group->reference_spreads + 9 * b);
@@ -280,7 +280,8 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
-        /* The mean lags half a step behind the soil's velocities, and the lag feeds what is lighter than the soil. */
+        /* The mean lags half a step behind the velocities of the soil, which adds energy to bodies lighter than the
+         * soil. */
         const bool is_light = group->bodies[piece->body].is_light;
         double fastest = 0.0;
         for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {

@@ -30,7 +30,7 @@ typedef struct mor_body_start {
     double velocity[3];         /* of the center of mass, m/s */
     double angular_velocity[3]; /* about it, rad/s */
     bool is_resting;            /* nothing moves yet */
-    bool is_held;               /* waits where it is until it is started again: no force moves it */
+    bool is_held;               /* stays in place until it is started again: no force moves it */
     bool is_prescribed;         /* keeps these velocities, whatever the forces on it */
     /** Adds the velocity beyond a rigid motion at a reference position, shape [3], m; NULL: none. Deformable bodies. */
     void (*add_velocity)(const void *user, const double *reference, double *velocity);
@@ -39,12 +39,12 @@ typedef struct mor_body_start {
     const void *user; /* first argument of both */
 } mor_body_start;
 
-/** What a kind of body is and does. One constant table per kind, in the file of its solver; whoever else handles bodies
- *  goes through it and knows no kind. bodies/README.md says how to add one. */
+/** What a kind of body is and does. One constant table per kind, in the file of its solver; all other code calls bodies
+ *  through it and depends on no kind. bodies/README.md says how to add one. */
 typedef struct mor_body_operations {
     const char *kind; /* for people */
-    /** The surface follows the particles, which carry contact by the weights of the nodes and yield by themselves. Else
-     *  it moves as a whole, forces act on the center, and contact yields by Hertz's law. */
+    /** The surface follows the particles, which carry contact by the weights of the nodes and deform. Else it moves as
+     *  a whole, forces act on the center, and contact is compliant by Hertz's law. */
     bool is_deformable;
     /** Ends the solver and frees it, the group included; accepts one that was not finished. */
     void (*destroy)(mor_context *context, struct mor_body_group *group);
@@ -52,7 +52,8 @@ typedef struct mor_body_operations {
     void (*make_stepper)(struct mor_body_group *group, mor_stepper *stepper, uint64_t *evolving);
     /** Sets the motion of one body. Returns the particles in its clamp. */
     int64_t (*start)(struct mor_body_group *group, int body, const mor_body_start *start);
-    /** After all bodies of the group were started: makes the rest follow and lets the books begin at zero. */
+    /** After all bodies of the group were started: updates what depends on their motion and sets all energy sums to
+     *  zero. */
     mor_status (*prepare)(mor_context *context, struct mor_body_group *group);
     /** Momentum and angular momentum about the origin, shape [3] each. Returns the kinetic energy, J (J/m). */
     double (*momentum)(const struct mor_body_group *group, int body, double *momentum, double *angular_momentum);
@@ -65,7 +66,7 @@ typedef struct mor_body_operations {
     /** Energy that a body that moves as prescribed took from contact and weight up to a time, s; J (J/m). NULL: bodies
      *  of this kind do not. */
     double (*driven_energy)(const struct mor_body_group *group, int body, double time);
-    /** Writes what else is worth knowing of the group in a few words, zero-terminated; NULL: nothing. */
+    /** Writes further properties of the group for the summary, zero-terminated; NULL: nothing. */
     void (*describe)(const struct mor_body_group *group, char *text, size_t room);
 } mor_body_operations;
 
@@ -148,7 +149,7 @@ typedef struct mor_body_group {
     double damping;                              /* rate of velocity damping, for settling, 1/s */
     double domain_minimum[3], domain_maximum[3]; /* m, before the placement */
     const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither rotated nor translated */
-    /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Hung in by mor_contact_init. */
+    /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Set by mor_contact_init. */
     double (*longest_contact_step)(const void *contact, const struct mor_body_group *group);
     /** Of a checked run: shows what contact remembers. Likewise. */
     void (*visit_contact)(const void *contact, mor_shared_visit visit, void *job);
@@ -201,8 +202,8 @@ mor_status mor_body_group_init(mor_context *context, mor_body_group *group, cons
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_body_group_clear(mor_context *context, mor_body_group *group);
 
-/** Shows the soil where the particles will be in the middle of the coming common step, and remembers where they are
- *  now. Velocities stay those that the last common step ended with (at the start: the initial ones).
+/** Sets the positions that the soil sees to those in the middle of the coming common step, and stores the present ones.
+ *  Velocities stay those that the last common step ended with (at the start: the initial ones).
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);
 
@@ -211,8 +212,8 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
 
-/** Lists what every kind of body carries from step to step: the set, what the soil sees and has given. A solver adds
- *  what is its own.
+/** Lists what every kind of body carries from step to step: the set, what the soil sees, and the forces and impulses of
+ *  the soil. A solver adds its own state.
  *  @param list    [in,out]  borrows from the group
  *  Returns: as mor_state_add. */
 mor_status mor_body_group_list_state(mor_context *context, mor_body_group *group, mor_state_list *list);

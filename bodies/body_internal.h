@@ -11,7 +11,7 @@
 /** @file
  *  What the files of the bodies share among themselves. Not for others. */
 
-/** Threads of one loop; stands in for the context in MOR_PARALLEL_FOR. */
+/** Threads of one loop; used in place of the context in MOR_PARALLEL_FOR. */
 typedef struct mor_body_team {
     int n_threads;
 } mor_body_team;

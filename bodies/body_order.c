@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Which particles share a cluster. On a lattice: those of a block of 2 x 2 x 2 (4 x 2) places, always in the same
- * order, so that clusters see as few neighbors as can be and all see the same ones. What the surface cuts off from
- * blocks, and particles that are no lattice, go by a tree. */
+ * order, so that clusters see as few neighbors as can be and all see the same ones. Incomplete blocks at the surface,
+ * and particles that form no lattice, are ordered by a tree. */
 #include "bodies/body_internal.h"
 
 #include "core/base/memory.h"
@@ -12,7 +12,7 @@
 
 enum { AXIS_BITS = 21, AXIS_PLACES = 1 << AXIS_BITS };
 
-/* Something with a place in the order. */
+/* An item and its key in the order. */
 typedef struct ranked {
     uint64_t key;
     int32_t lane; /* in its block */
@@ -32,7 +32,7 @@ static int compare_ranked(const void *a, const void *b)
     return x->item < y->item ? -1 : 1;
 }
 
-/* Blocks along a curve that stays near (Morton 1966): bits of the coordinates in turn. */
+/* Key of a block along the Z-order curve (Morton 1966): interleaved bits of the coordinates. */
 static uint64_t key_of(const int64_t *block)
 {
     uint64_t key = 0;

@@ -10,11 +10,11 @@
 
 /* Lengths below are in spacings. */
 #define MERGE_DISTANCE 0.3  /* nodes nearer than this to one another become one */
-#define CELL_MISMATCH 0.05  /* particles farther than this from their lattice place are no lattice */
+#define CELL_MISMATCH 0.05  /* particles farther than this from their lattice place form no lattice */
 #define LAYER_DEPTH 1.0     /* particles of the surface layer are less deep */
 #define CORNER_DEPTH 0.45   /* without a lattice: corners of their cells that are less deep become nodes */
 #define CLOSE_ENOUGH 1.0e-9 /* a projected node lies at most so far from the zero level */
-#define FAR_OFF 0.01        /* a node that stays farther from it is given up */
+#define FAR_OFF 0.01        /* a node that stays farther from it is dropped */
 #define NORMAL_STEP 0x1p-10 /* of the differences that give a normal */
 #define BEND_STEP 0x1p-2    /* of those that give a curvature, and of the places where an edge is looked for */
 #define EDGE_REACH 1.5      /* an edge farther from a lattice corner is not its own */
@@ -32,7 +32,7 @@ typedef struct cover {
     const mor_body_group *group;
     const mor_body *body;
     double *points; /* shape [n_particles, 3], of the body's particles */
-    double base[3]; /* place of the first particle: the lattice hangs on it */
+    double base[3]; /* place of the first particle: origin of the lattice */
     int64_t low[3]; /* lattice number of cell (0, 0, 0) of the grid */
     int64_t size[3];
     int64_t n_cells;
@@ -174,7 +174,7 @@ static bool project(const cover *c, double *point)
     return fabs(gap) <= FAR_OFF * spacing;
 }
 
-/* Pulls a node to the edge or corner next to it: the place nearest to the tangent planes around it. Returns whether
+/* Moves a node to the edge or corner next to it: the place nearest to the tangent planes around it. Returns whether
  * there is one. */
 static bool sharpen(const cover *c, double *point)
 {
@@ -220,8 +220,8 @@ static bool sharpen(const cover *c, double *point)
     return false;
 }
 
-/* Makes one of a node and a point beside it. Neither counts more, so that a symmetric body has symmetric nodes; but
- * edges stay. */
+/* Merges a node and a point beside it with equal weights, so that a symmetric body has symmetric nodes; nodes on edges
+ * keep their place. */
 static void merge(const cover *c, double *node, const double *point, bool is_edge)
 {
     double middle[3] = {node[0], node[1], node[2]};
@@ -518,14 +518,13 @@ static mor_status carry_nodes(mor_context *context, mor_body_group *group, const
     return status;
 }
 
-/* Hands the nodes of a covered body on to the group, in the reference configuration. */
+/* Appends the nodes of a body to those of the group, in the reference configuration. */
 static mor_status append_nodes(mor_context *context, mor_body_group *group, mor_body *body, const cover *c)
 {
     const int64_t n = group->n_nodes + c->n_nodes;
-    MOR_CHECK(
-        context, c->n_nodes > 0, MOR_ERROR_ARGUMENT,
-        "no surface was found near the particles of body '%s'; its shape and its particles do not belong together",
-        body->name);
+    MOR_CHECK(context, c->n_nodes > 0, MOR_ERROR_ARGUMENT,
+              "no surface was found near the particles of body '%s'; its shape and its particles do not match",
+              body->name);
     MOR_TRY(context, regrow(context, &group->node_reference, 3 * group->n_nodes, 3 * n));
     MOR_TRY(context, regrow(context, &group->node_area, group->n_nodes, n));
     body->first_node = group->n_nodes;

@@ -44,8 +44,9 @@ typedef struct returned {
 } returned;
 
 /* Backward Euler on the cone: I1 falls along the flow direction, sqrt(J2) follows from the yield surface. Beyond the
- * cap (the apex when the tension ratio is 1) I1 is the cap and sqrt(J2) at most the cone's there. With no dilation
- * this is Zhang et al. (2024) eqs. 11 and 12. Selections instead of branches, so that lanes stay together. */
+ * cap (the apex when the tension ratio is 1) I1 is the cap and sqrt(J2) at most the cone's there. With no dilation this
+ * is Zhang et al. (2024) eqs. 11 and 12. Selections instead of branches, so that all lanes run the same
+ * instructions. */
 static MOR_LANES_INLINE returned map_to_cone(const drucker_prager *m, mor_symmetric trial)
 {
     const double i1 = mor_invariant_i1(trial);
@@ -76,7 +77,7 @@ static MOR_LANES_INLINE returned map_to_cone(const drucker_prager *m, mor_symmet
 
 static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block *b)
 {
-    /* A copy, so that the compiler knows that stores to the block leave it alone. */
+    /* A copy, so that the compiler can rely on it not being changed by stores to the block. */
     const drucker_prager m = *(const drucker_prager *)constants;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         const returned r = map_to_cone(&m, mor_rate_predict(m.two_shear, m.lame, b, lane));

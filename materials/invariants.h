@@ -51,7 +51,7 @@ static inline double mor_invariant_i1(mor_symmetric a)
 }
 
 /** Second invariant of the deviator, s:s/2; unit: of a, squared. Written with differences of the normal components, so
- *  that a large mean part does not spoil it. */
+ *  that a large mean part causes no cancellation. */
 static inline double mor_invariant_j2(mor_symmetric a)
 {
     const double xy = a.xx - a.yy;
@@ -86,8 +86,9 @@ static inline double mor_gradient_norm2(mor_gradient l)
 }
 
 /** Returns R a R^T with the rotation R = (I - W/2)^-1 (I + W/2), W the skew part of the gradient (Hughes and Winget
- *  (1980)); unit: of a. With w the axial vector of W/2, R = I + E, E = 2/(1 + w.w) ([w] + [w][w]); the increment
- *  E a + (E a)^T + E a E^T is added to a, so that a small turn loses no digits and none is the exact identity. */
+ *  (1980)); unit: of a. With w the axial vector of W/2, R = I + E, E = 2/(1 + w.w) ([w] + [w][w]); the increment E a +
+ *  (E a)^T + E a E^T is added to a, so that a small rotation loses no digits and zero rotation is the exact
+ *  identity. */
 static inline mor_symmetric mor_symmetric_spin(mor_symmetric a, mor_gradient l)
 {
     const double wx = 0.25 * (l.zy - l.yz);

@@ -5,7 +5,7 @@
  * W is zero without deformation. docs/theory/elastic.md. */
 #include "materials/total_lanes.h"
 
-/* Range of det F - 1 in which the series below serves; rock never leaves it. */
+/* Range of det F - 1 in which the series below is used; rock stays inside it. */
 static const double SERIES_FROM = -0.29;
 static const double SERIES_TO = 0.41;
 
@@ -34,7 +34,7 @@ static MOR_LANES_INLINE int is_in_series(double x)
     return (x > SERIES_FROM) & (x < SERIES_TO);
 }
 
-/* A lane takes the same way whatever the others do. */
+/* A lane computes the same whatever the others do. */
 static MOR_LANES_INLINE void find_logarithms(mor_total_block *b)
 {
     int n_inside = 0;

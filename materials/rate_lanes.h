@@ -161,7 +161,7 @@ static MOR_LANES_INLINE int mor_rate_check_block(mor_rate_block *b, int has_stat
 }
 
 /** Runs a law over a batch. The last block runs through the same code with empty lanes: a result must not depend on a
- *  particle's place.
+ *  particle's index.
  *  @param constants [in]      the law's
  *  @param law       [in]      the end of one block
  *  @param has_state [in]      whether the law has a state variable, which is then the first one

@@ -141,7 +141,7 @@ static MOR_LANES_INLINE int mor_total_is_valid(const mor_total_block *b)
 }
 
 /** Runs a law over a batch. The last block runs through the same code with empty lanes: a result must not depend on a
- *  particle's place.
+ *  particle's index.
  *  @param law       [in]      the stress of one block
  *  Returns: MOR_OK; as mor_total_check of the first particle whose results are not valid. */
 static MOR_LANES_INLINE mor_status mor_total_run(const mor_hooke *constants, const mor_batch *batch, mor_total_law law)

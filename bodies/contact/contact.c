@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* The surface bulges over the box of its nodes by less, in spacings. */
+/* The surface protrudes from the box of its nodes by less, in spacings. */
 #define BOX_RIM 0.3
 
 enum { BISECTIONS = 60, TOUCHES_PER_CHUNK = 16 };
@@ -21,7 +21,7 @@ static double solve_rebound(double restitution)
     if (e >= 1.0) {
         return 0.0;
     }
-    /* The left side wins for small y, the right one near 1/e. */
+    /* The left side is larger for small y, the right one near 1/e. */
     double low = 0.0;
     double high = 1.0 / e;
     for (int k = 0; k < BISECTIONS; ++k) {
@@ -195,7 +195,7 @@ static mor_status make_history(mor_context *context, mor_contact *contact)
 {
     mor_contact_work *work = contact->work;
     const mor_field_info partners = {"friction_partners", MOR_CONTACT_SLOTS, "1", MOR_FIELD_EVOLVES,
-                                     "what each surface node rubs against; 0: nothing"};
+                                     "partners of the tangential springs of each surface node; 0: none"};
     const mor_field_info springs = {"friction_springs", 3 * MOR_CONTACT_SLOTS, "m", MOR_FIELD_EVOLVES,
                                     "tangential springs of each surface node"};
     int64_t n_nodes = 0;
@@ -363,7 +363,7 @@ static mor_status find_partners(mor_context *context, void *owner, double length
                 const int t = bit_index(contact->stepper_bits[q->group_index]);
                 const int last = s > t ? s : t;
                 MOR_CHECK(context, last < n_steppers, MOR_ERROR_INTERNAL,
-                          "contact knows stepper %d, but there are only %d", last, n_steppers);
+                          "contact refers to stepper %d, but there are only %d", last, n_steppers);
                 partners[s] |= contact->stepper_bits[q->group_index];
                 partners[t] |= contact->stepper_bits[p->group_index];
             }

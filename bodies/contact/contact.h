@@ -71,7 +71,7 @@ typedef struct mor_contact {
     double *group_spring;   /* shape [n_groups]; spring energy of each at its last sub-step, J (J/m) */
     double *group_deepest;  /* shape [n_groups]; deepest penetration of each at its last sub-step, m */
     double *wall_force;     /* shape [n_groups, n_walls, 3]; of each on each wall at its last sub-step, N (N/m) */
-    mor_set history;        /* one entry per surface node of all groups: what friction remembers; its fields evolve */
+    mor_set history;        /* one entry per surface node of all groups: history of friction; its fields evolve */
     double *impacts;        /* shape [n_impacts]; impact speeds of touching pairs, m/s */
     int64_t n_impacts;
     struct mor_contact_work *work; /* lists and scratch; owned */
@@ -97,7 +97,7 @@ void mor_contact_clear(mor_context *context, mor_contact *contact);
  *  @param contact  [in]   becomes the owner */
 void mor_contact_exchange(mor_contact *contact, mor_exchange *exchange);
 
-/** Begins to count energies anew, and forgets how fast pairs came together that touch; friction springs stay. */
+/** Sets the energy sums to zero and clears the impact speeds of touching pairs; friction springs are kept. */
 void mor_contact_restart(mor_contact *contact);
 
 /** Lists what contact carries from step to step.
@@ -116,13 +116,13 @@ void mor_contact_resume(mor_contact *contact, double time);
 void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t members, double *force);
 
 /** Longest step that the normal springs of a group's bodies allow, unit s; INFINITY when none of its bodies is near
- *  another or a wall. A function of the present state alone. mor_contact_init hangs it into each group.
+ *  another or a wall. A function of the present state alone. mor_contact_init sets it in each group.
  *  @param contact [in]  a mor_contact */
 double mor_contact_longest_step(const void *contact, const mor_body_group *group);
 
 /** The same once bodies touch, unit s: no longer than the step of any one pair of them, or body and wall, in touch,
  *  however far apart they are now; INFINITY without pairs. Bodies that touch several others at once may need shorter
- *  ones. May be hung into a group in place of the above.
+ *  ones. May be set in a group in place of the above.
  *  @param contact [in]  a mor_contact */
 double mor_contact_touching_step(const void *contact, const mor_body_group *group);
 

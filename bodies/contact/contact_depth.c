@@ -14,9 +14,9 @@
 /* Share of that limit that is warned of: a tenth of a spacing. */
 #define WARNING_SHARE 0.2
 
-/* Curvature of a wall over a spacing from which on it is looked at as an edge, 1. */
+/* Curvature of a wall, times spacing, from which on it is checked for an edge, 1. */
 #define EDGE_BEND 0.05
-/* Sine of half the bend of an edge that is told of, 20 degrees; natural ground has many that bend less. */
+/* Sine of half the bend of an edge that is reported, 20 degrees; natural ground has many that bend less. */
 #define EDGE_SHARP 0.17
 
 /* Least side of the box around a body, m. */
@@ -115,12 +115,13 @@ static void warn_of_driven(mor_context *context, mor_contact *contact)
     name_side(contact, it->second, &other_kind, &other_name);
     contact->driven_share = it->depth / it->limit;
     mor_context_log(context, MOR_LOG_WARNING,
-                    "%s '%s' is driven %.3g m deep into %s '%s' at t = %.6g s; neither yields to a force, so there is "
-                    "none between them: shorten the prescribed motion if that is not meant",
+                    "%s '%s' is driven %.3g m deep into %s '%s' at t = %.6g s; forces move neither, so that no contact "
+                    "force acts between them: shorten the prescribed motion if that is not intended",
                     kind, name, it->depth, other_kind, other_name, contact->time);
 }
 
-/* Walls have no nodes: an edge of theirs that meets a body between its nodes is felt by these, along their faces. */
+/* Walls have no nodes: where an edge of a wall touches a body between its nodes, forces act at these nodes, along the
+ * faces of the wall. */
 static void warn_of_edge(mor_context *context, mor_contact *contact)
 {
     mor_contact_edge *it = &contact->work->edge;
@@ -131,12 +132,12 @@ static void warn_of_edge(mor_context *context, mor_contact *contact)
     name_side(contact, it->first, &kind, &name);
     name_side(contact, it->second, &other_kind, &other_name);
     it->is_told = true;
-    mor_context_log(
-        context, MOR_LOG_WARNING,
-        "%s '%s' touches %s '%s' at an edge or a corner, (%.4g, %.4g, %.4g) m, at t = %.6g s; walls are "
-        "felt along their faces, so that it may rebound or rotate wrongly there: use a finer spacing, or, if "
-        "'%s' lies within the domain, make it a body with motion = \"prescribed\"",
-        kind, name, other_kind, other_name, it->place[0], it->place[1], it->place[2], contact->time, other_name);
+    mor_context_log(context, MOR_LOG_WARNING,
+                    "%s '%s' touches %s '%s' at an edge or a corner, (%.4g, %.4g, %.4g) m, at t = %.6g s; contact with "
+                    "walls is computed along their faces, so that it may rebound or rotate wrongly there: use a finer "
+                    "spacing, or, if '%s' lies within the domain, make it a body with motion = \"prescribed\"",
+                    kind, name, other_kind, other_name, it->place[0], it->place[1], it->place[2], contact->time,
+                    other_name);
 }
 
 mor_status mor_contact_check_depth(mor_context *context, mor_contact *contact)

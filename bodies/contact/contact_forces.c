@@ -9,10 +9,10 @@
 
 #define STICK_DAMPING 0.2  /* damping ratio of the friction spring, 1 */
 #define DAMPING_LIMIT 0.5  /* share of a relative velocity that damping may take away in a step, 1 */
-#define KEPT_RADIANS 200.0 /* of the contact's swing in which the speed of an impact fades, 1 */
+#define KEPT_RADIANS 200.0 /* of phase of the contact's oscillation in which the stored speed of an impact decays, 1 */
 #define NODES_LIMIT 0.8    /* likewise, of any motion of a rigid body, by all its contacts together, 1 */
 
-/* What one pair needs to know while its touches become forces. The pair force acts on the first body along normal. */
+/* Sums and properties of one pair for its forces. The pair force acts on the first body along normal. */
 typedef struct pair_sums {
     const mor_contact_near *near;
     const mor_contact_law *law;
@@ -253,8 +253,7 @@ static double find_closing(mor_contact *contact, const pair_sums *sums)
     return mor_vector_dot(difference, sums->normal);
 }
 
-/* What the normal force of the whole pair gains by damping, at its center: an elastic body has no damper of its own
- * there. */
+/* Adds the damping force of the whole pair, at its center: nodes of an elastic body have no dampers of their own. */
 static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, double inverse)
 {
     const mor_contact_work *work = contact->work;
@@ -280,8 +279,8 @@ static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, do
 }
 
 /* Damped over elastic normal force of one node, 1. Of rigid sides each node on an edge is damped by its own speed of
- * closing, so that rocking dies out as bouncing does; those on a smooth surface by the mean of theirs, or what rolls
- * would be braked: it closes in front and opens behind. */
+ * closing, so that rocking decays as bouncing does; those on a smooth surface by their mean speed, else rolling would
+ * be braked: it closes in front and opens behind. */
 static double node_factor(const pair_sums *sums, const mor_contact_touch *touch)
 {
     const double closing = touch->is_followed ? sums->closing : -mor_vector_dot(touch->slip, touch->normal);
@@ -303,7 +302,7 @@ static double find_mean_closing(const mor_contact *contact, const pair_sums *sum
     return force > 0.0 ? sum / force : 0.0;
 }
 
-/* Books what damping of each node takes, with the speed in the middle of the kick as above. */
+/* Adds up the energy dissipated by damping of each node, with the speed in the middle of the kick as above. */
 static void record_nodes(mor_contact *contact, const pair_sums *sums, double inverse)
 {
     const mor_contact_work *work = contact->work;
@@ -323,8 +322,8 @@ static void record_nodes(mor_contact *contact, const pair_sums *sums, double inv
     }
 }
 
-/* What is left of the speed of an impact: of rigid sides it fades within some periods of the contact, so that what goes
- * on swinging after a hard landing is damped by its own speed. */
+/* Decay of the stored speed of an impact: between rigid sides within some periods of the contact, so that oscillations
+ * that go on after a hard landing are damped by their own speed. */
 static double keep_impact(const mor_contact *contact, const pair_sums *sums, double impact)
 {
     if (!sums->is_hertzian || !(impact > 0.0)) {
@@ -333,7 +332,8 @@ static double keep_impact(const mor_contact *contact, const pair_sums *sums, dou
     return impact * exp(-sums->length * mor_contact_frequency(contact, sums->near, impact) / KEPT_RADIANS);
 }
 
-/* Slowest impact: no faster than what a weight at rest swings with on the contact, or that would hardly be damped. */
+/* Slowest impact: no faster than the oscillation of a body at rest on the contact, which would else hardly be
+ * damped. */
 static double slowest_impact(const mor_contact *contact, const pair_sums *sums)
 {
     const double given = contact->settings.slowest_impact;
@@ -373,7 +373,7 @@ static void damp_pair(mor_contact *contact, pair_sums *sums)
         return;
     }
     const double closing = find_closing(contact, sums);
-    /* The fastest closing of an episode is its impact: a touch at rest may be hit later. */
+    /* The fastest closing during one touch is its impact: a contact at rest may be hit later. */
     *impact = fmax(keep_impact(contact, sums, *impact), fmax(closing, slowest_impact(contact, sums)));
     if (!(*impact > 0.0)) {
         return;
@@ -441,7 +441,7 @@ static void apply_tangential_force(mor_contact *contact, const pair_sums *sums, 
         rotated[a] = spring[a] - along * touch->normal[a];
         slide[a] = touch->slip[a] - off * touch->normal[a];
     }
-    /* The spring turns with the tangent plane and keeps its length. */
+    /* The spring rotates with the tangent plane and keeps its length. */
     const double rotated2 = mor_vector_dot(rotated, rotated);
     const double stretch = rotated2 > 0.0 ? sqrt(before2 / rotated2) : 0.0;
     const double damping =
@@ -508,7 +508,7 @@ static void apply_to_pair(mor_contact *contact, int k, double length)
     }
 }
 
-/* Starts the sums of the members' groups anew. */
+/* Sets the sums of the members' groups to zero. */
 static void clear_sums(mor_contact *contact, uint64_t members)
 {
     mor_contact_work *work = contact->work;
@@ -551,7 +551,7 @@ void mor_contact_add_sums(mor_contact *contact)
     }
 }
 
-/* What the members' bodies give to walls that move as prescribed. */
+/* Work of the members' bodies on walls that move as prescribed. */
 static void add_wall_energy(mor_contact *contact, uint64_t members, double length)
 {
     for (int w = 0; w < contact->n_walls; ++w) {

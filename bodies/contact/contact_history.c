@@ -68,8 +68,8 @@ static int compare_slots(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* Removes the springs of contacts that ended; those of other members' bodies stay. Energies add up by rising slot: a
- * resume knows nothing of the order in which slots came to be held. */
+/* Removes the springs of contacts that ended; those of other members' bodies stay. Energies are summed by rising slot:
+ * the order in which slots came into use is not part of the state. */
 static void release_slots(mor_contact *contact, uint64_t members)
 {
     mor_contact_work *work = contact->work;

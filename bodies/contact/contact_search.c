@@ -337,7 +337,7 @@ static mor_status grow_touches(mor_context *context, mor_contact_work *work, int
     return MOR_OK;
 }
 
-/* Lists the nodes to look at, pair by pair; pairs without any rest until their lists run out. */
+/* Lists the nodes to look at, pair by pair; pairs without any are skipped until their lists expire. */
 static mor_status list_touches(mor_context *context, mor_contact *contact)
 {
     mor_contact_work *work = contact->work;

@@ -14,7 +14,7 @@
 /* Likewise of the particles under the nodes of an elastic body: on top of the body's own waves. */
 #define LAYER_SHARE 1.0
 
-/* A pair limits the step when it could meet within so many such steps. */
+/* A pair limits the step when it could touch within so many such steps. */
 #define STEPS_AHEAD 256.0
 
 void mor_contact_find_boxes(const mor_contact *contact, double *speeds)
@@ -25,7 +25,7 @@ void mor_contact_find_boxes(const mor_contact *contact, double *speeds)
     }
 }
 
-/* Time until two bodies can meet at the earliest, at their speeds and falling. */
+/* Earliest time at which two bodies can touch, at their speeds and under gravity. */
 static double time_apart(double gap, double speed, double gravity)
 {
     return gap <= 0.0 ? 0.0 : gap / (speed + sqrt(gravity * gap));
@@ -117,7 +117,7 @@ static double find_longest(const mor_contact *contact, const mor_body_group *gro
             const double gap = is_touching ? 0.0 : mor_contact_apart(contact, first, second, work->boxes);
             longest = fmin(longest, limit_pair(contact, own, other, gap, speed, &rate2));
         }
-        /* Nobody touches all others at once. */
+        /* No body touches all others at once. */
         longest = rate2 > 0.0 && !is_touching ? fmin(longest, STEP_SHARE / sqrt(rate2)) : longest;
     }
     return longest;

@@ -82,7 +82,7 @@ static double largest_radius(const mor_contact *contact, int first, int second)
     return c->group->dimension == 3 ? sqrt(face / MOR_PI) : 0.5 * face;
 }
 
-/* Weight of a node by the sum of the curvatures that meet there, 1. */
+/* Weight of a node by the sum of the curvatures of both surfaces there, 1. */
 static double weigh(const mor_contact *contact, int first, int second, double curvature)
 {
     const double spacing = mor_contact_spacing(contact, first, second);
@@ -118,8 +118,8 @@ static double find_knee(const mor_contact *contact, int first, int second)
     double weight;
     const double fine = fineness(contact, first, second);
     const double area_stiffness = fine * node_area_stiffness(contact, first, second, &weight) / weight;
-    /* There d(energy)/dW = n B E s^-m W^(n - 1) is the bedding. Powers of numbers without a unit only, so that a change
-     * of units by powers of two changes no bit. */
+    /* There d(energy)/dW = n B E s^-m W^(n - 1) is the contact stiffness per area. Powers of dimensionless numbers
+     * only, so that a change of units by powers of two changes no bit. */
     const double knee = pow(e.power * e.energy * weight / (fine * NODE_STIFFNESS), 1.0 / (1.0 - e.power));
     const double volume = spacing * spacing * spacing;
     return area_stiffness * knee * (dimension == 3 ? volume * spacing : volume);
@@ -145,7 +145,7 @@ static double reference_energy(const mor_contact *contact, int first, int second
 }
 
 /* Softening at the energy of an impact at the reference speed, 1: tangential springs are as stiff as the normal ones
- * are then. They must not change while they are loaded, or they would give back more than they took. */
+ * are then. They must not change while they are loaded, or they would release more energy than they stored. */
 static double reference_softening(const mor_contact *contact, int first, int second)
 {
     const mor_contact_body *c = &contact->work->bodies[first];
@@ -203,7 +203,8 @@ void mor_contact_set_curvature(const mor_contact *contact, const mor_contact_nea
     }
     const double own = work->curvatures[work->first_node[c->group_index] + touch->node];
     const double usual = own + usual_curvature(contact, other);
-    /* Of a body the usual one: stiffness must not change as nodes slide, or their forces were no gradient. */
+    /* Of a body the usual one: the stiffness must not change as nodes slide, or the normal forces would not be
+     * conservative. */
     const double felt = other < work->n_bodies ? usual : own + curvature;
     touch->curvature = own;
     touch->other_curvature = curvature;

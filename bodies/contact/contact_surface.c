@@ -17,14 +17,14 @@
 #define CLEARANCE 0x1p-9    /* from there on outside, so that differences are taken there */
 #define DEEPEST 2.0         /* farther from the surface seams are left alone */
 
-/* An edge is looked for by comparing the gradient of the level set over this reach with the one on the spot. */
+/* An edge is looked for by comparing the gradient of the level set over this reach with the one at the point. */
 #define EDGE_REACH 1.5
 #define EDGE_NEAR 0.125
 
 enum { EXIT_STEPS_MAX = 128, REFINEMENTS = 3, BISECTIONS = 16 };
 
-/* Place on the surface where a way along a unit vector leaves the shape, and the normal there; false: not within the
- * depth that is looked at. Outside, distances are exact. */
+/* Place on the surface where a ray along a unit vector leaves the shape, and the normal there; false: not within the
+ * depth that is searched. Outside, distances are exact. */
 static bool find_exit(const mor_shape *shape, const double *place, const double *direction, double spacing,
                       double *foot, double *normal)
 {
@@ -74,7 +74,7 @@ typedef struct nearest {
     double foot[3], normal[3];
 } nearest;
 
-/* Looks along one way and keeps what is nearer than all before. Returns whether it was. */
+/* Searches along one ray and keeps the exit if it is the nearest so far. Returns whether it is. */
 static bool look_along(const mor_shape *shape, const double *place, const double *direction, double spacing,
                        nearest *best)
 {
@@ -91,8 +91,8 @@ static bool look_along(const mor_shape *shape, const double *place, const double
     return true;
 }
 
-/* Distance of an inner point from the surface of the whole shape: the nearest place on it that many ways out lead to,
- * and those along the normals there. Keeps the gap that is given, and the normal, if there is no way. */
+/* Distance of an inner point from the surface of the whole shape: the nearest exit of many rays, and of those along the
+ * normals there. Keeps the given gap and normal if no ray leaves the shape. */
 static double search_gap(const mor_shape *shape, int dimension, const double *place, double spacing, double gap,
                          double *normal)
 {

@@ -9,8 +9,8 @@
 #define NORMAL_STEP 0x1p-10 /* of the differences that give a normal */
 #define FAR_GAP 4.0         /* stands for: no particle of the body is near */
 
-/* Largest sum of the sizes of weights. On a surface it is 2, in a corner 3 to 4. When the crowd is one row of particles
- * and a bit of the next, it grows without bound, and the place in the reference configuration with it. */
+/* Largest sum of the sizes of weights. On a surface it is 2, in a corner 3 to 4. When the particles are one row and a
+ * part of the next, it grows without bound, and the place in the reference configuration with it. */
 #define LARGEST_SPREAD 6.0
 
 enum { WIDENINGS = 10 };

@@ -104,9 +104,9 @@ typedef struct mor_contact_work {
     int32_t *near_of;                        /* shape [n_pairs]; place in near plus one; 0: not near */
     double *curvatures;                      /* shape [n_nodes] as the history; zero for elastic bodies, 1/m */
     double *normals;                         /* shape [n_nodes, 3]; of rigid bodies, reference configuration, 1 */
-    double *node_distances;            /* shape [n_nodes]; what the level set of a rigid body tells at its nodes, m */
-    unsigned char *is_smooth;          /* shape [n_nodes]; of rigid bodies: not on an edge or a corner */
-    int64_t *first_neighbor;           /* shape [n_nodes + 1]; of each smooth node in neighbors */
+    double *node_distances;                  /* shape [n_nodes]; level set of a rigid body at its nodes, m */
+    unsigned char *is_smooth;                /* shape [n_nodes]; of rigid bodies: not on an edge or a corner */
+    int64_t *first_neighbor;                 /* shape [n_nodes + 1]; of each smooth node in neighbors */
     int32_t *neighbors;                /* shape [first_neighbor[n_nodes]]; nodes around smooth ones, in their group */
     double window[MOR_CONTACT_WINDOW]; /* weights of points around a node, 1 */
     unsigned char *law_of;             /* shape [n_pairs]; 0: default, else listed pair plus one */
@@ -149,7 +149,7 @@ static inline int64_t mor_contact_pair_index(const mor_contact *contact, int fir
     return (int64_t)first * n - (int64_t)first * (first + 1) / 2 + (second - first - 1);
 }
 
-/** How easily a body is moved by a force: one over its mass, zero for a held one and for walls; unit 1/kg (m/kg).
+/** Inverse mass of a body: zero for a held one and for walls; unit 1/kg (m/kg).
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 static inline double mor_contact_inverse_mass(const mor_contact *contact, int second)
 {
@@ -166,7 +166,7 @@ static inline double mor_contact_inverse_mass(const mor_contact *contact, int se
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
 double mor_contact_spacing(const mor_contact *contact, int first, int second);
 
-/** Whether a pair of rigid bodies, or a rigid body and a wall, touches by Hertz's law; elastic bodies yield by
+/** Whether a pair of rigid bodies, or a rigid body and a wall, touches by Hertz's law; elastic bodies deform by
  *  themselves.
  *  @param first   [in]  index of a body
  *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
@@ -189,12 +189,12 @@ double mor_contact_area_stiffness(const mor_contact *contact, int first, int sec
  *  @param node    [in]  index of the node in its group */
 double mor_contact_stiffness(const mor_contact *contact, const mor_contact_near *near, int side, int64_t node);
 
-/** Fills in what the curvature of the other side, at a place on it, does to a touch of rigid sides: curvature, share.
+/** Fills in curvature and share of a touch of rigid sides from the curvature of the other side at a place on it.
  *  @param curvature [in]      of the other side there, unit 1/m */
 void mor_contact_set_curvature(const mor_contact *contact, const mor_contact_near *near, mor_contact_touch *touch,
                                double curvature);
 
-/** Distance of a point from the surface of a shape, that of the whole where parts meet; unit m, negative inside.
+/** Distance of a point from the surface of a shape, that of the union where parts overlap; unit m, negative inside.
  *  @param dimension [in]   2 or 3
  *  @param place     [in]   shape [3]; in the frame of the shape, unit m
  *  @param spacing   [in]   of the body that asks, unit m
@@ -247,10 +247,10 @@ void mor_contact_find_reference(const mor_body *body, const double *point, doubl
 void mor_contact_measure_inertia(mor_contact_body *c);
 
 /** Counts the pairs of each body that touch.
- *  @param contact [in,out]  whose touches have been looked up */
+ *  @param contact [in,out]  whose touches have been found */
 void mor_contact_count_pairs(mor_contact *contact);
 
-/** How fast the motions of two rigid sides would change, over the speed of closing, if each node that touches were
+/** Rate at which the motions of two rigid sides would change, over the speed of closing, if each touching node were
  *  damped by its undamped force times its speed of closing: a bound of the largest eigenvalue, unit N/kg.
  *  @param begin   [in]  first touch of the pair
  *  @param end     [in]  the one behind its last */
@@ -276,7 +276,7 @@ void mor_contact_spread(const mor_contact *contact, const mor_contact_near *near
 mor_status mor_contact_list_neighbors(mor_context *context, mor_contact *contact);
 
 /** Sum of the windows of all nodes at a place beside a smooth node, each as wide as the place is uncertain: what a node
- *  finds there is divided by it, so that a contact between nodes counts as much as one at a node.
+ *  finds there is divided by it, so that a contact between nodes has the same stiffness as one at a node.
  *  @param owner    [in]  the body of the node
  *  @param node     [in]  index of the node in its group
  *  @param offset   [in]  shape [3]; from the node, unit m
@@ -330,7 +330,7 @@ void mor_contact_box(const mor_contact_body *body, double *box, double *speed);
  *  @param boxes   [in]  shape [n_bodies, 6]; boxes as mor_contact_box gives them, unit m */
 double mor_contact_apart(const mor_contact *contact, int first, int second, const double *boxes);
 
-/** Brings the lists of near pairs and nodes up to date, and lists the touches to look at.
+/** Updates the lists of near pairs and nodes, and lists the touches to be evaluated.
  *  @param members [in]      bits of steppers
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_contact_search(mor_context *context, mor_contact *contact, uint64_t members);

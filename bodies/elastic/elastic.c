@@ -125,8 +125,8 @@ static mor_status set_constants(mor_context *context, mor_elastic *elastic)
             .inverse_density = 1.0 / density,
             .density = density,
             .particle_volume = volume,
-            /* Pairs pull with hourglass rho0 c0^2 V_i V_j |W'| / r0 times what the mean linear map misses of r_ij,
-             * after Silling (2017). */
+            /* Hourglass force of a pair: hourglass rho0 c0^2 V_i V_j |W'| / r0 times the part of r_ij that the mean
+             * linear map does not give, after Silling (2017). */
             .hourglass = elastic->scheme.hourglass * (c0 * c0) * volume * factor,
         };
     }
@@ -225,7 +225,8 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
         *step_length = by_acceleration;
         *limit = "the acceleration of the bodies";
     }
-    /* The damper diffuses velocity by Pi / rho = factor c0 h / 2; an explicit step bears about h2 / 2 over it. */
+    /* The damper diffuses velocity by Pi / rho = factor c0 h / 2; an explicit step is stable up to about h2 / 2 over
+     * it. */
     if (scheme->body_damping * elastic->sound_speed * *step_length > h) {
         *step_length = h / (scheme->body_damping * elastic->sound_speed);
         *limit = "the viscous damping of the bodies";

@@ -17,7 +17,7 @@
 /** A group of elastic bodies. Owner: the run. */
 typedef struct mor_elastic {
     mor_body_group group;
-    mor_scheme scheme;                     /* of it: what is said of bodies */
+    mor_scheme scheme;                     /* the settings of bodies are used */
     const mor_material_instance *material; /* total form; borrowed */
     unsigned char *held;                   /* shape [n_particles]; 1: clamped, does not move */
     double smoothing_length;               /* h, m */
@@ -36,7 +36,7 @@ extern const mor_body_operations mor_elastic_operations;
 /** Makes a group of elastic bodies: neighbors within each body only, correction matrices, deformation gradient I.
  *  @param elastic   [out]     cleared after a failure
  *  @param name      [in]      zero-terminated
- *  @param scheme    [in]      copied; of it: what is said of bodies
+ *  @param scheme    [in]      copied; the settings of bodies are used
  *  @param material  [in]      total form; borrowed
  *  @param dimension [in]      2 or 3
  *  @param spacing   [in]      unit m
@@ -64,7 +64,7 @@ mor_status mor_elastic_prepare(mor_context *context, mor_elastic *elastic);
 void mor_elastic_stepper(mor_elastic *elastic, mor_stepper *stepper, uint64_t *evolving);
 
 /** Returns the strain energy of one body, that held by hourglass control included, unit J (J/m); NaN when the material
- *  cannot tell.
+ *  has no energy operation.
  *  @param body    [in]  index of the body, or -1 for all; their sum is kept until a sub-step or mor_elastic_prepare */
 double mor_elastic_energy(const mor_elastic *elastic, int body);
 

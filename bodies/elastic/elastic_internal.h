@@ -12,8 +12,9 @@
  *  What the files of the elastic solver share among themselves. Not for others.
  *
  *  Eight particles of one body form a cluster, which walks one list of neighbors: the union of what the eight see, with
- *  one weight for each of them, zero for strangers. With the weight k = (1 - q/2)^3 and R = X_i - X_j the gradient of
- *  the kernel is -factor k R. In m = sum k R (x) R the factor and the volume are left out; they cancel in all sums:
+ *  one weight for each of them, zero where it does not see it. With the weight k = (1 - q/2)^3 and R = X_i - X_j the
+ *  gradient of the kernel is -factor k R. In m = sum k R (x) R the factor and the volume are left out; they cancel in
+ *  all sums:
  *      dF/dt_i = -(sum k (v_j - v_i) (x) R) m_i^-1
  *      a_i     = sum k ((T_i + T_j) R - c (x_i - x_j)),  T = c F / 2 - P m^-1 / rho0
  *  where c is the strength of the hourglass control. Weights are rounded to single precision. The rounding is the same
@@ -47,7 +48,7 @@ typedef struct mor_elastic_constants {
 
 /** What the particles of a piece have after a kick. */
 typedef struct mor_elastic_kick_sums {
-    double speed2;     /* largest squared speed, m2/s2; a value that is not a number wins */
+    double speed2;     /* largest squared speed, m2/s2; a value that is not a number is kept */
     double strength2;  /* largest squared acceleration, m2/s4; likewise */
     double soil[3];    /* force of the soil, N (N/m) */
     double contact[3]; /* force of contact, N (N/m) */
@@ -125,7 +126,7 @@ mor_status mor_elastic_find_neighbors(mor_context *context, mor_elastic *elastic
 /** Copies velocities into the records of the loops. */
 void mor_elastic_pack_velocities(mor_context *context, mor_elastic *elastic, mor_view *view);
 
-/** What all loops want, without fields, for a sub-step of a length, unit s. */
+/** What all loops need, without fields, for a sub-step of a length, unit s. */
 mor_elastic_job mor_elastic_job_of(const mor_elastic *elastic, double length);
 
 #endif

@@ -127,7 +127,7 @@ mor_status mor_elastic_find_stress(mor_context *context, void *owner, mor_view *
     const int64_t n_chunks = count_chunks(work);
     const mor_body_team team = mor_body_team_for(context, elastic->group.set.n_particles);
     mor_elastic_job job = mor_elastic_job_of(elastic, step->length);
-    /* Cauchy stress is for people; they look between common steps. */
+    /* Cauchy stress is for output only, which is written between common steps. */
     job.stress = step->part + 1 >= step->n_parts ? mor_view_write(view, MOR_FIELD_STRESS) : NULL;
     job.position = mor_view_read(view, MOR_FIELD_POSITION);
     job.gradient = mor_view_write(view, elastic->field_gradient);
@@ -173,7 +173,7 @@ typedef struct kick {
     double length; /* of the sub-step, s */
 } kick;
 
-/* Largest squared speed and acceleration of a piece, where a value that is not a number wins; forces from outside. */
+/* Largest squared speed and acceleration of a piece, where a value that is not a number is kept; external forces. */
 static void kick_piece(const mor_elastic *elastic, const kick *job, const mor_body_piece *piece,
                        mor_elastic_kick_sums *sums_out)
 {

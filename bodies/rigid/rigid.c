@@ -11,8 +11,8 @@
 #define BIT(name) MOR_BIT(MOR_FIELD_##name)
 #define BODIES MOR_BIT(MOR_RESOURCE_BODIES)
 
-/* Share of a spring's period that a step takes unless the case says otherwise, and how far a point of a body may move
- * in a step, in spacings. */
+/* Default share of a spring's period that a step may take, and how far a point of a body may move in a step, in
+ * spacings. */
 #define COURANT 0.1
 #define LONGEST_WAY 0.2
 
@@ -56,7 +56,7 @@ static mor_status check_motion(mor_context *context, const mor_rigid *rigid, int
     const mor_rigid_motion *motion = &rigid->motions[b];
     const mor_body *body = &rigid->group.bodies[b];
     MOR_CHECK(context, motion->locked < 1u << 6, MOR_ERROR_ARGUMENT,
-              "rigid body '%s' locks axes 0x%x; only the six lowest bits mean something", body->name, motion->locked);
+              "rigid body '%s' locks axes 0x%x; only the six lowest bits are defined", body->name, motion->locked);
     MOR_CHECK(context,
               !motion->has_spring ||
                   (motion->spring_stiffness >= 0.0 && motion->spring_damping >= 0.0 && motion->spring_length >= 0.0),
@@ -69,8 +69,8 @@ static mor_status check_motion(mor_context *context, const mor_rigid *rigid, int
         rigid->group.dimension == 3 || !motion->is_prescribed ||
             (motion->velocity[2] == 0.0 && motion->angular_velocity[0] == 0.0 && motion->angular_velocity[1] == 0.0),
         MOR_ERROR_ARGUMENT,
-        "rigid body '%s' is to leave the plane: velocity along z %g m/s, angular velocity about x %g and about y "
-        "%g rad/s; in plane strain all three must be zero",
+        "rigid body '%s' moves out of the plane: velocity along z %g m/s, angular velocity about x %g and about y %g "
+        "rad/s; in plane strain all three must be zero",
         body->name, motion->velocity[2], motion->angular_velocity[0], motion->angular_velocity[1]);
     return MOR_OK;
 }
@@ -128,7 +128,7 @@ static double find_speed(const mor_rigid *rigid, int b)
            mor_vector_length(body->angular_velocity) * rigid->work->constants[b].outermost;
 }
 
-/* Puts everything where the states say; what the soil sees of velocities is state itself. */
+/* Sets bodies and particles from the states; the velocities that the soil sees are state themselves. */
 static void follow_states(mor_context *context, mor_rigid *rigid)
 {
     mor_body_group *group = &rigid->group;

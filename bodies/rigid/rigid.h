@@ -63,8 +63,8 @@ mor_status mor_rigid_init(mor_context *context, mor_rigid *rigid, const char *na
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_rigid_clear(mor_context *context, mor_rigid *rigid);
 
-/** To be called when states were set from outside: puts particles and bodies where the states say, and shows the soil
- *  their present velocities. */
+/** To be called when states were set from outside: sets particles and bodies from the states, and the velocities that
+ *  the soil sees to the present ones. */
 void mor_rigid_prepare(mor_context *context, mor_rigid *rigid);
 
 /** Returns the group as a stepper (a follower).

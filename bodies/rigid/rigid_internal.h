@@ -65,7 +65,7 @@ void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const doub
  *  @param state     [in,out]  quaternion and rotation angle */
 void mor_rigid_rotate(const mor_rigid_constants *constants, double length, mor_rigid_state *state);
 
-/** Puts bodies and particles where the states say. */
+/** Sets bodies and particles from the states. */
 void mor_rigid_place(mor_context *context, mor_rigid *rigid, mor_view *view);
 
 /** Spring of a body as it is now.

@@ -15,7 +15,7 @@ static bool is_in_domain(const mor_body_group *group, const double *x)
     return mor_domain_holds(group->domain_minimum, group->domain_maximum, group->dimension, local);
 }
 
-/* Whether the ball around a body lies in the domain, so that no particle needs a look. */
+/* Whether the ball around a body lies in the domain, so that no particle has to be checked. */
 static bool is_well_inside(const mor_body_group *group, const mor_body *body, double radius)
 {
     double local[3];
@@ -186,7 +186,7 @@ mor_status mor_rigid_drift_second(mor_context *context, void *owner, mor_view *v
     const mor_body_group *group = &rigid->group;
     drift_half(rigid, 0.5 * step->length, step->time + step->length);
     if (step->part + 1 < step->n_parts) {
-        place_bodies(rigid); /* nobody looks at particles before the end of the common step */
+        place_bodies(rigid); /* particles are not read before the end of the common step */
         return MOR_OK;
     }
     mor_rigid_place(context, rigid, view);

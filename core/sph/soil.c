@@ -113,8 +113,8 @@ static const uint64_t evolving_fields = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS
                                         BIT(STRESS) | BIT(STRAIN_RATE) | SHARED(STATE) | SHARED(BOUNDARIES) |
                                         SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER);
 
-/* Arrays of numbers that stages hand on, for the checks of a run that proves its declarations. Those of walls are not
- * among them: they make room anew with the lists, and have lanes without particles. */
+/* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
+ * reallocated with the lists, and have lanes without particles. */
 static void visit_shared(void *owner, mor_shared_visit visit, void *job)
 {
     mor_soil *soil = owner;
@@ -324,7 +324,7 @@ mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_
                     soil->set.name);
 }
 
-/* The material's own limit, asked for only when the model has one. */
+/* Step limit of the material, for models that have one. */
 static mor_status limit_by_material(mor_context *context, const mor_soil *soil, double *step_length, const char **limit)
 {
     enum { BATCH = 128 };
@@ -345,7 +345,7 @@ static mor_status limit_by_material(mor_context *context, const mor_soil *soil, 
                                  .state_in = state};
         const mor_status status = soil->material->operations.max_step(soil->material, &batch, steps);
         MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
-        MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' could not tell its longest step",
+        MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' gave no longest step",
                   soil->material->material->name);
         for (int64_t i = 0; i < batch.n; ++i) {
             if (!(steps[i] >= *step_length)) {

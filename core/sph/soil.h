@@ -21,14 +21,14 @@ enum { MOR_SOIL_WALLS_MAX = 64, MOR_SOIL_BOUNDARIES_MAX = 16 };
 
 /** What a soil is built from, beside its material. Plain data. */
 typedef struct mor_soil_settings {
-    mor_scheme scheme;                 /* what the user may choose about the method */
+    mor_scheme scheme;                 /* settings of the scheme */
     int dimension;                     /* 2 (plane strain in x, y) or 3 */
     double spacing;                    /* initial particle spacing, m */
     double lateral_ratio;              /* K0 of the stress-diffusion operator, 1 */
     double gravity[3];                 /* m/s2 */
     double domain_minimum[3];          /* m, before the placement */
     double domain_maximum[3];          /* likewise */
-    const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither turned nor moved */
+    const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither rotated nor translated */
     bool removes_outflow;              /* what leaves the domain is removed; else it stops the run */
     double reference_density;          /* rho_0, kg/m3 */
 } mor_soil_settings;
@@ -39,7 +39,7 @@ enum {
     MOR_SOIL_OUTFLOW_MOMENTUM = 1, /* shape [3], kg m/s (kg/s) */
     MOR_SOIL_OUTFLOW_MOMENT = 4,   /* mass times place, shape [3], kg m (kg) */
     MOR_SOIL_OUTFLOW_KINETIC = 7,  /* J (J/m) */
-    MOR_SOIL_OUTFLOW_ELASTIC = 8,  /* J (J/m); NaN when the material cannot tell */
+    MOR_SOIL_OUTFLOW_ELASTIC = 8,  /* J (J/m); NaN when the material has no energy operation */
     MOR_SOIL_OUTFLOW_STATE = 9
 };
 
@@ -81,7 +81,7 @@ typedef struct mor_soil {
 } mor_soil;
 
 /** Makes a soil from particles whose position, velocity, mass, density, stress are then set by the caller through
- *  soil->set, before mor_soil_prepare.
+ *  soil->set, before mor_soil_init_state.
  *  @param name        [in]      zero-terminated
  *  @param settings    [in]      copied
  *  @param material    [in]      rate form; borrowed
@@ -97,7 +97,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
 
-/** Lets the soil see a boundary that someone else moves; core/particle/boundary.h says what is read and written when.
+/** Adds a boundary that is moved by another solver; core/particle/boundary.h says what is read and written when.
  *  @param boundary [in,out]  borrowed, outlives the soil's steps; its points are in place
  *  @param stress   [in]      stress that a soil particle sees in it
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many, or for patches that overlap or leave gaps;
@@ -120,12 +120,12 @@ mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
  *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
 void mor_soil_sort(mor_soil *soil);
 
-/** Makes everything follow the number of particles of the set, which a restored state may have changed.
+/** Updates everything that depends on the number of particles of the set, which a restored state may have changed.
  *  @param soil [in,out]  set.n_particles is at most set.n_created
  *  Gives: the lists are rebuilt in the next step. */
 void mor_soil_fit(mor_soil *soil);
 
-/** Tells the energy of what has left the domain, each particle as it was when it left: kinetic, potential, elastic.
+/** Finds the energy of what has left the domain, each particle as it was when it left: kinetic, potential, elastic.
  *  @param datum    [in]   shape [3]; potential energy counts from here, unit m
  *  @param energies [out]  shape [3], unit J (J/m in plane strain) */
 void mor_soil_outflow_energies(const mor_soil *soil, const double *datum, double *energies);

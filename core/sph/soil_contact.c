@@ -232,7 +232,7 @@ static int64_t cut_lists(mor_soil_contact *contact)
             const int patch = find_patch(contact->boundary, list[k]);
             const int64_t end = contact->boundary->patches[patch].first + contact->boundary->patches[patch].n_points;
             const int32_t first = k;
-            /* As a rule the whole rest lies in one patch. */
+            /* Usually all remaining points belong to one patch. */
             k = list[count - 1] < end ? count : k + 1;
             while (k < count && list[k] < end) {
                 ++k;
@@ -283,7 +283,7 @@ static void sort_slots(mor_soil_contact *contact)
     for (int64_t slot = 0; slot < contact->n_slots; ++slot) {
         contact->patch_slots[first[contact->slots[slot].patch]++] = (int32_t)slot;
     }
-    /* Every start has become the next one's. */
+    /* Each start has become that of the next patch. */
     for (int p = n_patches; p > 0; --p) {
         first[p] = first[p - 1];
     }

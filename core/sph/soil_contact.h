@@ -82,7 +82,7 @@ typedef struct mor_soil_contact {
 mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request,
                                  int64_t n_soil_clusters);
 
-/** Makes the relation of the soil to a boundary that someone else moves.
+/** Makes the relation of the soil to a boundary that is moved by another solver.
  *  @param boundary        [in,out]  borrowed
  *  @param stress          [in]      stress that a particle sees in it
  *  @param dimension       [in]      2 or 3
@@ -120,17 +120,17 @@ double mor_soil_contact_speed(const mor_soil_contact *contact);
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                           const mor_pair_constants *constants, const double *records);
 
-/** Finds the velocity of the boundary anew, as the particles see it; to be called when its owner has changed it.
+/** Updates the velocity of the boundary as the particles see it; to be called when its owner has changed it.
  *  @param contact   [in,out]  lists must be current
  *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
 void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                                       const mor_pair_constants *constants, const double *records);
 
-/** Sums the divergence of the soil's stress along and across the wall, unless the wall's stress is uniform.
- *  A wall that holds a particle's own stress everywhere hides how stress varies, and the particle gets only the part of
- *  that variation that soil neighbors carry: about half of it, right at the wall. Continuing the soil's own variation
- *  into the wall gives the other part.
+/** Sums the divergence of the soil's stress along and across the wall, unless the wall's stress is uniform. A wall with
+ *  a particle's own stress everywhere has no stress gradient, so that the particle gets only the part of the gradient
+ *  that soil neighbors contribute: about half of it next to the wall. Continuing the stress gradient of the soil into
+ *  the wall adds the other part.
  *  @param contact   [in,out]  sums must be current
  *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...

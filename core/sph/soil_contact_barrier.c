@@ -72,7 +72,7 @@ static bool is_near(const mor_soil_contact *contact, const double *record, int32
     return true;
 }
 
-/* The barrier on one particle; returns the longest step. Two in one place have no direction to part in: the step is
+/* The barrier on one particle; returns the longest step. For two at one place the direction is undefined: the step is
  * then zero, and the run stops. */
 static double repel_particle(const mor_soil_contact *contact, const mor_pair_slot *slot, const double *record,
                              double *force)

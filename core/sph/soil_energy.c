@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The audit of the soil's energy: its life, its integrals, and the part of the stress update. What forces take is in
+/* The audit of the soil's energy: set-up, integrals, and the part of the stress update. The part of the forces is in
  * soil_energy_forces.c. */
 #include "core/sph/soil_energy.h"
 
@@ -15,7 +15,7 @@
 /* Particles handed to a material at once; a block is a whole number of them. */
 enum { BATCH = MOR_SOIL_BATCH, PARTS = MOR_SOIL_ENERGY_PARTS };
 
-/* By how much one line between samples may be wrong, over the energy turned over so far. */
+/* Largest error of the interpolation between samples, over the energy converted so far. */
 #define LARGEST_ERROR 1.0e-3
 
 mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
@@ -85,7 +85,7 @@ static double double_dot(const double *a, const double *b)
            2.0 * (a[MOR_XY] * b[MOR_XY] + a[MOR_YZ] * b[MOR_YZ] + a[MOR_ZX] * b[MOR_ZX]);
 }
 
-/* Stored energy of n stresses by the material, J/m3; NaN when it cannot tell. */
+/* Stored energy of n stresses by the material, J/m3; NaN when it has no energy operation. */
 static void find_stored(const mor_soil_powers *job, int64_t first, int64_t n, const double *stress, double *stored)
 {
     const mor_soil *soil = job->soil;
@@ -170,7 +170,7 @@ static void find_stress_block(void *powers, int64_t first, int64_t last, double 
 }
 
 /* A sample stands for the middle of its step. The first one reaches back to the start. Where the straight line to a
- * sample may be wrong by more than a share of all that was turned over so far, the next sample comes sooner. */
+ * sample may be wrong by more than a share of the energy converted so far, the next sample comes sooner. */
 static void integrate(mor_soil_energy *energy, const mor_step *step)
 {
     const double reach = energy->span + 0.5 * step->length;

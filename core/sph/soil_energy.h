@@ -15,7 +15,7 @@
 
 enum { MOR_SOIL_ENERGY_INTERVAL = 16 /* most steps from one sample to the next; a power of two */ };
 
-/** What takes kinetic, potential and elastic energy away from the soil; a negative number gives it back. */
+/** What takes kinetic, potential and elastic energy from the soil; negative: adds energy. */
 typedef enum mor_soil_energy_part {
     MOR_SOIL_ENERGY_PLASTIC,        /* lost in the stress update, (E4) */
     MOR_SOIL_ENERGY_DIFFUSION,      /* stress diffusion, (E5) */
@@ -23,11 +23,11 @@ typedef enum mor_soil_energy_part {
     MOR_SOIL_ENERGY_ARTIFICIAL,     /* artificial stress, (E6) */
     MOR_SOIL_ENERGY_DAMPING,        /* velocity damping */
     MOR_SOIL_ENERGY_REGULARIZATION, /* XSPH and shifting */
-    MOR_SOIL_ENERGY_CORRECTION,     /* gradient correction and the skew stress that keeps angular momentum, (E8) */
+    MOR_SOIL_ENERGY_CORRECTION,     /* gradient correction and the skew stress that conserves angular momentum, (E8) */
     MOR_SOIL_ENERGY_BOUNDARY,       /* friction and impact at walls and rocks, (E7) */
     MOR_SOIL_ENERGY_PASSED_ON,      /* minus what friction passes on to the stress of the soil, counted above, (E7) */
     MOR_SOIL_ENERGY_DRIVEN,         /* given to walls and rocks that move as prescribed */
-    MOR_SOIL_ENERGY_RAMP,           /* weight that the gravity ramp still holds back */
+    MOR_SOIL_ENERGY_RAMP,           /* work of the part of gravity that the ramp leaves out */
     MOR_SOIL_ENERGY_ROCKS,          /* given to rocks that move freely, which keep it */
     MOR_SOIL_ENERGY_PARTS
 } mor_soil_energy_part;
@@ -55,7 +55,7 @@ typedef struct mor_soil_energy {
  *  run. */
 mor_status mor_soil_watch_energy(mor_context *context, struct mor_soil *soil);
 
-/** Lets an audit begin anew, with all integrals zero; does nothing without one. */
+/** Restarts an audit with all integrals zero; does nothing without one. */
 void mor_soil_restart_energy(struct mor_soil *soil);
 
 /** Returns what a part has taken since the start, up to now, unit J (J/m in plane strain); zero without an audit.

@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What forces take from the soil's motion beside what its stress gets: the Riemann terms, walls and rocks, damping. */
+/* Energy that forces other than the stress take from the motion of the soil: Riemann terms, walls and rocks,
+ * damping. */
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/sph/soil_contact_internal.h"
@@ -31,7 +32,7 @@ static void add_strain(const double *difference, const double *gradient, double 
 }
 
 /* (E7) for one particle and one patch: force times velocity, and the strain rates that the mirrored velocity gave, as
- * the drag added them. Where the boundary slips it is friction that strains along it. */
+ * in the boundary gradient. Where the boundary slips it is friction that strains along it. */
 static void audit_lane(const mor_soil_contact *contact, int64_t slot, int64_t k, const double *record,
                        const double *middle, double *taken, double *strains)
 {
@@ -80,7 +81,7 @@ static void audit_contact(mor_context *context, const mor_soil_powers *job, cons
     }
 }
 
-/* What the soil's forces did on the points of rocks: the work goes by the mean velocities over this step. */
+/* Work of the soil's forces on the points of rocks, with the mean velocities over this step. */
 static void audit_rocks(mor_soil *soil, const mor_boundary *boundary)
 {
     double *fresh = soil->energy->fresh;
@@ -170,8 +171,8 @@ static void restore_records(mor_context *context, const mor_soil_powers *job)
     }
 }
 
-/* Whether samples are as rare as they get, and this is one of three of four for which the last power of the artificial
- * stress will do: its loop is dear and its power small. */
+/* Whether samples are at the longest interval, and this is one of three of four that reuse the last power of the
+ * artificial stress: its loop is expensive and its power small. */
 static bool is_calm(const mor_soil *soil, const mor_step *step)
 {
     return soil->energy->stride == MOR_SOIL_ENERGY_INTERVAL && step->number / MOR_SOIL_ENERGY_INTERVAL % 4 != 0;

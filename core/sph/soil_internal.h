@@ -41,11 +41,11 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
     return (mor_blocks){.n_items = soil->set.n_particles, .block_items = block_items, .grain = grain};
 }
 
-/** Whether the density is made anew by summation at an interval. */
+/** Whether the density is reinitialized by summation at an interval. */
 bool mor_soil_has_density_sums(const void *owner);
 
 /** Looks for particles outside the domain, with a position that is not a number, or without density.
- *  @param soil    [in,out]  is told whether particles are to be removed
+ *  @param soil    [in,out]  has_outflow is set when particles are to be removed
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC naming the first particle that stops the run. */
 mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step);
 
@@ -64,7 +64,7 @@ static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
     return index < soil->n_walls ? &soil->walls[index] : &soil->boundaries[index - soil->n_walls];
 }
 
-/** What all pair loops want, without fields; borrowed until the next resize or permute.
+/** What all pair loops need, without fields; borrowed until the next resize or permute.
  *  @param lists [in]  MOR_RESOURCE_LISTS or MOR_RESOURCE_SHORT_LISTS, which the loop reads */
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int lists);
 

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Stages that move particles: drifts, kick, neighbor search, packing, and the guards that watch them. */
+/* Stages that move particles: drifts, kick, neighbor search, packing, and their checks. */
 #include "core/sph/soil_internal.h"
 
 #include "core/base/math.h"
@@ -168,7 +168,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
                         soil->material->material->name, (long long)(chunk * GRAIN),
                         (long long)((chunk + 1) * GRAIN - 1), soil->set.name, step->time);
     }
-    /* The lanes behind the last particle repeat it; their sums are thrown away. */
+    /* The lanes behind the last particle repeat it; their sums are discarded. */
     for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
         memcpy(job.records + i * MOR_RECORD_SIZE, job.records + (n - 1) * MOR_RECORD_SIZE,
                MOR_RECORD_SIZE * sizeof(double));
@@ -200,7 +200,7 @@ typedef struct kick {
 
 enum { KICK_SPEED, KICK_STRENGTH };
 
-/* Largest squared speed and acceleration of a block; a value that is not a number wins. */
+/* Largest squared speed and acceleration of a block; a value that is not a number is kept. */
 static void kick_block(void *job, int64_t first, int64_t last, double *values)
 {
     const kick *it = job;

@@ -174,7 +174,7 @@ mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_vie
         double *d = kept + 6 * i;
         for (int a = 0; a < 3; ++a) {
             const int b = (a + 1) % 3;
-            /* A zero's sign may tell whether a wall is listed; adding zero takes it away. */
+            /* Adding zero clears the sign of a zero, which could depend on whether a wall is listed. */
             d[a] = l[4 * a] + 0.0;
             d[3 + a] = 0.5 * (l[3 * a + b] + l[3 * b + a]) + 0.0;
         }

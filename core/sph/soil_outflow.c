@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Soil at the edge of the domain: it stops the run, or is taken out at the end of the step in which it left. */
+/* Soil that leaves the domain: it stops the run, or is removed at the end of the step in which it left. */
 #include "core/sph/soil_internal.h"
 
 #include "core/base/math.h"
@@ -49,7 +49,7 @@ typedef struct domain_check {
     const double *position, *density;
 } domain_check;
 
-/* Sorts out what the quick look found, from one particle on: what stops the run, and what leaves. */
+/* Checks the particles from the first that was found on: which stop the run, and which leave. */
 static mor_status check_particles(mor_context *context, mor_soil *soil, const domain_check *job, const mor_view *view,
                                   const mor_step *step, int64_t first)
 {
@@ -90,13 +90,13 @@ mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view 
     return stray < 0 ? MOR_OK : check_particles(context, soil, &job, view, step, stray);
 }
 
-/* What those that leave take along is read from here. */
+/* Fields from which mass, momentum and energy of the particles that leave are read. */
 typedef struct outflow_fields {
     const double *position, *velocity, *mass, *density, *stress;
     const double *state[MOR_MATERIAL_STATES_MAX];
 } outflow_fields;
 
-/* Stored energy of a particle by the material's own operation; NaN when the model cannot tell. */
+/* Stored energy of a particle by the material's own operation; NaN when the model has no energy operation. */
 static double find_stored(const mor_soil *soil, const outflow_fields *from, int64_t i)
 {
     const double *state[MOR_MATERIAL_STATES_MAX];
@@ -110,7 +110,7 @@ static double find_stored(const mor_soil *soil, const outflow_fields *from, int6
     return is_known ? stored * from->mass[i] / from->density[i] : NAN;
 }
 
-/* Adds what a particle takes along. */
+/* Adds mass, momentum and energy of a particle. */
 static void count_out(mor_soil *soil, const outflow_fields *from, int64_t i)
 {
     const double mass = from->mass[i];

@@ -9,8 +9,9 @@
 #include "core/material/kit/plugin.h"
 
 /* Step 1: the parameters, in the order in which create finds them. Moraine reads them from the case file, converts the
- * units, checks the ranges and prints them into every output. The role says what a parameter means to others: stress at
- * rest, stiffness in contact and warnings need friction angle, cohesion and moduli, whatever their keys. */
+ * units, checks the ranges and prints them into every output. The role says what a parameter means to the rest of the
+ * program: stress at rest, stiffness in contact and warnings need friction angle, cohesion and moduli, whatever their
+ * keys. */
 enum { SHEAR_MODULUS, BULK_MODULUS, UNDRAINED_STRENGTH };
 
 static const mor_schema PARAMETERS[] = {
@@ -33,7 +34,7 @@ static const mor_schema PARAMETERS[] = {
      .minimum = 0.0,
      .maximum = INFINITY,
      .excludes_minimum = 1,
-     .text = "bulk modulus K, as high as the time step can bear"},
+     .text = "bulk modulus K, large compared with G; the larger, the shorter the time step"},
     {.key = "undrained_strength",
      .role = MOR_ROLE_COHESION,
      .kind = MOR_SCHEMA_REAL,
@@ -60,8 +61,8 @@ static const mor_schema STATE[] = {
 
 /* Step 3: one update. Stress is positive in tension, in the order xx, yy, zz, xy, yz, zx. */
 
-/* Trial stress: the old one, turned with the particle (Jaumann rate, Hughes and Winget (1980)), plus the elastic
- * increment, half before and half after the turn. l is the velocity gradient times the step. */
+/* Trial stress: the old one, rotated with the particle (Jaumann rate, Hughes and Winget (1980)), plus the elastic
+ * increment, half before and half after the rotation. l is the velocity gradient times the step. */
 static void predict(double shear, double bulk, const double *l, const double *extra, double step, double *stress)
 {
     const double mean = (bulk - 2.0 * shear / 3.0) * (l[0] + l[4] + l[8]);
@@ -70,7 +71,7 @@ static void predict(double shear, double bulk, const double *l, const double *ex
     for (int a = 0; a < 6; ++a) {
         stress[a] += 0.5 * (increment[a] + (extra != NULL ? extra[a] * step : 0.0));
     }
-    /* Turn minus identity: 2/(1 + w.w) ([w] + [w][w]), w half the axial vector of the spin. */
+    /* Rotation minus identity: 2/(1 + w.w) ([w] + [w][w]), w half the axial vector of the spin. */
     const double w[3] = {0.25 * (l[7] - l[5]), 0.25 * (l[2] - l[6]), 0.25 * (l[3] - l[1])};
     const double f = 2.0 / (1.0 + mor_vector_dot(w, w));
     double rotation[9];
@@ -109,7 +110,7 @@ static double correct(double shear, double strength, double *stress)
 {
     const double root = measure_shear(stress);
     const double mean = mor_symmetric_trace(stress) / 3.0;
-    /* What lies above by no more than rounding stays: a corrected stress must not be corrected again. */
+    /* A strength exceeded by no more than rounding is accepted: a corrected stress must not be corrected again. */
     if (root - strength <= 4e-15 * (root + fabs(mean))) {
         return 0.0;
     }

@@ -152,7 +152,7 @@ static void face_outward(mor_mesh_work *work, int64_t n_given)
     }
 }
 
-static mor_status mend(mor_context *context, mor_mesh_work *work)
+static mor_status repair(mor_context *context, mor_mesh_work *work)
 {
     /* First, so that an unused corner does not determine the size of the mesh. */
     MOR_TRY(context, mor_mesh_drop_unused(context, work));
@@ -197,7 +197,7 @@ static void log_repairs(mor_context *context, const mor_mesh_work *work)
         }
     }
     if (used > 0) {
-        mor_context_log(context, MOR_LOG_WARNING, "%s: mended: %s", work->name, text);
+        mor_context_log(context, MOR_LOG_WARNING, "%s: repaired: %s", work->name, text);
     }
 }
 
@@ -210,7 +210,7 @@ mor_status mor_mesh_finish(mor_context *context, mor_mesh *mesh, const char *nam
     work.report.n_triangles_read = work.mesh.n_triangles;
     mor_status status = check_arrays(context, &work.mesh, name);
     if (status == MOR_OK) {
-        status = mend(context, &work);
+        status = repair(context, &work);
     }
     if (status == MOR_OK) {
         status = check_surface(context, &work);

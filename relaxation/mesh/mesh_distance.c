@@ -316,7 +316,7 @@ static const char *name_error(enum RTCError error)
                                                                                               : "an unknown error");
 }
 
-/* Embree keeps the first error of a device until asked. */
+/* Embree keeps the first error of a device until it is read. */
 static mor_status check_device(mor_context *context, RTCDevice device, const char *action)
 {
     const enum RTCError error = rtcGetDeviceError(device);

@@ -77,7 +77,7 @@ static double find_yield(const mor_pack_state *state, const mor_pack_item *item,
     return mobility + angular * mor_vector_dot(moment, moment);
 }
 
-/* Opens a contact to the wanted gap: the owner of the point moves along the normal, the other one (NULL: it is fixed)
+/* Opens a contact to the required gap: the owner of the point moves along the normal, the other one (NULL: it is fixed)
  * against it. Returns the relative displacement, m. */
 static double open_contact(const mor_pack_state *state, mor_pack_item *owner, mor_pack_item *other, double wanted,
                            mor_pack_contact *contact)

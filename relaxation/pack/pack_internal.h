@@ -88,7 +88,7 @@ bool mor_pack_probe_shape(const mor_pack_state *state, const mor_pack_item *owne
  *  resolution, on the safe side. */
 bool mor_pack_clears_obstacle(const mor_pack_state *state, const mor_pack_item *item);
 
-/** Lists the placed rocks in cells anew. */
+/** Updates the lists of placed rocks in cells. */
 void mor_pack_list(mor_pack_state *state);
 
 /** Lists one more rock, which comes after all that are listed.

@@ -333,7 +333,7 @@ static void map_points(star_surface *surface, const double *map, const double *c
     }
 }
 
-/* Stretches the surface so that its principal axes lie along x, y, z in the wanted ratios, and gives it its center and
+/* Stretches the surface so that its principal axes lie along x, y, z in the given ratios, and gives it its center and
  * its volume. A linear map keeps a star-shaped surface star-shaped, and its flat sides flat. */
 static void stretch(const mor_rock_form *form, star_surface *surface)
 {

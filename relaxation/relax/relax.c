@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* Rows reach further than the kernel by this, spacings, so that they serve for many steps. */
+/* Rows reach further than the kernel by this, spacings, so that they hold for many steps. */
 #define SKIN 0.45
 
 /* A particle moves by the step factor times the force, in spacings, plus this part of its last displacement. */

@@ -68,8 +68,8 @@ typedef struct mor_relax_neighbors {
     int64_t capacity;    /* of a row; a multiple of MOR_RELAX_LANES */
 } mor_relax_neighbors;
 
-/** Reads the bounds. Returns MOR_OK, or MOR_ERROR_ARGUMENT for a wrong request, a shape without end, or one whose
- *  bounds hold 2^31 spacings^dimension or more. */
+/** Reads the bounds. Returns MOR_OK, or MOR_ERROR_ARGUMENT for a wrong request, an unbounded shape, or one whose bounds
+ *  hold 2^31 spacings^dimension or more. */
 mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *request, mor_relax_frame *frame);
 
 /** Writes the place in the shape's own frame.
@@ -125,7 +125,7 @@ void mor_relax_wall_clear(mor_context *context, mor_relax_wall *wall);
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_relax_neighbors_init(mor_context *context, int64_t n, double radius, mor_relax_neighbors *neighbors);
 
-/** Finds the rows anew. Their order is fixed: by cell, then by number.
+/** Updates the rows. Their order is fixed: by cell, then by number.
  *  @param x         [in]      shape [3, n]; unit spacing; first all x, then all y, then all z
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_relax_neighbors_find(mor_context *context, mor_relax_neighbors *neighbors, const double *x);

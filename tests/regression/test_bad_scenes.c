@@ -152,7 +152,7 @@ static const bad_scene rock_scenes[] = {
     {PACKED("-0.3 m", "0.8 m", "0.9 m"), "overlapping wall '", "raise 'margin' or shrink 'region'", false},
     {PACKED("0.1 m", "0.45 m", "0.5 m"), "m thick at its thickest", "use a spacing of at most", false},
     /* Of many sizes the thinnest rock is told, and a spacing for all that may be drawn. */
-    {PACKED("0.1 m", "0.45 m", "0.9 m"), "it is the thinnest of the rocks", "does for all that the sizes allow", false},
+    {PACKED("0.1 m", "0.45 m", "0.9 m"), "it is the thinnest of the rocks", "is fine enough for all sizes", false},
     {"soil[0].shape={type=\"box\"; min=(\"2.9 m\", \"0.2 m\"); max=(\"3.1 m\", \"0.4 m\");}",
      "soil 'sand' without a single particle", "make the region larger", true},
 };

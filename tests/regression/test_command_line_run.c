@@ -32,7 +32,7 @@ static void complete_run_resumed_says_so_and_keeps_its_speed(void **state)
     assert_true(speed > 0.0);
     outcome = program_run(folder, again, 0);
     program_expect_text(outcome.output,
-                        "the run was complete at t = 0.06 s; nothing was computed, results are drawn anew");
+                        "the run was complete at t = 0.06 s; nothing was computed, results are written anew");
     assert_null(strstr(outcome.output, "steps/s"));
     assert_null(strstr(outcome.output, "nan"));
     program_clear(&outcome);

@@ -81,7 +81,7 @@ static void forgotten_units_and_thin_walls_are_warned_of(void **state)
         {block, plates[0], "wall 'incline' is 0.08 m thick, 0.8 spacings, at ("},
         {block, plates[1], NULL},
         {block, plates[2], "wall 'incline' is 0.12 m thick, 1.2 spacings, at ("},
-        {block, flush[0], "wall 'step' goes on in wall 'incline' at ("},
+        {block, flush[0], "wall 'step' continues in wall 'incline' at ("},
         {block, flush[1], NULL},
         {block, flush[2], NULL},
         {block, flush[3], "but forms an inner corner with it elsewhere"},

@@ -176,7 +176,7 @@ static void outflow_may_be_allowed_later(void **state)
     program_clear(&outcome);
     assert_true(read_result(folder, "run", "outflow_mass") > 200.0);
     outcome = program_run(folder, back, 2);
-    program_expect_text(outcome.errors, "what has left cannot be called back");
+    program_expect_text(outcome.errors, "soil that has left cannot be restored");
     program_clear(&outcome);
 }
 

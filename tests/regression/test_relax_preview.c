@@ -198,7 +198,7 @@ static void the_log_of_a_run_holds_what_was_said_before_there_was_a_folder(void 
         "domain = { min = (-3, -3, -3); max = (3, 3, 3); }; output = { pictures = false; };\n"
         "bodies = ( { name = \"b\"; position = (0, 0, 0); shape = { type = \"mesh\"; file = \"torn.obj\"; };\n"
         "  material = { model = \"rigid\"; density = 2600; }; } );\n";
-    static const char *const said[] = {"info: moraine ", "torn.obj: mended: 1 hole filled\n", "info: body 'b': "};
+    static const char *const said[] = {"info: moraine ", "torn.obj: repaired: 1 hole filled\n", "info: body 'b': "};
     const char *const run[] = {"run", "torn.cfg", "-t", "1", "-o", "out", NULL};
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
@@ -206,9 +206,9 @@ static void the_log_of_a_run_holds_what_was_said_before_there_was_a_folder(void 
     run_folder_store(run_folder_file(folder, path, "torn.cfg"), text, sizeof text - 1);
     run_folder_store(run_folder_file(folder, path, "torn.obj"), cube_obj, sizeof cube_obj - 1 - strlen("f 4 1 5 8\n"));
     program_outcome outcome = program_run(folder, run, 0);
-    const char *once = strstr(outcome.errors, "mended");
+    const char *once = strstr(outcome.errors, "repaired");
     assert_non_null(once);
-    assert_null(strstr(once + 1, "mended")); /* the terminal was told at once */
+    assert_null(strstr(once + 1, "repaired")); /* the terminal was told at once */
     program_clear(&outcome);
     char *log = (char *)run_folder_load(run_folder_file(folder, path, "out/log.txt"), &n_bytes);
     assert_non_null(log);

@@ -215,7 +215,7 @@ static void energy_audit_cannot_begin_later(void **state)
              at + strlen("'stress_noise'"));
     finished_run_store_text(folder, more, case_path);
     program_outcome outcome = RUN(folder, "run", 2, "--resume");
-    program_expect_text(outcome.errors, "followed from the start or not at all");
+    program_expect_text(outcome.errors, "the audit of energy begins at the start of a run");
     program_clear(&outcome);
     free(text);
 }

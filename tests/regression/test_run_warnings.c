@@ -107,7 +107,7 @@ static void window_without_a_measurement_is_warned_of(void **state)
                                          "-s",  windows[k], NULL};
         program_outcome outcome = program_run(folder, arguments, 0);
         char *text = load_summary(folder, k == 0 ? "short" : "long");
-        assert_int_equal(count(text, "the window of probe 'height', 0.01 s to 0.01 s, held no measurement"), 1 - k);
+        assert_int_equal(count(text, "the window of probe 'height', 0.01 s to 0.01 s, contains no measurement"), 1 - k);
         free(text);
         program_clear(&outcome);
     }

@@ -85,7 +85,7 @@ static void slope_that_moved_while_it_settled_is_warned_of(void **state)
     finished_run_store_text(folder, slope, path);
     program_outcome outcome = program_run(folder, arguments, 0);
     program_expect_text(outcome.errors,
-                        "spacings) while its initial stress settled, so the run starts from another form");
+                        "spacings) while its initial stress settled, so the run starts from a deformed shape");
     program_clear(&outcome);
 }
 

@@ -92,9 +92,8 @@ const mor_command_info mor_command_relax = {
     .subject = "MESH",
     .word = MOR_WORD_FILE,
     .text = "fill a mesh, or an outline in a text file, with evenly spaced particles",
-    .details = "Reads STL, OBJ, PLY and glTF, or \"x y\" lines in a .txt file; says what was mended and how even the "
-               "particles "
-               "are. At most one of --diameter, --length and --volume.",
+    .details = "Reads STL, OBJ, PLY and glTF, or \"x y\" lines in a .txt file; says what was repaired and how even the "
+               "particles are. At most one of --diameter, --length and --volume.",
     .options = MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(THREADS) | MOR_OPTION_BIT(SPACING) | MOR_OPTION_BIT(DIAMETER) |
                MOR_OPTION_BIT(LENGTH) | MOR_OPTION_BIT(VOLUME) | MOR_OPTION_BIT(HELP),
     .examples = {"moraine relax rock.obj --spacing '5 cm' --diameter '1.2 m'"},

@@ -29,7 +29,7 @@ typedef struct loop_state {
     double fastest_time;   /* when that was, s */
 } loop_state;
 
-/* Rows closer than ticks would be a row in each step all the same. */
+/* Rows closer together than ticks would be one row per step. */
 static double row_interval(const mor_simulation *s)
 {
     return fmax(s->the_case->output.series_interval, s->schedule.tick);
@@ -197,8 +197,8 @@ static mor_status warn_of_density_drift(mor_context *context, const mor_simulati
         mor_context_log(context, MOR_LOG_WARNING,
                         MOR_RUN_WARNING_AT_END
                         "the density of a hundredth of the soil is off its initial one by %.3g %% or more; below %g %% "
-                        "is advisable: particles crowd or part, so that run-out and heights are not to be trusted; "
-                        "%suse a finer spacing or a stiffer soil, and compare",
+                        "is advisable: particles have clustered or separated, so that run-out and heights are "
+                        "unreliable; %suse a finer spacing or a stiffer soil, and compare",
                         100.0 * drift, 100.0 * advisable,
                         n->shifting              ? "set numerics.shifting = false, "
                         : n->gradient_correction ? "set numerics.gradient_correction = false, "
@@ -218,28 +218,29 @@ static void warn_of_windows(mor_context *context, const mor_simulation *s)
         if (!isnan(probe->window[0]) && statistics.n_measured == 0.0) {
             mor_context_log(context, MOR_LOG_WARNING,
                             MOR_RUN_WARNING_AT_END
-                            "the window of probe '%s', %g s to %g s, held no measurement (%s:%d): it has no largest, "
-                            "smallest or mean value; make it longer than a time step, about %.3g s",
+                            "the window of probe '%s', %g s to %g s, contains no measurement (%s:%d): it has no "
+                            "largest, smallest or mean value; make it longer than a time step, about %.3g s",
                             probe->name, probe->window[0], probe->window[1], probe->place.file, probe->place.line,
                             s->schedule.step_length);
         }
     }
 }
 
-/* Energies that do not add up say that forces were wrong, whatever else looks right. */
+/* An energy balance that is violated means that forces were wrong, even where other results look right. */
 static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
 {
     const double advisable = 0.05;
-    const double still = 1.0e-4; /* of a spacing: where less energy moved than lifts all by it, nothing has happened */
+    const double still =
+        1.0e-4; /* of a spacing: the bodies are at rest if less energy was converted than lifts all by it */
     double share = 0.0;
     const double error = mor_probe_bodies_error(s, &share);
     if (!(fabs(share) <= advisable)) {
         mor_context_log(
             context, MOR_LOG_WARNING,
             MOR_RUN_WARNING_AT_END
-            "the energies of the bodies do not add up: %.3g %s too %s, %.3g %% of what changed hands; do not "
-            "report results before that is mended: bodies that overlapped at the start, or a contact stiffness "
-            "too large for their steps (contact_modulus; of elastic bodies also numerics.body_courant)",
+            "the energies of the bodies do not add up: %.3g %s too %s, %.3g %% of the energy converted; do not report "
+            "these results. Possible causes: bodies that overlapped at the start, or a contact stiffness too large for "
+            "their steps (contact_modulus; of elastic bodies also numerics.body_courant)",
             fabs(error), s->the_case->dimension == 2 ? "J/m" : "J", error > 0.0 ? "much" : "little",
             100.0 * fabs(share));
     }
@@ -256,8 +257,8 @@ static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
         if (!(fabs(value - 1.0) <= advisable)) {
             mor_context_log(context, MOR_LOG_WARNING,
                             MOR_RUN_WARNING_AT_END
-                            "the energies of the run do not add up: '%s' is %.4g, not 1 within %g; do not report its "
-                            "results before a smaller numerics.courant or spacing has mended that",
+                            "the energies of the run do not add up: '%s' is %.4g, not 1 within %g; do not report these "
+                            "results; use a smaller numerics.courant or spacing",
                             s->the_case->probes[k].name, value, advisable);
         }
     }
@@ -271,7 +272,7 @@ static void print_end(const mor_run_files *files, const loop_state *p, double sp
     FILE *out = files->options->output;
     fprintf(out, "%s\n", s->the_case->title);
     if (p->n_loop_steps == 0) {
-        fprintf(out, "the run was complete at t = %.6g s; nothing was computed, results%s are drawn anew\n",
+        fprintf(out, "the run was complete at t = %.6g s; nothing was computed, results%s are written anew\n",
                 mor_schedule_time(&s->schedule), s->the_case->output.has_pictures ? " and pictures" : "");
     }
     fprintf(out, "%lld particles, %llu steps", (long long)mor_simulation_particles(s),
@@ -327,7 +328,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     return MOR_OK;
 }
 
-/* Adds what the folder of the run means to an error: the library that found it knows nothing of runs. */
+/* Adds to a message how the run can be resumed: the library in which the error arose knows nothing of runs. */
 static void add_advice(mor_context *context, mor_status status)
 {
     const size_t length = strlen(context->message);
@@ -337,7 +338,7 @@ static void add_advice(mor_context *context, mor_status status)
                                          : "");
 }
 
-/* The message, and where in the program it arose, for whoever mends the program. */
+/* The message, and where in the program it arose, for developers. */
 static void log_reason(const mor_context *context, FILE *log)
 {
     fprintf(log, "stopped: %s\n", context->message);

@@ -6,9 +6,9 @@
 #include "cases/driver/run/run_files.h"
 
 /** @file
- *  What a run leaves behind that a guard stopped: results, pictures and a snapshot of its last finished step. A step
- *  that breaks off leaves arrays half changed; the run goes back to a state kept in memory and takes the steps since
- *  then once more, which gives the same bits. */
+ *  What is written of a run that a check stopped: results, pictures and a snapshot of its last finished step. A step
+ *  that fails leaves arrays half changed; the run goes back to a state kept in memory and takes the steps since then
+ *  once more, which gives the same bits. */
 
 enum { MOR_RUN_KEEP_INTERVAL = 64 /* steps from one state kept in memory to the next */ };
 

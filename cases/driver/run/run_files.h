@@ -30,7 +30,7 @@ typedef struct mor_run_options {
     const char *command; /* command line, for the provenance */
     const char *version; /* of the program */
     const char *commit;  /* the program was built from */
-    mor_stop *stop;      /* asked whether the user wants to stop, told what the run is at; NULL: never */
+    mor_stop *stop;      /* whether the user requested a stop, and the phase of the run; NULL: never */
     FILE *output;        /* where the final table goes */
     FILE *progress;      /* where progress is shown; NULL: nowhere */
     bool is_terminal;    /* it can write over the line before */
@@ -61,7 +61,7 @@ typedef struct mor_run_files {
     int n_facts;
     char seed_text[24]; /* seed as text, for the provenance */
     char hash_text[24]; /* hash of the case file as text */
-    uint64_t case_hash; /* of the case file; told by whoever reads it */
+    uint64_t case_hash; /* of the case file; set by the caller */
     char *case_text;    /* zero-terminated; the case as it is used, which every checkpoint carries; freed by close */
     char *saved_text;   /* zero-terminated; the case the folder was started with; NULL: a new run; likewise */
     mor_run_kept kept;

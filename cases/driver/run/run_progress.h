@@ -23,7 +23,7 @@ typedef struct mor_run_progress {
     double last;   /* when the last line was written, or the run began, s */
 } mor_run_progress;
 
-/** Whether it is time for another line, which then begins to wait anew.
+/** Whether it is time for another line; if so, the interval starts again.
  *  @param now      [in]      of the clock, s */
 bool mor_run_progress_is_due(mor_run_progress *progress, double now);
 

@@ -6,7 +6,7 @@
 #include "cases/driver/run/run_files.h"
 
 /** @file
- *  The settling of a run's initial stress, and what is left behind where the soil does not come to rest. */
+ *  The settling of a run's initial stress, and what is written where the soil does not come to rest. */
 
 /** Settles as mor_simulation_settle. Soil that does not come to rest is kept as a snapshot in the folder `settling` of
  *  the run and drawn by its speed and its plastic strain, images/settling-velocity.png and

@@ -24,7 +24,7 @@ int64_t mor_run_find_snapshot(const mor_simulation *simulation, int64_t number)
     return number;
 }
 
-/* Springs that are loaded before anything has moved throw bodies apart. */
+/* Contact springs that are loaded before anything has moved drive bodies apart. */
 static void warn_of_overlap(mor_context *context, const mor_simulation *simulation)
 {
     const double advisable = 0.01;
@@ -39,9 +39,8 @@ static void warn_of_overlap(mor_context *context, const mor_simulation *simulati
     if (stored > advisable * (kinetic + mor_simulation_bodies_lift(&simulation->bodies))) {
         mor_context_log(
             context, MOR_LOG_WARNING,
-            "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts hold %.3g "
-            "%s, which throws them apart: leave them a gap (surfaces of meshes bulge beside edges by up to a 25th of a "
-            "spacing)",
+            "bodies overlap one another or walls by up to %.3g m as the run begins; their contacts store %.3g %s, "
+            "which drives them apart: leave a gap (surfaces of meshes bulge beside edges by up to a 25th of a spacing)",
             simulation->bodies.contact.deepest, stored, simulation->the_case->dimension == 2 ? "J/m" : "J");
     }
 }

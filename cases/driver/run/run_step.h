@@ -6,7 +6,7 @@
 #include "cases/driver/scene/simulation.h"
 
 /** @file
- *  One step of a run without its files: whoever steps a case by itself takes the very steps of a run. */
+ *  One step of a run without its files, so that the library takes the same steps as a run. */
 
 /** Returns the tick of a snapshot; the end for those behind the last one.
  *  @param number [in]  of the snapshot; 0: at the start */

@@ -13,7 +13,7 @@
 
 enum { MOR_RUN_WARNINGS_MAX = 64 };
 
-/** Begins what is judged at the end of a run: a run that is resumed beyond its end is judged anew. */
+/** Begins warnings that belong to the end of a run: a run that is resumed beyond its end finds them again. */
 #define MOR_RUN_WARNING_AT_END "at the end of the run "
 
 /** The texts of a run. Zeroed: none. Owner: the run's files, which end it with mor_run_warnings_clear. */
@@ -27,8 +27,8 @@ typedef struct mor_run_warnings {
  *  Returns: whether the text was new and had room. */
 bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, const char *text);
 
-/** Adds the warnings that a log of an earlier part of the run tells, but for those of its end.
- *  @param path     [in]      zero-terminated; of the log; one that is missing tells none */
+/** Adds the warnings in the log of an earlier part of the run, but for those of its end.
+ *  @param path     [in]      zero-terminated; of the log; a missing one has none */
 void mor_run_warnings_load(mor_context *context, mor_run_warnings *warnings, const char *path);
 
 /** Frees the texts.

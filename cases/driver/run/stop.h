@@ -8,13 +8,13 @@
 #include <stddef.h>
 
 /** @file
- *  How a signal and a run get along. The program is told to stop at moments nobody chose; what it may do then depends
- *  on what it is at. Every file of a run is whole at any moment, so that only a state in memory can be lost. */
+ *  How a signal stops a run. It may arrive at any moment; what the program does then depends on what it is doing. Every
+ *  file of a run is whole at any moment, so that only a state in memory can be lost. */
 
-/** What the program is at, and what the first signal does. */
+/** What the program is doing, and what the first signal does. */
 enum {
-    MOR_STOP_AT_ONCE,      /* nothing that a checkpoint would keep: the program ends there and then */
-    MOR_STOP_AFTER_STEP,   /* a step of a run: it is finished and saved, or given up when it takes too long */
+    MOR_STOP_AT_ONCE,      /* nothing that a checkpoint would keep: the program ends at once */
+    MOR_STOP_AFTER_STEP,   /* a step of a run: it is finished and saved, or dropped when it takes too long */
     MOR_STOP_AFTER_WRITING /* files of a run: they are finished */
 };
 
@@ -34,8 +34,8 @@ static inline bool mor_stop_is_requested(const mor_stop *stop)
     return stop != NULL && stop->is_requested != 0;
 }
 
-/** Says what the program is at.
- *  @param stop  [in,out]  NULL: nobody asks
+/** Sets what the program is doing.
+ *  @param stop  [in,out]  NULL: no effect
  *  @param phase [in]      one of the words above */
 static inline void mor_stop_enter(mor_stop *stop, int phase)
 {

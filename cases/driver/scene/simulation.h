@@ -10,7 +10,7 @@
 #include "core/time/schedule.h"
 
 /** @file
- *  A case made ready to run, and what can be asked of it as a whole; scene/build makes it. Everything here is in the
+ *  A case made ready to run, and what is found for it as a whole; scene/build makes it. Everything here is in the
  *  placed frame (after the case's rotation and translation). */
 
 struct mor_probe_track; /* cases/driver/probe/probe_track.h */
@@ -30,7 +30,7 @@ typedef struct mor_simulation {
     int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
     double first_step;                            /* length of the first time step, s */
     double initial_energies[3];                   /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
-    struct mor_probe_track *probes;               /* what the probes remember; owned */
+    struct mor_probe_track *probes;               /* state of the probes; owned */
     mor_state_list state;                         /* what a resumed run needs, as its owners list it */
 } mor_simulation;
 
@@ -44,7 +44,7 @@ void mor_simulation_place_point(const mor_case *the_case, const double *point, d
  *  @param point    [out]  shape [3], unit m */
 void mor_simulation_take_point_back(const mor_case *the_case, const double *placed, double *point);
 
-/** Finds the direction against gravity in the placed frame; without gravity y (2D) or z (3D) of the case, turned.
+/** Finds the direction against gravity in the placed frame; without gravity y (2D) or z (3D) of the case, rotated.
  *  @param up       [out]  shape [3]; unit vector, 1 */
 void mor_simulation_find_up(const mor_case *the_case, double *up);
 
@@ -61,7 +61,7 @@ static inline int64_t mor_simulation_counted_particles(const mor_simulation *sim
     return simulation->has_soil ? simulation->soil.set.n_particles : mor_simulation_particles(simulation);
 }
 
-/** What speeds are counted in, in words: it says so where rocks are left out.
+/** The unit of computing speeds, in words: it says so where rocks are left out.
  *  Returns: a static text. */
 static inline const char *mor_simulation_counted_unit(const mor_simulation *simulation)
 {
@@ -73,13 +73,13 @@ static inline const char *mor_simulation_counted_unit(const mor_simulation *simu
  *  Returns: MOR_OK; as mor_state_add. */
 mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simulation, mor_state_list *list);
 
-/** After a state was put back: makes everything else follow.
+/** After a state was restored: updates everything that depends on it.
  *  Returns: MOR_OK; what a material returns. */
 mor_status mor_simulation_resume(mor_context *context, mor_simulation *simulation);
 
-/** All particle sets: the soil, the groups of bodies, what their contact remembers.
+/** All particle sets: the soil, the groups of bodies, the history of their contact.
  *  @param sets        [out]  shape [MOR_BODY_GROUPS_MAX + 2]; borrowed
- *  @param has_history [in]   whether the contact's memory is wanted, which has no places
+ *  @param has_history [in]   whether the history of contact is included, which has no positions
  *  Returns: their number. */
 int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **sets);
 

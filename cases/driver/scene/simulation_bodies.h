@@ -37,7 +37,7 @@ typedef struct mor_simulation_frame {
     double domain_minimum[3];   /* m, in the frame of the case */
     double domain_maximum[3];   /* likewise */
     mor_domain_frame placement; /* the placement of the case */
-    bool is_placed;             /* whether that turns or moves anything */
+    bool is_placed;             /* whether that rotates or translates anything */
 } mor_simulation_frame;
 
 /** Builds the bodies and their contact: fills the shapes with particles, checks that nothing overlaps and that all of
@@ -52,7 +52,7 @@ mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodie
 /** Frees what the bodies own; accepts a zeroed one. */
 void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bodies);
 
-/** Adds the bodies to the schedule and shows them to the soil.
+/** Adds the bodies to the schedule and, as boundaries, to the soil.
  *  @param soil     [in,out]  NULL: there is no soil
  *  Returns: MOR_OK; what the parts return. */
 mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,

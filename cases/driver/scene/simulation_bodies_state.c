@@ -116,7 +116,7 @@ static double cantilever_shape(double s)
     return s > 0.0 ? (m * (cos(k * s) - cosh(k * s)) - n * (sin(k * s) - sinh(k * s))) / q : 0.0;
 }
 
-/* A body of the case, for what is asked of it at reference positions. */
+/* A body of the case, for functions of the reference position. */
 typedef struct start_of_body {
     const mor_case *the_case;
     const mor_case_body *body;
@@ -181,7 +181,7 @@ static bool is_locked_wholly(const mor_case *c, const mor_case_body *it)
     return is_locked;
 }
 
-/* Starts one body, or lets it wait while the soil settles. */
+/* Starts one body, or holds it while the soil settles. */
 static mor_status start_body(mor_context *context, const mor_simulation_body *body, const mor_case *c,
                              const mor_case_body *it, bool is_resting)
 {
@@ -193,7 +193,7 @@ static mor_status start_body(mor_context *context, const mor_simulation_body *bo
                             .add_velocity = it->motion != MOR_CASE_MOTION_UNIFORM ? add_motion : NULL,
                             .is_clamped = it->clamp != NULL ? is_clamped : NULL,
                             .user = &user};
-    /* What is thrown at the soil waits until the soil has settled. */
+    /* Bodies with a velocity are held until the soil has settled. */
     start.is_held = is_resting && (mor_vector_length(it->velocity) > 0.0 || it->motion_speed > 0.0 ||
                                    mor_vector_length(it->angular_velocity) > 0.0);
     mor_matrix_apply(c->rotation, it->velocity, start.velocity);
@@ -204,7 +204,7 @@ static mor_status start_body(mor_context *context, const mor_simulation_body *bo
               "around at least one; move the clamp, which is placed in the case and not in the frame of the "
               "body, or remove it",
               it->place.file, it->place.line, it->name, (long long)own->n_particles);
-    /* A rock that waits counts as infinitely heavy in contact, as one that moves as prescribed. */
+    /* A rock that is held counts as infinitely heavy in contact, as one that moves as prescribed. */
     own->is_held = start.is_held || it->is_prescribed || is_locked_wholly(c, it);
     group->boundary.patches[body->index].is_driven = it->is_prescribed;
     memset(own->rotation_angle, 0, sizeof own->rotation_angle);

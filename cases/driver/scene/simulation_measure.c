@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What can be told of a simulation as a whole: numbers, sets, energies. */
+/* Numbers, sets and energies of a simulation as a whole. */
 #include "cases/driver/scene/simulation.h"
 
 #include "core/base/math.h"
@@ -54,7 +54,7 @@ static mor_measure_points points_of(const mor_simulation *simulation)
                                 .density = data[MOR_FIELD_DENSITY]};
 }
 
-/* Stored energies of particles by the material's own operation; NaN when the model cannot tell. */
+/* Stored energies of particles by the material's own operation; NaN when the model has no energy operation. */
 static void fill_elastic(const void *argument, int64_t start, int64_t n, double *terms)
 {
     const mor_soil *soil = argument;

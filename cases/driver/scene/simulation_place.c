@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Where things of a case lie in the run. */
+/* Positions of a case in the frame of the run. */
 #include "cases/driver/scene/simulation.h"
 
 #include "core/base/math.h"

@@ -75,8 +75,8 @@ static bool is_in_domain(const mor_case *c, const double *point)
 
 /* What two walls make together. */
 typedef struct seam {
-    bool is_flush;   /* a face of one goes on in the other */
-    bool is_inner;   /* they form an inner corner, too, where a rock is to feel both */
+    bool is_flush;   /* a face of one continues in the other */
+    bool is_inner;   /* they form an inner corner, too, where a rock touches both */
     double place[3]; /* where they are flush, m */
 } seam;
 
@@ -119,7 +119,7 @@ static bool has_own_law(const mor_case *c, const char *name)
     return is_named;
 }
 
-/* Whether bodies cannot tell the surfaces of two walls from one another. */
+/* Whether contact with the surfaces of two walls is the same. */
 static bool are_alike(const mor_case *c, const mor_case_wall *a, const mor_case_wall *b)
 {
     return memcmp(a->velocity, b->velocity, sizeof a->velocity) == 0 && a->contact_modulus == b->contact_modulus &&
@@ -192,12 +192,13 @@ void mor_wall_seams_warn(mor_context *context, const mor_case *the_case)
             if (it.is_flush && (!is_alike || it.is_inner)) {
                 mor_context_log(
                     context, MOR_LOG_WARNING,
-                    "%s:%d: wall '%s' goes on in wall '%s' at (%.4g, %.4g, %.4g) m, but %s, so that they "
-                    "are not touched as one; a rock within two spacings of that seam feels each wall as if "
-                    "the other were not there, and its forces are up to a third off: %s",
+                    "%s:%d: wall '%s' continues in wall '%s' at (%.4g, %.4g, %.4g) m, but %s, so that contact does not "
+                    "treat them as one; within two spacings of that seam a rock is in contact with each as if the "
+                    "other were absent, with errors of its forces up to a third: %s",
                     c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->walls[v].name, it.place[0],
                     it.place[1], it.place[2],
-                    is_alike ? "forms an inner corner with it elsewhere" : "moves, yields or rubs otherwise",
+                    is_alike ? "forms an inner corner with it elsewhere"
+                             : "differs in velocity, contact_modulus or contact law",
                     is_alike ? "let one end a spacing before the other"
                              : "give both the same velocity, contact_modulus and contact law, or keep rocks "
                                "away from it");

@@ -8,8 +8,8 @@
 #include "core/base/context.h"
 
 /** @file
- *  Walls that meet flush. A rock on the seam would touch each as if the other were not there, with forces up to a third
- *  off; so bodies touch the union of both, if the walls are alike. */
+ *  Walls that meet flush. A rock on the seam would touch each as if the other were absent, with errors of the forces up
+ *  to a third; so bodies touch the union of both, if the walls are alike. */
 
 /** Joins walls that make up one face together, form no inner corner, move alike, yield alike and have no contact law of
  *  their own.

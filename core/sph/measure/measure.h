@@ -30,7 +30,7 @@ typedef struct mor_measure_points {
     const double *mass;       /* shape [n_points]; unit kg (2D: kg/m); > 0 */
     const double *density;    /* shape [n_points]; unit kg/m3; NULL: every volume is spacing to the power dimension */
     int n_threads;            /* that share the work; 0: one */
-    mor_measure_order *order; /* memory of a percentile that is asked for again and again; NULL: none, its scratch is
+    mor_measure_order *order; /* memory of a percentile that is found repeatedly; NULL: none, its scratch is
                                * allocated for each call */
 } mor_measure_points;
 
@@ -91,7 +91,7 @@ typedef struct mor_measure_column {
     double highest;        /* particles above this height are left out, unit m; INFINITY: none */
 } mor_measure_column;
 
-/** What the stress in a column at rest is like. Means are weighted by mass; s is the normal stress along up. */
+/** Statistics of the stress in a column at rest. Means are weighted by mass; s is the normal stress along up. */
 typedef struct mor_measure_stress {
     double error_l2;      /* root of mean (s - r)^2 over root of mean r^2, 1, with r = -density * gravity *
                            * (surface_height - height), 0 above the surface; NaN when r vanishes everywhere */

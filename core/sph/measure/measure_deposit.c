@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* More bins than this mean a wrong width, or a particle gone astray. */
+/* More bins than this indicate a wrong width, or a particle far from the others. */
 static const double bins_limit = 16777216.0;
 
 /* Least and greatest of a coordinate. */
@@ -39,7 +39,7 @@ static void join(value_range *range, const value_range *other)
     range->greatest = fmax(range->greatest, other->greatest);
 }
 
-/* Names the first particle that is nowhere. */
+/* Names the first particle without a finite position. */
 static mor_status refuse_positions(mor_context *context, const mor_measure_points *points)
 {
     int64_t i = 0;
@@ -199,7 +199,7 @@ static mor_status reserve_distances(mor_context *context, mor_measure_profile *p
     return MOR_OK;
 }
 
-/* Room for some bins more than are needed, so that a deposit that spreads asks seldom. */
+/* Room for some bins more than are needed, so that a spreading deposit reallocates rarely. */
 static mor_status reserve_bins(mor_context *context, mor_measure_profile *profile, int64_t n_bins)
 {
     if (n_bins <= profile->capacity) {

@@ -126,20 +126,20 @@ typedef struct mor_pair_mean_job {
 typedef void (*mor_pair_mean_loop)(const mor_pair_constants *constants, const mor_pair_mean_job *job, int64_t first,
                                    int64_t last);
 
-/** What each particle of a slot gives to the points it sees. */
+/** Force of each particle of a slot on the points it sees. */
 enum {
-    MOR_SHARE_FORCE = 0,     /* 3, to be handed out, N (N/m) */
+    MOR_SHARE_FORCE = 0,     /* 3, to be distributed, N (N/m) */
     MOR_SHARE_DIRECTION = 3, /* 3, sum V grad_i W over its squared length, m; zero: shares go by kernel values */
     MOR_SHARE_VALUE = 6,     /* 1 / sum V W when shares go by kernel values, else 0; 1 */
     MOR_SHARES = 7
 };
 
-/** Hands out the force of each particle to the points it sees, by shares that add up to one. */
+/** Distributes the force of each particle to the points it sees, by shares that add up to one. */
 typedef struct mor_pair_share_job {
     const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
     const mor_pair_slot *slots; /* shape [n_slots] */
-    const int32_t *chosen;      /* shape [>= last]; slots to be served, in this order */
+    const int32_t *chosen;      /* shape [>= last]; slots to be processed, in this order */
     const double *given;        /* shape [n_slots * 8, MOR_SHARES]; units of the enum */
     double *force;              /* shape [n_target, 3], N (N/m); added to */
 } mor_pair_share_job;

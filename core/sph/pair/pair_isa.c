@@ -3,7 +3,7 @@
 /* Compiled once per instruction set; MOR_ISA is its name. */
 #include "core/sph/pair/pair_lanes.h"
 
-/* FIRST_BYTES: of the next cluster's short list, which are asked for before its turn. */
+/* FIRST_BYTES: of the next cluster's short list that are prefetched. */
 enum { FIRST_BYTES = 512 };
 
 INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
@@ -11,7 +11,7 @@ INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
     return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
 }
 
-/* What a copy of the momentum loop does; constant in each copy, so that no pair asks. */
+/* What a copy of the momentum loop does; constant in each copy, so that there is no branch per pair. */
 typedef struct momentum_form {
     int dimension;
     int diffuses;   /* stress diffusion: none, always (1), or as far as pairs move (2) */
@@ -126,7 +126,7 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     separate(p.r, f, target, form.dimension);
     const double h = c->smoothing_length;
     const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
-    /* Division is slow: one serves both quotients. */
+    /* Division is slow: both quotients share one. */
     const vec inverse = 1.0 / (g->distance * impedance_sum);
     const vec inverse_distance = inverse * impedance_sum;
     const vec speed =
@@ -171,7 +171,7 @@ INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const doubl
     for (int a = 0; a < 6; ++a) {
         size -= magnitude(load(own, 6, a) + other[a]);
     }
-    /* The power is dear, and few pairs are under tension. */
+    /* The power is expensive, and few pairs are under tension. */
     if (any_less(size, 0.0)) {
         pair p;
         separate(p.r, f, target, form.dimension);
@@ -244,7 +244,7 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
 INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, const int32_t *list, int32_t count,
                      int32_t *entry, int32_t *near, const int dimension)
 {
-    /* A little wide, so that rounding leaves out no pair that counts. */
+    /* Slightly wider, so that rounding omits no pair within the support. */
     const double half = parts[0].frame.half_inverse_h;
     const double reach2 = (1.0 + 0x1p-40) / (half * half);
     int32_t k = *entry;
@@ -266,7 +266,7 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
     return n;
 }
 
-/* Eq. 25 with the operator of eq. 26 for any direction of gravity: what departs from the line of rest spreads. */
+/* Eq. 25 with the operator of eq. 26 for any direction of gravity: deviations from the profile at rest diffuse. */
 INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const vec *s, double *out,
                              int n_lanes)
 {

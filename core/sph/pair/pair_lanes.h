@@ -143,7 +143,7 @@ typedef struct pair {
 /* The arithmetic of a pair is a long chain of dependent operations, and a processor looks no more than some hundred
  * operations ahead. Cut into passes over a chunk of targets, each chain is short, and many pairs are under way at once.
  * CHUNK: targets in a chunk. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD: entries of a
- * list whose records are asked for before their turn. */
+ * list by which records are prefetched. */
 enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32 };
 
 /** The geometry of a target and the lanes of a cluster. */
@@ -194,7 +194,7 @@ INLINE void find_geometry(geometry *g, const double *records, const int32_t *tar
     }
 }
 
-/** Asks for memory, shape [size_bytes], before it is read (0) or written (1). */
+/** Prefetches memory, shape [size_bytes], to be read (0) or written (1). */
 INLINE void ask_for(const void *memory, int64_t size_bytes, const int writes)
 {
     enum { LINE = 64 };

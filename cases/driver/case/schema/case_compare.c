@@ -244,7 +244,7 @@ static bool compare_domain(const char *given, const char *saved, mor_case_differ
 {
     static const char *const paths[] = {"domain.min", "domain.max", "domain.outflow"};
     static const char *const reasons[] = {"; the domain can only become larger", "; the domain can only become larger",
-                                          "; what has left cannot be called back"};
+                                          "; soil that has left cannot be restored"};
     walk one = {.at = given};
     walk other = {.at = saved};
     for (int k = 0; k < 3; ++k) {
@@ -274,7 +274,7 @@ static void compare_fixed(const char *given, const char *saved, int n_probes, mo
             (!one.is_over && (strcmp(one.path, other.path) != 0 || strcmp(one.value, other.value) != 0))) {
             const bool is_probe = find_probe(one.path) >= 0 && find_probe(other.path) >= 0;
             set_difference(it, &one, &other,
-                           is_probe                         ? "; new probes go behind those that are there"
+                           is_probe                         ? "; append new probes behind the existing ones"
                            : one.is_content && !one.is_over ? "; the file has changed since"
                                                             : "");
             return;
@@ -292,9 +292,9 @@ void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, con
     *difference = (mor_case_difference){.is_found = false};
     compare_fixed(given, saved, n_probes, difference);
     if (!difference->is_found && !compare_domain(given, saved, difference) && has_audit && !had_audit) {
-        *difference = (mor_case_difference){.is_found = true,
-                                            .reason = "; what becomes of energy is followed from the start or not "
-                                                      "at all, so that such a probe cannot be added later"};
+        *difference = (mor_case_difference){
+            .is_found = true,
+            .reason = "; the audit of energy begins at the start of a run, so that such a probe cannot be added later"};
         snprintf(difference->found, sizeof difference->found, "a probe of the audit of energy among %d", n_given);
         snprintf(difference->expected, sizeof difference->expected, "none among %d", n_probes);
     }

@@ -9,7 +9,7 @@
 /* Most that a set holds: its indices have 32 bits. */
 #define PARTICLES_MOST 2147483584.0
 
-/* The rest of the system wants some memory, too. */
+/* Share of the free memory that may be used; the rest is left to the system. */
 static const double usable_share = 0.95;
 
 /* A number that a file of the system holds alone; INFINITY when it holds none. */
@@ -42,7 +42,7 @@ static double read_available(void)
     return 1024.0 * kibibytes;
 }
 
-/* What a container leaves of its limit. */
+/* Memory that is left of the limit of a container. */
 static double read_left(const char *limit, const char *used)
 {
     const double left = read_number(limit) - read_number(used);

@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 /** @file
- *  How many particles fit into the memory that is free. A system hands out more memory than it has and ends the
- *  program later, without a word; so whoever fills a shape asks here first. */
+ *  How many particles fit into the memory that is free. A system may grant more memory than it has and kill the program
+ *  later without a message; so filling a shape asks here first. */
 
 enum {
     MOR_MEMORY_ROOM_SOIL = 720, /* bytes a particle of soil takes in a run, neighbor lists included */

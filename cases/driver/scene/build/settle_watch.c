@@ -11,13 +11,13 @@
 /* Plastic strain grows steadily when its rate falls by less than this from quarter to quarter. */
 static const double steady = 0.5;
 
-/* Rest that is farther away than so many times the time spent is not in sight. */
+/* Rest that would take more than so many times the time so far is not foreseeable. */
 static const double far_away = 20.0;
 
 /* A speed decays when its logarithm falls by this over the second half of the time; vibrations fall by less. */
 static const double decay_least = 0.3;
 
-/* Fewer samples than this tell nothing. */
+/* Fewer samples than this are not evaluated. */
 enum { SAMPLES_LEAST = 8 };
 
 mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_set *set)

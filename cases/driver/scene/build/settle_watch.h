@@ -6,8 +6,8 @@
 #include "core/particle/set.h"
 
 /** @file
- *  How soil settles under damping, and what that says of soil that does not come to rest in the time given: whether it
- *  does not stand under its own weight, or needs longer. */
+ *  How soil settles under damping, and why it does not come to rest in the time given: because it is not stable under
+ *  its own weight, or needs longer. */
 
 enum { MOR_SETTLE_SAMPLES = 256 };
 
@@ -46,15 +46,15 @@ typedef struct mor_settle_result {
     double strain_rates[2]; /* mean plastic strain / time over the third and the last quarter, 1/s; NaN: not known */
 } mor_settle_result;
 
-/** Begins to watch.
+/** Starts sampling.
  *  @param set     [in]      the soil's particles, with ids from 0 to their number - 1
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_set *set);
 
-/** Frees what a watch owns; accepts a zeroed one. */
+/** Frees what is owned; accepts a zeroed one. */
 void mor_settle_watch_clear(mor_context *context, mor_settle_watch *watch);
 
-/** Looks at the soil.
+/** Adds a sample of the soil.
  *  @param set     [in]      the same particles in any order
  *  @param time    [in]      since the start of settling, s; rising
  *  @param speed   [in]      99 % of the particles are slower, m/s

@@ -74,7 +74,7 @@ static void name_group(const mor_simulation_bodies *bodies, const char *model, c
     snprintf(name, room, n_same > 1 ? "%s_%d" : "%s", model, n_same);
 }
 
-/* A body that cannot be made is an error of the case: says where it stands there. */
+/* A body that cannot be made is an error of the case: adds the place in the file. */
 static mor_status annotate_error(mor_context *context, const mor_case *c, const group_spec *r, mor_status status)
 {
     const mor_case_body *it = &c->bodies[r->members[r->n_members - 1]];
@@ -92,7 +92,7 @@ static mor_status annotate_error(mor_context *context, const mor_case *c, const 
                     it->place.line, context->message);
 }
 
-/* The thickness of a shape, nearly and never too much. */
+/* An estimate of the thickness of a shape, never too large. */
 static double estimate_thickness(const mor_shape *shape, int dimension)
 {
     enum { ACROSS = 20 };
@@ -111,7 +111,7 @@ static double estimate_thickness(const mor_shape *shape, int dimension)
     return 2.0 * deepest;
 }
 
-/* Another spacing may lead to another packing: names one that is fine enough for whatever rock may be drawn. */
+/* Another spacing may lead to another packing: proposes one that is fine enough for any rock of the sizes. */
 static mor_status explain_thin_body(mor_context *context, const mor_case *c, const mor_case_body *it)
 {
     const mor_case_rocks *rocks = c->rocks;
@@ -124,11 +124,10 @@ static mor_status explain_thin_body(mor_context *context, const mor_case *c, con
     for (int k = 0; k < rocks->n_shapes; ++k) {
         least = fmin(least, estimate_thickness(rocks->shapes[k], c->dimension));
     }
-    return MOR_FAIL(
-        context, MOR_ERROR_CONFIG,
-        "%s; it is the thinnest of the rocks, which may be drawn anew with another spacing: %.3g m does for "
-        "all that the sizes allow",
-        context->message, 0.98 * least * rocks->sizes[0].diameter / THICKNESS_LEAST);
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "%s; it is the thinnest of the rocks, which another spacing may generate differently: %.3g m is "
+                    "fine enough for all sizes",
+                    context->message, 0.98 * least * rocks->sizes[0].diameter / THICKNESS_LEAST);
 }
 
 /* Fills the thinnest packed rock before all others, so that not each of them is refused in turn. */
@@ -247,7 +246,7 @@ static int case_number(const mor_simulation_bodies *bodies, const mor_case *c, c
     return b;
 }
 
-/* What to do about a body that lies wrong; packed rocks have no place of their own to change. */
+/* Remedy for a body in a wrong place; the places of packed rocks are not given in the case. */
 static const char *advise_place(const mor_case_body *it, const char *advice)
 {
     return it->packed_diameter > 0.0 ? "rocks are packed without regard to walls and the domain; raise 'margin' or "
@@ -307,7 +306,7 @@ static mor_status check_node(mor_context *context, const mor_simulation_bodies *
     return check_walls(context, c, it, node);
 }
 
-/* Surfaces tell overlaps exactly, particles only to half a spacing; but a wall may stand inside a body. */
+/* Surfaces give overlaps exactly, particles only to half a spacing; but a wall may lie inside a body. */
 static mor_status check_groups(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c,
                                const mor_simulation_frame *frame, const mor_bounds *boxes)
 {
@@ -451,7 +450,7 @@ static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil
     return barrier.stiffness > 0.0 ? mor_soil_set_barrier(context, soil, boundary, &barrier) : MOR_OK;
 }
 
-/* Tells each body the soil it may lie in. What is prescribed or clamped does not give way as a whole. */
+/* Finds the added mass of soil of each body. A prescribed or clamped body does not move as a whole. */
 static void find_added_masses(mor_simulation_bodies *bodies, const mor_case *c, const mor_soil *soil)
 {
     enum { ALL = 0x3f, OUT_OF_PLANE = 0x1c };

@@ -33,7 +33,7 @@ static void set_request(const mor_case *the_case, const mor_shape *shape, mor_la
     memcpy(request->translation, the_case->translation, sizeof request->translation);
 }
 
-/* More lattice nodes than this along an axis are a slip of the pen, and counting them would take minutes. */
+/* More lattice nodes than this along an axis are taken for a typing error; counting them would take minutes. */
 #define NODES_ALONG 1.0e5
 
 static mor_status refuse_size(mor_context *context, const mor_case_place *place, const char *name, double bytes_each,
@@ -88,7 +88,7 @@ static mor_status fill_shape(mor_context *context, const filling *it, mor_lattic
     return refuse_size(context, it->place, it->name, it->bytes_each, why);
 }
 
-/* A shape that cannot be filled is an error of the case, told with its place. */
+/* A shape that cannot be filled is an error of the case, with its place in the file. */
 static mor_status annotate_error(mor_context *context, mor_status status, const mor_case_place *place, const char *name)
 {
     return status != MOR_ERROR_ARGUMENT ? status
@@ -290,7 +290,7 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
     s->removes_outflow = c->outflow == 1;
 }
 
-/* Gravity and the domain, which is turned with the scene. */
+/* Gravity and the domain, which is placed with the scene. */
 static void find_frame(const mor_case *c, mor_simulation_frame *frame)
 {
     mor_matrix_apply(c->rotation, c->gravity, frame->gravity);

@@ -27,13 +27,13 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation);
 /** How far settling is. */
 typedef struct mor_settle_course {
     double time;      /* since settling began, s */
-    double longest;   /* after which it is given up, s */
+    double longest;   /* after which it fails, s */
     uint64_t n_steps; /* so far */
     double speed;     /* 99 % of the soil are slower, m/s */
     double limit;     /* the soil is at rest below this speed, m/s */
 } mor_settle_course;
 
-/** Who looks on while soil settles. */
+/** Receives the progress of settling. */
 typedef struct mor_settle_observer {
     const atomic_int *stop; /* settling ends early when it becomes non-zero; NULL: never */
     /** Called every some steps; NULL: not. */

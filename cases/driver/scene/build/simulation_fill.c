@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* A box that soil feels longer or shorter by more than this share is spoken of. */
+/* A relative difference between the length of a box and that of its particles above this is reported. */
 #define ROUNDING_TOLD 0.05
 
 /* Particles that a body must have along each axis. */
@@ -33,7 +33,7 @@ bool mor_simulation_fill_is_relaxed(const mor_case_body *body)
                                                           : body->particles == MOR_CASE_PARTICLES_RELAXED;
 }
 
-/* Of the axes the one along which the body is shortest is told, so that the spacing told does for all. */
+/* The axis along which the body is shortest is reported, so that the spacing proposed suits all axes. */
 static mor_status check_extents(mor_context *context, const mor_case *c, const mor_case_body *it,
                                 const mor_bounds *bounds)
 {
@@ -42,8 +42,8 @@ static mor_status check_extents(mor_context *context, const mor_case *c, const m
     for (int a = 0; a < c->dimension; ++a) {
         const double extent = bounds->maximum[a] - bounds->minimum[a];
         MOR_CHECK(context, isfinite(extent) && extent > 0.0, MOR_ERROR_CONFIG,
-                  "%s:%d: found body '%s' without end along its own %c; allowed are bounded shapes; use a box, "
-                  "sphere, cylinder, or cut the shape off",
+                  "%s:%d: found body '%s' unbounded along its own %c; allowed are bounded shapes; use a box, sphere, "
+                  "cylinder, or cut the shape off",
                   it->place.file, it->place.line, it->name, "xyz"[a]);
         axis = extent < least ? a : axis;
         least = fmin(least, extent);
@@ -57,7 +57,7 @@ static mor_status check_extents(mor_context *context, const mor_case *c, const m
     return MOR_OK;
 }
 
-/* Rocks touch each other with their true shapes, but soil feels their particles, which fill whole cells. */
+/* Contact between rocks uses their true shapes, that with soil their particles, which fill whole cells. */
 static void warn_rounding(mor_context *context, const mor_case *c, const mor_case_body *it, int axis, double extent,
                           double n)
 {
@@ -66,8 +66,8 @@ static void warn_rounding(mor_context *context, const mor_case *c, const mor_cas
         !mor_simulation_fill_is_relaxed(it)) {
         mor_context_log(
             context, MOR_LOG_WARNING,
-            "%s:%d: body '%s' is %g m long along its own %c, but to soil %g m, %g particles: choose a spacing "
-            "that divides it, as %.3g m, or particles = \"relaxed\"",
+            "%s:%d: body '%s' is %g m long along its own %c, but its particles, which soil is in contact with, span %g "
+            "m, %g particles: choose a spacing that divides it, as %.3g m, or particles = \"relaxed\"",
             it->place.file, it->place.line, it->name, extent, "xyz"[axis], n * c -> spacing, n, extent / n);
     }
 }

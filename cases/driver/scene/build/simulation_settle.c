@@ -47,7 +47,7 @@ static bool find_settling(const mor_case *the_case, double *longest, double *rat
     return is_asked;
 }
 
-/* Settling for much longer than the run has no room on its line of time: ticks become longer. */
+/* A settling much longer than the run does not fit into the integer time line: ticks become longer. */
 static int64_t find_until(mor_schedule *schedule, double longest)
 {
     const double most = 1152921504606846976.0; /* 2^60 ticks */
@@ -92,10 +92,10 @@ static mor_status report_unrest(mor_context *context, const mor_simulation *simu
     if (result.outcome == MOR_SETTLE_FAILS) {
         return MOR_FAIL(
             context, MOR_NOT_CONVERGED,
-            "the soil does not stand under its own weight: %s; it has moved by up to %.3g m (%.3g spacings) "
-            "and goes on: the mean plastic strain grew by %.3g 1/s in the last quarter of that time, by %.3g "
-            "1/s in the one before. A longer 'settle_time' does not help; give the soil more strength, a "
-            "gentler slope or a wall that holds it, or let it flow from the start with type = \"k0\"",
+            "the soil does not stand under its own weight: %s; it has moved by up to %.3g m (%.3g spacings) and keeps "
+            "moving: the mean plastic strain grew by %.3g 1/s in the last quarter of that time, by %.3g 1/s in the one "
+            "before. A longer 'settle_time' does not help; give the soil more strength, a gentler slope or a wall that "
+            "holds it, or let it flow from the start with type = \"k0\"",
             found, result.displacement, result.displacement / spacing, result.strain_rates[1], result.strain_rates[0]);
     }
     if (result.outcome == MOR_SETTLE_NEEDS_TIME) {
@@ -108,13 +108,12 @@ static mor_status report_unrest(mor_context *context, const mor_simulation *simu
     }
     return MOR_FAIL(context, MOR_NOT_CONVERGED,
                     "the soil did not come to rest: %s; it has moved by up to %.3g m (%.3g spacings), and its speed "
-                    "neither decays steadily nor does the soil yield steadily, as far as that can be told in the time "
-                    "given. Give a longer 'settle_time' to see which, "
-                    "or a larger 'settle_speed_ratio'%s",
+                    "neither decays steadily nor does the soil yield steadily, as far as the time given shows. Give a "
+                    "longer 'settle_time' to see which, or a larger 'settle_speed_ratio'%s",
                     found, result.displacement, result.displacement / spacing, may_creep ? creep_advice : "");
 }
 
-/* Soil that came to rest in another form than the one described. */
+/* Reports how far soil moved until it came to rest. */
 static void report_rest(mor_context *context, const mor_simulation *simulation, const mor_settle_watch *watch,
                         double speed, double limit, bool is_stopped)
 {
@@ -128,7 +127,7 @@ static void report_rest(mor_context *context, const mor_simulation *simulation, 
     if (moved > spacing && !is_stopped) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "the soil moved by up to %.3g m (%.3g spacings) while its initial stress settled, so the run "
-                        "starts from another form than the case describes: it does not stand as it is described",
+                        "starts from a deformed shape: the soil is not stable in the shape that the case describes",
                         moved, moved / spacing);
     }
 }

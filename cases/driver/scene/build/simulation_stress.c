@@ -147,13 +147,12 @@ static mor_status warn_of_cover(mor_context *context, const mor_simulation *simu
     MOR_FREE(context, &covered);
     if (n_cover > 0) {
         const double missing = highest + 0.5 * s->spacing - level;
-        mor_context_log(
-            context, MOR_LOG_WARNING,
-            "%s:%d: surface_level = %g m of soil '%s' has other soil on it, up to %.4g m above: that weight, "
-            "up to %.3g Pa, is missing in its initial stress, and the soil below gives way as the run "
-            "begins; leave surface_level out for the weight of all soil straight above, or raise it",
-            it->place.file, it->place.line, it->surface_level, it->name, missing,
-            it->density * mor_vector_length(simulation->soil.settings.gravity) * missing);
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: surface_level = %g m of soil '%s' has other soil on it, up to %.4g m above: that "
+                        "weight, up to %.3g Pa, is missing in its initial stress, and the soil below yields as the run "
+                        "begins; leave surface_level out for the weight of all soil straight above, or raise it",
+                        it->place.file, it->place.line, it->surface_level, it->name, missing,
+                        it->density * mor_vector_length(simulation->soil.settings.gravity) * missing);
     }
     return MOR_OK;
 }

@@ -512,8 +512,8 @@ static void impossible_motions_are_refused(void **state)
         {3, {.has_spring = true, .spring_stiffness = -1.0}, "none may be negative"},
         {3, {.has_spring = true, .spring_damping = NAN}, "none may be negative"},
         {3, {.has_spring = true, .spring_length = -0.5}, "none may be negative"},
-        {2, {.is_prescribed = true, .velocity = {0.0, 0.0, 1.0}}, "leave the plane"},
-        {2, {.is_prescribed = true, .angular_velocity = {1.0, 0.0, 0.0}}, "leave the plane"},
+        {2, {.is_prescribed = true, .velocity = {0.0, 0.0, 1.0}}, "moves out of the plane"},
+        {2, {.is_prescribed = true, .angular_velocity = {1.0, 0.0, 0.0}}, "moves out of the plane"},
     };
     const rigid_units units = {1.0, 1.0, 1.0};
     rigid_scene *it = malloc(sizeof *it);

@@ -276,7 +276,7 @@ static void a_unit_change_by_powers_of_two_changes_no_bit(void **state)
     mor_mesh_clear(&it->context, &first);
 }
 
-/* ---- What is mended ---------------------------------------------------------------------------------------------- */
+/* ---- What is repaired -------------------------------------------------------------------------------------------- */
 
 static void triangles_with_corners_of_their_own_are_welded(void **state)
 {

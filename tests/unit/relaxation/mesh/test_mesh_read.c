@@ -220,7 +220,7 @@ static void polygons_are_divided_into_triangles(void **state)
     expect_cube(folder, "quads.obj", &it, 1.0, 0.5);
 }
 
-static void what_is_mended_is_logged(void **state)
+static void what_is_repaired_is_logged(void **state)
 {
     run_folder *folder = *state;
     mor_mesh cube = mesh_cube(&folder->context, 0.5);
@@ -236,7 +236,7 @@ static void what_is_mended_is_logged(void **state)
     assert_int_equal(report.n_flipped, 1);
     assert_int_equal(report.n_holes_filled, 1);
     assert_int_equal(folder->n_logged, 1);
-    assert_non_null(strstr(folder->log, "mended: 1 triangle reversed, 1 hole filled"));
+    assert_non_null(strstr(folder->log, "repaired: 1 triangle reversed, 1 hole filled"));
     mor_mesh_clear(&folder->context, &mesh);
     mor_mesh_clear(&folder->context, &cube);
 }
@@ -475,7 +475,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(every_kind_of_file_gives_the_same_cube, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(polygons_are_divided_into_triangles, run_folder_setup, run_folder_teardown),
-        cmocka_unit_test_setup_teardown(what_is_mended_is_logged, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(what_is_repaired_is_logged, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(files_without_an_inside_are_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(places_that_are_no_numbers_are_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(meshes_too_far_away_for_single_precision_are_refused, run_folder_setup,
