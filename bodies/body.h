@@ -66,7 +66,7 @@ typedef struct mor_body_operations {
     /** Energy that a body that moves as prescribed took from contact and weight up to a time, s; J (J/m). NULL: bodies
      *  of this kind do not. */
     double (*driven_energy)(const struct mor_body_group *group, int body, double time);
-    /** Writes further properties of the group for the summary, zero-terminated; NULL: nothing. */
+    /** Writes further properties of the group for `moraine explain`, zero-terminated; NULL: nothing. */
     void (*describe)(const struct mor_body_group *group, char *text, size_t room);
 } mor_body_operations;
 

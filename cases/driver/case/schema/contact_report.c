@@ -79,10 +79,10 @@ void mor_contact_report_print(const mor_case *the_case, FILE *out)
 
 #define CHOICE "depends on a contact stiffness that was chosen for speed: give contact_modulus"
 #define ELASTIC                                                                                                        \
-    "peaks of elastic bodies are right to 5 % only where the contact is over four spacings wide, and up to 45 % off "  \
-    "below"
+    "peak forces of elastic bodies are accurate to 5 % only where the contact is over four spacings wide; below, "     \
+    "errors reach 45 %"
 #define LATE                                                                                                           \
-    "bodies with clocks of their own pressed on the wall at once: in its maximum and minimum the force of some of "    \
+    "bodies with different time steps acted on the wall at once: in its maximum and minimum the force of some of "     \
     "them is up to one common step old"
 
 /* What a force or a depth of contacts depends on. */
