@@ -9,6 +9,13 @@
 /** @file
  *  A session with the small case of finished_run.h, and what its functions are expected to return. */
 
+/** What the leak sanitizer is to ignore, as in pile.h: Fontconfig keeps what it knows of fonts until the process ends.
+ *  Returns: zero-terminated rules of the sanitizer's run-time library, which asks for them by this name. */
+__attribute__((weak)) const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig";
+}
+
 /** A session with the case loaded, to be freed by the caller. */
 static inline mor_session *session_load(run_folder *folder)
 {
