@@ -2,12 +2,12 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
 #
-# checked.sh: a few dozen steps of three cases in the checked build, which stops at the first stage or material that
-# does not keep to what it declares. The state at the end is that of the optimized program, bit for bit. Needs both
-# programs.
+# checked.sh MORAINE CHECKED: a few dozen steps of three cases in the checked program, which stops at the first stage or
+# material that does not keep to what it declares. The state at the end is that of moraine, bit for bit.
 set -eu
-release=build/release/moraine
-checked=build/checked/moraine
+[ $# = 2 ] || { echo "usage: checked.sh MORAINE CHECKED, the two programs" >&2; exit 2; }
+release=$1
+checked=$2
 results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 
@@ -27,9 +27,9 @@ compare() { # compare NAME ARGUMENT...
     name=$1
     shift
     expected=$(state_of "$release" "$@")
-    found=$(state_of "$checked" "$@") || { echo "checked.sh: $name stops in the checked build, see above" >&2; exit 1; }
+    found=$(state_of "$checked" "$@") || { echo "checked.sh: $name stops when checked, see above" >&2; exit 1; }
     [ "$found" = "$expected" ] || {
-        echo "checked.sh: $name ends with state $found; allowed is $expected, that of the release build" >&2
+        echo "checked.sh: $name ends with state $found; allowed is $expected, that of $release" >&2
         exit 1
     }
     echo "$name: passes, state $found"

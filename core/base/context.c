@@ -6,6 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
+/* 1 in the program moraine_checked, whose contexts check from the start. */
+#ifndef MOR_CHECKED
+#define MOR_CHECKED 0
+#endif
+
 enum { LOG_LINE_BYTES = 2048 };
 
 void mor_context_init(mor_context *context)
