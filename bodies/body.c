@@ -13,20 +13,27 @@
 
 static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 
+static mor_status check_request(mor_context *context, const char *name, const mor_body_request *request)
+{
+    MOR_CHECK(context, request->n_particles >= 1, MOR_ERROR_ARGUMENT,
+              "body '%s' of group '%s' has no particles; make it larger or the spacing smaller", request->name, name);
+    MOR_CHECK(context, request->geometry.volume > 0.0 && request->density > 0.0, MOR_ERROR_ARGUMENT,
+              "body '%s' of group '%s' has volume %g and density %g kg/m3; both must be positive", request->name, name,
+              request->geometry.volume, request->density);
+    return MOR_OK;
+}
+
 static mor_status check_requests(mor_context *context, const char *name, const mor_body_request *requests, int n_bodies,
                                  int64_t *n_particles)
 {
     *n_particles = 0;
     MOR_CHECK(context, n_bodies >= 1, MOR_ERROR_ARGUMENT, "group '%s' has no bodies; it needs one", name);
     for (int b = 0; b < n_bodies; ++b) {
-        const mor_body_request *request = &requests[b];
-        MOR_CHECK(context, request->n_particles >= 1, MOR_ERROR_ARGUMENT,
-                  "body '%s' of group '%s' has no particles; make it larger or the spacing smaller", request->name,
-                  name);
-        MOR_CHECK(context, request->geometry.volume > 0.0 && request->density > 0.0, MOR_ERROR_ARGUMENT,
-                  "body '%s' of group '%s' has volume %g and density %g kg/m3; both must be positive", request->name,
-                  name, request->geometry.volume, request->density);
-        *n_particles += request->n_particles;
+        const mor_status status = check_request(context, name, &requests[b]);
+        if (status != MOR_OK) {
+            return mor_context_name_item(context, status, b);
+        }
+        *n_particles += requests[b].n_particles;
     }
     return MOR_OK;
 }

@@ -194,7 +194,8 @@ typedef struct mor_body_request {
  *  @param requests   [in]      shape [n_bodies]
  *  @param n_bodies   [in]      number of bodies, >= 1
  *  @param field_mask [in]      built-in fields beside POSITION, VELOCITY, MASS, DENSITY; see mor_set_init
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body of no particles; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body of no particles, with its index among the requests as the item of the
+ *  error; MOR_ERROR_MEMORY. */
 mor_status mor_body_group_init(mor_context *context, mor_body_group *group, const char *name,
                                const mor_body_operations *operations, void *owner, int dimension, double spacing,
                                const mor_body_request *requests, int n_bodies, uint64_t field_mask);

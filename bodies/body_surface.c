@@ -558,7 +558,10 @@ static mor_status make_body_nodes(mor_context *context, mor_body_group *group, m
 mor_status mor_body_group_make_nodes(mor_context *context, mor_body_group *group)
 {
     for (int b = 0; b < group->n_bodies; ++b) {
-        MOR_TRY(context, make_body_nodes(context, group, &group->bodies[b]));
+        const mor_status status = make_body_nodes(context, group, &group->bodies[b]);
+        if (status != MOR_OK) {
+            return mor_context_name_item(context, status, b);
+        }
     }
     MOR_TRY(context, MOR_NEW(context, &group->node_count, group->n_nodes, "surface nodes"));
     if (!group->operations->is_deformable) {
@@ -568,7 +571,10 @@ mor_status mor_body_group_make_nodes(mor_context *context, mor_body_group *group
     MOR_TRY(context, MOR_NEW(context, &group->node_particles, n, "surface nodes"));
     MOR_TRY(context, MOR_NEW(context, &group->node_weights, n, "surface nodes"));
     for (int b = 0; b < group->n_bodies; ++b) {
-        MOR_TRY(context, carry_nodes(context, group, &group->bodies[b]));
+        const mor_status status = carry_nodes(context, group, &group->bodies[b]);
+        if (status != MOR_OK) {
+            return mor_context_name_item(context, status, b);
+        }
     }
     return MOR_OK;
 }

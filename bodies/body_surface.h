@@ -23,7 +23,7 @@ typedef struct mor_body_support {
  *  bodies with shape and placement. mor_body_group_clear frees the arrays.
  *  @param group   [in,out]  without nodes
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body whose particles do not reach its surface, or, elastic, too few to
- *  carry a node; MOR_ERROR_MEMORY. */
+ *  carry a node, with its index as the item of the error; MOR_ERROR_MEMORY. */
 mor_status mor_body_group_make_nodes(mor_context *context, mor_body_group *group);
 
 /** Radius of the particles around a point, over the spacing; it grows by the factor until there are enough. */

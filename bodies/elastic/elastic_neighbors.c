@@ -196,13 +196,14 @@ static mor_status weigh_all(mor_context *context, mor_elastic *elastic)
         if (i >= 0) {
             const mor_body_group *group = &elastic->group;
             const double *x = group->reference + 3 * i;
-            return MOR_FAIL(
+            const mor_status status = MOR_FAIL(
                 context, MOR_ERROR_ARGUMENT,
                 "body '%s' is too thin at (%.6g, %.6g, %.6g) m: the neighbors of a particle lie, or lie almost, on a "
                 "%s, so that no deformation can be found. An elastic body needs two layers of particles "
                 "everywhere: make the spacing (%.4g m) smaller, the tip or edge blunter, or the body rigid",
                 group->bodies[group->body_of[i]].name, x[0], x[1], x[2], group->dimension == 3 ? "plane" : "line",
                 group->spacing);
+            return mor_context_name_item(context, status, group->body_of[i]);
         }
     }
     return MOR_OK;

@@ -84,8 +84,13 @@ static mor_status start_group(mor_context *context, mor_rigid *rigid, const mor_
     MOR_TRY(context, MOR_NEW(context, &rigid->work->constants, n, "constants of rigid bodies"));
     memcpy(rigid->motions, motions, (size_t)n * sizeof *motions);
     for (int b = 0; b < n; ++b) {
-        MOR_TRY(context, check_motion(context, rigid, b));
-        MOR_TRY(context, mor_rigid_find_constants(context, rigid, b, &rigid->work->constants[b]));
+        mor_status status = check_motion(context, rigid, b);
+        if (status == MOR_OK) {
+            status = mor_rigid_find_constants(context, rigid, b, &rigid->work->constants[b]);
+        }
+        if (status != MOR_OK) {
+            return mor_context_name_item(context, status, b);
+        }
         start_body(rigid, b);
     }
     mor_rigid_prepare(context, rigid);

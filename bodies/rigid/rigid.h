@@ -56,7 +56,7 @@ extern const mor_body_operations mor_rigid_operations;
  *  @param requests  [in]      shape [n_bodies]
  *  @param motions   [in]      shape [n_bodies]; copied
  *  @param n_bodies  [in]      number of bodies
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT, with the index of the body as the item of the error; MOR_ERROR_MEMORY. */
 mor_status mor_rigid_init(mor_context *context, mor_rigid *rigid, const char *name, int dimension, double spacing,
                           const mor_body_request *requests, const mor_rigid_motion *motions, int n_bodies);
 

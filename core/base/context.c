@@ -17,6 +17,7 @@ void mor_context_init(mor_context *context)
 {
     memset(context, 0, sizeof *context);
     context->particle = -1;
+    context->item = -1;
     context->n_threads = 1;
     context->seed = 1;
     context->is_checked = MOR_CHECKED != 0;
@@ -28,6 +29,7 @@ void mor_context_clear_error(mor_context *context)
     context->message[0] = '\0';
     context->n_frames = 0;
     context->particle = -1;
+    context->item = -1;
     context->particle_set[0] = '\0';
 }
 
@@ -38,6 +40,7 @@ void mor_context_restore_error(mor_context *context, const mor_context *earlier)
     memcpy(context->frames, earlier->frames, sizeof context->frames);
     context->n_frames = earlier->n_frames;
     context->particle = earlier->particle;
+    context->item = earlier->item;
     memcpy(context->particle_set, earlier->particle_set, sizeof context->particle_set);
 }
 
@@ -53,6 +56,7 @@ mor_status mor_context_fail(mor_context *context, mor_status status, const mor_f
     context->status = status;
     context->n_frames = 0;
     context->particle = -1;
+    context->item = -1;
     context->particle_set[0] = '\0';
     return mor_context_pass(context, status, place);
 }
@@ -61,6 +65,12 @@ mor_status mor_context_name_particle(mor_context *context, mor_status status, co
 {
     snprintf(context->particle_set, sizeof context->particle_set, "%s", set);
     context->particle = particle;
+    return status;
+}
+
+mor_status mor_context_name_item(mor_context *context, mor_status status, int item)
+{
+    context->item = item;
     return status;
 }
 

@@ -42,6 +42,8 @@ typedef struct mor_context {
     size_t memory_bytes;                       /* bytes now held by mor_memory_new */
     size_t memory_peak_bytes;                  /* largest memory_bytes so far */
     uint64_t n_allocations;                    /* number of successful mor_memory_new so far */
+    int item;                                  /* index of the item, of those that the failed function was given, that
+                                                  the last error is about; -1: none */
 } mor_context;
 
 /** Makes the context ready: no error, no sink, one thread, seed 1.
@@ -70,6 +72,12 @@ mor_status mor_context_fail(mor_context *context, mor_status status, const mor_f
  *  @param particle [in]      its number, >= 0
  *  Returns: status. */
 mor_status mor_context_name_particle(mor_context *context, mor_status status, const char *set, int64_t particle);
+
+/** Records which of the items that the failed function was given the last error concerns.
+ *  @param status   [in]      code of the error
+ *  @param item     [in]      its index, >= 0
+ *  Returns: status. */
+mor_status mor_context_name_item(mor_context *context, mor_status status, int item);
 
 /** Adds a frame to the call chain of the last error and returns status.
  *  @param status  [in]      the code being passed on

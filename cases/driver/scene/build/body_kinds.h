@@ -23,7 +23,8 @@ typedef struct mor_body_group_spec {
 /** A kind of body as cases know it. */
 typedef struct mor_body_kind {
     const char *word; /* that stands for it as the model of a body's material; NULL: bodies of a material */
-    /** Makes a group, which its operation `destroy` ends. Returns MOR_OK; what the solver returns. */
+    /** Makes a group, which its operation `destroy` ends. Returns MOR_OK; what the solver returns, for a body that
+     *  cannot be made with its place among the members as the item of the error. */
     mor_status (*make)(mor_context *context, const mor_body_group_spec *spec, mor_body_group **group);
 } mor_body_kind;
 

@@ -77,17 +77,11 @@ static void name_group(const mor_simulation_bodies *bodies, const char *model, c
 /* A body that cannot be made is an error of the case: adds the place in the file. */
 static mor_status annotate_error(mor_context *context, const mor_case *c, const group_spec *r, mor_status status)
 {
-    const mor_case_body *it = &c->bodies[r->members[r->n_members - 1]];
     if (status != MOR_ERROR_ARGUMENT) {
         return status;
     }
-    for (int m = 0; m < r->n_members; ++m) {
-        char quoted[MOR_CASE_NAME_BYTES + 2];
-        snprintf(quoted, sizeof quoted, "'%s'", c->bodies[r->members[m]].name);
-        if (strstr(context->message, quoted) != NULL) {
-            it = &c->bodies[r->members[m]];
-        }
-    }
+    const int m = context->item >= 0 ? context->item : r->n_members - 1; /* the one that was gathered last */
+    const mor_case_body *it = &c->bodies[r->members[m]];
     return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: found a body that cannot be made: %s", it->place.file,
                     it->place.line, context->message);
 }

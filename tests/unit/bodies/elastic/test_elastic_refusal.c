@@ -72,10 +72,12 @@ static void test_thread_of_particles_is_refused_with_name_and_place(void **state
         points[3 * (CUBE + k) + 1] = 2.05;
         points[3 * (CUBE + k) + 2] = 3.05;
     }
-    const mor_body_request threaded = describe_spiked(&it, "kite", points, CUBE + THREAD);
+    const mor_body_request requests[2] = {describe_spiked(&it, "kite", points, CUBE + THREAD),
+                                          describe_spiked(&it, "block", points, CUBE)};
     mor_elastic elastic;
-    assert_int_equal(mor_elastic_init(&it.context, &elastic, "rocks", &settings, it.material, 3, 0.1, &threaded, 1),
+    assert_int_equal(mor_elastic_init(&it.context, &elastic, "rocks", &settings, it.material, 3, 0.1, requests, 2),
                      MOR_ERROR_ARGUMENT);
+    assert_int_equal(it.context.item, 0);
     expect_words(&it, (const char *const[]){"'kite'", "too thin at", "2.05, 3.05) m", "plane", NULL});
     elastic_close(&it);
 }
@@ -172,6 +174,30 @@ static void test_pointed_tip_is_refused_and_a_blunter_one_accepted(void **state)
     }
 }
 
+/* A body named like its group is not taken for the one that the message is about. */
+static void test_body_of_no_particles_is_told_by_its_index(void **state)
+{
+    (void)state;
+    const elastic_request request = request_of(&cube);
+    const mor_scheme settings = {
+        .body_smoothing_ratio = 1.15, .body_courant = 0.4, .body_damping = 1.0, .hourglass = 0.0};
+    elastic_bodies it;
+    elastic_open(&it, &request);
+    const double *points = it.elastic.group.reference;
+    const int64_t n = it.elastic.group.set.n_particles;
+    for (int empty = 0; empty < 3; ++empty) {
+        mor_body_request requests[3];
+        mor_elastic elastic;
+        for (int b = 0; b < 3; ++b) {
+            requests[b] = describe_spiked(&it, b == 1 ? "rocks" : "stone", points, b == empty ? 0 : n);
+        }
+        assert_int_equal(mor_elastic_init(&it.context, &elastic, "rocks", &settings, it.material, 3, 0.1, requests, 3),
+                         MOR_ERROR_ARGUMENT);
+        assert_int_equal(it.context.item, empty);
+    }
+    elastic_close(&it);
+}
+
 static void test_body_two_layers_thin_is_accepted(void **state)
 {
     (void)state;
@@ -259,6 +285,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_body_one_layer_thin_is_refused),
+        cmocka_unit_test(test_body_of_no_particles_is_told_by_its_index),
         cmocka_unit_test(test_thread_of_particles_is_refused_with_name_and_place),
         cmocka_unit_test(test_pointed_tip_is_refused_and_a_blunter_one_accepted),
         cmocka_unit_test(test_body_two_layers_thin_is_accepted),

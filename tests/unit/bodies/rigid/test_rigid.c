@@ -519,8 +519,10 @@ static void impossible_motions_are_refused(void **state)
     rigid_scene *it = malloc(sizeof *it);
     assert_non_null(it);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
-        const rigid_box box = {.sides = {2, 2, 2}, .density = 1000.0, .motion = wrong[k].motion};
-        assert_int_equal(rigid_make(it, &box, 1, wrong[k].dimension, SPACING, &units), MOR_ERROR_ARGUMENT);
+        const rigid_box boxes[2] = {{.sides = {2, 2, 2}, .density = 1000.0, .motion = wrong[k].motion},
+                                    {.sides = {2, 2, 2}, .place = {4.0}, .density = 1000.0}};
+        assert_int_equal(rigid_make(it, boxes, 2, wrong[k].dimension, SPACING, &units), MOR_ERROR_ARGUMENT);
+        assert_int_equal(it->context.item, 0);
         assert_non_null(strstr(it->context.message, "'first'"));
         assert_non_null(strstr(it->context.message, wrong[k].message));
         assert_null(it->rigid.states);
