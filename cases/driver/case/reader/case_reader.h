@@ -8,7 +8,7 @@
 #include "core/io/case_file/case_file.h"
 
 /** @file
- *  The parts that reading a case is made of; used by case_read*.c only. Every error names the place in the file, what
+ *  Values, names, shapes and files that the sections of a case are made of. Every error names the place in the file, what
  *  was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
 
 /** State shared by all parts. */
@@ -129,24 +129,6 @@ mor_status mor_case_reader_locate(const mor_case_reader *reader, const mor_case_
 mor_status mor_case_reader_form(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
                                 mor_shape **shape);
 
-/** Where the group material of a soil or a body goes. */
-typedef struct mor_case_material_slot {
-    const mor_case_group *group;   /* its keys are model and density */
-    void *record;                  /* of the struct that the group's offsets refer to */
-    mor_material_form form;        /* of the models allowed */
-    const char *const *bare_words; /* models that have no parameters and no code; ends with NULL; NULL: none */
-    const double *density;         /* one number, member of the record, unit kg/m3 */
-    double *parameters; /* shape [MOR_CASE_PARAMETERS_MAX], member of the record; units of the model's schema */
-    uint64_t *written;  /* one number, member of the record: which parameters were given */
-    const char *what;   /* zero-terminated; for messages: "material model of a soil" */
-} mor_case_material_slot;
-
-/** Reads the group material and lets the model check it.
- *  @param owner  [in]  the soil or body
- *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_PLUGIN for a model of too many parameters; MOR_ERROR_MEMORY. */
-mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
-                                    const mor_case_material_slot *slot);
-
 /** Refuses a vector that leaves the plane in plane strain.
  *  @param group  [in]  the vector's group
  *  @param name   [in]  zero-terminated; the vector's key
@@ -170,55 +152,6 @@ mor_status mor_case_reader_out_of_plane(const mor_case_reader *reader, const mor
  *  Returns: MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_refuse_duplicate(const mor_case_reader *reader, const mor_case_node *group, const char *name,
                                             const mor_case_place *first);
-
-/** Refuses Coulomb friction without friction_coefficient, and that key with any other friction.
- *  @param node     [in]  a wall or a body
- *  @param friction [in]  what it was read to be
- *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
-mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_case_node *node,
-                                    mor_case_friction friction);
-
-/** Reads the list bodies and the group contact.
- *  @param the_case [in,out]  walls are known
- *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
-mor_status mor_case_reader_bodies(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
-
-/** Reads the model, the density and the parameters of a body, and checks what depends on them.
- *  @param node   [in]      the body's group
- *  @param body   [in,out]  its own keys are read
- *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
-mor_status mor_case_reader_body_material(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body);
-
-/** Reads one item of the list bodies, but for its height over the ground.
- *  @param body   [out]  zeroed before; counted as one of the case's, which frees it
- *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
-mor_status mor_case_reader_body(const mor_case_reader *reader, const mor_case_node *node, mor_case_body *body);
-
-/** Refuses the name of a body that a wall or a body before it has.
- *  @param node     [in]  the body's group
- *  @param body     [in]  of the case's bodies
- *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
-mor_status mor_case_reader_body_name(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
-                                     const mor_case_body *body);
-
-/** Reads the list rocks, packs them, and adds them to the bodies of the case.
- *  @param the_case [in,out]  walls and the list bodies are known
- *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
-mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
-
-/** Reads the lists soil, walls and bodies, and the group contact.
- *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
-mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
-
-/** Refuses settings that contradict one another, and warns of those that have no effect together.
- *  @param the_case [in]  read whole, but for probes and expectations
- *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
-mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);
-
-/** Reads the lists probes and expect.
- *  @param the_case [in,out]  walls and bodies are known
- *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
-mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
 /** Places a body that is to have a height over the ground: changes its position along gravity alone.
  *  @param the_case [in]      its walls, soil, domain and gravity are read

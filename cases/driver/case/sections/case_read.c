@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case/sections/case_read.h"
 
-#include "cases/driver/case/reader/case_reader.h"
+#include "cases/driver/case/sections/case_sections.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* The lists of bodies and rocks, and their contact. */
-#include "cases/driver/case/reader/case_reader.h"
+#include "cases/driver/case/sections/case_sections.h"
 
 #include "core/base/memory.h"
 

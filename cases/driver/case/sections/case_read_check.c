@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Settings that contradict one another are refused; those without effect give a warning. */
-#include "cases/driver/case/reader/case_reader.h"
+#include "cases/driver/case/sections/case_sections.h"
 
 #include "core/base/math.h"
 #include "core/particle/kernel.h"

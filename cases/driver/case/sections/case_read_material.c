@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/case/reader/case_reader.h"
+#include "cases/driver/case/sections/case_sections.h"
 
 #include "core/material/params.h"
 
