@@ -118,11 +118,6 @@ const mor_material *mor_plugin_get(const mor_plugin *plugin, int index)
     return index >= 0 && index < plugin->list->n_materials ? plugin->list->materials[index] : NULL;
 }
 
-const char *mor_plugin_path(const mor_plugin *plugin)
-{
-    return plugin->path;
-}
-
 void mor_plugin_unload(mor_context *context, mor_plugin **plugin)
 {
     if (*plugin == NULL) {

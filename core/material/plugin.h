@@ -36,9 +36,6 @@ int mor_plugin_count(const mor_plugin *plugin);
  *  @param index  [in]  0 <= index < mor_plugin_count */
 const mor_material *mor_plugin_get(const mor_plugin *plugin, int index);
 
-/** Returns the absolute path of the file, zero-terminated, owned by the plug-in; for the provenance of a run. */
-const char *mor_plugin_path(const mor_plugin *plugin);
-
 /** Unloads the object and sets the pointer to NULL; NULL is accepted. Descriptors from it are gone afterwards.
  *  @param plugin  [in,out]  the address of one pointer */
 void mor_plugin_unload(mor_context *context, mor_plugin **plugin);

@@ -185,11 +185,4 @@ double mor_soil_barrier_force(const mor_soil_barrier *barrier, double distance);
  *  @param distance [in]  unit m, >= 0 */
 double mor_soil_barrier_slope(const mor_soil_barrier *barrier, double distance);
 
-/** Returns the stiffness with which a particle of a mass at a fifth of the radius needs no shorter step than sound,
- *  Jiang et al. (2022) eqs. 26, 27, unit N/m (N/m2).
- *  @param mass    [in]  of a particle, unit kg (kg/m), > 0
- *  @param spacing [in]  unit m, > 0
- *  @param speed   [in]  of sound in the soil, unit m/s, > 0 */
-double mor_soil_barrier_stiffness(double mass, double spacing, double speed);
-
 #endif

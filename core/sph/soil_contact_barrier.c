@@ -10,10 +10,9 @@
 #include <string.h>
 
 /* Part of the period of a particle on the barrier, over 2 pi, that a step may take; an explicit step is stable up to
- * 2. Part of a distance that may be closed in a step. Distance over radius at which the stiffness is chosen, eq. 27. */
+ * 2. Part of a distance that may be closed in a step. */
 #define PART_OF_PERIOD 0.5
 #define PART_OF_DISTANCE 0.2
-#define CHOSEN_DISTANCE 0.2
 
 mor_status mor_soil_contact_set_barrier(mor_context *context, mor_soil_contact *contact,
                                         const mor_soil_barrier *barrier, double support)
@@ -48,12 +47,6 @@ static double slope_at(double ratio)
 double mor_soil_barrier_slope(const mor_soil_barrier *barrier, double distance)
 {
     return barrier->stiffness * slope_at(distance / barrier->radius);
-}
-
-double mor_soil_barrier_stiffness(double mass, double spacing, double speed)
-{
-    const double rate = 2.0 * MOR_PI * speed / spacing;
-    return mass * rate * rate / slope_at(CHOSEN_DISTANCE);
 }
 
 /* Vector from a point to a particle, and whether the barrier acts between them. */

@@ -3,8 +3,10 @@
 #ifndef MOR_TESTS_COMMON_ROCK_SCENE_H
 #define MOR_TESTS_COMMON_ROCK_SCENE_H
 
+#include "core/base/math.h"
 #include "core/material/checked.h"
 #include "core/sph/soil.h"
+#include "core/sph/soil_contact.h"
 #include "core/time/schedule.h"
 #include "materials/drucker_prager.h"
 #include "tests/common/cloud.h"
@@ -17,6 +19,15 @@
  *  Soil of boxes on a lattice, rigid rocks and walls on one schedule, for tests of the coupling as a whole. */
 
 enum { ROCK_SCENE_POINTS_MAX = 20000 };
+
+/** The stiffness of a barrier with which a particle of a mass, kg (kg/m), at a fifth of the radius needs no shorter step
+ *  than sound of a speed, m/s, at a spacing, m, Jiang et al. (2022) eqs. 26, 27; N/m (N/m2). */
+static inline double rock_scene_barrier_stiffness(double mass, double spacing, double speed)
+{
+    const mor_soil_barrier unit = {true, 1.0, 1.0};
+    const double rate = 2.0 * MOR_PI * speed / spacing;
+    return mass * rate * rate / mor_soil_barrier_slope(&unit, 0.2);
+}
 
 /** Soil, rocks and time. Owner: the test, which ends it with rock_scene_close. */
 typedef struct rock_scene {

@@ -32,7 +32,7 @@ static double find_depth(int dimension, double speed_ratio, bool has_barrier)
     it->soil.largest_speed = speed_ratio * it->soil.sound_speed;
     if (has_barrier) {
         const double mass = it->soil.set.data[MOR_FIELD_MASS][0];
-        const double stiffness = mor_soil_barrier_stiffness(mass, SPACING, it->soil.sound_speed);
+        const double stiffness = rock_scene_barrier_stiffness(mass, SPACING, it->soil.sound_speed);
         const mor_soil_barrier barrier = {true, stiffness, SPACING};
         rock_scene_require(it, mor_soil_set_barrier(&it->context, &it->soil, &it->pile.boundary, &barrier));
     }

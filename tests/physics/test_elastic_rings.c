@@ -31,6 +31,13 @@ static void find_partners(const mor_body_group *group, double spacing, int64_t *
     }
 }
 
+static double find_energy(const scene *it)
+{
+    double energies[3];
+    mor_simulation_energies(&it->simulation, 1, energies);
+    return energies[0] + energies[1] + energies[2];
+}
+
 static void observe(const scene *it, const int64_t *partners, double first, impact *found)
 {
     const mor_elastic *elastic = it->simulation.bodies.groups[0]->owner;
@@ -38,7 +45,7 @@ static void observe(const scene *it, const int64_t *partners, double first, impa
     const double *x = group->set.data[MOR_FIELD_POSITION];
     const double spacing = it->the_case.spacing;
     const int64_t n = group->bodies[0].n_particles;
-    const double energy = mor_simulation_energy(&it->simulation);
+    const double energy = find_energy(it);
     found->left = energy / first;
     found->energy = fmax(found->energy, fabs((energy + elastic->damped_energy) / first - 1.0));
     for (int64_t i = 0; i < n; ++i) {
@@ -69,7 +76,7 @@ static impact collide(const char *damping)
     double angular[3];
     assert_non_null(partners);
     find_partners(group, it->the_case.spacing, partners);
-    const double first = mor_simulation_energy(&it->simulation);
+    const double first = find_energy(it);
     for (int k = 1; k <= LOOKS; ++k) {
         scene_advance(it, 1e-2 * k / LOOKS);
         observe(it, partners, first, &found);

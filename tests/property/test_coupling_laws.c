@@ -95,7 +95,7 @@ static rock_scene *open_collision(const collision *c)
     rock_scene_build(it);
     if (c->has_barrier) {
         const double mass = it->soil.set.data[MOR_FIELD_MASS][0];
-        const double stiffness = mor_soil_barrier_stiffness(mass, it->settings.spacing, it->soil.sound_speed);
+        const double stiffness = rock_scene_barrier_stiffness(mass, it->settings.spacing, it->soil.sound_speed);
         const mor_soil_barrier barrier = {true, stiffness, BARRIER_REACH * it->settings.spacing};
         rock_scene_require(it, mor_soil_set_barrier(&it->context, &it->soil, &it->pile.boundary, &barrier));
     }

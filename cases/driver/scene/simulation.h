@@ -94,7 +94,4 @@ static inline double mor_simulation_initial_energy(const mor_simulation *simulat
  *  @param energies   [out]  shape [3], unit J (J/m in 2D) */
 void mor_simulation_energies(const mor_simulation *simulation, int n_threads, double *energies);
 
-/** Returns their sum, unit J (J/m in 2D). */
-double mor_simulation_energy(const mor_simulation *simulation);
-
 #endif

@@ -87,10 +87,3 @@ void mor_simulation_energies(const mor_simulation *simulation, int n_threads, do
         energies[2] += mor_sum_over(points.n_points, n_threads, fill_elastic, &simulation->soil);
     }
 }
-
-double mor_simulation_energy(const mor_simulation *simulation)
-{
-    double energies[3];
-    mor_simulation_energies(simulation, 1, energies);
-    return energies[0] + energies[1] + energies[2];
-}

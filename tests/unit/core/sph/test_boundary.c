@@ -349,10 +349,6 @@ static void barrier_has_the_published_force_and_its_slope(void **state)
             (mor_soil_barrier_force(&barrier, xi - step) - mor_soil_barrier_force(&barrier, xi + step)) / (2.0 * step);
         assert_true(fabs(slope / mor_soil_barrier_slope(&barrier, xi) - 1.0) < 1e-5); /* error of the quotient: 1e-8 */
     }
-    /* Eqs. 24, 26, 27: at a fifth of the radius the period of a particle is the time sound needs for a spacing. */
-    const mor_soil_barrier chosen = {true, mor_soil_barrier_stiffness(2e-5, 4e-3, 30.0), 2.5e-3};
-    const double period = 2.0 * MOR_PI * sqrt(2e-5 / mor_soil_barrier_slope(&chosen, 0.5e-3));
-    assert_true(fabs(period / (4e-3 / 30.0) - 1.0) < 1e-14); /* some roundings */
 }
 
 /* Beside the push the barrier adds its pair forces and nothing else, to particles and to points. */
