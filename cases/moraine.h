@@ -41,8 +41,9 @@
  *
  *  A program may have many sessions, and each thread may work with one of its own at the same time; a session belongs
  *  to one thread at a time. Each computes with as many threads as it is told; results do not depend on their number.
- *  The guide says what else a process shares. Signals and the locale are left alone. Numbers are in SI units; stress
- *  is positive in tension. */
+ *  The guide says what else a process shares. Signals and the locale are left alone; numbers are read and written
+ *  with a decimal point in any locale, for which a thread has the locale "C" while a function that returns a status
+ *  works in it, as log sinks and laws see. Numbers are in SI units; stress is positive in tension. */
 
 #ifdef __cplusplus
 extern "C" {

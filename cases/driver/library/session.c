@@ -36,7 +36,9 @@ static mor_status fill_session(mor_session *session)
 {
     mor_context *context = &session->context;
     session->silence = fopencookie(NULL, "w", (cookie_io_functions_t){.write = swallow});
-    MOR_CHECK(context, session->silence != NULL, MOR_ERROR_MEMORY, "no memory for a session");
+    session->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    MOR_CHECK(context, session->silence != NULL && session->locale != (locale_t)0, MOR_ERROR_MEMORY,
+              "no memory for a session");
     session->output = session->silence;
     snprintf(session->command, sizeof session->command, "libmoraine");
     MOR_TRY(context, mor_registry_new(context, &session->registry));
@@ -71,6 +73,9 @@ void mor_session_free(mor_session **session)
     if (it->silence != NULL) {
         fclose(it->silence);
     }
+    if (it->locale != (locale_t)0) {
+        freelocale(it->locale);
+    }
     mor_context context = it->context; /* the session lies in memory that it counts */
     MOR_FREE(&context, session);
 }
@@ -92,6 +97,19 @@ void mor_session_clear_case(mor_session *session)
     session->stage = MOR_SESSION_EMPTY;
 }
 
+/* ---- Work -------------------------------------------------------------------------------------------------------- */
+
+locale_t mor_session_begin_work(mor_session *session)
+{
+    mor_context_clear_error(&session->context);
+    return uselocale(session->locale);
+}
+
+void mor_session_end_work(const locale_t *previous)
+{
+    uselocale(*previous);
+}
+
 /* ---- Errors ------------------------------------------------------------------------------------------------------ */
 
 const char *mor_session_message(const mor_session *session)
@@ -107,7 +125,6 @@ mor_status mor_session_enter(mor_session *session, mor_session_stage first, mor_
         [MOR_SESSION_BUILT] = "the case is built, but not at rest; call mor_session_settle or mor_session_resume first",
         [MOR_SESSION_READY] = "the case is under way; load it again to begin anew",
         [MOR_SESSION_ENDED] = "the case has come to an end; load it again to begin anew"};
-    mor_context_clear_error(&session->context);
     if (session->stage > last && session->stage == MOR_SESSION_BUILT) {
         return MOR_FAIL(&session->context, MOR_ERROR_ARGUMENT,
                         "the case is built already; load it again to begin anew");
@@ -128,7 +145,7 @@ void mor_session_set_log(mor_session *session, mor_log_sink sink, void *user)
 
 mor_status mor_session_set_threads(mor_session *session, int n_threads)
 {
-    mor_context_clear_error(&session->context);
+    MOR_SESSION_WORK(session);
     MOR_CHECK(&session->context, n_threads >= 0 && n_threads <= THREADS_MAX, MOR_ERROR_ARGUMENT,
               "found %d threads; allowed: 1 to %d, or 0 for as many as there are cores", n_threads, THREADS_MAX);
     session->context.n_threads = n_threads > 0 ? n_threads : mor_parallel_cores();
@@ -137,8 +154,8 @@ mor_status mor_session_set_threads(mor_session *session, int n_threads)
 
 mor_status mor_session_set_cache(mor_session *session, const char *folder)
 {
+    MOR_SESSION_WORK(session);
     const char *text = folder != NULL ? folder : "";
-    mor_context_clear_error(&session->context);
     MOR_CHECK(&session->context, strlen(text) < sizeof session->cache_folder, MOR_ERROR_ARGUMENT,
               "the path of the folder for relaxed particles has %zu bytes; at most %zu are allowed", strlen(text),
               sizeof session->cache_folder - 1);
@@ -180,10 +197,10 @@ void mor_session_set_folder(mor_session *session, const char *folder, bool is_re
 
 mor_status mor_session_override(mor_session *session, const char *setting)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     char *copy = NULL;
     const size_t n_bytes = strlen(setting) + 1;
-    mor_context_clear_error(context);
     MOR_CHECK(context, session->n_overrides < MOR_SESSION_OVERRIDES_MAX, MOR_ERROR_ARGUMENT,
               "found more than %d overrides; put some of them into the case", MOR_SESSION_OVERRIDES_MAX);
     MOR_TRY(context, MOR_NEW(context, &copy, (int64_t)n_bytes, "an override"));
@@ -201,15 +218,15 @@ void mor_session_clear_overrides(mor_session *session)
 
 mor_status mor_session_add_material(mor_session *session, const struct mor_material *material)
 {
-    mor_context_clear_error(&session->context);
+    MOR_SESSION_WORK(session);
     return mor_registry_add(&session->context, session->registry, material);
 }
 
 mor_status mor_session_add_plugin(mor_session *session, const char *path)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     mor_plugin *plugin = NULL;
-    mor_context_clear_error(context);
     MOR_CHECK(context, session->n_plugins < MOR_SESSION_PLUGINS_MAX, MOR_ERROR_ARGUMENT,
               "found more than %d plug-ins; put some of the laws into one file", MOR_SESSION_PLUGINS_MAX);
     MOR_TRY(context, mor_plugin_load(context, path, &plugin));
@@ -241,7 +258,8 @@ bool mor_session_is_stopping(const mor_session *session)
 
 mor_session_phase mor_session_find_phase(const mor_session *session)
 {
-    return session->stop.phase == MOR_STOP_AFTER_STEP      ? MOR_SESSION_STEPPING
-           : session->stop.phase == MOR_STOP_AFTER_WRITING ? MOR_SESSION_WRITING
-                                                           : MOR_SESSION_IDLE;
+    const int phase = session->stop.phase; /* once: it may change meanwhile */
+    return phase == MOR_STOP_AFTER_STEP      ? MOR_SESSION_STEPPING
+           : phase == MOR_STOP_AFTER_WRITING ? MOR_SESSION_WRITING
+                                             : MOR_SESSION_IDLE;
 }

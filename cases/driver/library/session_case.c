@@ -18,7 +18,6 @@
 /* What is logged from here on belongs to the case: a run of it begins its log with it. */
 static mor_status begin_case(mor_session *session)
 {
-    mor_context_clear_error(&session->context);
     mor_session_clear_case(session);
     return mor_run_files_listen(&session->context, &session->files);
 }
@@ -37,6 +36,7 @@ static mor_status end_loading(mor_session *session, mor_status status)
 
 mor_status mor_session_load_file(mor_session *session, const char *path)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     MOR_TRY(context, begin_case(session));
     mor_status status = mor_case_read(context, path, (const char *const *)session->overrides, session->n_overrides,
@@ -49,6 +49,7 @@ mor_status mor_session_load_file(mor_session *session, const char *path)
 
 mor_status mor_session_load_text(mor_session *session, const char *name, const char *text)
 {
+    MOR_SESSION_WORK(session);
     const mor_case_text given = {.name = name,
                                  .text = text,
                                  .n_bytes = (int64_t)strlen(text),
@@ -65,6 +66,7 @@ mor_status mor_session_load_text(mor_session *session, const char *name, const c
 
 mor_status mor_session_build(mor_session *session)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_LOADED, MOR_SESSION_LOADED));
@@ -92,6 +94,7 @@ static mor_status settle(mor_session *session)
 
 mor_status mor_session_settle(mor_session *session)
 {
+    MOR_SESSION_WORK(session);
     MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     const mor_status status = settle(session);
     if (status != MOR_OK) {
@@ -125,6 +128,7 @@ static mor_status take_step(mor_session *session, int64_t until)
 
 mor_status mor_session_step(mor_session *session)
 {
+    MOR_SESSION_WORK(session);
     const mor_schedule *schedule = &session->simulation.schedule;
     MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_READY, MOR_SESSION_READY));
     MOR_CHECK(&session->context, schedule->now < schedule->end, MOR_ERROR_ARGUMENT,
@@ -134,6 +138,7 @@ mor_status mor_session_step(mor_session *session)
 
 mor_status mor_session_step_to(mor_session *session, double time)
 {
+    MOR_SESSION_WORK(session);
     const mor_schedule *schedule = &session->simulation.schedule;
     MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_READY, MOR_SESSION_READY));
     /* In seconds first: the ticks of a far time have no room. A time that was reached may be asked for again. */

@@ -8,6 +8,8 @@
 #include "core/io/durable_file.h"
 #include "core/material/plugin.h"
 
+#include <locale.h>
+
 /** @file
  *  What is behind a mor_session. */
 
@@ -24,6 +26,7 @@ typedef enum mor_session_stage {
 
 struct mor_session {
     mor_context context;
+    locale_t locale; /* "C", in which the session works whatever the locale of the program; owned */
     mor_registry *registry;
     mor_plugin *plugins[MOR_SESSION_PLUGINS_MAX]; /* shape [n_plugins]; unloaded last */
     int n_plugins;
@@ -45,7 +48,22 @@ struct mor_session {
     int64_t next_snapshot;   /* number of the next snapshot of a run */
 };
 
-/** Forgets the last error and refuses what comes too early or too late.
+/** Begins the work of a function, see MOR_SESSION_WORK: forgets the last error and gives the calling thread the locale
+ *  of the session.
+ *  Returns: the locale that the thread had. */
+locale_t mor_session_begin_work(mor_session *session);
+
+/** Gives the calling thread its locale back.
+ *  @param previous [in]  one locale, as mor_session_begin_work returned it */
+void mor_session_end_work(const locale_t *previous);
+
+/** Stands first in each function of moraine.h that returns a status. Until that function returns, however it does,
+ *  numbers are read and written with a decimal point: nothing below needs to care for the locale of the program. Threads
+ *  of parallel loops keep the program's, and neither read nor write numbers as text. */
+#define MOR_SESSION_WORK(session)                                                                                      \
+    const locale_t mor_previous_locale_ __attribute__((cleanup(mor_session_end_work))) = mor_session_begin_work(session)
+
+/** Refuses what comes too early or too late.
  *  @param first [in]  stage that is needed
  *  @param last  [in]  stage that may not be passed
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT saying what to call. */

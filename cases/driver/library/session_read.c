@@ -47,6 +47,7 @@ static mor_status find_probe(mor_session *session, const char *name, int *probe)
 
 mor_status mor_session_read_probe(mor_session *session, const char *name, double *value, const char **unit)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     int probe = 0;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_READY, MOR_SESSION_ENDED));
@@ -139,6 +140,7 @@ int mor_session_n_fields(const mor_session *session, const char *set)
 mor_status mor_session_describe_field(mor_session *session, const char *set, int index, const char **name,
                                       int *n_components, const char **unit)
 {
+    MOR_SESSION_WORK(session);
     const mor_set *it = NULL;
     int n = 0;
     MOR_TRY(&session->context, require_set(session, set, &it));
@@ -201,6 +203,7 @@ static mor_status find_order(mor_context *context, const mor_set *set, int64_t *
 mor_status mor_session_read_field(mor_session *session, const char *set, const char *field, double *values,
                                   int64_t capacity)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     const mor_set *it = NULL;
     int64_t *order = NULL;
@@ -219,6 +222,7 @@ mor_status mor_session_read_field(mor_session *session, const char *set, const c
 
 mor_status mor_session_read_numbers(mor_session *session, const char *set, int64_t *numbers, int64_t capacity)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     const mor_set *it = NULL;
     int64_t *order = NULL;

@@ -333,9 +333,9 @@ static bool is_positive(double value)
 mor_status mor_session_relax(mor_session *session, const char *path, double spacing, mor_session_size kind, double size,
                              const char *folder)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     filling it = {.path = path, .spacing = spacing, .kind = kind, .size = size};
-    mor_context_clear_error(context);
     MOR_CHECK(context, kind >= MOR_SESSION_SIZE_OF_FILE && kind < MOR_SESSION_SIZES, MOR_ERROR_ARGUMENT,
               "found size of kind %d; allowed: 0 to %d", (int)kind, MOR_SESSION_SIZES - 1);
     MOR_CHECK(context, is_positive(spacing) && (kind == MOR_SESSION_SIZE_OF_FILE || is_positive(size)),
