@@ -14,9 +14,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static mor_status list_materials(mor_context *context, const mor_registry *registry, FILE *out)
+static void list_materials(const mor_registry *registry, FILE *out)
 {
-    (void)context;
     for (int k = 0; k < mor_registry_count(registry); ++k) {
         const mor_material *material = mor_registry_get(registry, k);
         fprintf(out, "%s %s: %s\n  from %s\n", material->name, material->version, material->text, material->literature);
@@ -26,12 +25,10 @@ static mor_status list_materials(mor_context *context, const mor_registry *regis
                     mor_role_text(p->role));
         }
     }
-    return MOR_OK;
 }
 
-static mor_status list_probes(mor_context *context, const mor_registry *registry, FILE *out)
+static void list_probes(const mor_registry *registry, FILE *out)
 {
-    (void)context;
     (void)registry;
     const mor_case_probe_type *type = NULL;
     for (int k = 0; (type = mor_probe_type_at(k)) != NULL; ++k) {
@@ -41,7 +38,6 @@ static mor_status list_probes(mor_context *context, const mor_registry *registry
     fprintf(out,
             "\nOf each probe a run keeps maximum and minimum, when they were, mean and, where it says so, impulse, in\n"
             "the window of the probe: of every step, of contact of every sub-step of the bodies.\n");
-    return MOR_OK;
 }
 
 /* The stages of soil, which are the same whatever it is made of; only what mor_soil_stepper reads of it is there. */
@@ -54,11 +50,10 @@ static mor_stepper soil_stepper(mor_soil *soil)
     return stepper;
 }
 
-static mor_status list_fields(mor_context *context, const mor_registry *registry, FILE *out)
+static void list_fields(const mor_registry *registry, FILE *out)
 {
     mor_soil soil;
     const mor_stepper stepper = soil_stepper(&soil);
-    (void)context;
     for (int id = 0; id < MOR_FIELD_CORE_COUNT; ++id) {
         const mor_field_info *info = mor_field_core_info((mor_field_id)id);
         char writers[256];
@@ -73,40 +68,35 @@ static mor_status list_fields(mor_context *context, const mor_registry *registry
                     state->unit, state->text, material->name);
         }
     }
-    return MOR_OK;
 }
 
-static mor_status list_stages(mor_context *context, const mor_registry *registry, FILE *out)
+static void list_stages(const mor_registry *registry, FILE *out)
 {
     mor_soil soil;
     const mor_stepper stepper = soil_stepper(&soil);
-    (void)context;
     (void)registry;
     for (int k = 0; k < stepper.n_stages; ++k) {
         fprintf(out, "%2d %-20s %s\n", k + 1, stepper.stages[k].name, stepper.stages[k].text);
     }
-    return MOR_OK;
 }
 
-static mor_status list_shapes(mor_context *context, const mor_registry *registry, FILE *out)
+static void list_shapes(const mor_registry *registry, FILE *out)
 {
-    (void)context;
     (void)registry;
     for (int kind = 0; kind < MOR_CASE_SHAPE_COUNT; ++kind) {
         const mor_case_group *group = &mor_case_shape_groups[kind];
         fprintf(out, "%s: %s\n", group->name, group->text);
     }
-    return MOR_OK;
 }
 
-static mor_status list_keys(mor_context *context, const mor_registry *registry, FILE *out)
+static void list_keys(const mor_registry *registry, FILE *out)
 {
-    return mor_case_schema_print(context, registry, mor_probe_type_at, out);
+    mor_case_schema_print(registry, mor_probe_type_at, out);
 }
 
 static const struct {
     const char *name;
-    mor_status (*print)(mor_context *context, const mor_registry *registry, FILE *out);
+    void (*print)(const mor_registry *registry, FILE *out);
 } lists[] = {{"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields},
              {"stages", list_stages},       {"shapes", list_shapes}, {"keys", list_keys}};
 
@@ -119,13 +109,16 @@ const char *mor_list_name(int index)
 
 mor_status mor_session_print_list(mor_session *session, const char *name)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     char names[256] = "";
-    mor_context_clear_error(context);
     for (int k = 0; k < N_LISTS; ++k) {
         const size_t n = strlen(names);
         if (strcmp(lists[k].name, name) == 0) {
-            return lists[k].print(context, session->registry, session->output);
+            lists[k].print(session->registry, session->output);
+            MOR_CHECK(context, fflush(session->output) == 0 && ferror(session->output) == 0, MOR_ERROR_IO,
+                      "the list of %s cannot be printed; check where the output goes", name);
+            return MOR_OK;
         }
         snprintf(names + n, sizeof names - n, "%s%s", k == 0 ? "" : k + 1 < N_LISTS ? ", " : " and ", lists[k].name);
     }
@@ -164,11 +157,11 @@ static mor_status try_plugin(mor_session *session, const char *path, int *n_fail
 
 mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     const mor_material *material = mor_registry_find(session->registry, name);
     const char *near = mor_registry_nearest(session->registry, name);
     *n_failed = 0;
-    mor_context_clear_error(context);
     MOR_CHECK(context, material != NULL || access(name, F_OK) == 0, MOR_ERROR_CONFIG,
               "found '%s', which is neither a material nor a file%s%s; allowed are the names in the list of "
               "materials and paths of plug-ins",

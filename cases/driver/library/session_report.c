@@ -260,24 +260,36 @@ static mor_status time_both(mor_context *context, mor_simulation *s, step_cost *
     return MOR_OK;
 }
 
-/* Speed and expected time. A failure within the steps that are timed is printed as a warning: the rest of the
- * explanation still holds. */
-static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s, step_cost *now, step_cost *touching,
-                              bool is_same)
+/* A failure of the first steps is printed as a warning: the rest of the explanation still holds. */
+static mor_status print_failure(mor_context *context, FILE *out, mor_status status)
 {
-    const mor_status status = time_both(context, s, now, touching, is_same);
-    fprintf(out, "  memory                  %.1f MiB", (double)context->memory_peak_bytes / 1048576.0);
-    if (s->has_soil) {
-        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
-    }
-    fprintf(out, "\n");
     if (status == MOR_ERROR_NUMERIC) {
         fprintf(out, "  speed now               not measured\nwarning: a run would stop within its first steps: %s\n",
                 context->message);
         mor_context_clear_error(context);
         return MOR_OK;
     }
-    MOR_TRY(context, status);
+    return status;
+}
+
+static void print_memory(const mor_context *context, FILE *out, const mor_simulation *s)
+{
+    fprintf(out, "  memory                  %.1f MiB", (double)context->memory_peak_bytes / 1048576.0);
+    if (s->has_soil) {
+        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+    }
+    fprintf(out, "\n");
+}
+
+/* Speed and expected time. */
+static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s, step_cost *now, step_cost *touching,
+                              bool is_same)
+{
+    const mor_status status = time_both(context, s, now, touching, is_same);
+    print_memory(context, out, s);
+    if (status != MOR_OK) {
+        return print_failure(context, out, status);
+    }
     fprintf(out, "  speed now               %.2f M %s/s with %d thread%s (%s)\n",
             1e-6 * (double)mor_simulation_counted_particles(s) / now->seconds, mor_simulation_counted_unit(s),
             context->n_threads, context->n_threads == 1 ? "" : "s", mor_pair_select(NULL)->instruction_set);
@@ -285,21 +297,36 @@ static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s
     return MOR_OK;
 }
 
-static mor_status print_explanation(mor_context *context, FILE *out, mor_simulation *s)
+static mor_status find_steps(mor_context *context, mor_simulation *s, step_cost *now, step_cost *touching)
+{
+    set_touching(s, true);
+    const mor_status status = find_step(context, s, touching);
+    set_touching(s, false);
+    return status == MOR_OK ? find_step(context, s, now) : status;
+}
+
+/* Steps and what they cost, or why there are none. */
+static mor_status print_costs(mor_context *context, FILE *out, mor_simulation *s)
 {
     step_cost now;
     step_cost touching;
-    set_touching(s, true);
-    MOR_TRY(context, find_step(context, s, &touching));
-    set_touching(s, false);
-    MOR_TRY(context, find_step(context, s, &now));
+    const mor_status status = find_steps(context, s, &now, &touching);
+    if (status != MOR_OK) {
+        print_memory(context, out, s);
+        return print_failure(context, out, status);
+    }
+    print_steps(out, s, &now, &touching);
     const bool is_same =
         touching.length == now.length && memcmp(touching.substeps, now.substeps, sizeof now.substeps) == 0;
-    print_sizes(out, s);
-    print_steps(out, s, &now, &touching);
+    return print_speed(context, out, s, &now, &touching, is_same);
+}
+
+static mor_status print_explanation(mor_context *context, FILE *out, mor_simulation *s)
+{
     char *warnings = NULL;
+    print_sizes(out, s);
     MOR_TRY(context, find_warnings(context, s, &warnings));
-    const mor_status status = print_speed(context, out, s, &now, &touching, is_same);
+    const mor_status status = print_costs(context, out, s);
     fputs(status == MOR_OK ? warnings : "", out);
     free(warnings);
     MOR_TRY(context, status);
@@ -311,6 +338,7 @@ static mor_status print_explanation(mor_context *context, FILE *out, mor_simulat
 
 mor_status mor_session_explain(mor_session *session)
 {
+    MOR_SESSION_WORK(session);
     MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     const mor_status status = print_explanation(&session->context, session->output, &session->simulation);
     mor_session_clear_simulation(session); /* the steps that were timed have changed its state */
@@ -319,6 +347,7 @@ mor_status mor_session_explain(mor_session *session)
 
 mor_status mor_session_print_check(mor_session *session)
 {
+    MOR_SESSION_WORK(session);
     const mor_case *c = &session->the_case;
     const mor_simulation *s = &session->simulation;
     FILE *out = session->output;

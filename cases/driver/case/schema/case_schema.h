@@ -202,9 +202,7 @@ int mor_case_key_find(const mor_case_key *keys, const char *name);
 
 /** Prints the reference of case files in Markdown: every key of every group and every model.
  *  @param registry [in]      the models to list
- *  @param stream   [in,out]  one open stream
- *  Returns: MOR_OK; MOR_ERROR_IO when the stream refuses. */
-mor_status mor_case_schema_print(mor_context *context, const mor_registry *registry, mor_case_probe_catalog probe_types,
-                                 FILE *stream);
+ *  @param stream   [in,out]  one open stream, to be checked by the caller */
+void mor_case_schema_print(const mor_registry *registry, mor_case_probe_catalog probe_types, FILE *stream);
 
 #endif
