@@ -14,21 +14,23 @@
 
 mor_status mor_session_save(mor_session *session, const char *folder)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_READY, MOR_SESSION_READY));
-    mor_session_set_folder(session, folder, mor_run_folder_has_checkpoint(context, folder));
+    mor_session_set_folder(session, folder, false);
     return mor_run_files_save_state(context, &session->files, session->registry);
 }
 
 mor_status mor_session_resume(mor_session *session, const char *folder)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     bool is_restored = false;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
     mor_session_set_folder(session, folder, true);
     MOR_CHECK(context, mor_run_folder_has_checkpoint(context, folder), MOR_ERROR_IO,
               "found no checkpoint in '%s'; give a folder that mor_session_save or a run wrote", folder);
-    MOR_TRY(context, mor_run_files_keep_case(context, &session->files, session->registry));
+    MOR_TRY(context, mor_run_files_keep_case(context, &session->files, session->registry, true));
     const mor_status status = mor_run_files_restore(context, &session->files, &is_restored);
     if (status != MOR_OK) {
         mor_session_clear_simulation(session);
@@ -51,6 +53,7 @@ static void withdraw_run(mor_session *session)
 mor_status mor_session_run(mor_session *session, const char *folder, bool is_resume, double stop_time,
                            mor_session_outcome *outcome)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     mor_run_outcome found;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_LOADED, MOR_SESSION_LOADED));
@@ -75,6 +78,7 @@ mor_status mor_session_run(mor_session *session, const char *folder, bool is_res
 /* Writes the state a run would start from as a snapshot into a folder, and draws it. */
 mor_status mor_session_preview(mor_session *session, const char *folder)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     char images[MOR_PATH_BYTES];
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
@@ -103,9 +107,9 @@ mor_status mor_session_write_snapshot(mor_session *session, const char *folder, 
 
 mor_status mor_session_render(mor_session *session, const char *folder)
 {
+    MOR_SESSION_WORK(session);
     mor_context *context = &session->context;
     char path[MOR_PATH_BYTES];
-    mor_context_clear_error(context);
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_RUN_CASE_FILE));
     MOR_CHECK(context, access(path, R_OK) == 0, MOR_ERROR_CONFIG,
               "'%s' is not the folder of a run: it holds no case.resolved.cfg; give a folder that a run wrote", folder);

@@ -354,7 +354,7 @@ static mor_status run_simulation(mor_context *context, mor_run_files *files, con
     loop_state p = {.next_snapshot = 1};
     files->progress = (mor_run_progress){
         .stream = files->options->progress, .is_terminal = files->options->is_terminal, .last = mor_wall_time()};
-    MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
+    MOR_TRY(context, mor_run_files_keep_case(context, files, registry, files->options->is_resume));
     mor_rocks_report_log(context, files->the_case);
     mor_status status = mor_simulation_init(context, files->simulation, files->the_case, registry);
     if (status == MOR_OK) {

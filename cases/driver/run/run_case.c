@@ -67,7 +67,8 @@ static mor_status find_saved(mor_context *context, mor_run_files *files, const c
     return MOR_OK;
 }
 
-mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry)
+mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                   bool is_resume)
 {
     char path[MOR_PATH_BYTES];
     mor_case_difference first;
@@ -76,7 +77,7 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
     if (files->case_text == NULL) {
         MOR_TRY(context, format_case(context, files, registry));
     }
-    if (!files->options->is_resume) {
+    if (!is_resume) {
         return store_case(context, files, path);
     }
     MOR_FREE(context, &files->saved_text);

@@ -58,23 +58,33 @@ static void begin_log(mor_context *context, mor_run_files *files, FILE *log)
     fflush(log);
 }
 
+static mor_status refuse_run(mor_context *context, const mor_run_options *options)
+{
+    return options->is_resume
+               ? MOR_OK
+               : mor_run_folder_refuse_run(context, options->folder, "resume it, or choose another folder");
+}
+
 mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
 {
     char path[MOR_PATH_BYTES];
     const mor_run_options *options = files->options;
-    if (!options->is_resume) {
-        MOR_TRY(context, mor_run_folder_refuse_run(context, options->folder, "resume it, or choose another folder"));
-    }
+    MOR_TRY(context, refuse_run(context, options)); /* before anything is made in the folder of another run */
     files->is_folder_new = access(options->folder, F_OK) != 0;
     MOR_TRY(context, mor_run_folder_make(context, options->folder));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, IMAGES_FOLDER));
     MOR_TRY(context, mor_run_folder_make(context, path));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, MOR_RUN_LOG_FILE));
+    FILE *log = NULL;
+    MOR_TRY(context, mor_run_folder_lock(context, options->folder, &log));
+    const mor_status status = refuse_run(context, options); /* again: another run may have been there until now */
+    if (status != MOR_OK) {
+        mor_run_folder_unlock(&log);
+        return status;
+    }
     if (options->is_resume) {
         mor_run_warnings_load(context, &files->warnings, path);
     }
-    FILE *log = NULL;
-    MOR_TRY(context, mor_run_folder_lock(context, options->folder, &log));
     begin_log(context, files, log);
     return MOR_OK;
 }
@@ -144,8 +154,7 @@ static void end_log(mor_context *context, mor_run_files *files)
     if (files->log != NULL) {
         context->log_sink = files->previous_sink;
         context->log_user = files->previous_user;
-        fclose(files->log);
-        files->log = NULL;
+        mor_run_folder_unlock(&files->log);
     }
 }
 
@@ -159,6 +168,7 @@ mor_status mor_run_files_withdraw(mor_context *context, mor_run_files *files)
     const mor_status status = mor_run_files_listen(context, files);
     if (status == MOR_OK) {
         fwrite(text, 1, before.n_early_bytes, files->log);
+        mor_run_warnings_read(context, &files->warnings, text, before.n_early_bytes);
         files->the_case = before.the_case;
         files->simulation = before.simulation;
         files->case_hash = before.case_hash;
@@ -223,7 +233,7 @@ static mor_status save_state(mor_context *context, mor_run_files *files, const m
                   !mor_run_folder_has(context, folder, MOR_SUMMARY_FILE),
               MOR_ERROR_CONFIG, "the folder '%s' holds a run, whose state and results belong together; choose another",
               folder);
-    MOR_TRY(context, mor_run_files_keep_case(context, files, registry));
+    MOR_TRY(context, mor_run_files_keep_case(context, files, registry, mor_run_folder_has_checkpoint(context, folder)));
     return mor_run_files_save(context, files);
 }
 
@@ -233,7 +243,7 @@ mor_status mor_run_files_save_state(mor_context *context, mor_run_files *files, 
     MOR_TRY(context, mor_run_folder_make(context, files->options->folder));
     MOR_TRY(context, mor_run_folder_lock(context, files->options->folder, &log));
     const mor_status status = save_state(context, files, registry);
-    fclose(log);
+    mor_run_folder_unlock(&log);
     return status;
 }
 

@@ -86,8 +86,10 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files);
 /** Prints the case. Of a new run it becomes case.resolved.cfg; on a resume it is compared with the case that the
  *  newest checkpoint carries, or, before the first checkpoint, with case.resolved.cfg: what a resume may not change
  *  (cases/driver/case/schema/case_compare.h) must be the same, the content of files included.
+ *  @param is_resume [in]  the folder holds the case that is gone on with
  *  Returns: MOR_OK; MOR_ERROR_CONFIG naming the first difference; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
-mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry);
+mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                   bool is_resume);
 
 /** Writes case.resolved.cfg of a run that goes on, where it is missing or no longer tells the case.
  *  @param files   [in,out]  with the case
@@ -126,7 +128,7 @@ mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files
 mor_status mor_run_files_save(mor_context *context, mor_run_files *files);
 
 /** Saves the state alone, without a run's other files, into options->folder, which is made when missing.
- *  options->is_resume says that it holds a checkpoint already, which must be of the same case.
+ *  A checkpoint that it holds already must be of the same case.
  *  @param registry [in]  the models that the case was read with
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for the folder of a run, for another case, naming the first difference, and for a
  *  folder that another program is at work in; MOR_ERROR_IO; MOR_ERROR_MEMORY. */

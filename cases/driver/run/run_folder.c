@@ -55,14 +55,28 @@ mor_status mor_run_folder_refuse_run(mor_context *context, const char *folder, c
 mor_status mor_run_folder_lock(mor_context *context, const char *folder, FILE **log)
 {
     char path[MOR_PATH_BYTES];
+    *log = NULL;
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_RUN_LOG_FILE));
     *log = fopen(path, "a");
     MOR_CHECK(context, *log != NULL, MOR_ERROR_IO, "'%s' cannot be written; check the folder's permissions", path);
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(fileno(*log), F_OFD_SETLK, &lock) != 0) {
         fclose(*log);
+        *log = NULL;
         return MOR_FAIL(context, MOR_ERROR_CONFIG,
                         "another run is at work in '%s'; wait for its end, or choose another folder", folder);
     }
     return MOR_OK;
+}
+
+void mor_run_folder_unlock(FILE **log)
+{
+    if (*log == NULL) {
+        return;
+    }
+    struct flock lock = {.l_type = F_UNLCK, .l_whence = SEEK_SET};
+    (void)fflush(*log); /* what is not yet written belongs to the time of the lock */
+    (void)fcntl(fileno(*log), F_OFD_SETLK, &lock);
+    fclose(*log);
+    *log = NULL;
 }

@@ -35,8 +35,13 @@ mor_status mor_run_folder_refuse_run(mor_context *context, const char *folder, c
 /** Opens the log of a folder behind what it holds and locks the folder with it: one run at a time works there, of
  *  this process or another.
  *  @param folder [in]   zero-terminated; there already
- *  @param log    [out]  one stream; closing it frees the lock
+ *  @param log    [out]  one stream, to be ended with mor_run_folder_unlock; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when another run holds the lock; MOR_ERROR_IO. */
 mor_status mor_run_folder_lock(mor_context *context, const char *folder, FILE **log);
+
+/** Closes a log and frees the lock of its folder, which a child process that has inherited the file would otherwise
+ *  hold on to.
+ *  @param log [in,out]  one stream; NULL afterwards; NULL and one that locks nothing are accepted */
+void mor_run_folder_unlock(FILE **log);
 
 #endif

@@ -43,11 +43,11 @@ bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, cons
     return !is_last;
 }
 
-void mor_run_warnings_load(mor_context *context, mor_run_warnings *warnings, const char *path)
+/* Closes the log; NULL is accepted. */
+static void add_lines(mor_context *context, mor_run_warnings *warnings, FILE *log)
 {
     char *line = NULL;
     size_t room = 0;
-    FILE *log = fopen(path, "rb");
     while (log != NULL && getline(&line, &room, log) > 0) {
         const char *text = line + sizeof line_start - 1;
         if (strncmp(line, line_start, sizeof line_start - 1) == 0 &&
@@ -60,6 +60,16 @@ void mor_run_warnings_load(mor_context *context, mor_run_warnings *warnings, con
     if (log != NULL) {
         fclose(log);
     }
+}
+
+void mor_run_warnings_load(mor_context *context, mor_run_warnings *warnings, const char *path)
+{
+    add_lines(context, warnings, fopen(path, "rb"));
+}
+
+void mor_run_warnings_read(mor_context *context, mor_run_warnings *warnings, char *text, size_t n_bytes)
+{
+    add_lines(context, warnings, n_bytes > 0 ? fmemopen(text, n_bytes, "rb") : NULL);
 }
 
 void mor_run_warnings_clear(mor_context *context, mor_run_warnings *warnings)

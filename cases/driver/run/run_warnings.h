@@ -31,6 +31,11 @@ bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, cons
  *  @param path     [in]      zero-terminated; of the log; a missing one has none */
 void mor_run_warnings_load(mor_context *context, mor_run_warnings *warnings, const char *path);
 
+/** Adds the warnings in a part of a log, as mor_run_warnings_load does.
+ *  @param text     [in]      shape [n_bytes]; lines of a log
+ *  @param n_bytes  [in]      length of text */
+void mor_run_warnings_read(mor_context *context, mor_run_warnings *warnings, char *text, size_t n_bytes);
+
 /** Frees the texts.
  *  @param warnings [in,out]  becomes zeroed */
 void mor_run_warnings_clear(mor_context *context, mor_run_warnings *warnings);

@@ -270,7 +270,7 @@ static void a_folder_at_work_is_left_alone(void **state)
     session_expect(session, mor_session_load_file(session, case_path), MOR_OK, "");
     session_expect(session, mor_session_run(session, path, false, 0.01, &outcome), MOR_ERROR_CONFIG,
                    "another run is at work");
-    fclose(log);
+    mor_run_folder_unlock(&log);
     session_expect(session, mor_session_load_file(session, case_path), MOR_OK, "");
     session_expect(session, mor_session_run(session, path, false, 0.01, &outcome), MOR_OK, "");
     mor_session_free(&session);

@@ -188,7 +188,10 @@ static void a_run_that_is_refused_may_go_into_another_folder(void **state)
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
     char hashes[2][32];
+    char *printed = NULL;
     size_t n_bytes = 0;
+    FILE *stream = open_memstream(&printed, &n_bytes);
+    assert_non_null(stream);
     mor_session *session = session_load(folder);
     run(folder, session, "first", false, MOR_OK, "");
     session_expect(session, mor_session_override(session, "placement.move=(0.0, 0.0)"), MOR_OK, "");
@@ -196,7 +199,10 @@ static void a_run_that_is_refused_may_go_into_another_folder(void **state)
     run(folder, session, "first", false, MOR_ERROR_CONFIG, "already holds a run");
     run(folder, session, "case.cfg", false, MOR_ERROR_CONFIG, "a file of that name is there");
     mor_session_clear_overrides(session);
+    mor_session_set_output(session, stream);
     assert_int_equal(run(folder, session, "second", false, MOR_OK, ""), MOR_SESSION_FINISHED);
+    fclose(stream);
+    mor_session_set_output(session, NULL);
     finished_run_read_hash(folder, "first", hashes[0]);
     finished_run_read_hash(folder, "second", hashes[1]);
     assert_string_equal(hashes[0], hashes[1]);
@@ -204,6 +210,12 @@ static void a_run_that_is_refused_may_go_into_another_folder(void **state)
     assert_non_null(log);
     assert_int_equal(count_parts(log, "placement.move"), 1);
     free(log);
+    char *summary = (char *)run_folder_load(finished_run_file(folder, path, "second", MOR_SUMMARY_FILE), &n_bytes);
+    assert_non_null(summary);
+    assert_int_equal(count_parts(summary, "placement.move"), 1);
+    free(summary);
+    assert_int_equal(count_parts(printed, "placement.move"), 1);
+    free(printed);
     mor_session_free(&session);
 }
 
@@ -325,6 +337,57 @@ static void reports_are_of_a_case_that_is_built(void **state)
     mor_session_free(&session);
 }
 
+/* A device that takes nothing stands for a full disk. */
+static void a_list_that_cannot_be_printed_is_told(void **state)
+{
+    mor_session *session = session_load(*state);
+    if (access("/dev/full", W_OK) != 0) {
+        mor_session_free(&session);
+        skip();
+    }
+    for (int k = 0; mor_list_name(k) != NULL; ++k) {
+        FILE *full = fopen("/dev/full", "w");
+        assert_non_null(full);
+        mor_session_set_output(session, full);
+        session_expect(session, mor_session_print_list(session, mor_list_name(k)), MOR_ERROR_IO, mor_list_name(k));
+        mor_session_set_output(session, NULL);
+        session_expect(session, mor_session_print_list(session, mor_list_name(k)), MOR_OK, "");
+        fclose(full);
+    }
+    mor_session_free(&session);
+}
+
+/* A ball above the floor: it may fall, but no step is short enough for its contact. */
+static const char hard_ball[] =
+    "title = 'ball'; dimension = 2; spacing = '0.1 m'; end = '1 s'; gravity = ('0 m/s2', '-10 m/s2');"
+    "domain = { min = ('-1 m', '-1 m'); max = ('6 m', '3 m'); };"
+    "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); }; } );"
+    "bodies = ( { name = 'ball'; position = ('2 m', '1.5 m'); contact_modulus = 1e20;"
+    "  shape = { type = 'sphere'; center = ('0 m', '0 m'); radius = '0.3 m'; };"
+    "  material = { model = 'rigid'; density = '2400 kg/m3'; }; } );";
+
+static void a_case_without_a_first_step_is_explained(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char *text = NULL;
+    size_t n_bytes = 0;
+    FILE *stream = open_memstream(&text, &n_bytes);
+    assert_non_null(stream);
+    mor_session *session = session_load(folder);
+    finished_run_store_text(folder, hard_ball, path);
+    load_again(folder, session);
+    session_expect(session, mor_session_build(session), MOR_OK, "");
+    mor_session_set_output(session, stream);
+    session_expect(session, mor_session_explain(session), MOR_OK, "");
+    fclose(stream);
+    assert_non_null(strstr(text, "contact stiffness"));
+    assert_non_null(strstr(text, "warning: a run would stop within its first steps: the time step collapsed"));
+    assert_non_null(strstr(text, "Stages of a step of 'rigid'"));
+    free(text);
+    mor_session_free(&session);
+}
+
 static void what_is_no_law_is_not_tried(void **state)
 {
     run_folder *folder = *state;
@@ -359,6 +422,8 @@ int main(void)
                                        TEST(a_state_beyond_the_end_leaves_the_case_loaded),
                                        TEST(folders_that_cannot_be_used_are_refused),
                                        TEST(reports_are_of_a_case_that_is_built),
+                                       TEST(a_list_that_cannot_be_printed_is_told),
+                                       TEST(a_case_without_a_first_step_is_explained),
                                        TEST(what_is_no_law_is_not_tried)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
