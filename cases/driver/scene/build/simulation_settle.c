@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Energy of a simulation, and the settling of its initial stress. */
+/* The settling of the initial stress of a simulation. */
 #include "cases/driver/scene/build/simulation_build.h"
 
 #include "cases/driver/probe/probe_track.h"
