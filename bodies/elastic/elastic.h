@@ -43,7 +43,8 @@ extern const mor_body_operations mor_elastic_operations;
  *  @param requests  [in]      shape [n_bodies]
  *  @param n_bodies  [in]      number of bodies
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a body so thin that a correction matrix does not exist, naming body and
- *  place and with the index of the body as the item of the error, for settings out of range and for a material of the rate form; MOR_ERROR_MEMORY.
+ *  place, with the index of the body as the item of the error, for settings out of range and for a material of the rate
+ *  form; MOR_ERROR_MEMORY.
  *  Gives: fields deformation_gradient and deformation_rate in the set. */
 mor_status mor_elastic_init(mor_context *context, mor_elastic *elastic, const char *name, const mor_scheme *scheme,
                             const mor_material_instance *material, int dimension, double spacing,

@@ -20,8 +20,8 @@
 
 enum { ROCK_SCENE_POINTS_MAX = 20000 };
 
-/** The stiffness of a barrier with which a particle of a mass, kg (kg/m), at a fifth of the radius needs no shorter step
- *  than sound of a speed, m/s, at a spacing, m, Jiang et al. (2022) eqs. 26, 27; N/m (N/m2). */
+/** The stiffness of a barrier with which a particle of a mass, kg (kg/m), at a fifth of the radius needs no shorter
+ *  step than sound of a speed, m/s, at a spacing, m, Jiang et al. (2022) eqs. 26, 27; N/m (N/m2). */
 static inline double rock_scene_barrier_stiffness(double mass, double spacing, double speed)
 {
     const mor_soil_barrier unit = {true, 1.0, 1.0};

@@ -21,6 +21,7 @@ import check_stages
 import check_symbols
 import check_tests
 import check_roles
+import check_sessions
 import check_text
 import source
 
@@ -417,6 +418,30 @@ class Roles(Sample):
 
     def test_laws_without_roles_are_refused(self):
         self.expect(check_roles.check(self.root), "no parameter has a role")
+
+
+class Sessions(Sample):
+    STEP = "mor_status mor_session_step(mor_session *session)\n{\n    %s\n    return MOR_OK;\n}\n"
+
+    def use(self, first_line):
+        self.write("cases/moraine.h", TAG + "mor_status mor_session_step(mor_session *session);\n")
+        self.write("cases/driver/library/step.c", TAG + self.STEP % first_line)
+        return check_sessions.check(self.root)
+
+    def test_a_function_that_begins_its_work_passes(self):
+        self.expect(self.use("MOR_SESSION_WORK(session);"))
+
+    def test_a_function_in_the_locale_of_the_program_is_refused(self):
+        self.expect(self.use("int k = 0;"), "library/step.c:3", "mor_session_step", "MOR_SESSION_WORK")
+
+    def test_a_function_that_is_not_found_is_refused(self):
+        self.use("MOR_SESSION_WORK(session);")
+        self.write("cases/driver/library/step.c", TAG)
+        self.expect(check_sessions.check(self.root), "'mor_session_step' is not defined")
+
+    def test_a_header_without_functions_is_refused(self):
+        self.write("cases/moraine.h", TAG)
+        self.expect(check_sessions.check(self.root), "no function of a session")
 
 
 class RoomsDrawing(Sample):

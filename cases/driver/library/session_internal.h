@@ -48,8 +48,8 @@ struct mor_session {
     int64_t next_snapshot;   /* number of the next snapshot of a run */
 };
 
-/** Begins the work of a function, see MOR_SESSION_WORK: forgets the last error and gives the calling thread the locale
- *  of the session.
+/** Begins the work of a function, see MOR_SESSION_WORK: forgets the last error and gives the calling thread the
+ *  locale of the session.
  *  Returns: the locale that the thread had. */
 locale_t mor_session_begin_work(mor_session *session);
 
@@ -58,8 +58,8 @@ locale_t mor_session_begin_work(mor_session *session);
 void mor_session_end_work(const locale_t *previous);
 
 /** Stands first in each function of moraine.h that returns a status. Until that function returns, however it does,
- *  numbers are read and written with a decimal point: nothing below needs to care for the locale of the program. Threads
- *  of parallel loops keep the program's, and neither read nor write numbers as text. */
+ *  numbers are read and written with a decimal point: nothing below needs to care for the locale of the program.
+ *  Threads of parallel loops keep the program's, and neither read nor write numbers as text. */
 #define MOR_SESSION_WORK(session)                                                                                      \
     const locale_t mor_previous_locale_ __attribute__((cleanup(mor_session_end_work))) = mor_session_begin_work(session)
 

@@ -8,8 +8,8 @@
 #include "core/io/case_file/case_file.h"
 
 /** @file
- *  Values, names, shapes and files that the sections of a case are made of. Every error names the place in the file, what
- *  was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
+ *  Values, names, shapes and files that the sections of a case are made of. Every error names the place in the file,
+ *  what was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
 
 /** State shared by all parts. */
 typedef struct mor_case_reader {

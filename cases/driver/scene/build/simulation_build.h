@@ -46,8 +46,8 @@ typedef struct mor_settle_observer {
  *  when nothing settles; not after a resume.
  *  @param context    [in,out]  logs that the stress has converged, or that settling was stopped, with the speed reached
  *  @param observer   [in]      NULL: none
- *  Returns: MOR_OK, also when stopped; MOR_NOT_CONVERGED when the soil does not come to rest in the time given, with the
- *  speed reached; MOR_ERROR_MEMORY; what a step returns. */
+ *  Returns: MOR_OK, also when stopped; MOR_NOT_CONVERGED when the soil does not come to rest in the time given, with
+ *  the speed reached; MOR_ERROR_MEMORY; what a step returns. */
 mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulation, const mor_settle_observer *observer);
 
 /** Sets the surface height, the depth of the soil and the initial stress of all regions: vertical stress from the
