@@ -18,9 +18,6 @@ enum { TAPS = 4 }; /* nodes each way that a value is made from */
 static const double nodes_limit = 5e8;
 static const double band_cells_least = 3.0;
 
-/* Slope of the field, where a distance has 1, below which it has no direction. */
-static const double least_slope = 1e-9;
-
 /* Between nodes a surface may bulge over that of the source by a little, near edges; cells. */
 static const double bounds_slack = 0.25;
 
@@ -70,24 +67,6 @@ static void find_weights(double t, double *weights)
     weights[1] = 0.5 * (t * t * (3.0 * t - 5.0) + 2.0);
     weights[2] = 0.5 * t * (t * (4.0 - 3.0 * t) + 1.0);
     weights[3] = 0.5 * t * t * (t - 1.0);
-}
-
-/* Their first derivatives by t. */
-static void find_slopes(double t, double *weights)
-{
-    weights[0] = 0.5 * (t * (4.0 - 3.0 * t) - 1.0);
-    weights[1] = 0.5 * t * (9.0 * t - 10.0);
-    weights[2] = 0.5 * (t * (8.0 - 9.0 * t) + 1.0);
-    weights[3] = 0.5 * t * (3.0 * t - 2.0);
-}
-
-/* Their second derivatives by t. */
-static void find_bends(double t, double *weights)
-{
-    weights[0] = 2.0 - 3.0 * t;
-    weights[1] = 9.0 * t - 5.0;
-    weights[2] = 4.0 - 9.0 * t;
-    weights[3] = 3.0 * t - 1.0;
 }
 
 /* Columns along x stay apart until the end: four lanes of one vector. */
@@ -167,45 +146,6 @@ static const mor_shape_operations level_set_operations = {.kind = "level set",
                                                           .free = level_set_free,
                                                           .moments = level_set_moments,
                                                           .exact_distance = level_set_exact_distance};
-
-void mor_level_set_normal(const mor_shape *shape, const double *point, double *normal, double *curvature)
-{
-    const level_set_shape *set = (const level_set_shape *)shape;
-    const mor_level_set_grid *grid = &set->grid;
-    const grid_place place = find_place(set, point);
-    double weights[3][3][TAPS] = {{{0.0}}}; /* by order of the derivative, then axis */
-    weights[0][2][0] = 1.0;
-    for (int a = 0; a < grid->dimension; ++a) {
-        find_weights(place.t[a], weights[0][a]);
-        find_slopes(place.t[a], weights[1][a]);
-        find_bends(place.t[a], weights[2][a]);
-    }
-    double gradient[3];
-    double second[6];
-    for (int a = 0; a < 3; ++a) {
-        int order[3] = {0, 0, 0};
-        order[a] = 1;
-        gradient[a] = sum_nodes(grid, place.first, weights[order[0]][0], weights[order[1]][1], weights[order[2]][2]);
-        order[a] = 2;
-        second[a] = sum_nodes(grid, place.first, weights[order[0]][0], weights[order[1]][1], weights[order[2]][2]);
-        order[a] = 1;
-        order[(a + 1) % 3] = 1; /* xy, yz, zx: the order of symmetric tensors */
-        second[3 + a] = sum_nodes(grid, place.first, weights[order[0]][0], weights[order[1]][1], weights[order[2]][2]);
-    }
-    /* Where all nodes are beyond the band there is nothing but rounding. */
-    const double steepness = mor_vector_length(gradient);
-    const double slope = steepness > least_slope * grid->cell ? steepness : 0.0;
-    for (int a = 0; a < 3; ++a) {
-        normal[a] = slope > 0.0 ? gradient[a] / slope : 0.0;
-    }
-    if (curvature != NULL) {
-        double bend[3];
-        mor_symmetric_apply(second, normal, bend);
-        const double sum = mor_symmetric_trace(second) - mor_vector_dot(normal, bend);
-        /* Derivatives were per cell. */
-        *curvature = slope > 0.0 ? sum / slope * set->per_cell : 0.0;
-    }
-}
 
 static mor_status check_request(mor_context *context, const mor_level_set_request *request)
 {

@@ -36,12 +36,4 @@ mor_status mor_shape_new_mesh(mor_context *context, const mor_mesh *mesh, const 
 mor_status mor_shape_new_level_set(mor_context *context, const mor_shape *source, const mor_level_set_request *request,
                                    mor_shape **shape);
 
-/** Outward unit normal and mean curvature of the level set through a point, from the interpolated field.
- *  @param shape     [in]   made by one of the two constructors above
- *  @param point     [in]   shape [3]; unit m; within the band
- *  @param normal    [out]  shape [3]; unit 1; zero where the field is flat, as beyond the band
- *  @param curvature [out]  one number; divergence of the normal, unit 1/m: 2/R for a ball, 1/R for a disc; may be NULL
- *  Threads: safe to call concurrently. */
-void mor_level_set_normal(const mor_shape *shape, const double *point, double *normal, double *curvature);
-
 #endif

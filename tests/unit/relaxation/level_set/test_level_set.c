@@ -149,12 +149,7 @@ static void faces_of_a_cube_are_exact(void **state)
     for (uint64_t id = 0; id < 10000; ++id) {
         const double point[3] = {cloud_number(id, 1, -0.3, 0.3), cloud_number(id, 2, 0.44, 0.56),
                                  cloud_number(id, 3, -0.3, 0.3)};
-        double normal[3];
-        double curvature;
-        mor_level_set_normal(set, point, normal, &curvature);
         assert_near(mor_shape_distance(set, point), point[1] - 0.5, 4e-15); /* 64 terms to 0.1, rounded */
-        assert_near(normal[1], 1.0, 1e-14);                                 /* rounding over a cell */
-        assert_near(curvature, 0.0, 1e-10); /* rounding over a cell, twice: 1e-16 / 0.03^2 and weights */
     }
     mor_shape_free(&context, &set);
     mor_mesh_clear(&context, &mesh);
@@ -239,80 +234,6 @@ static void value_changes_by_at_most_a_tenth_more_than_the_way(void **state)
     assert_true(steepest[1] <= 1.4);                  /* 4/3 where a cubic turns at a node of a kink */
     mor_shape_free(&context, &set);
     mor_mesh_clear(&context, &mesh);
-}
-
-/* Angles between the normal and the radius over the points of a ball, in degrees. */
-static void measure_normals(const mor_shape *set, double *mean, double *largest)
-{
-    double sum = 0.0;
-    *largest = 0.0;
-    for (uint64_t id = 0; id < 20000; ++id) {
-        double point[3];
-        double normal[3];
-        draw_point(id, 1.0, point);
-        const double length = mor_vector_length(point);
-        for (int a = 0; a < 3; ++a) {
-            point[a] *= 0.5 / length;
-        }
-        mor_level_set_normal(set, point, normal, NULL);
-        assert_near(mor_vector_length(normal), 1.0, 1e-14); /* rounding */
-        const double angle = acos(fmin(1.0, mor_vector_dot(normal, point) / 0.5)) * 180.0 / MOR_PI;
-        sum += angle;
-        *largest = fmax(*largest, angle);
-    }
-    *mean = sum / 20000;
-}
-
-static void normals_of_a_ball_are_within_a_degree(void **state)
-{
-    (void)state;
-    mor_context context;
-    mor_context_init(&context);
-    double mean;
-    double largest;
-    mor_shape *ball = new_source(&context, 0);
-    mor_shape *set = new_level_set(&context, ball, 3, 1.0 / 40, 0.2);
-    measure_normals(set, &mean, &largest);
-    print_message("normals of the ball: mean error %.4f deg, largest %.4f deg\n", mean, largest);
-    assert_true(mean < 0.05 && largest < 0.2); /* second order in a cell of 1/20 radius: 0.14 deg times a part */
-    mor_shape_free(&context, &set);
-    mor_mesh mesh = mesh_ball(&context, 0.5, 4);
-    set = new_mesh_shape(&context, &mesh, 1.0 / 40, 0.2);
-    measure_normals(set, &mean, &largest);
-    print_message("normals of the mesh of %lld triangles: mean error %.4f deg, largest %.4f deg\n",
-                  (long long)mesh.n_triangles, mean, largest);
-    assert_true(mean < 1.0 && largest < 4.0); /* faces are up to 3 deg from the ball; flipped ones would be at 180 */
-    mor_shape_free(&context, &set);
-    mor_mesh_clear(&context, &mesh);
-    mor_shape_free(&context, &ball);
-}
-
-static void curvature_is_two_over_the_radius_and_one_in_the_plane(void **state)
-{
-    (void)state;
-    mor_context context;
-    mor_context_init(&context);
-    mor_shape *ball = new_source(&context, 0);
-    for (int dimension = 2; dimension <= 3; ++dimension) {
-        mor_shape *set = new_level_set(&context, ball, dimension, 1.0 / 80, 0.1);
-        for (uint64_t id = 0; id < 5000; ++id) {
-            double point[3];
-            double normal[3];
-            double curvature;
-            draw_point(id, 1.0, point);
-            point[2] = dimension == 3 ? point[2] : 0.0;
-            const double length = mor_vector_length(point);
-            const double radius = cloud_number(id, 11, 0.45, 0.55);
-            for (int a = 0; a < 3; ++a) {
-                point[a] *= radius / length;
-            }
-            mor_level_set_normal(set, point, normal, &curvature);
-            const double order = 2.0 / 80.0 / radius; /* the third derivative by a cell, along two directions */
-            assert_near(curvature, (dimension - 1) / radius, order * (dimension - 1) / radius); /* first order */
-        }
-        mor_shape_free(&context, &set);
-    }
-    mor_shape_free(&context, &ball);
 }
 
 /* Moments integrated from distances, against the exact ones of the mesh, at 20 particles across. */
@@ -426,15 +347,9 @@ static void threads_and_units_change_no_bit(void **state)
         mor_shape *other = new_mesh_shape(&context, &scaled, 0.04 * factor, 0.15 * factor);
         for (uint64_t id = 0; id < 20000; ++id) {
             double point[3];
-            double normals[2][3];
-            double curvatures[2];
             draw_point(id, 1.2, point);
             const double there[3] = {factor * point[0], factor * point[1], factor * point[2]};
             assert_true(mor_shape_distance(set, point) * factor == mor_shape_distance(other, there)); /* exact */
-            mor_level_set_normal(set, point, normals[0], &curvatures[0]);
-            mor_level_set_normal(other, there, normals[1], &curvatures[1]);
-            assert_memory_equal(normals[0], normals[1], sizeof normals[0]); /* exact: no unit */
-            assert_true(curvatures[0] == curvatures[1] * factor);           /* exact */
         }
         mor_shape_free(&context, &other);
         mor_mesh_clear(&context, &scaled);
@@ -539,8 +454,6 @@ int main(void)
         cmocka_unit_test(far_from_the_surface_the_value_is_a_lower_bound_of_right_sign),
         cmocka_unit_test(value_goes_on_without_a_step_beyond_the_grid),
         cmocka_unit_test(value_changes_by_at_most_a_tenth_more_than_the_way),
-        cmocka_unit_test(normals_of_a_ball_are_within_a_degree),
-        cmocka_unit_test(curvature_is_two_over_the_radius_and_one_in_the_plane),
         cmocka_unit_test(moments_of_the_level_set_are_those_of_the_mesh),
         cmocka_unit_test(moments_of_the_level_set_are_those_of_scanned_rocks),
         cmocka_unit_test(level_set_of_a_shape_knows_moments_when_the_shape_does),
