@@ -74,10 +74,10 @@ static void name_group(const mor_simulation_bodies *bodies, const char *model, c
     snprintf(name, room, n_same > 1 ? "%s_%d" : "%s", model, n_same);
 }
 
-/* A body that cannot be made is an error of the case: adds the place in the file. */
+/* A body that cannot be made, or that its law refuses, is an error of the case: adds the place in the file. */
 static mor_status annotate_error(mor_context *context, const mor_case *c, const group_spec *r, mor_status status)
 {
-    if (status != MOR_ERROR_ARGUMENT) {
+    if (status != MOR_ERROR_ARGUMENT && status != MOR_ERROR_NUMERIC) {
         return status;
     }
     const int m = context->item >= 0 ? context->item : r->n_members - 1; /* the one that was gathered last */

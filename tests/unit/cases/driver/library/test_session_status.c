@@ -366,6 +366,53 @@ static const char hard_ball[] =
     "  shape = { type = 'sphere'; center = ('0 m', '0 m'); radius = '0.3 m'; };"
     "  material = { model = 'rigid'; density = '2400 kg/m3'; }; } );";
 
+/* The ball, elastic: its law is my_law. */
+static const char own_ball[] =
+    "title = 'ball'; dimension = 2; spacing = '0.1 m'; end = '1 s'; gravity = ('0 m/s2', '-10 m/s2');"
+    "domain = { min = ('-1 m', '-1 m'); max = ('6 m', '3 m'); };"
+    "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); }; } );\n"
+    "bodies = ( { name = 'ball'; position = ('2 m', '1.5 m');"
+    "  shape = { type = 'sphere'; center = ('0 m', '0 m'); radius = '0.3 m'; };"
+    "  material = { model = 'my_law'; density = '2400 kg/m3'; youngs_modulus = '1 MPa'; poissons_ratio = 0.3; }; } );";
+
+static mor_status refuse_state(const mor_material_instance *material, const mor_batch *batch)
+{
+    (void)material;
+    (void)batch;
+    return MOR_ERROR_NUMERIC;
+}
+
+static mor_status find_no_speed(const mor_material_instance *material, const mor_batch *batch, double *speed)
+{
+    (void)material;
+    (void)batch;
+    *speed = NAN;
+    return MOR_OK;
+}
+
+static void a_law_that_refuses_a_body_is_told_with_its_place(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    for (int k = 0; k < 2; ++k) {
+        mor_material law = *law_named("neo_hookean");
+        mor_session *session = NULL;
+        law.name = "my_law";
+        if (k == 0) {
+            law.operations.init_state = refuse_state;
+        } else {
+            law.operations.wave_speed = find_no_speed;
+        }
+        assert_int_equal(mor_session_new(&session), MOR_OK);
+        session_expect(session, mor_session_add_material(session, &law), MOR_OK, "");
+        finished_run_store_text(folder, own_ball, path);
+        load_again(folder, session);
+        session_expect(session, mor_session_build(session), MOR_ERROR_CONFIG, "case.cfg:2");
+        session_expect(session, mor_session_build(session), MOR_ERROR_CONFIG, "my_law");
+        mor_session_free(&session);
+    }
+}
+
 static void a_case_without_a_first_step_is_explained(void **state)
 {
     run_folder *folder = *state;
@@ -423,6 +470,7 @@ int main(void)
                                        TEST(folders_that_cannot_be_used_are_refused),
                                        TEST(reports_are_of_a_case_that_is_built),
                                        TEST(a_list_that_cannot_be_printed_is_told),
+                                       TEST(a_law_that_refuses_a_body_is_told_with_its_place),
                                        TEST(a_case_without_a_first_step_is_explained),
                                        TEST(what_is_no_law_is_not_tried)};
     return cmocka_run_group_tests(tests, NULL, NULL);
