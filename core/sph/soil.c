@@ -55,8 +55,8 @@ static const mor_stage soil_stages[] = {
     {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES), SHARED(LISTS),
      SHARED(ORDER) | SHARED(BOUNDS),
      "sorts particles at an interval; rebuilds neighbor lists when particles have moved by the skin", NULL},
-    {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS), SHARED(RECORDS), 0,
-     "packs one record per particle for the pair loops", NULL},
+    {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | SHARED(STATE),
+     SHARED(RECORDS), 0, "packs one record per particle for the pair loops", NULL},
     {"wall sums", mor_soil_sum_walls, SHARED(RECORDS) | SHARED(LISTS) | SHARED(BOUNDARIES), SHARED(WALL_SUMS), 0,
      "kernel sums over walls and rocks in reach", NULL},
     {"density", mor_soil_reinitialize_density, SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(MASS), 0,
@@ -120,6 +120,7 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
     mor_soil *soil = owner;
     const int64_t n = soil->set.n_particles;
     visit(job, MOR_RESOURCE_RECORDS, soil->records, n * MOR_RECORD_SIZE);
+    visit(job, MOR_RESOURCE_RECORDS, soil->of_soil, n * MOR_PAIR_OF_SOIL_SIZE);
     visit(job, MOR_RESOURCE_MOMENTS, soil->moments, 6 * n);
     visit(job, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress, 3 * n);
     visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
@@ -172,14 +173,18 @@ static void set_constants(mor_soil *soil)
         .spacing_kernel = mor_kernel_value(s->spacing, h, s->dimension),
         .kernel_normalization = mor_kernel_normalization(h, s->dimension),
     };
+    for (int k = 0; k < soil->n_kinds && soil->of_soil != NULL; ++k) {
+        soil->pair_soils[k].diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->kinds[k].sound_speed;
+        soil->constants.soils = soil->pair_soils;
+    }
     const double strength = mor_vector_length(s->gravity);
     for (int a = 0; a < 3 && strength > 0.0; ++a) {
         soil->constants.gravity_direction[a] = s->gravity[a] / strength;
     }
 }
 
-/* The wave speed of the unstressed material; it sets the step and the impedance, eq. 22. */
-static mor_status find_sound_speed(mor_context *context, mor_soil *soil)
+/* The wave speed of an unstressed soil; it sets the step and the impedance, eq. 22. */
+static mor_status find_sound_speed(mor_context *context, const mor_soil *soil, int index, mor_soil_kind *kind)
 {
     const double stress[6] = {0.0};
     double speed = 0.0;
@@ -190,11 +195,9 @@ static mor_status find_sound_speed(mor_context *context, mor_soil *soil)
         state[k] = values[k];
         state_in[k] = values[k];
     }
-    mor_batch batch = {.n = 1,
-                       .density = &soil->settings.reference_density,
-                       .stress_in = stress,
-                       .state_in = state_in,
-                       .state_out = state};
+    values[0][0] = index; /* of a composite; any other law writes its own */
+    mor_batch batch = {
+        .n = 1, .density = &kind->reference_density, .stress_in = stress, .state_in = state_in, .state_out = state};
     const mor_material_operations *operations = &soil->material->operations;
     mor_status status = operations->init_state(soil->material, &batch);
     if (status == MOR_OK) {
@@ -203,7 +206,25 @@ static mor_status find_sound_speed(mor_context *context, mor_soil *soil)
     MOR_CHECK(context, status == MOR_OK && speed > 0.0 && isfinite(speed), MOR_ERROR_NUMERIC,
               "material '%s' gives a wave speed of %g m/s; it must be positive and finite",
               soil->material->material->name, speed);
-    soil->sound_speed = speed;
+    kind->sound_speed = speed;
+    return MOR_OK;
+}
+
+static mor_status set_kinds(mor_context *context, mor_soil *soil)
+{
+    const mor_soil_settings *s = &soil->settings;
+    const bool has_several = mor_composite_is(soil->material);
+    MOR_CHECK(context, has_several ? s->n_kinds >= 1 && s->n_kinds <= MOR_COMPOSITE_PARTS_MAX : s->n_kinds == 0,
+              MOR_ERROR_ARGUMENT, "found constants of %d soils; allowed: those of the parts of a composite, 1 to %d",
+              s->n_kinds, MOR_COMPOSITE_PARTS_MAX);
+    soil->n_kinds = has_several ? s->n_kinds : 1;
+    soil->kinds[0] = (mor_soil_kind){s->reference_density, s->lateral_ratio, 0.0};
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        soil->kinds[k] = has_several ? s->kinds[k] : soil->kinds[k];
+        MOR_TRY(context, find_sound_speed(context, soil, k, &soil->kinds[k]));
+        soil->sound_speed = fmax(soil->sound_speed, soil->kinds[k].sound_speed);
+    }
+    soil->settings.kinds = NULL;
     return MOR_OK;
 }
 
@@ -215,6 +236,9 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     const int64_t padded = soil->tree.n_clusters * MOR_CLUSTER;
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
+    if (mor_composite_is(soil->material)) {
+        MOR_TRY(context, MOR_NEW(context, &soil->of_soil, padded * MOR_PAIR_OF_SOIL_SIZE, "soils of the particles"));
+    }
     if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
@@ -254,7 +278,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
             mor_set_add_state(context, &soil->set, material->material->state, material->n_state, soil->state_fields);
     }
     if (status == MOR_OK) {
-        status = find_sound_speed(context, soil);
+        status = set_kinds(context, soil);
     }
     if (status == MOR_OK) {
         status = allocate_soil(context, soil, n_particles);
@@ -282,6 +306,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->spin_stress);
     MOR_FREE(context, &soil->regularization);
     MOR_FREE(context, &soil->order);
+    MOR_FREE(context, &soil->of_soil);
     MOR_FREE(context, &soil->records);
     mor_set_clear(context, &soil->set);
     memset(soil, 0, sizeof *soil);
@@ -426,6 +451,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
         bytes +=
             soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
     }
+    bytes += soil->of_soil != NULL ? padded * MOR_PAIR_OF_SOIL_SIZE * sizeof(double) : 0.0;
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;

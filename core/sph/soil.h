@@ -5,6 +5,7 @@
 
 #include "core/base/reduce.h"
 #include "core/geometry/domain.h"
+#include "core/material/composite.h"
 #include "core/material/kit/material.h"
 #include "core/particle/set.h"
 #include "core/scheme/scheme.h"
@@ -13,24 +14,35 @@
 #include "core/time/stepper.h"
 
 /** @file
- *  Fine grains: updated-Lagrangian Riemann SPH of one particle set with one material, with walls and rocks. One step is
- *  the list of stages in soil.c; time belongs to the schedule.
+ *  Fine grains: updated-Lagrangian Riemann SPH of one particle set, with walls and rocks. The set is of one soil, or of
+ *  several behind a composite material, core/material/composite.h. One step is the list of stages in soil.c; time
+ *  belongs to the schedule.
  *  Theory: Zhang et al. (2024) eqs. 13-35, 51, 54-56; docs/theory/soil.md. */
 
 enum { MOR_SOIL_WALLS_MAX = 64, MOR_SOIL_BOUNDARIES_MAX = 16 };
+
+/** What the scheme takes of one of several soils. */
+typedef struct mor_soil_kind {
+    double reference_density; /* rho_0, kg/m3 */
+    double lateral_ratio;     /* K0 of the stress-diffusion operator, 1 */
+    double sound_speed;       /* c0, m/s; found by mor_soil_init */
+} mor_soil_kind;
 
 /** What a soil is built from, beside its material. Plain data. */
 typedef struct mor_soil_settings {
     mor_scheme scheme;                 /* settings of the scheme */
     int dimension;                     /* 2 (plane strain in x, y) or 3 */
     double spacing;                    /* initial particle spacing, m */
-    double lateral_ratio;              /* K0 of the stress-diffusion operator, 1 */
+    double lateral_ratio;              /* K0 of the stress-diffusion operator, 1; of one soil */
     double gravity[3];                 /* m/s2 */
     double domain_minimum[3];          /* m, before the placement */
     double domain_maximum[3];          /* likewise */
     const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither rotated nor translated */
     bool removes_outflow;              /* what leaves the domain is removed; else it stops the run */
-    double reference_density;          /* rho_0, kg/m3 */
+    double reference_density;          /* rho_0, kg/m3; of one soil */
+    const mor_soil_kind *kinds;        /* shape [n_kinds]; of the parts of a composite, borrowed by mor_soil_init; NULL:
+                                          one soil, of the two above */
+    int n_kinds;
 } mor_soil_settings;
 
 /** What has left the domain since the start. */
@@ -47,11 +59,15 @@ enum {
 typedef struct mor_soil {
     mor_soil_settings settings;
     mor_set set;
-    const mor_material_instance *material;     /* borrowed; outlives the soil */
-    int state_fields[MOR_MATERIAL_STATES_MAX]; /* indices of the material's state variables in the set */
+    const mor_material_instance *material;        /* borrowed; outlives the soil */
+    int state_fields[MOR_MATERIAL_STATES_MAX];    /* indices of the material's state variables in the set */
+    mor_soil_kind kinds[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds]; in the order of the composite's parts */
+    int n_kinds;
+    mor_pair_soil pair_soils[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds] */
     const mor_pair_table *table;
     mor_pair_constants constants;
     double *records;         /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+    double *of_soil;         /* shape [n_particles padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; or NULL */
     double *regularization;  /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;         /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
     double *spin_stress;     /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
@@ -65,7 +81,7 @@ typedef struct mor_soil {
     int n_walls;
     mor_soil_contact boundaries[MOR_SOIL_BOUNDARIES_MAX]; /* moved by others */
     int n_boundaries;
-    double sound_speed;                         /* c0, m/s */
+    double sound_speed;                         /* c0, m/s; the largest of several soils */
     double smoothing_length;                    /* h, m */
     double lattice_sum;                         /* sum V W on the perfect lattice, 1 */
     double largest_speed;                       /* after the last kick, m/s */

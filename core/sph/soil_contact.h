@@ -142,12 +142,14 @@ void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *con
 /** Adds the boundary's part of the acceleration and sets stick, and force and moment of the patches.
  *  @param contact      [in,out]  sums must be current
  *  @param dissipation  [in]      on which sign of the closing speed the limiter acts
- *  @param limiter_rate [in]      eta / c0, unit s/m
+ *  @param limiter_rate [in]      eta / c0, unit s/m; of one soil
+ *  @param of_soil      [in]      shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil
  *  @param records      [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles  [in]      number of soil particles
  *  @param acceleration [in,out]  shape [n_particles, 3], unit m/s2; added to */
 void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
-                                 double limiter_rate, const double *records, int64_t n_particles, double *acceleration);
+                                 double limiter_rate, const double *of_soil, const double *records, int64_t n_particles,
+                                 double *acceleration);
 
 /** Distributes the boundary forces to the points of a borrowed boundary, so that force and moment of each patch are
  *  kept to rounding. Does nothing for a wall.

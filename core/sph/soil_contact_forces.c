@@ -105,7 +105,8 @@ static double limited_speed(double closing, mor_dissipation dissipation)
 /* What the boundary force on a particle depends on beside the particle. */
 typedef struct boundary_terms {
     mor_dissipation dissipation;
-    double limiter_rate;             /* eta / c0, s/m */
+    double limiter_rate;             /* eta / c0 of the particle's soil, s/m */
+    const double *of_soil;           /* shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
     const mor_boundary_patch *patch; /* its friction */
     const double *velocity;          /* of the boundary, m/s */
     const double *gradient;          /* sum V grad_i W, 1/m */
@@ -179,6 +180,9 @@ static void add_slot_acceleration(mor_soil_contact *contact, boundary_terms p, i
         for (int a = 0; a < 3 && contact->barrier.is_on; ++a) {
             repulsion[a] = contact->repulsion[3 * lane + a] / mass;
         }
+        if (p.of_soil != NULL) {
+            p.limiter_rate = 2.0 * p.of_soil[(first + k) * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_LIMITER];
+        }
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
@@ -216,10 +220,11 @@ static void sum_patch(mor_soil_contact *contact, int patch, const double *record
 }
 
 void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
-                                 double limiter_rate, const double *records, int64_t n_particles, double *acceleration)
+                                 double limiter_rate, const double *of_soil, const double *records, int64_t n_particles,
+                                 double *acceleration)
 {
     const int n_patches = contact->boundary->n_patches;
-    const boundary_terms shared = {.dissipation = dissipation, .limiter_rate = limiter_rate};
+    const boundary_terms shared = {.dissipation = dissipation, .limiter_rate = limiter_rate, .of_soil = of_soil};
     if (contact->barrier.is_on) {
         mor_soil_contact_repel(context, contact, records, n_particles);
     }

@@ -86,19 +86,27 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mo
     return MOR_OK;
 }
 
+/* Stress per height at rest, eq. 26 for any direction g of gravity; gravity: its strength, m/s2. */
+static void find_rest_gradient(const mor_soil_kind *kind, double gravity, const double *g, double *rest_gradient)
+{
+    const double weight = kind->reference_density * gravity;
+    const double lateral = kind->lateral_ratio;
+    for (int a = 0; a < 3; ++a) {
+        rest_gradient[a] = weight * (lateral + (1.0 - lateral) * g[a] * g[a]);
+        rest_gradient[3 + a] = weight * (1.0 - lateral) * g[a] * g[(a + 1) % 3];
+    }
+}
+
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
     const mor_soil_settings *s = &soil->settings;
-    const double part = mor_soil_gravity_part(soil, step);
-    const double weight = part * s->reference_density * mor_vector_length(s->gravity);
-    const double *g = soil->constants.gravity_direction;
-    /* Stress per height at rest, eq. 26 for any direction of gravity. */
-    const double lateral = s->lateral_ratio;
-    for (int a = 0; a < 3; ++a) {
-        soil->constants.rest_gradient[a] = weight * (lateral + (1.0 - lateral) * g[a] * g[a]);
-        soil->constants.rest_gradient[3 + a] = weight * (1.0 - lateral) * g[a] * g[(a + 1) % 3];
+    const double gravity = mor_soil_gravity_part(soil, step) * mor_vector_length(s->gravity);
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        find_rest_gradient(&soil->kinds[k], gravity, soil->constants.gravity_direction,
+                           soil->pair_soils[k].rest_gradient);
     }
+    memcpy(soil->constants.rest_gradient, soil->pair_soils[0].rest_gradient, sizeof soil->constants.rest_gradient);
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
     arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
     arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
@@ -121,7 +129,8 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
         mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner);
         mor_soil_contact_sum_forces(context, contact, (mor_dissipation)soil->settings.scheme.wall_dissipation,
-                                    soil->constants.limiter_rate, arrays.records, arrays.n_particles, acceleration);
+                                    soil->constants.limiter_rate, arrays.of_soil, arrays.records, arrays.n_particles,
+                                    acceleration);
         mor_soil_contact_share_forces(context, contact, soil->table, &soil->constants, arrays.records,
                                       arrays.n_particles);
     }

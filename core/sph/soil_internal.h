@@ -49,6 +49,14 @@ bool mor_soil_has_density_sums(const void *owner);
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC naming the first particle that stops the run. */
 mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step);
 
+/** The constants of the soil that a particle is of; valid after packing. */
+static inline const mor_soil_kind *mor_soil_kind_of(const mor_soil *soil, int64_t particle)
+{
+    return &soil->kinds[soil->of_soil != NULL
+                            ? (int)soil->of_soil[particle * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_INDEX]
+                            : 0];
+}
+
 /** Part of gravity that acts in a step, 1: that of the ramp at the middle of the step. */
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
 

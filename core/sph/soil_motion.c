@@ -18,6 +18,7 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int l
     mor_view_compare(view, lists, soil->inner.generation);
     return (mor_pair_arrays){.n_particles = soil->set.n_particles,
                              .records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                             .of_soil = soil->of_soil,
                              .inner = mor_view_read_shared(view, lists, &soil->inner)};
 }
 
@@ -123,23 +124,42 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
 typedef struct packing {
     const mor_soil *soil;
     const double *position, *velocity, *density, *stress, *mass;
-    double *records;
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    double *records, *of_soil;
 } packing;
+
+/* What pair loops read of a particle among several soils. */
+static void pack_soil(const packing *p, int64_t i)
+{
+    const int index = (int)p->state[0][i];
+    double *of_soil = p->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
+    of_soil[MOR_PAIR_OF_SOIL_LIMITER] =
+        0.5 * (p->soil->settings.scheme.dissipation_factor / p->soil->kinds[index].sound_speed);
+    of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
+}
 
 static mor_status pack_range(void *job, int64_t first, int64_t last)
 {
     const packing *p = job;
     const mor_soil *soil = p->soil;
     double pressure[GRAIN];
-    const mor_batch batch = {.n = last - first, .density = p->density + first, .stress_in = p->stress + 6 * first};
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        state[k] = p->state[k] + first * soil->set.fields[soil->state_fields[k]].n_components;
+    }
+    const mor_batch batch = {
+        .n = last - first, .density = p->density + first, .stress_in = p->stress + 6 * first, .state_in = state};
     const mor_status status = soil->material->operations.pressure(soil->material, &batch, pressure);
     for (int64_t i = first; i < last; ++i) {
         double *record = p->records + i * MOR_RECORD_SIZE;
         const double density = p->density[i];
+        if (p->of_soil != NULL) {
+            pack_soil(p, i);
+        }
         memcpy(record + MOR_RECORD_POSITION, p->position + 3 * i, 3 * sizeof *record);
         record[MOR_RECORD_VOLUME] = p->mass[i] / density;
         memcpy(record + MOR_RECORD_VELOCITY, p->velocity + 3 * i, 3 * sizeof *record);
-        record[MOR_RECORD_IMPEDANCE] = density * soil->sound_speed;
+        record[MOR_RECORD_IMPEDANCE] = density * mor_soil_kind_of(soil, i)->sound_speed;
         memcpy(record + MOR_RECORD_STRESS, p->stress + 6 * i, 6 * sizeof *record);
         record[MOR_RECORD_PRESSURE] = pressure[i - first];
         record[MOR_RECORD_DENSITY] = density;
@@ -157,7 +177,9 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
                    .density = mor_view_read(view, MOR_FIELD_DENSITY),
                    .stress = mor_view_read(view, MOR_FIELD_STRESS),
                    .mass = mor_view_read(view, MOR_FIELD_MASS),
-                   .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
+                   .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                   .of_soil = soil->of_soil};
+    mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
     const mor_blocks blocks = mor_soil_blocks(soil, GRAIN, 4);
     const int64_t chunk = mor_reduce_status(&blocks, context->n_threads, pack_range, &job, soil->room.statuses);
     if (chunk >= 0) {
@@ -172,6 +194,10 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
     for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
         memcpy(job.records + i * MOR_RECORD_SIZE, job.records + (n - 1) * MOR_RECORD_SIZE,
                MOR_RECORD_SIZE * sizeof(double));
+        if (job.of_soil != NULL) {
+            memcpy(job.of_soil + i * MOR_PAIR_OF_SOIL_SIZE, job.of_soil + (n - 1) * MOR_PAIR_OF_SOIL_SIZE,
+                   MOR_PAIR_OF_SOIL_SIZE * sizeof(double));
+        }
     }
     return MOR_OK;
 }

@@ -84,18 +84,23 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
     double *sum = soil->density_sums;
     const int64_t n = soil->set.n_particles;
     for (int64_t i = 0; i < n; ++i) {
-        records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i];
+        /* Where soils meet, volumes are summed, for masses would smear the jump of the density. */
+        const double divisor = soil->of_soil != NULL ? mor_soil_kind_of(soil, i)->reference_density : 1.0;
+        records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i] / divisor;
     }
     sum_kernels(context, soil, view, records, keep_density);
+    for (int64_t i = 0; i < n && soil->of_soil != NULL; ++i) {
+        sum[i] *= mor_soil_kind_of(soil, i)->reference_density;
+    }
     add_wall_sums(context, soil, view, MOR_KERNEL_SUM_VALUE, 1, density, sum);
-    const double reference = soil->settings.reference_density;
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {
+        const double reference = mor_soil_kind_of(soil, i)->reference_density;
         const double summed = sum[i] / soil->lattice_sum;
         const double missing = density[i] - summed;
         density[i] = missing > 0.0 ? summed + missing * reference / density[i] : summed;
         double *record = records + i * MOR_RECORD_SIZE;
         record[MOR_RECORD_VOLUME] = mass[i] / density[i];
-        record[MOR_RECORD_IMPEDANCE] = density[i] * soil->sound_speed;
+        record[MOR_RECORD_IMPEDANCE] = density[i] * mor_soil_kind_of(soil, i)->sound_speed;
         record[MOR_RECORD_DENSITY] = density[i];
     }
     return MOR_OK;

@@ -115,8 +115,8 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
     assert_int_equal(mor_soil_contact_build(context, &f->wall, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &f->wall, table, constants, f->soil.records);
     mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation);
-    mor_soil_contact_sum_forces(context, &f->wall, dissipation, constants->limiter_rate, f->soil.records, f->soil.n,
-                                f->acceleration);
+    mor_soil_contact_sum_forces(context, &f->wall, dissipation, constants->limiter_rate, NULL, f->soil.records,
+                                f->soil.n, f->acceleration);
     mor_soil_contact_sum_gradient(context, &f->wall, f->soil.records, f->soil.n, f->velocity_gradient, f->density_rate);
 }
 

@@ -16,7 +16,7 @@
 enum { MOR_MATERIAL_ABI = 2 };
 
 /** Bounds that let the host keep fixed tables. */
-enum { MOR_MATERIAL_PARAMETERS_MAX = 32, MOR_MATERIAL_STATES_MAX = 8, MOR_MATERIAL_TEXT_BYTES = 4096 };
+enum { MOR_MATERIAL_PARAMETERS_MAX = 32, MOR_MATERIAL_STATES_MAX = 16, MOR_MATERIAL_TEXT_BYTES = 4096 };
 
 typedef struct mor_material mor_material;
 typedef struct mor_material_instance mor_material_instance;
@@ -108,7 +108,7 @@ typedef struct mor_material_operations {
      *  distance, negative inside, zero on the surface. */
     mor_status (*admissible)(const mor_material_instance *instance, const mor_batch *batch, double *distance);
 
-    /** Default: -trace/3. Reads stress_in, density; writes pressure, shape [n], unit Pa: the Riemann solver's. */
+    /** Default: -trace/3. Reads stress_in, density, state_in; writes pressure, shape [n], unit Pa: the Riemann solver's. */
     mor_status (*pressure)(const mor_material_instance *instance, const mor_batch *batch, double *pressure);
 
     /** Default: INFINITY. Reads density, stress_in, state_in; writes step, shape [n], unit s: the law's own limit. */

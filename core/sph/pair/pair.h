@@ -34,6 +34,19 @@ typedef enum mor_dissipation {
     MOR_DISSIPATION_BOTH
 } mor_dissipation;
 
+/** What the pair loops take of one soil where a set has several; of the others they use mor_pair_constants. */
+typedef struct mor_pair_soil {
+    double diffusion_rate;   /* 2 zeta h c0, m2/s */
+    double rest_gradient[6]; /* d stress / d height at rest, symmetric tensor, Pa/m */
+} mor_pair_soil;
+
+/** What they read of a particle where a set has several soils. */
+enum {
+    MOR_PAIR_OF_SOIL_LIMITER = 0, /* eta / (2 c0), s/m: a pair has the sum of both */
+    MOR_PAIR_OF_SOIL_INDEX = 1,   /* of its soil, 1 */
+    MOR_PAIR_OF_SOIL_SIZE = 2
+};
+
 /** Numbers the pair loops share. Plain data; owner: the soil solver. */
 typedef struct mor_pair_constants {
     int dimension;               /* 2 or 3 */
@@ -47,6 +60,7 @@ typedef struct mor_pair_constants {
     double diffusion_rate;       /* 2 zeta h c0, m2/s; 0 without stress diffusion */
     double gravity_direction[3]; /* unit vector, 1; zero without gravity */
     double rest_gradient[6];     /* d stress / d height at rest, symmetric tensor, Pa/m */
+    const mor_pair_soil *soils;  /* shape [number of soils]; borrowed; NULL: one soil, as above */
     double artificial_exponent;  /* n, 1 */
     double spacing_kernel;       /* W(spacing), unit 1/m^d */
     double kernel_normalization; /* alpha_d, unit 1/m^d */
@@ -65,7 +79,8 @@ typedef struct mor_pair_arrays {
     double *density_rate;            /* shape [n], kg/m3/s */
     double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
     const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
-    const double *strain_rate;       /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
+    const double *of_soil;     /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
+    const double *strain_rate; /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
 } mor_pair_arrays;
 
 /** A sum over the clusters [first, last); writes its own particles only, and momentum the short lists of its clusters,

@@ -17,6 +17,7 @@ typedef struct momentum_form {
     int diffuses;   /* stress diffusion: none, always (1), or as far as pairs move (2) */
     int artificial; /* artificial stress */
     int linear;     /* velocities reconstructed at the middle of a pair */
+    int several;    /* soils of unlike constants */
 } momentum_form;
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
@@ -50,6 +51,7 @@ typedef struct momentum {
     vec v[3], impedance, pressure;       /* own state */
     vec minus_twice_impedance;
     vec strain_rate[6]; /* own, with reconstruction */
+    vec limiter, soil;  /* own, with several soils */
 } momentum;
 
 /* Its sums. */
@@ -119,7 +121,8 @@ typedef struct momentum_pair {
 } momentum_pair;
 
 INLINE void find_extra(momentum_pair *it, const geometry *g, const double *target, const momentum *m, const frame *f,
-                       const mor_pair_constants *c, const double *strain_rate, const momentum_form form)
+                       const mor_pair_constants *c, const double *strain_rate, const double *of_soil,
+                       const momentum_form form)
 {
     const vec *v = m->v;
     pair p;
@@ -137,7 +140,8 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
         closing = limited_jump(speed, speed + 0.5 * smooth * inverse_distance);
     }
     /* Closing speed on which the limiter acts, eq. 23. */
-    const vec slope = closing * c->limiter_rate;
+    const vec limiter_rate = form.several ? m->limiter + of_soil[MOR_PAIR_OF_SOIL_LIMITER] : broadcast(c->limiter_rate);
+    const vec slope = closing * limiter_rate;
     const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
     const vec limited = smaller(counted, broadcast(1.0)) * closing;
     /* Twice (mean pressure - P*), eq. 20. */
@@ -148,7 +152,11 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
         it->kd = g->k * g->distance2 / (g->distance2 + 0.01 * h * h);
     }
     if (form.diffuses == 2) {
-        it->kd *= smaller(magnitude(speed) * c->limiter_rate, broadcast(1.0));
+        it->kd *= smaller(magnitude(speed) * limiter_rate, broadcast(1.0));
+    }
+    if (form.diffuses && form.several) {
+        /* Stress jumps where soils meet, and must not spread across. */
+        it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
     }
 }
 
@@ -205,6 +213,11 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     for (int a = 0; a < 6 && form.linear; ++a) {
         m->strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
     }
+    if (form.several) {
+        const double *of_soil = arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE;
+        m->limiter = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_LIMITER);
+        m->soil = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_INDEX);
+    }
 }
 
 /* Keeps a part in memory between two passes, so that each has the registers for itself. */
@@ -225,7 +238,8 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
-        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, form);
+        const double *of_soil = form.several ? arrays->of_soil + (int64_t)near[q] * MOR_PAIR_OF_SOIL_SIZE : NULL;
+        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, form);
     }
     compiler_barrier(part);
     momentum_sums sums = part->sums;
@@ -266,23 +280,50 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
     return n;
 }
 
-/* Eq. 25 with the operator of eq. 26 for any direction of gravity: deviations from the profile at rest diffuse. */
-INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const vec *s, double *out,
-                             int n_lanes)
+/* The constants of stress diffusion, lane by lane. */
+typedef struct diffusion {
+    vec rate; /* m2/s */
+    vec rest_gradient[6];
+} diffusion;
+
+INLINE void load_diffusion(diffusion *d, const mor_pair_constants *c, vec soil, const momentum_form form)
 {
-    const double rate = -c->gradient_factor * c->diffusion_rate;
+    double of_lanes[LANES * 7];
+    d->rate = broadcast(c->diffusion_rate);
+    for (int a = 0; a < 6; ++a) {
+        d->rest_gradient[a] = broadcast(c->rest_gradient[a]);
+    }
+    if (!form.several) {
+        return;
+    }
+    for (int lane = 0; lane < LANES; ++lane) {
+        const mor_pair_soil *own = &c->soils[(int)soil[lane]];
+        of_lanes[7 * lane] = own->diffusion_rate;
+        memcpy(of_lanes + 7 * lane + 1, own->rest_gradient, sizeof own->rest_gradient);
+    }
+    d->rate = load(of_lanes, 7, 0);
+    for (int a = 0; a < 6; ++a) {
+        d->rest_gradient[a] = load(of_lanes, 7, 1 + a);
+    }
+}
+
+/* Eq. 25 with the operator of eq. 26 for any direction of gravity: deviations from the profile at rest diffuse. */
+INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const diffusion *d, const vec *s,
+                             double *out, int n_lanes)
+{
+    const vec rate = -c->gradient_factor * d->rate;
     const double *g = c->gravity_direction;
     const vec *way = m->spread_way;
     const vec height = multiply_add(broadcast(g[2]), way[2], multiply_add(broadcast(g[0]), way[0], g[1] * way[1]));
     for (int a = 0; a < 6; ++a) {
         /* Height is -g . r, hence the plus. */
-        const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + c->rest_gradient[a] * height;
+        const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + d->rest_gradient[a] * height;
         store(out, 6, a, n_lanes, rate * sum);
     }
 }
 
 INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
-                            int64_t first, const momentum_form form)
+                            vec soil, int64_t first, const momentum_form form)
 {
     const double *own = arrays->records + first * MOR_RECORD_SIZE;
     const int n_lanes = lanes_of(first, arrays->n_particles);
@@ -301,7 +342,9 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
         store(out, 3, 2, n_lanes, broadcast(0.0));
     }
     if (form.diffuses) {
-        finish_diffusion(m, c, s, arrays->stress_diffusion + first * 6, n_lanes);
+        diffusion d;
+        load_diffusion(&d, c, soil, form);
+        finish_diffusion(m, c, &d, s, arrays->stress_diffusion + first * 6, n_lanes);
     }
 }
 
@@ -325,7 +368,7 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     }
     arrays->inner->near_counts[cluster] = n_near;
     for (int part = 0; part < PARTS; ++part) {
-        momentum_finish(&parts[part].sums, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
+        momentum_finish(&parts[part].sums, c, arrays, parts[part].own.soil, cluster * MOR_CLUSTER + part * LANES, form);
     }
 }
 
@@ -336,20 +379,24 @@ INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *a
     const int diffuses = c->diffusion_rate > 0.0 ? (c->has_limited_diffusion ? 2 : 1) : 0;
     const int artificial = c->has_artificial_stress;
     const int linear = arrays->strain_rate != NULL;
-#define MOR_MOMENTUM_CASE(d, a, l)                                                                                     \
-    if (diffuses == (d) && artificial == (a) && linear == (l)) {                                                       \
+    const int several = c->soils != NULL;
+#define MOR_MOMENTUM_CASE(d, a, l, s)                                                                                  \
+    if (diffuses == (d) && artificial == (a) && linear == (l) && several == (s)) {                                     \
         for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \
-            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, a, l});                                 \
+            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, a, l, s});                              \
         }                                                                                                              \
     }
-#define MOR_MOMENTUM_CASES(d)                                                                                          \
-    MOR_MOMENTUM_CASE(d, 0, 0)                                                                                         \
-    MOR_MOMENTUM_CASE(d, 0, 1)                                                                                         \
-    MOR_MOMENTUM_CASE(d, 1, 0)                                                                                         \
-    MOR_MOMENTUM_CASE(d, 1, 1)
-    MOR_MOMENTUM_CASES(0)
-    MOR_MOMENTUM_CASES(1)
-    MOR_MOMENTUM_CASES(2)
+#define MOR_MOMENTUM_CASES(d, s)                                                                                       \
+    MOR_MOMENTUM_CASE(d, 0, 0, s)                                                                                      \
+    MOR_MOMENTUM_CASE(d, 0, 1, s)                                                                                      \
+    MOR_MOMENTUM_CASE(d, 1, 0, s)                                                                                      \
+    MOR_MOMENTUM_CASE(d, 1, 1, s)
+    MOR_MOMENTUM_CASES(0, 0)
+    MOR_MOMENTUM_CASES(1, 0)
+    MOR_MOMENTUM_CASES(2, 0)
+    MOR_MOMENTUM_CASES(0, 1)
+    MOR_MOMENTUM_CASES(1, 1)
+    MOR_MOMENTUM_CASES(2, 1)
 }
 
 static void momentum_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
