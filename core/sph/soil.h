@@ -128,6 +128,14 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
 mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_boundary *boundary,
                                 const mor_soil_barrier *barrier);
 
+/** Returns the reference density of a particle's soil, unit kg/m3.
+ *  @param particle [in]  index in the set */
+static inline double mor_soil_reference_density(const mor_soil *soil, int64_t particle)
+{
+    return soil->kinds[soil->of_soil != NULL ? (int)soil->set.data[soil->state_fields[0]][particle] : 0]
+        .reference_density;
+}
+
 /** Initializes the material's state for the present density and stress (a resume restores it instead).
  *  Returns: MOR_OK; what the material returns. */
 mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);

@@ -55,11 +55,11 @@ static void warnings_stand_in_the_summary_also_after_a_resume(void **state)
     program_outcome outcome = program_run(folder, first, 0);
     program_clear(&outcome);
     outcome = program_run(folder, again, 0);
-    program_expect_text(outcome.output, "\nwarning: the soil is so soft");
+    program_expect_text(outcome.output, "\nwarning: soil 'sand' is so soft");
     program_clear(&outcome);
     char *text = load_summary(folder, "mine");
-    program_expect_text(text, "\"warnings\": [\n    \"the soil is so soft");
-    assert_int_equal(count(text, "the soil is so soft"), 1);
+    program_expect_text(text, "\"warnings\": [\n    \"soil 'sand' is so soft");
+    assert_int_equal(count(text, "soil 'sand' is so soft"), 1);
     free(text);
 }
 

@@ -337,23 +337,23 @@ static mor_status largest_speed(mor_context *context, const view *v, double *val
     return mor_measure_speed(context, &v->points, field(v, MOR_FIELD_VELOCITY), v->probe->percentile, value);
 }
 
-/* Densities and the one they should be, kg/m3. */
+/* Densities, kg/m3, and the soil that tells what they should be. */
 typedef struct drift_job {
     const double *density;
-    double reference;
+    const mor_soil *soil;
 } drift_job;
 
 static void fill_drifts(const void *argument, int64_t first, int64_t n, double *values)
 {
     const drift_job job = *(const drift_job *)argument;
     for (int64_t i = 0; i < n; ++i) {
-        values[i] = fabs(job.density[first + i] / job.reference - 1.0);
+        values[i] = fabs(job.density[first + i] / mor_soil_reference_density(job.soil, first + i) - 1.0);
     }
 }
 
 static mor_status density_drift(mor_context *context, const view *v, double *value)
 {
-    const drift_job job = {v->points.density, v->simulation->soil.settings.reference_density};
+    const drift_job job = {v->points.density, &v->simulation->soil};
     return mor_measure_share(context, &v->points, fill_drifts, &job, v->probe->percentile, value);
 }
 
@@ -369,7 +369,7 @@ mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *s
                                        .mass = data[MOR_FIELD_MASS],
                                        .density = data[MOR_FIELD_DENSITY],
                                        .n_threads = context->n_threads};
-    const drift_job job = {points.density, soil->settings.reference_density};
+    const drift_job job = {points.density, soil};
     *value = 0.0;
     return points.n_points == 0 ? MOR_OK : mor_measure_share(context, &points, fill_drifts, &job, percent, value);
 }
@@ -389,6 +389,10 @@ static mor_status measure_column(mor_context *context, const view *v, mor_measur
 static mor_status stress_error(mor_context *context, const view *v, double *value)
 {
     mor_measure_stress stress;
+    MOR_CHECK(context, v->simulation->soil.n_kinds == 1, MOR_ERROR_CONFIG,
+              "found probe '%s', which compares with the weight of one soil, in a case of several; remove it, and see "
+              "the stress itself in a picture or a snapshot",
+              v->probe->name);
     MOR_TRY(context, measure_column(context, v, &stress));
     *value = stress.error_l2;
     return MOR_OK;

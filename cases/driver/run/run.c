@@ -163,7 +163,7 @@ static void warn_of_speed(mor_context *context, const mor_simulation *s, const l
             context, MOR_LOG_WARNING,
             "the largest speed was %.2f of the speed of sound (at t = %.4g s); below %g is advisable: raise %s",
             p->fastest / s->soil.sound_speed, p->fastest_time, advisable,
-            mor_params_stiffness_key(s->material->material->parameters));
+            mor_params_stiffness_key(s->laws[0]->parameters));
     }
 }
 

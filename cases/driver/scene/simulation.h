@@ -19,8 +19,10 @@ struct mor_probe_track; /* cases/driver/probe/probe_track.h */
 typedef struct mor_simulation {
     const mor_case *the_case; /* borrowed; outlives the simulation */
     bool has_soil;
-    mor_material_instance *material; /* of the soil; NULL without */
-    mor_soil soil;                   /* zeroed without soil */
+    mor_material_instance *material;                  /* of the soil; a composite when regions differ; NULL without */
+    const mor_material *laws[MOR_CASE_SOILS_MAX];     /* shape [n_soils]; models of the soil regions; borrowed */
+    mor_material_instance *parts[MOR_CASE_SOILS_MAX]; /* shape [n_soils]; of the composite; NULL without */
+    mor_soil soil;                                    /* zeroed without soil */
     mor_simulation_bodies bodies;
     mor_simulation_frame frame;
     mor_schedule schedule;
@@ -49,8 +51,8 @@ void mor_simulation_take_point_back(const mor_case *the_case, const double *plac
 void mor_simulation_find_up(const mor_case *the_case, double *up);
 
 /** Lateral over vertical stress at rest of a region, 1: the one given, else 1 - sin(friction angle), else 1.
- *  @param material [in]  the model */
-double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil);
+ *  @param region [in]  index of the soil region */
+double mor_simulation_lateral_ratio(const mor_simulation *simulation, int region);
 
 /** Number of particles, soil and rocks. */
 int64_t mor_simulation_particles(const mor_simulation *simulation);

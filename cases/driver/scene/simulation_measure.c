@@ -36,8 +36,10 @@ int mor_simulation_sets(mor_simulation *simulation, bool has_history, mor_set **
 }
 
 /* Jaky's ratio for frictional models, hydrostatic for others. */
-double mor_simulation_lateral_ratio(const mor_material *material, const mor_case_soil *soil)
+double mor_simulation_lateral_ratio(const mor_simulation *simulation, int region)
 {
+    const mor_material *material = simulation->laws[region];
+    const mor_case_soil *soil = &simulation->the_case->soils[region];
     return soil->lateral_ratio >= 0.0
                ? soil->lateral_ratio
                : 1.0 - sin(mor_params_role_value(material->parameters, soil->parameters, MOR_ROLE_FRICTION_ANGLE, 0.0));

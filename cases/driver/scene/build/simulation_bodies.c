@@ -448,6 +448,10 @@ static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil
 static void find_added_masses(mor_simulation_bodies *bodies, const mor_case *c, const mor_soil *soil)
 {
     enum { ALL = 0x3f, OUT_OF_PLANE = 0x1c };
+    double density = 0.0; /* of the densest soil: a body may get into any */
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        density = fmax(density, soil->kinds[k].reference_density);
+    }
     for (int b = 0; b < c->n_bodies; ++b) {
         const mor_case_body *it = &c->bodies[b];
         const mor_simulation_body *body = &bodies->of[b];
@@ -456,7 +460,7 @@ static void find_added_masses(mor_simulation_bodies *bodies, const mor_case *c, 
             locked |= it->is_locked[k] ? 1u << k : 0u;
         }
         locked = it->is_prescribed || it->clamp != NULL ? ALL : locked;
-        mor_body_find_added_mass(body->group, body->index, soil->settings.reference_density, soil->sound_speed, locked);
+        mor_body_find_added_mass(body->group, body->index, density, soil->sound_speed, locked);
     }
 }
 

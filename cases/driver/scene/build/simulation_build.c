@@ -255,31 +255,57 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     return check_overlap(context, the_case, soil, points);
 }
 
-/* All regions form one set, so they must be of one material. */
-static mor_status check_materials(mor_context *context, const mor_case *the_case, const mor_material *material)
+/* Whether the scheme makes no difference between the regions: laws, parameters and K0 are equal. */
+static bool is_one_material(const mor_simulation *simulation)
 {
-    const mor_case_soil *first = &the_case->soils[0];
-    const int n = mor_params_count(material->parameters);
-    for (int k = 1; k < the_case->n_soils; ++k) {
-        const mor_case_soil *it = &the_case->soils[k];
-        const bool is_same = strcmp(it->model, first->model) == 0 && it->density == first->density &&
-                             memcmp(it->parameters, first->parameters, (size_t)n * sizeof(double)) == 0;
-        MOR_CHECK(context, is_same, MOR_ERROR_CONFIG,
-                  "%s:%d: found a material of soil '%s' that differs from that of soil '%s'; allowed is one material "
-                  "for all soil regions of a case; give both the same 'material'",
-                  it->place.file, it->place.line, it->name, first->name);
+    const mor_case *c = simulation->the_case;
+    const mor_material *law = simulation->laws[0];
+    const size_t n_bytes = (size_t)mor_params_count(law->parameters) * sizeof(double);
+    bool is_same = true;
+    for (int k = 1; k < c->n_soils; ++k) {
+        is_same = is_same && simulation->laws[k] == law && c->soils[k].density == c->soils[0].density &&
+                  memcmp(c->soils[k].parameters, c->soils[0].parameters, n_bytes) == 0 &&
+                  mor_simulation_lateral_ratio(simulation, k) == mor_simulation_lateral_ratio(simulation, 0);
     }
-    return MOR_OK;
+    return is_same;
 }
 
-static void set_settings(const mor_simulation *simulation, const mor_material *material, mor_soil_settings *s)
+static mor_status create_material(mor_context *context, const mor_case_soil *it, const mor_material *law,
+                                  mor_material_instance **instance)
+{
+    const mor_status status = mor_material_create(context, law, it->density, it->parameters, instance);
+    return status == MOR_OK
+               ? MOR_OK
+               : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: %s", it->place.file, it->place.line, context->message);
+}
+
+static mor_status create_materials(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
+{
+    const mor_case *c = simulation->the_case;
+    for (int k = 0; k < c->n_soils; ++k) {
+        MOR_TRY(context, mor_registry_require(context, registry, c->soils[k].model, &simulation->laws[k]));
+    }
+    if (is_one_material(simulation)) {
+        MOR_TRY(context, create_material(context, &c->soils[0], simulation->laws[0], &simulation->material));
+    } else {
+        const mor_material_instance *parts[MOR_CASE_SOILS_MAX];
+        for (int k = 0; k < c->n_soils; ++k) {
+            MOR_TRY(context, create_material(context, &c->soils[k], simulation->laws[k], &simulation->parts[k]));
+            parts[k] = simulation->parts[k];
+        }
+        MOR_TRY(context, mor_composite_create(context, parts, c->n_soils, &simulation->material));
+    }
+    return mor_checked_wrap(context, &simulation->material);
+}
+
+static void set_settings(const mor_simulation *simulation, mor_soil_kind *kinds, mor_soil_settings *s)
 {
     const mor_case *c = simulation->the_case;
     *s = (mor_soil_settings){
         .scheme = c->numerics,
         .dimension = c->dimension,
         .spacing = c->spacing,
-        .lateral_ratio = mor_simulation_lateral_ratio(material, &c->soils[0]),
+        .lateral_ratio = mor_simulation_lateral_ratio(simulation, 0),
         .reference_density = c->soils[0].density,
     };
     const mor_simulation_frame *frame = &simulation->frame;
@@ -288,6 +314,12 @@ static void set_settings(const mor_simulation *simulation, const mor_material *m
     memcpy(s->domain_maximum, frame->domain_maximum, sizeof s->domain_maximum);
     s->placement = frame->is_placed ? &frame->placement : NULL;
     s->removes_outflow = c->outflow == 1;
+    for (int k = 0; k < c->n_soils && mor_composite_is(simulation->material); ++k) {
+        kinds[k] = (mor_soil_kind){.reference_density = c->soils[k].density,
+                                   .lateral_ratio = mor_simulation_lateral_ratio(simulation, k)};
+        s->kinds = kinds;
+        s->n_kinds = c->n_soils;
+    }
 }
 
 /* Gravity and the domain, which is placed with the scene. */
@@ -319,6 +351,9 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
             memcpy(data[MOR_FIELD_VELOCITY] + 3 * i, velocity, sizeof velocity);
             data[MOR_FIELD_DENSITY][i] = it->density;
             data[MOR_FIELD_MASS][i] = it->density * volume;
+            if (mor_composite_is(simulation->material)) {
+                data[simulation->soil.state_fields[0]][i] = k;
+            }
         }
         simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
         first += n;
@@ -355,27 +390,17 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
 static mor_status build_soil(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
 {
     const mor_case *c = simulation->the_case;
-    const mor_material *material = NULL;
     mor_lattice_points regions[MOR_CASE_SOILS_MAX] = {{NULL, 0}};
     mor_soil_settings settings;
+    mor_soil_kind kinds[MOR_CASE_SOILS_MAX];
     int64_t n_particles = 0;
-    MOR_TRY(context, mor_registry_require(context, registry, c->soils[0].model, &material));
-    MOR_TRY(context, check_materials(context, c, material));
-    mor_status status =
-        mor_material_create(context, material, c->soils[0].density, c->soils[0].parameters, &simulation->material);
-    if (status == MOR_OK) {
-        status = mor_checked_wrap(context, &simulation->material);
-    }
-    if (status != MOR_OK) {
-        return MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: %s", c->soils[0].place.file, c->soils[0].place.line,
-                        context->message);
-    }
+    mor_status status = create_materials(context, simulation, registry);
     for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
         status = fill_soil(context, c, k, n_particles, &regions[k]);
         n_particles += regions[k].n_points;
     }
     if (status == MOR_OK) {
-        set_settings(simulation, material, &settings);
+        set_settings(simulation, kinds, &settings);
         status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
     }
     if (status == MOR_OK) {
@@ -457,5 +482,8 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
     mor_material_destroy(context, &simulation->material);
+    for (int k = 0; k < MOR_CASE_SOILS_MAX; ++k) {
+        mor_material_destroy(context, &simulation->parts[k]);
+    }
     memset(simulation, 0, sizeof *simulation);
 }

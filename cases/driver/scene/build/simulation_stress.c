@@ -6,6 +6,9 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 /* The surface of the soil over a grid of vertical columns one spacing wide. */
 typedef struct surface {
     double across[2][3]; /* unit vectors across up */
@@ -157,14 +160,77 @@ static mor_status warn_of_cover(mor_context *context, const mor_simulation *simu
     return MOR_OK;
 }
 
-/* Geostatic stress of one region. */
-static void set_region(mor_simulation *simulation, const surface *s, const mor_case_soil *it, int64_t first, int64_t n)
+/* A particle in its column. */
+typedef struct overburden {
+    int64_t column;
+    double height;
+    int64_t particle;
+    int region;
+} overburden;
+
+static int compare_heights(const void *a, const void *b)
 {
+    const overburden *left = a;
+    const overburden *right = b;
+    if (left->column != right->column) {
+        return left->column < right->column ? -1 : 1;
+    }
+    if (left->height != right->height) {
+        return left->height > right->height ? -1 : 1; /* from the top down */
+    }
+    return left->particle < right->particle ? -1 : 1;
+}
+
+static void sum_overburden(const mor_simulation *simulation, double spacing, const overburden *sorted, double *excess)
+{
+    const mor_case *c = simulation->the_case;
+    const double gravity = mor_vector_length(simulation->soil.settings.gravity);
+    int64_t above[MOR_CASE_SOILS_MAX] = {0};
+    for (int64_t k = 0; k < simulation->soil.set.n_particles; ++k) {
+        if (k > 0 && sorted[k].column != sorted[k - 1].column) {
+            memset(above, 0, sizeof above);
+        }
+        double *mine = &excess[sorted[k].particle];
+        *mine = 0.0;
+        for (int other = 0; other < c->n_soils; ++other) {
+            *mine += (c->soils[other].density - c->soils[sorted[k].region].density) * gravity * spacing *
+                     (double)above[other];
+        }
+        above[sorted[k].region] += 1;
+    }
+}
+
+/* Weight per area of what lies above each particle beyond the weight of as much of its own soil; excess: shape
+ * [n_particles], Pa. Zero where all soil has one density. */
+static mor_status find_overburden(mor_context *context, const mor_simulation *simulation, const surface *s,
+                                  double *excess)
+{
+    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
+    overburden *sorted = NULL;
+    int64_t i = 0;
+    MOR_TRY(context, MOR_NEW(context, &sorted, simulation->soil.set.n_particles, "soil above soil"));
+    for (int region = 0; region < simulation->the_case->n_soils; ++region) {
+        for (int64_t k = 0; k < simulation->region_particles[region]; ++k, ++i) {
+            const double *x = position + 3 * i;
+            sorted[i] = (overburden){column_of(s, x), mor_vector_dot(x, simulation->up), i, region};
+        }
+    }
+    qsort(sorted, (size_t)i, sizeof *sorted, compare_heights);
+    sum_overburden(simulation, s->spacing, sorted, excess);
+    MOR_FREE(context, &sorted);
+    return MOR_OK;
+}
+
+/* Geostatic stress of one region; excess: shape [n_particles], Pa, of soil of other density above. */
+static void set_region(mor_simulation *simulation, const surface *s, int region, const double *excess, int64_t first)
+{
+    const mor_case_soil *it = &simulation->the_case->soils[region];
+    const int64_t n = simulation->region_particles[region];
     mor_soil *soil = &simulation->soil;
     const double *up = simulation->up;
     const double *position = soil->set.data[MOR_FIELD_POSITION];
     const double weight = it->density * mor_vector_length(soil->settings.gravity);
-    const double lateral = mor_simulation_lateral_ratio(simulation->material->material, it);
+    const double lateral = mor_simulation_lateral_ratio(simulation, region);
     double origin[3];
     mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
     const double level = it->surface_level + mor_vector_dot(origin, up); /* NaN when not given */
@@ -178,7 +244,7 @@ static void set_region(mor_simulation *simulation, const surface *s, const mor_c
         if (it->initial_stress == MOR_CASE_STRESS_NONE) {
             continue;
         }
-        const double vertical = -weight * fmax(top - mor_vector_dot(x, up), 0.0);
+        const double vertical = -weight * fmax(top - mor_vector_dot(x, up), 0.0) - (isnan(level) ? excess[i] : 0.0);
         double *stress = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
         for (int a = 0; a < 3; ++a) {
             stress[a] = vertical * (lateral + (1.0 - lateral) * up[a] * up[a]);
@@ -191,19 +257,26 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
                                      const mor_lattice_points *regions)
 {
     surface s = {.top = NULL};
+    double *excess = NULL;
     MOR_TRY(context, find_surface(context, simulation, &s));
     int64_t first = 0;
     simulation->surface_height = -INFINITY;
-    mor_status status = MOR_OK;
+    mor_status status = MOR_NEW(context, &excess, simulation->soil.set.n_particles, "weight of soil above soil");
+    if (status == MOR_OK) {
+        status = find_overburden(context, simulation, &s, excess);
+    }
     for (int k = 0; k < simulation->the_case->n_soils && status == MOR_OK; ++k) {
         const mor_case_soil *it = &simulation->the_case->soils[k];
         status = check_level(context, simulation, it, first, regions[k].n_points);
         if (status == MOR_OK) {
             status = warn_of_cover(context, simulation, &s, it, first, regions[k].n_points);
         }
-        set_region(simulation, &s, it, first, regions[k].n_points);
+        if (status == MOR_OK) {
+            set_region(simulation, &s, k, excess, first);
+        }
         first += regions[k].n_points;
     }
+    MOR_FREE(context, &excess);
     MOR_FREE(context, &s.top);
     return status;
 }

@@ -19,18 +19,16 @@ static const double compression_largest = 0.02;
 /* Rows and snapshots that a case has by default; a short run has more of them than steps. */
 enum { ROWS_USUAL = 200, SNAPSHOTS_USUAL = 20 };
 
-static void warn_of_softness(mor_context *context, const mor_simulation *s)
+static void warn_of_softness(mor_context *context, const mor_simulation *s, int region)
 {
     static const struct {
         double size;
         const char *name;
     } units[] = {{1.0e9, "GPa"}, {1.0e6, "MPa"}, {1.0e3, "kPa"}, {1.0, "Pa"}};
     const mor_case *c = s->the_case;
-    if (!s->has_soil) {
-        return;
-    }
-    const mor_case_soil *it = &c->soils[0];
-    const double stiffness = mor_params_youngs_modulus(s->material->material->parameters, it->parameters, INFINITY);
+    const mor_case_soil *it = &c->soils[region];
+    const mor_schema *parameters = s->laws[region]->parameters;
+    const double stiffness = mor_params_youngs_modulus(parameters, it->parameters, INFINITY);
     const double weight = it->density * mor_vector_length(c->gravity) * s->soil_depth;
     if (!(weight > compression_largest * stiffness)) {
         return;
@@ -40,9 +38,9 @@ static void warn_of_softness(mor_context *context, const mor_simulation *s)
         ++k;
     }
     mor_context_log(context, MOR_LOG_WARNING,
-                    "the soil is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% "
+                    "soil '%s' is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% "
                     "is advisable: raise %s to %.3g %s or more",
-                    100.0 * weight / stiffness, mor_params_stiffness_key(s->material->material->parameters),
+                    it->name, 100.0 * weight / stiffness, mor_params_stiffness_key(parameters),
                     weight / compression_advisable / units[k].size, units[k].name);
 }
 
@@ -54,7 +52,7 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
     const double slack = 1.05; /* cones differ from Mohr-Coulomb by some per cent */
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
-        const mor_material *law = s->material->material;
+        const mor_material *law = s->laws[k];
         const double angle = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_FRICTION_ANGLE, NAN);
         const double cohesion = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_COHESION, 0.0);
         const double vertical = it->density * mor_vector_length(c->gravity) * s->soil_depth;
@@ -65,7 +63,7 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
         const double share = 2.0 * cohesion * sqrt(passive) / vertical;
         const double least = (1.0 - share) / passive;
         const double largest = passive + share;
-        const double ratio = mor_simulation_lateral_ratio(law, it);
+        const double ratio = mor_simulation_lateral_ratio(s, k);
         if (ratio < least / slack || ratio > largest * slack) {
             mor_context_log(context, MOR_LOG_WARNING,
                             "soil '%s' begins with a lateral stress of %.3g of the vertical one, but at its base "
@@ -251,7 +249,9 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     warn_of_shifting(context, c);
     warn_of_thinness(context, simulation);
     warn_of_gaps(context, simulation);
-    warn_of_softness(context, simulation);
+    for (int k = 0; k < simulation->the_case->n_soils; ++k) {
+        warn_of_softness(context, simulation, k);
+    }
     if (simulation->has_soil) {
         warn_of_lateral_stress(context, simulation);
     }
