@@ -218,7 +218,7 @@ static mor_status set_kinds(mor_context *context, mor_soil *soil)
               MOR_ERROR_ARGUMENT, "found constants of %d soils; allowed: those of the parts of a composite, 1 to %d",
               s->n_kinds, MOR_COMPOSITE_PARTS_MAX);
     soil->n_kinds = has_several ? s->n_kinds : 1;
-    soil->kinds[0] = (mor_soil_kind){s->reference_density, s->lateral_ratio, 0.0};
+    soil->kinds[0] = (mor_soil_kind){.reference_density = s->reference_density, .lateral_ratio = s->lateral_ratio};
     for (int k = 0; k < soil->n_kinds; ++k) {
         soil->kinds[k] = has_several ? s->kinds[k] : soil->kinds[k];
         MOR_TRY(context, find_sound_speed(context, soil, k, &soil->kinds[k]));

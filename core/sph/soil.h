@@ -25,6 +25,7 @@ enum { MOR_SOIL_WALLS_MAX = 64, MOR_SOIL_BOUNDARIES_MAX = 16 };
 typedef struct mor_soil_kind {
     double reference_density; /* rho_0, kg/m3 */
     double lateral_ratio;     /* K0 of the stress-diffusion operator, 1 */
+    int same_as;              /* first of the soils with the same material, which it is one soil with */
     double sound_speed;       /* c0, m/s; found by mor_soil_init */
 } mor_soil_kind;
 

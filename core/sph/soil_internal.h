@@ -49,7 +49,7 @@ bool mor_soil_has_density_sums(const void *owner);
  *  Returns: MOR_OK; MOR_ERROR_NUMERIC naming the first particle that stops the run. */
 mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step);
 
-/** The constants of the soil that a particle is of; valid after packing. */
+/** The constants of the soil that a particle is of, or of the first with the same ones; valid after packing. */
 static inline const mor_soil_kind *mor_soil_kind_of(const mor_soil *soil, int64_t particle)
 {
     return &soil->kinds[soil->of_soil != NULL

@@ -131,7 +131,7 @@ typedef struct packing {
 /* What pair loops read of a particle among several soils. */
 static void pack_soil(const packing *p, int64_t i)
 {
-    const int index = (int)p->state[0][i];
+    const int index = p->soil->kinds[(int)p->state[0][i]].same_as;
     double *of_soil = p->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
     of_soil[MOR_PAIR_OF_SOIL_LIMITER] =
         0.5 * (p->soil->settings.scheme.dissipation_factor / p->soil->kinds[index].sound_speed);

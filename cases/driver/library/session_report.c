@@ -115,6 +115,11 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     if (s->has_soil) {
         fprintf(out, "  soil                    %lld particles, smoothing length %g m, sound speed %.4g m/s\n",
                 (long long)s->soil.set.n_particles, s->soil.smoothing_length, s->soil.sound_speed);
+        for (int k = 0; k < s->soil.n_kinds && s->soil.n_kinds > 1; ++k) {
+            fprintf(out, "  soil %-18s %lld particles of '%s', %.4g kg/m3, sound speed %.4g m/s\n",
+                    s->the_case->soils[k].name, (long long)s->region_particles[k], s->the_case->soils[k].model,
+                    s->the_case->soils[k].density, s->soil.kinds[k].sound_speed);
+        }
     }
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];

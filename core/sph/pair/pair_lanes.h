@@ -194,6 +194,19 @@ INLINE void find_geometry(geometry *g, const double *records, const int32_t *tar
     }
 }
 
+/** Returns the record of a target, shape [MOR_RECORD_SIZE], units of MOR_RECORD_.... */
+INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
+{
+    return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
+}
+
+/** Returns what is read of a target beside its record, shape [MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL with one
+ *  soil. */
+INLINE const double *of_soil_of(const mor_pair_arrays *arrays, int32_t j, const int several)
+{
+    return several ? arrays->of_soil + (int64_t)j * MOR_PAIR_OF_SOIL_SIZE : NULL;
+}
+
 /** Prefetches memory, shape [size_bytes], to be read (0) or written (1). */
 INLINE void ask_for(const void *memory, int64_t size_bytes, const int writes)
 {
@@ -214,6 +227,12 @@ INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
     return dimension == 3 ? multiply_add(c, p->r[2], sum) : sum;
 }
 
+/** Finds acceleration and stress diffusion of a range of clusters in plane strain. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
+/** Likewise in three dimensions. */
+void MOR_ISA_NAME(mor_pair_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
 /** Finds kernel sums over a range of a job. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
                                    int64_t last);

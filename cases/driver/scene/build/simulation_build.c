@@ -255,19 +255,29 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     return check_overlap(context, the_case, soil, points);
 }
 
-/* Whether the scheme makes no difference between the regions: laws, parameters and K0 are equal. */
-static bool is_one_material(const mor_simulation *simulation)
+/* First region that the scheme makes no difference from: law, parameters, density and K0 are equal. */
+static int find_same(const mor_simulation *simulation, int region)
 {
     const mor_case *c = simulation->the_case;
-    const mor_material *law = simulation->laws[0];
-    const size_t n_bytes = (size_t)mor_params_count(law->parameters) * sizeof(double);
-    bool is_same = true;
-    for (int k = 1; k < c->n_soils; ++k) {
-        is_same = is_same && simulation->laws[k] == law && c->soils[k].density == c->soils[0].density &&
-                  memcmp(c->soils[k].parameters, c->soils[0].parameters, n_bytes) == 0 &&
-                  mor_simulation_lateral_ratio(simulation, k) == mor_simulation_lateral_ratio(simulation, 0);
+    const mor_case_soil *it = &c->soils[region];
+    const size_t n_bytes = (size_t)mor_params_count(simulation->laws[region]->parameters) * sizeof(double);
+    int k = 0;
+    while (k < region &&
+           !(simulation->laws[k] == simulation->laws[region] && c->soils[k].density == it->density &&
+             memcmp(c->soils[k].parameters, it->parameters, n_bytes) == 0 &&
+             mor_simulation_lateral_ratio(simulation, k) == mor_simulation_lateral_ratio(simulation, region))) {
+        k += 1;
     }
-    return is_same;
+    return k;
+}
+
+static bool is_one_material(const mor_simulation *simulation)
+{
+    bool is_one = true;
+    for (int k = 0; k < simulation->the_case->n_soils; ++k) {
+        is_one = is_one && find_same(simulation, k) == 0;
+    }
+    return is_one;
 }
 
 static mor_status create_material(mor_context *context, const mor_case_soil *it, const mor_material *law,
@@ -316,7 +326,8 @@ static void set_settings(const mor_simulation *simulation, mor_soil_kind *kinds,
     s->removes_outflow = c->outflow == 1;
     for (int k = 0; k < c->n_soils && mor_composite_is(simulation->material); ++k) {
         kinds[k] = (mor_soil_kind){.reference_density = c->soils[k].density,
-                                   .lateral_ratio = mor_simulation_lateral_ratio(simulation, k)};
+                                   .lateral_ratio = mor_simulation_lateral_ratio(simulation, k),
+                                   .same_as = find_same(simulation, k)};
         s->kinds = kinds;
         s->n_kinds = c->n_soils;
     }
@@ -359,6 +370,52 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
         first += n;
     }
     return mor_simulation_set_stress(context, simulation, regions);
+}
+
+/* Where a particle stands on the lattice of the case, slowest direction first. */
+typedef struct lattice_place {
+    int64_t key[3];
+    int32_t particle;
+} lattice_place;
+
+static int compare_places(const void *a, const void *b)
+{
+    const lattice_place *left = a;
+    const lattice_place *right = b;
+    for (int k = 0; k < 3; ++k) {
+        if (left->key[k] != right->key[k]) {
+            return left->key[k] < right->key[k] ? -1 : 1;
+        }
+    }
+    return left->particle < right->particle ? -1 : 1;
+}
+
+/* Numbers the particles of all regions as those of one region that fills the same space, so that neither names nor
+ * the order of the regions change a bit. */
+static mor_status number_particles(mor_context *context, mor_simulation *simulation)
+{
+    const double fine = 1.0e-3 * simulation->the_case->spacing; /* far above rounding, far below a spacing */
+    mor_set *set = &simulation->soil.set;
+    lattice_place *places = NULL;
+    MOR_TRY(context, MOR_NEW(context, &places, set->n_particles, "order of the particles of several regions"));
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        double x[3];
+        mor_simulation_take_point_back(simulation->the_case, set->data[MOR_FIELD_POSITION] + 3 * i, x);
+        for (int k = 0; k < 3; ++k) {
+            places[i].key[k] = llround(x[2 - k] / fine);
+        }
+        places[i].particle = (int32_t)i;
+    }
+    qsort(places, (size_t)set->n_particles, sizeof *places, compare_places);
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        simulation->soil.order[i] = places[i].particle;
+    }
+    mor_set_permute(set, simulation->soil.order);
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        set->id[i] = i;
+    }
+    MOR_FREE(context, &places);
+    return MOR_OK;
 }
 
 static mor_status add_walls(mor_context *context, mor_simulation *simulation)
@@ -408,6 +465,9 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation, c
     }
     for (int k = 0; k < c->n_soils; ++k) {
         mor_lattice_clear(context, &regions[k]);
+    }
+    if (status == MOR_OK && c->n_soils > 1) {
+        status = number_particles(context, simulation);
     }
     MOR_TRY(context, status);
     MOR_TRY(context, add_walls(context, simulation));

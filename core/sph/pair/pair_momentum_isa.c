@@ -1,15 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Compiled once per instruction set; MOR_ISA is its name. */
+/* The momentum loop. Compiled once per instruction set; MOR_ISA is its name. */
 #include "core/sph/pair/pair_lanes.h"
-
-/* FIRST_BYTES: of the next cluster's short list that are prefetched. */
-enum { FIRST_BYTES = 512 };
-
-INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
-{
-    return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
-}
 
 /* What a copy of the momentum loop does; constant in each copy, so that there is no branch per pair. */
 typedef struct momentum_form {
@@ -145,7 +137,11 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
     const vec limited = smaller(counted, broadcast(1.0)) * closing;
     /* Twice (mean pressure - P*), eq. 20. */
-    const vec pressures = (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]);
+    vec pressures = (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]);
+    if (form.several) {
+        /* The mean pressure jumps where soils of unlike K0 meet at rest: no wave, so the mean of both stresses acts. */
+        pressures = (vec)((mask)pressures & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
+    }
     const vec dissipation = m->minus_twice_impedance * target[MOR_RECORD_IMPEDANCE];
     it->extra = multiply_add(dissipation, limited, pressures) * (inverse * g->distance);
     if (form.diffuses) {
@@ -238,7 +234,7 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
-        const double *of_soil = form.several ? arrays->of_soil + (int64_t)near[q] * MOR_PAIR_OF_SOIL_SIZE : NULL;
+        const double *of_soil = of_soil_of(arrays, near[q], form.several);
         find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, form);
     }
     compiler_barrier(part);
@@ -399,222 +395,14 @@ INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *a
     MOR_MOMENTUM_CASES(2, 1)
 }
 
-static void momentum_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+void MOR_ISA_NAME(mor_pair_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last)
 {
     momentum_range(c, arrays, first, last, 2);
 }
 
-static void momentum_3d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+void MOR_ISA_NAME(mor_pair_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last)
 {
     momentum_range(c, arrays, first, last, 3);
-}
-
-/* What the gradient loop keeps of its own particles, and its sums. */
-typedef struct gradient {
-    vec v[3], impedance, pressure; /* own state */
-    vec moment[9];                 /* sum k (v_i - v_j) (x) r */
-    vec rate;                      /* sum k t (v_i - v_j) . r */
-} gradient;
-
-/* What is found of a pair before it is added. */
-typedef struct gradient_pair {
-    vec distance; /* m */
-    vec reach;    /* 1 - q/2 inside the support, 0 outside */
-    vec share;    /* of the closing speed that v_i - v* takes, halved, eqs. 15 and 19 */
-} gradient_pair;
-
-INLINE void find_share(gradient_pair *it, const double *target, const gradient *g, const frame *f, const int dimension)
-{
-    const pair p = pair_of(f, target, dimension);
-    it->distance = p.distance;
-    it->reach = p.reach;
-    it->share = target[MOR_RECORD_IMPEDANCE] / (g->impedance + target[MOR_RECORD_IMPEDANCE]);
-}
-
-INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *target, const frame *f,
-                         const int dimension, const int pressure)
-{
-    const vec k = it->reach * it->reach * it->reach * target[MOR_RECORD_VOLUME];
-    vec r[3];
-    vec jump[3];
-    vec kr[3];
-    separate(r, f, target, dimension);
-    for (int a = 0; a < dimension; ++a) {
-        jump[a] = g->v[a] - target[MOR_RECORD_VELOCITY + a];
-    }
-    for (int b = 0; b < dimension; ++b) {
-        kr[b] = k * r[b];
-        for (int a = 0; a < dimension; ++a) {
-            g->moment[3 * a + b] += kr[b] * jump[a];
-        }
-    }
-    const vec plane = multiply_add(kr[0], jump[0], kr[1] * jump[1]);
-    g->rate += it->share * (dimension == 3 ? multiply_add(kr[2], jump[2], plane) : plane);
-    if (pressure) {
-        const vec impedances = g->impedance + target[MOR_RECORD_IMPEDANCE];
-        g->rate += k / impedances * (g->pressure - target[MOR_RECORD_PRESSURE]) * it->distance;
-    }
-}
-
-/* RING: pairs in a ring, more than STEP_AHEAD. */
-enum { RING = 8 };
-
-INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
-                          const int dimension, const int pressure)
-{
-    const double *own = arrays->records + first * MOR_RECORD_SIZE;
-    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    gradient g;
-    memset(&g, 0, sizeof g);
-    for (int a = 0; a < 3; ++a) {
-        g.v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
-    }
-    g.impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
-    g.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
-    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
-    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
-    const int64_t next = first / MOR_CLUSTER + 1;
-    if (first % MOR_CLUSTER == 0 && (next + 1) * MOR_CLUSTER <= arrays->n_particles) {
-        const int64_t size_bytes = arrays->inner->near_counts[next] * (int64_t)sizeof *near;
-        ask_for(mor_relation_near(arrays->inner, next), size_bytes < FIRST_BYTES ? size_bytes : FIRST_BYTES, 0);
-        ask_for(arrays->velocity_gradient + next * MOR_CLUSTER * 9, MOR_CLUSTER * 9 * sizeof(double), 1);
-    }
-    gradient_pair ring[RING];
-    for (int32_t q = 0; q < count && q < STEP_AHEAD; ++q) {
-        find_share(ring + q % RING, target_of(arrays, near[q]), &g, &f, dimension);
-    }
-    int32_t q = 0;
-    for (; q + STEP_AHEAD < count; ++q) {
-        const int32_t later = q + STEP_AHEAD;
-        __builtin_prefetch(target_of(arrays, near[q + AHEAD < count ? q + AHEAD : q]));
-        find_share(ring + later % RING, target_of(arrays, near[later]), &g, &f, dimension);
-        add_gradient(&g, ring + q % RING, target_of(arrays, near[q]), &f, dimension, pressure);
-    }
-    for (; q < count; ++q) {
-        add_gradient(&g, ring + q % RING, target_of(arrays, near[q]), &f, dimension, pressure);
-    }
-    const int n_lanes = lanes_of(first, arrays->n_particles);
-    for (int a = 0; a < 9; ++a) {
-        /* Exactly zero out of the plane, where the sum is zero. */
-        store(arrays->velocity_gradient + first * 9, 9, a, n_lanes, c->gradient_factor * g.moment[a]);
-    }
-    const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-    store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
-}
-
-INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
-                           const int dimension)
-{
-    if (c->has_pressure_term) {
-        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
-            gradient_part(c, arrays, part * LANES, dimension, 1);
-        }
-    } else {
-        for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
-            gradient_part(c, arrays, part * LANES, dimension, 0);
-        }
-    }
-}
-
-static void gradient_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
-{
-    gradient_range(c, arrays, first, last, 2);
-}
-
-static void gradient_3d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
-{
-    gradient_range(c, arrays, first, last, 3);
-}
-
-/* Acceleration by the skew stresses A_i + A_j, each the cross product with an axial vector. */
-INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
-{
-    const double *own = arrays->records + first * MOR_RECORD_SIZE;
-    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    vec s[3];
-    vec sum[3];
-    memset(sum, 0, sizeof sum);
-    for (int a = 0; a < 3; ++a) {
-        s[a] = load(arrays->spin_stress + first * 3, 3, a);
-    }
-    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
-    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
-    for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = target_of(arrays, near[entry]);
-        const double *other = arrays->spin_stress + (int64_t)near[entry] * 3;
-        const pair p = pair_of(&f, target, 3);
-        const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
-        for (int a = 0; a < 3; ++a) {
-            const int b = (a + 1) % 3;
-            const int d = (a + 2) % 3;
-            sum[a] += k * multiply_add(s[b] + other[b], p.r[d], -(s[d] + other[d]) * p.r[b]);
-        }
-    }
-    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-    double *out = arrays->acceleration + first * 3;
-    for (int lane = 0; lane < lanes_of(first, arrays->n_particles); ++lane) {
-        for (int a = 0; a < 3; ++a) {
-            out[3 * lane + a] += factor[lane] * sum[a][lane];
-        }
-    }
-}
-
-static void spin_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
-{
-    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
-        spin_part(c, arrays, part * LANES);
-    }
-}
-
-/* XSPH velocity, Hu et al. (2021) eq. 13, and the sum of the penetration-based shift, eq. 16. */
-INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
-{
-    const double *own = arrays->records + first * MOR_RECORD_SIZE;
-    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    const vec v[3] = {load(own, MOR_RECORD_SIZE, 4), load(own, MOR_RECORD_SIZE, 5), load(own, MOR_RECORD_SIZE, 6)};
-    vec sums[6];
-    memset(sums, 0, sizeof sums);
-    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
-    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
-    for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = target_of(arrays, near[entry]);
-        const pair p = pair_of(&f, target, 3);
-        const vec square = p.reach * p.reach;
-        const vec weight =
-            square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
-        const vec overlap = 1.0 - p.distance / c->shift_diameter;
-        const vec floored = -smaller(-overlap, broadcast(0.1));
-        const vec repulsion = select_lanes(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
-        const vec inside = select_lanes(p.reach > 0.0, repulsion, broadcast(0.0));
-        for (int a = 0; a < 3; ++a) {
-            sums[a] += weight * (target[MOR_RECORD_VELOCITY + a] - v[a]);
-            sums[3 + a] += inside * p.r[a];
-        }
-    }
-    for (int a = 0; a < 6; ++a) {
-        store(arrays->regularization + first * 6, 6, a, lanes_of(first, arrays->n_particles), sums[a]);
-    }
-}
-
-static void regularize_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
-{
-    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
-        regularize_part(c, arrays, part * LANES);
-    }
-}
-
-const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void);
-
-const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
-{
-    static const mor_pair_table table = {MOR_ISA_TEXT(MOR_ISA),
-                                         {momentum_2d, momentum_3d},
-                                         {gradient_2d, gradient_3d},
-                                         regularize_range,
-                                         MOR_ISA_NAME(mor_pair_kernel),
-                                         MOR_ISA_NAME(mor_pair_tangent),
-                                         MOR_ISA_NAME(mor_pair_mean),
-                                         MOR_ISA_NAME(mor_pair_share),
-                                         spin_range};
-    return &table;
 }
