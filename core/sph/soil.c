@@ -221,7 +221,8 @@ static mor_status set_kinds(mor_context *context, mor_soil *soil)
     soil->kinds[0] = (mor_soil_kind){.reference_density = s->reference_density, .lateral_ratio = s->lateral_ratio};
     for (int k = 0; k < soil->n_kinds; ++k) {
         soil->kinds[k] = has_several ? s->kinds[k] : soil->kinds[k];
-        MOR_TRY(context, find_sound_speed(context, soil, k, &soil->kinds[k]));
+        const mor_status status = find_sound_speed(context, soil, k, &soil->kinds[k]);
+        MOR_TRY(context, status == MOR_OK ? status : mor_context_name_item(context, status, k));
         soil->sound_speed = fmax(soil->sound_speed, soil->kinds[k].sound_speed);
     }
     soil->settings.kinds = NULL;

@@ -280,13 +280,19 @@ static bool is_one_material(const mor_simulation *simulation)
     return is_one;
 }
 
+/* A law that refuses its numbers is the user's input, of which the place is told; other failures pass. */
+static mor_status place_refusal(mor_context *context, const mor_case_soil *it, mor_status status)
+{
+    return status == MOR_ERROR_ARGUMENT || status == MOR_ERROR_NUMERIC
+               ? MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: %s", it->place.file, it->place.line, context->message)
+               : status;
+}
+
 static mor_status create_material(mor_context *context, const mor_case_soil *it, const mor_material *law,
                                   mor_material_instance **instance)
 {
     const mor_status status = mor_material_create(context, law, it->density, it->parameters, instance);
-    return status == MOR_OK
-               ? MOR_OK
-               : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: %s", it->place.file, it->place.line, context->message);
+    return place_refusal(context, it, status);
 }
 
 static mor_status create_materials(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
@@ -459,6 +465,8 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation, c
     if (status == MOR_OK) {
         set_settings(simulation, kinds, &settings);
         status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
+        status = place_refusal(context, &c->soils[context->item >= 0 && context->item < c->n_soils ? context->item : 0],
+                               status);
     }
     if (status == MOR_OK) {
         status = set_particles(context, simulation, regions);
@@ -471,7 +479,7 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation, c
     }
     MOR_TRY(context, status);
     MOR_TRY(context, add_walls(context, simulation));
-    MOR_TRY(context, mor_soil_init_state(context, &simulation->soil));
+    MOR_TRY(context, place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil)));
     mor_soil_sort(&simulation->soil);
     return MOR_OK;
 }
