@@ -103,6 +103,22 @@ static mor_status run_whole(const composite *it, int part, const piece *cut, ope
     return run(law, &batch, numbers);
 }
 
+static void gather_inputs(gathered *copy, const mor_batch *b, int64_t n)
+{
+    if (b->density != NULL) {
+        gather(copy->density, b->density, 1, copy->index, n);
+    }
+    if (b->velocity_gradient != NULL) {
+        gather(copy->velocity_gradient, b->velocity_gradient, 9, copy->index, n);
+    }
+    if (b->extra_stress_rate != NULL) {
+        gather(copy->extra_stress_rate, b->extra_stress_rate, 6, copy->index, n);
+    }
+    if (b->stress_in != NULL) {
+        gather(copy->stress, b->stress_in, 6, copy->index, n);
+    }
+}
+
 /* Gathers what an operation may read, lets the part work in place on the copies, and puts back what it may write. */
 static mor_status run_gathered(const composite *it, int part, const piece *cut, int64_t n, operation run,
                                double *numbers, gathered *copy)
@@ -121,18 +137,7 @@ static mor_status run_gathered(const composite *it, int part, const piece *cut, 
             gather(state[k], cut->state_in[own], it->state[own].n_components, copy->index, n);
         }
     }
-    if (b->density != NULL) {
-        gather(copy->density, b->density, 1, copy->index, n);
-    }
-    if (b->velocity_gradient != NULL) {
-        gather(copy->velocity_gradient, b->velocity_gradient, 9, copy->index, n);
-    }
-    if (b->extra_stress_rate != NULL) {
-        gather(copy->extra_stress_rate, b->extra_stress_rate, 6, copy->index, n);
-    }
-    if (b->stress_in != NULL) {
-        gather(copy->stress, b->stress_in, 6, copy->index, n);
-    }
+    gather_inputs(copy, b, n);
     const mor_batch batch = {.n = n,
                              .time_step = b->time_step,
                              .density = b->density != NULL ? copy->density : NULL,

@@ -70,7 +70,7 @@ static const bad_scene scenes[] = {
     {"soil[0].shape.min=(\"-1.5 m\", \"0 m\")", "reaching out of the domain: 50 of its 250", "enlarge 'domain'", true},
     {"soil[1].shape.max=(\"0.02 m\", \"1.02 m\")", "soil 'cap' without a single particle", "spacing smaller", true},
     {"walls[0].shape.point=(\"0 m\", \"-9 m\")", "wall 'floor' without a single particle", "thicker or move it", true},
-    {"soil[1].material.density=1900 kg/m3", "differs from that of soil 'sand'", "the same 'material'", true},
+    {"soil[1].material.dilation_angle=40 deg", "dilation", "friction", true},
     {"soil[0].material.dilation_angle=40 deg", "dilation", "friction", true},
     {"soil[1].initial_stress={type=\"k0\"; surface_level=\"0.5 m\";}",
      "surface_level = 0.5 m of soil 'cap', whose highest point is at 1.5 m: 50 of its 50", "raise the level", true},

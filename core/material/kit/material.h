@@ -108,7 +108,8 @@ typedef struct mor_material_operations {
      *  distance, negative inside, zero on the surface. */
     mor_status (*admissible)(const mor_material_instance *instance, const mor_batch *batch, double *distance);
 
-    /** Default: -trace/3. Reads stress_in, density, state_in; writes pressure, shape [n], unit Pa: the Riemann solver's. */
+    /** Default: -trace/3. Reads stress_in, density, state_in; writes pressure, shape [n], unit Pa: the Riemann
+     *  solver's. */
     mor_status (*pressure)(const mor_material_instance *instance, const mor_batch *batch, double *pressure);
 
     /** Default: INFINITY. Reads density, stress_in, state_in; writes step, shape [n], unit s: the law's own limit. */
