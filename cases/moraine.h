@@ -120,6 +120,15 @@ mor_status mor_session_add_material(mor_session *session, const struct mor_mater
  *  MOR_ERROR_ARGUMENT beyond 16 plug-ins; MOR_ERROR_MEMORY. */
 mor_status mor_session_add_plugin(mor_session *session, const char *path);
 
+/** Does work(job) and comes back, whatever work does: it returns 0, or the number of the signal that ended work. A
+ *  program that catches SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT by leaving work with siglongjmp has one. */
+typedef int (*mor_session_guard)(void (*work)(void *job), void *job);
+
+/** Chooses what calls the code of plug-ins and libraries that a case names: a crash in it then ends the run with the
+ *  particle named, not the program. Cases that are loaded afterwards have it.
+ *  @param guard [in]  NULL: they are called directly */
+void mor_session_set_guard(mor_session *session, mor_session_guard guard);
+
 /* ---- Stopping ---------------------------------------------------------------------------------------------------- */
 
 /** What a session is at. */
@@ -346,7 +355,8 @@ const char *mor_list_name(int index);
 mor_status mor_session_print_list(mor_session *session, const char *name);
 
 /** Tries the laws of mechanics on a material and prints a table of them.
- *  @param name     [in]   zero-terminated; of a material, or of the file of a plug-in
+ *  @param name     [in]   zero-terminated; of a material, of the file of a plug-in, or of a case, *.cfg, which is
+ *                         loaded, and whose soils are tried with their own parameters
  *  @param n_failed [out]  one number; laws that do not hold
  *  Returns: MOR_OK, whatever the laws say; MOR_ERROR_CONFIG when it is neither; MOR_ERROR_PLUGIN when the file is no
  *  plug-in or its descriptor is wrong; MOR_ERROR_ARGUMENT when no parameters can be found that the law accepts;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/command/command.h"
 
+#include <setjmp.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,6 +44,73 @@ static void lose_patience(int number)
         say("moraine: stopped by a signal within a long step; go on from the last checkpoint with --resume\n");
         _exit(MOR_EXIT_INTERRUPTED);
     }
+}
+
+/* Where code of others is left when it crashes; NULL: this thread calls none. */
+static _Thread_local sigjmp_buf *volatile way_back;
+
+static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+enum { CRASHES = sizeof crashes / sizeof *crashes };
+static struct sigaction crash_before[CRASHES];
+
+/* A fault of the program itself goes its ordinary way, when the instruction is tried again. */
+static void leave_crash(int number)
+{
+    if (way_back != NULL) {
+        siglongjmp(*way_back, number);
+    }
+    for (int k = 0; k < CRASHES; ++k) {
+        if (crashes[k] == number) {
+            sigaction(number, &crash_before[k], NULL);
+        }
+    }
+}
+
+/* A stack of its own for the handler, since the crash may be that of a stack that is full. */
+static void prepare_thread(void)
+{
+    enum { STACK_BYTES = 65536 };
+    static _Thread_local char stack[STACK_BYTES];
+    static _Thread_local bool is_prepared;
+    stack_t present;
+    if (!is_prepared && sigaltstack(NULL, &present) == 0 && (present.ss_flags & SS_DISABLE) != 0) {
+        const stack_t own = {.ss_sp = stack, .ss_size = sizeof stack};
+        sigaltstack(&own, NULL);
+    }
+    is_prepared = true;
+}
+
+static int run_guarded(void (*work)(void *job), void *job)
+{
+    sigjmp_buf here;
+    sigjmp_buf *const before = way_back;
+    prepare_thread();
+    const int number = sigsetjmp(here, 0);
+    if (number == 0) {
+        way_back = &here;
+        work(job);
+    }
+    way_back = before;
+    return number;
+}
+
+/* A library may end the process, as STOP of Fortran does. */
+static void report_exit(void)
+{
+    if (way_back != NULL) {
+        say("moraine: the library of a material ended the program, as STOP does; go on from the last checkpoint with "
+            "--resume once it does not\n");
+        _exit(MOR_EXIT_FAILED);
+    }
+}
+
+static void handle_crashes(void)
+{
+    const struct sigaction action = {.sa_handler = leave_crash, .sa_flags = SA_NODEFER | SA_ONSTACK};
+    for (int k = 0; k < CRASHES; ++k) {
+        sigaction(crashes[k], &action, &crash_before[k]);
+    }
+    atexit(report_exit);
 }
 
 static void handle_signals(void)
@@ -88,6 +156,8 @@ int main(int argc, char **argv)
     }
     session = made;
     handle_signals();
+    handle_crashes();
+    mor_session_set_guard(made, run_guarded);
     const int exit_code = mor_command_main(argc, argv, mor_commands, made);
     session = NULL; /* there is nothing left to keep */
     mor_session_free(&made);

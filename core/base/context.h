@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_BASE_CONTEXT_H
 #define MOR_CORE_BASE_CONTEXT_H
 
+#include "core/base/guard.h"
 #include "core/base/log.h"
 #include "core/base/status.h"
 
@@ -37,6 +38,7 @@ typedef struct mor_context {
     int n_threads;                             /* threads a parallel loop uses, >= 1 */
     const char *cache_folder;                  /* where relaxed particles are kept, zero-terminated; NULL or "":
                                                   nowhere; owned by the installer */
+    mor_guard guard;                           /* for code of others that may crash; NULL: none */
     uint64_t seed;                             /* seed of all counter-based random numbers */
     bool is_checked;                           /* the run verifies what stages and materials declare; slow */
     size_t memory_bytes;                       /* bytes now held by mor_memory_new */

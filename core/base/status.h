@@ -20,7 +20,9 @@
     X(ERROR_PLUGIN, -5, "a plug-in cannot be used")                                                                    \
     X(ERROR_NUMERIC, -6, "the computation failed")                                                                     \
     X(ERROR_UNSUPPORTED, -7, "not supported")                                                                          \
-    X(ERROR_INTERNAL, -8, "internal error")
+    X(ERROR_INTERNAL, -8, "internal error")                                                                            \
+    X(ERROR_CRASH, -9, "the code of the material crashed")                                                             \
+    X(ERROR_BOUNDS, -10, "the code of the material wrote outside its arrays")
 
 #ifdef __cplusplus
 extern "C" {

@@ -171,6 +171,24 @@ static json_t *make_warnings(mor_context *context, const mor_summary *summary)
     return list;
 }
 
+static json_t *make_plugins(mor_context *context, const mor_summary *summary)
+{
+    json_t *list = json_array();
+    int error = 0;
+    for (int k = 0; k < summary->n_plugins; ++k) {
+        json_t *item = json_object();
+        error |= add_member(item, "path", make_text(context, summary->plugins[k].path));
+        error |= add_member(item, "models", make_text(context, summary->plugins[k].models));
+        error |= add_member(item, "hash", make_hash(summary->plugins[k].hash));
+        error |= json_array_append_new(list, item);
+    }
+    if (error != 0) {
+        json_decref(list);
+        return NULL;
+    }
+    return list;
+}
+
 static json_t *make_provenance(mor_context *context, const mor_summary *summary)
 {
     json_t *provenance = json_object();
@@ -184,6 +202,7 @@ static json_t *make_provenance(mor_context *context, const mor_summary *summary)
         error |= add_named(context, inputs, summary->inputs[k].path, make_hash(summary->inputs[k].hash));
     }
     error |= add_member(provenance, "inputs", inputs);
+    error |= add_member(provenance, "plugins", make_plugins(context, summary));
     if (error != 0) {
         json_decref(provenance);
         return NULL;
@@ -348,6 +367,18 @@ static mor_status check_warnings(mor_context *context, const char *path, const j
     return is_good ? MOR_OK : fail_member(context, path, "warnings", "an array of texts");
 }
 
+/* Summaries of earlier versions have no such list. */
+static mor_status check_plugins(mor_context *context, const char *path, const json_t *plugins)
+{
+    bool is_good = plugins == NULL || json_is_array(plugins);
+    for (size_t k = 0; k < json_array_size(plugins); ++k) {
+        const json_t *item = json_array_get(plugins, k);
+        is_good = is_good && json_is_string(json_object_get(item, "path")) &&
+                  json_is_string(json_object_get(item, "models")) && is_hash(json_object_get(item, "hash"));
+    }
+    return is_good ? MOR_OK : fail_member(context, path, "plugins", "an array of paths, models and hashes");
+}
+
 static mor_status check_provenance(mor_context *context, const char *path, const json_t *provenance)
 {
     static const char *const texts[] = {"version", "commit", "command"};
@@ -375,7 +406,7 @@ static mor_status check_provenance(mor_context *context, const char *path, const
             return fail_member(context, path, name, "16 hexadecimal digits");
         }
     }
-    return MOR_OK;
+    return check_plugins(context, path, json_object_get(provenance, "plugins"));
 }
 
 static mor_status check_outcome(mor_context *context, const char *path, const json_t *document)

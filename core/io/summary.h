@@ -23,7 +23,8 @@
  *        "state_hash": "16 hexadecimal digits",
  *        "speed": { "particle_steps_per_second": number },
  *        "memory": { "bytes_per_fine_particle": number },
- *        "provenance": { "version", "commit", "seed", "command", "threads", "inputs": { "<file>": "<hash>", ... } } }
+ *        "provenance": { "version", "commit", "seed", "command", "threads", "inputs": { "<file>": "<hash>", ... },
+ *                        "plugins": [ { "path": text, "models": text, "hash": "16 hexadecimal digits" }, ... ] } }
  *
  *  Numbers that are not finite are null, since JSON cannot represent them; finite ones are read back exactly. A seed
  *  above 2^63 - 1 is text. Bytes that are not UTF-8, as a command line may have, become question marks. */
@@ -72,6 +73,13 @@ typedef struct mor_summary_input {
     uint64_t hash;    /* mor_hash_file of it */
 } mor_summary_input;
 
+/** One shared object that material models of the run came from. */
+typedef struct mor_summary_plugin {
+    const char *path;   /* zero-terminated */
+    const char *models; /* names and versions, zero-terminated */
+    uint64_t hash;      /* mor_hash_file of it */
+} mor_summary_plugin;
+
 /** Why a run stopped before its end; results are then those of its last finished step. */
 typedef struct mor_summary_failure {
     const char *reason; /* zero-terminated */
@@ -101,6 +109,8 @@ typedef struct mor_summary {
     int n_threads;
     const mor_summary_input *inputs; /* shape [n_inputs] */
     int n_inputs;
+    const mor_summary_plugin *plugins; /* shape [n_plugins] */
+    int n_plugins;
 } mor_summary;
 
 /** Replaces the summary at a path, durably.

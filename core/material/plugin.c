@@ -3,16 +3,17 @@
 #include "core/material/plugin.h"
 
 #include "core/base/memory.h"
+#include "core/material/shared_object.h"
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct mor_plugin {
     char path[PATH_MAX];
-    void *handle;                /* from dlopen */
+    void *handle;                /* from mor_shared_object_open */
     const mor_plugin_list *list; /* inside the shared object */
 };
 
@@ -21,25 +22,17 @@ static mor_status open_object(mor_context *context, const char *path, mor_plugin
     /* An absolute path keeps the loader from searching its folders for a bare name. */
     MOR_CHECK(context, realpath(path, plugin->path) != NULL, MOR_ERROR_IO, "plug-in '%s' cannot be found: %s", path,
               strerror(errno));
-    plugin->handle = dlopen(plugin->path, RTLD_NOW | RTLD_LOCAL);
-    if (plugin->handle == NULL) {
-        const char *reason = dlerror();
-        return MOR_FAIL(context, MOR_ERROR_PLUGIN,
-                        "plug-in '%s' cannot be loaded: %s; it must be a shared object without undefined symbols (what "
-                        "it needs comes in the services record)",
-                        plugin->path, reason != NULL ? reason : "no reason given");
-    }
-    return MOR_OK;
+    return mor_shared_object_open(context, "plug-in", plugin->path,
+                                  "a shared object without undefined symbols (what it needs comes in the services "
+                                  "record)",
+                                  &plugin->handle);
 }
 
 static mor_status fetch_list(mor_context *context, mor_plugin *plugin)
 {
-    void *symbol = dlsym(plugin->handle, MOR_PLUGIN_SYMBOL);
-    MOR_CHECK(context, symbol != NULL, MOR_ERROR_PLUGIN,
+    const mor_plugin_entry entry = (mor_plugin_entry)mor_shared_object_find(plugin->handle, MOR_PLUGIN_SYMBOL);
+    MOR_CHECK(context, entry != NULL, MOR_ERROR_PLUGIN,
               "plug-in '%s' does not export '%s': define it and do not hide it", plugin->path, MOR_PLUGIN_SYMBOL);
-    /* ISO C has no conversion from an object pointer to a function pointer; POSIX promises that the bytes agree. */
-    mor_plugin_entry entry = NULL;
-    memcpy(&entry, &symbol, sizeof entry);
     const mor_plugin_list *list = entry(MOR_MATERIAL_ABI);
     MOR_CHECK(context, list != NULL, MOR_ERROR_PLUGIN,
               "plug-in '%s' does not serve interface %d of this program: rebuild it with this program's headers",
@@ -118,13 +111,35 @@ const mor_material *mor_plugin_get(const mor_plugin *plugin, int index)
     return index >= 0 && index < plugin->list->n_materials ? plugin->list->materials[index] : NULL;
 }
 
+const char *mor_plugin_forbidden_call(const mor_plugin *plugin)
+{
+    static const char *const names[] = {"malloc",  "calloc", "realloc", "aligned_alloc", "posix_memalign", "printf",
+                                        "fprintf", "puts",   "putchar", "__printf_chk",  "__fprintf_chk",  "fopen",
+                                        "exit",    "_exit",  "abort",   "getenv",        "setlocale"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        if (mor_shared_object_imports(plugin->handle, names[k])) {
+            return names[k];
+        }
+    }
+    return NULL;
+}
+
+void mor_plugin_describe(const mor_plugin *plugin, char *text, size_t text_bytes)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int k = 0; k < plugin->list->n_materials && used + 1 < text_bytes; ++k) {
+        const mor_material *material = plugin->list->materials[k];
+        snprintf(text + used, text_bytes - used, "%s%s %s", k > 0 ? ", " : "", material->name, material->version);
+        used += strlen(text + used);
+    }
+}
+
 void mor_plugin_unload(mor_context *context, mor_plugin **plugin)
 {
     if (*plugin == NULL) {
         return;
     }
-    if ((*plugin)->handle != NULL) {
-        dlclose((*plugin)->handle);
-    }
+    mor_shared_object_close(&(*plugin)->handle);
     MOR_FREE(context, plugin);
 }

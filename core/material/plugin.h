@@ -36,6 +36,15 @@ int mor_plugin_count(const mor_plugin *plugin);
  *  @param index  [in]  0 <= index < mor_plugin_count */
 const mor_material *mor_plugin_get(const mor_plugin *plugin, int index);
 
+/** Returns the first function that a plug-in calls and may not: one that takes memory, prints or ends the process; NULL
+ *  when there is none. A static string. */
+const char *mor_plugin_forbidden_call(const mor_plugin *plugin);
+
+/** Writes the models with their versions, "clay 1.0, sand 2.1", for people and for the provenance of a run.
+ *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
+ *  @param text_bytes [in]   room in text in bytes, > 0 */
+void mor_plugin_describe(const mor_plugin *plugin, char *text, size_t text_bytes);
+
 /** Unloads the object and sets the pointer to NULL; NULL is accepted. Descriptors from it are gone afterwards.
  *  @param plugin  [in,out]  the address of one pointer */
 void mor_plugin_unload(mor_context *context, mor_plugin **plugin);

@@ -15,6 +15,8 @@ struct mor_registry {
     const mor_material **materials; /* shape [capacity], the first n are valid; owned array of borrowed pointers */
     int n;
     int capacity;
+    const mor_external_interface *interfaces[MOR_REGISTRY_INTERFACES_MAX]; /* shape [n_interfaces]; borrowed */
+    int n_interfaces;
 };
 
 mor_status mor_registry_new(mor_context *context, mor_registry **registry)
@@ -70,6 +72,44 @@ mor_status mor_registry_add_list(mor_context *context, mor_registry *registry, c
         MOR_TRY(context, mor_registry_add(context, registry, list->materials[k]));
     }
     return MOR_OK;
+}
+
+mor_status mor_registry_add_all(mor_context *context, mor_registry *registry, const mor_registry *other)
+{
+    for (int k = 0; k < other->n; ++k) {
+        MOR_TRY(context, mor_registry_add(context, registry, other->materials[k]));
+    }
+    for (int k = 0; k < other->n_interfaces; ++k) {
+        MOR_TRY(context, mor_registry_add_interface(context, registry, other->interfaces[k]));
+    }
+    return MOR_OK;
+}
+
+mor_status mor_registry_add_interface(mor_context *context, mor_registry *registry,
+                                      const mor_external_interface *interface)
+{
+    if (mor_registry_find_interface(registry, interface->name) == interface) {
+        return MOR_OK;
+    }
+    MOR_CHECK(context, registry->n_interfaces < MOR_REGISTRY_INTERFACES_MAX, MOR_ERROR_PLUGIN,
+              "found more than %d interfaces to laws of other programs", MOR_REGISTRY_INTERFACES_MAX);
+    registry->interfaces[registry->n_interfaces++] = interface;
+    return MOR_OK;
+}
+
+const mor_external_interface *mor_registry_interface(const mor_registry *registry, int index)
+{
+    return index >= 0 && index < registry->n_interfaces ? registry->interfaces[index] : NULL;
+}
+
+const mor_external_interface *mor_registry_find_interface(const mor_registry *registry, const char *name)
+{
+    for (int k = 0; k < registry->n_interfaces; ++k) {
+        if (strcmp(registry->interfaces[k]->name, name) == 0) {
+            return registry->interfaces[k];
+        }
+    }
+    return NULL;
 }
 
 const mor_material *mor_registry_find(const mor_registry *registry, const char *name)

@@ -3,11 +3,14 @@
 #ifndef MOR_CORE_MATERIAL_REGISTRY_H
 #define MOR_CORE_MATERIAL_REGISTRY_H
 
+#include "core/material/external.h"
 #include "core/material/kit/plugin.h"
 
 /** @file
  *  Name -> material descriptor. Registration is explicit: materials/builtin.h lists the built-in models,
  *  core/material/plugin.h those of a shared object. Nothing registers itself. */
+
+enum { MOR_REGISTRY_INTERFACES_MAX = 4 };
 
 typedef struct mor_registry mor_registry;
 
@@ -31,6 +34,11 @@ mor_status mor_registry_add(mor_context *context, mor_registry *registry, const 
  *  Returns: as mor_registry_add; models before the one refused stay. */
 mor_status mor_registry_add_list(mor_context *context, mor_registry *registry, const mor_plugin_list *list);
 
+/** Adds all models and interfaces of another registry, in its order.
+ *  @param other    [in]      borrowed for this call; the models outlive both
+ *  Returns: as mor_registry_add; models before the one refused stay. */
+mor_status mor_registry_add_all(mor_context *context, mor_registry *registry, const mor_registry *other);
+
 /** Returns the model of that name, or NULL.
  *  @param name     [in]  zero-terminated
  *  Threads: safe to call concurrently. */
@@ -47,6 +55,20 @@ mor_status mor_registry_require(mor_context *context, const mor_registry *regist
  *  @param name     [in]  zero-terminated
  *  Returns: a string owned by the descriptor. */
 const char *mor_registry_nearest(const mor_registry *registry, const char *name);
+
+/** Adds an interface to laws of other programs. Adding the same one again changes nothing.
+ *  @param interface [in]     borrowed, must outlive the registry
+ *  Returns: MOR_OK; MOR_ERROR_PLUGIN beyond MOR_REGISTRY_INTERFACES_MAX of them. */
+mor_status mor_registry_add_interface(mor_context *context, mor_registry *registry,
+                                      const mor_external_interface *interface);
+
+/** Returns an interface by place, in order of registration; NULL outside.
+ *  @param index    [in]  >= 0 */
+const mor_external_interface *mor_registry_interface(const mor_registry *registry, int index);
+
+/** Returns the interface of that name, or NULL.
+ *  @param name     [in]  zero-terminated */
+const mor_external_interface *mor_registry_find_interface(const mor_registry *registry, const char *name);
 
 /** Number of models. */
 int mor_registry_count(const mor_registry *registry);

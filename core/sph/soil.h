@@ -39,6 +39,7 @@ typedef struct mor_soil_settings {
     double domain_minimum[3];          /* m, before the placement */
     double domain_maximum[3];          /* likewise */
     const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither rotated nor translated */
+    mor_guard guard;                   /* around updates of a material whose code may crash; NULL: none */
     bool removes_outflow;              /* what leaves the domain is removed; else it stops the run */
     double reference_density;          /* rho_0, kg/m3; of one soil */
     const mor_soil_kind *kinds;        /* shape [n_kinds]; of the parts of a composite, borrowed by mor_soil_init; NULL:

@@ -199,6 +199,25 @@ static void copy_start(const update *it, int64_t first, int64_t n, batch_start *
     }
 }
 
+/* A call of the material that may crash. */
+typedef struct guarded_call {
+    const mor_material_instance *material;
+    const mor_batch *batch;
+    mor_status status;
+} guarded_call;
+
+static void call_material(void *job)
+{
+    guarded_call *it = job;
+    it->status = it->material->operations.advance_rate(it->material, it->batch);
+}
+
+static mor_status advance_guarded(const mor_soil *soil, const mor_batch *batch)
+{
+    guarded_call it = {.material = soil->material, .batch = batch};
+    return mor_guard_run(soil->settings.guard, call_material, &it) == 0 ? it.status : MOR_ERROR_CRASH;
+}
+
 /* Updates a batch in place over n_steps equal steps. */
 static mor_status advance_equal_steps(const update *it, int64_t first, int64_t n, int n_steps, int64_t *failed)
 {
@@ -221,7 +240,8 @@ static mor_status advance_equal_steps(const update *it, int64_t first, int64_t n
                              .failed = failed};
     mor_status status = MOR_OK;
     for (int k = 0; k < n_steps && status == MOR_OK; ++k) {
-        status = soil->material->operations.advance_rate(soil->material, &batch);
+        status = soil->settings.guard != NULL ? advance_guarded(soil, &batch)
+                                              : soil->material->operations.advance_rate(soil->material, &batch);
     }
     return status;
 }
@@ -247,6 +267,19 @@ static mor_status advance_block(void *job, int64_t first, int64_t last)
     return advance_batch(job, first, last, NULL);
 }
 
+/* A crash tells no particle, so that they are tried one by one; results do not depend on the others in a batch. */
+static mor_status find_crash(const update *it, int64_t first, int64_t n, int64_t *failed)
+{
+    for (int64_t i = 0; i < n; ++i) {
+        const mor_status status = advance_batch(it, first + i, first + i + 1, NULL);
+        if (status != MOR_OK) {
+            *failed = i;
+            return status;
+        }
+    }
+    return MOR_ERROR_CRASH;
+}
+
 /* Does the failed batch again to learn which particle it was. */
 static mor_status report_stress(mor_context *context, const update *it, const mor_view *view, const mor_step *step,
                                 int64_t first)
@@ -255,7 +288,11 @@ static mor_status report_stress(mor_context *context, const update *it, const mo
     const int64_t left = soil->set.n_particles - first;
     int64_t failed = 0;
     MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time + step->length));
-    const mor_status status = advance_batch(it, first, first + (left < BATCH ? left : BATCH), &failed);
+    const int64_t n = left < BATCH ? left : BATCH;
+    mor_status status = advance_batch(it, first, first + n, &failed);
+    if (status == MOR_ERROR_CRASH && soil->settings.guard != NULL) {
+        status = find_crash(it, first, n, &failed);
+    }
     const int64_t i = first + failed;
     const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
     const double *s = mor_view_quote(view, MOR_FIELD_STRESS, i);

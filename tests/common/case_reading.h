@@ -254,6 +254,7 @@ static inline mor_case *case_reading_strip(const mor_case *the_case)
     assert_non_null(copy);
     memcpy(copy, the_case, sizeof *copy);
     memset(copy->path, 0, sizeof copy->path);
+    copy->registry = NULL;
     copy->written = copy->written_domain = copy->written_lattice = copy->written_placement = 0;
     copy->written_scale = copy->written_numerics = copy->written_output = 0;
     for (int k = 0; k < copy->n_soils; ++k) {
@@ -261,6 +262,7 @@ static inline mor_case *case_reading_strip(const mor_case *the_case)
         memset(&soil->place, 0, sizeof soil->place);
         memset(&soil->outline, 0, sizeof soil->outline);
         soil->shape = NULL;
+        soil->law = NULL;
         soil->written = soil->written_stress = soil->written_material = soil->written_parameters = 0;
     }
     for (int k = 0; k < copy->n_walls; ++k) {

@@ -177,6 +177,29 @@ class Install:
         run([self.options.cmake, "--build", build])
         table = run([self.program, "check-material", os.path.join(build, "undrained_clay.so")], env=self.env)
         expect("undrained_clay" in table and "failed" not in table, table)
+        results = os.path.join(folder, "results")
+        run([self.program, "run", os.path.join(folder, "slump.cfg"), "-o", results, "--set", "end=0.2 s", "--set",
+             "output.pictures=false"], env=self.env)
+        with open(os.path.join(results, "summary.json"), encoding="utf-8") as file:
+            summary = json.load(file)
+        expect(summary["provenance"]["plugins"][0]["models"] == "undrained_clay 1.0", summary["provenance"])
+        value = summary["results"]["run_out"]["value"]
+        expect(value > 2.0, f"a bank that cannot stand has not moved: run_out {value}")
+
+    def check_template_umat(self):
+        """Built with the line of its page, checked and run."""
+        compiler = shutil.which("gfortran")
+        expect(compiler, "gfortran is needed: apt-get install gfortran")
+        folder = os.path.join(self.scratch, "my_umat")
+        shutil.copytree(os.path.join(self.prefix, "share/moraine/template_umat"), folder)
+        run([compiler, "-O2", "-shared", "-fPIC", "-o", "libumat.so", "drucker_prager.f90"], cwd=folder)
+        table = run([self.program, "check-material", "heap.cfg"], env=self.env, cwd=folder)
+        expect("soil 'sand': umat" in table and "failed" not in table, table)
+        run([self.program, "run", "heap.cfg", "-o", "results", "--set", "end=0.1 s", "--set", "output.pictures=false"],
+            env=self.env, cwd=folder)
+        with open(os.path.join(folder, "results/summary.json"), encoding="utf-8") as file:
+            value = json.load(file)["results"]["run_out"]["value"]
+        expect(value > 0.2, f"a column that cannot stand has not moved: run_out {value}")
 
     def check_program_alone(self):
         """The installed program needs no library of ours, and its own words are there."""
@@ -197,6 +220,7 @@ def main():
         install.check_program_alone()
         install.check_program()
         install.check_template()
+        install.check_template_umat()
     except Failure as failure:
         print(failure, file=sys.stderr)
         return 1

@@ -22,10 +22,10 @@ DOORS = {
     r"jansson\.h": ("core/io/summary.c",),
     r"(gdal/)?(gdal|cpl_|ogr).*\.h": ("relaxation/terrain/terrain_read.c",),
     r"assimp/.*": ("relaxation/mesh/mesh_read.c",),
-    r"dlfcn\.h": ("core/material/plugin.c",),
+    r"(dlfcn|link)\.h": ("core/material/shared_object.c",),
     r"omp\.h": ("core/base/parallel.h",),
     r"cmocka\.h": ("tests/",),
-    r"setjmp\.h": ("tests/", "cases/driver/picture/draw/png_file.c"),
+    r"setjmp\.h": ("tests/", "cases/driver/main.c", "cases/driver/picture/draw/png_file.c"),
     r"(x86|imm)intrin\.h|arm_neon\.h": ("core/base/", "core/sph/", "core/material/", "materials/"),
 }
 

@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_CASE_CASE_H
 
 #include "core/geometry/shape.h"
+#include "core/material/plugin.h"
 #include "core/scheme/scheme.h"
 
 #include <stdbool.h>
@@ -24,6 +25,7 @@ enum {
     MOR_CASE_TEXT_BYTES = 256,
     MOR_CASE_PARAMETERS_MAX = 32,
     MOR_CASE_SOILS_MAX = 16,
+    MOR_CASE_PLUGINS_MAX = 16,
     MOR_CASE_WALLS_MAX = 64,
     MOR_CASE_BODIES_MAX = 4096,
     MOR_CASE_ROCKS_MAX = 8,
@@ -112,6 +114,28 @@ typedef struct mor_case_shape {
     uint64_t written;                /* see above */
 } mor_case_shape;
 
+/** One plug-in: a shared object with models of materials. */
+typedef struct mor_case_plugin {
+    char file[MOR_CASE_TEXT_BYTES];   /* path; absolute */
+    uint64_t file_hash;               /* of its content when it was read */
+    char models[MOR_CASE_TEXT_BYTES]; /* names and versions: "undrained_clay 1.0, peat 0.3" */
+    mor_plugin *plugin;               /* loaded; owned by the case */
+} mor_case_plugin;
+
+/** A law of another program: what its interface is told. */
+typedef struct mor_case_external {
+    char file[MOR_CASE_TEXT_BYTES]; /* the library; path; absolute */
+    uint64_t file_hash;             /* of its content when it was read */
+    char law[MOR_CASE_NAME_BYTES];  /* in the library; "": the usual one */
+    double *constants;              /* shape [n_constants], unit 1: those of the law; owned */
+    int n_constants;
+    char states[MOR_MATERIAL_STATES_MAX][MOR_CASE_NAME_BYTES]; /* shape [n_states]; names of its state variables */
+    int n_states;
+    double *state_start; /* shape [n_state_start], unit 1: those of the law; owned */
+    int n_state_start;
+    mor_external_law *made; /* owned */
+} mor_case_external;
+
 typedef enum mor_case_stress { MOR_CASE_STRESS_NONE, MOR_CASE_STRESS_K0, MOR_CASE_STRESS_SETTLED } mor_case_stress;
 
 /** One soil region. */
@@ -121,6 +145,8 @@ typedef struct mor_case_soil {
     mor_shape *shape;       /* owned by the case; in the scene frame (before the case's placement) */
     mor_case_shape outline; /* what shape was built from; owned by the case */
     char model[MOR_CASE_NAME_BYTES];
+    const mor_material *law;                    /* of that name, or made by the interface of that name; borrowed */
+    mor_case_external external;                 /* of an interface; else zeroed */
     double density;                             /* initial density, kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
     double velocity[3];                         /* initial velocity, m/s */
@@ -373,6 +399,9 @@ typedef struct mor_case {
     double scale_length, scale_time, scale_mass; /* 1 */
     uint64_t written, written_domain, written_lattice, written_placement, written_scale, written_numerics;
     uint64_t written_output;
+    mor_registry *registry; /* the models that the case was read with, those of its plug-ins among them; owned */
+    mor_case_plugin plugins[MOR_CASE_PLUGINS_MAX];
+    int n_plugins;
     mor_case_soil soils[MOR_CASE_SOILS_MAX];
     int n_soils;
     mor_case_wall walls[MOR_CASE_WALLS_MAX];
@@ -392,7 +421,7 @@ typedef struct mor_case {
     mor_case_output output;
 } mor_case;
 
-/** Frees what a case owns and zeroes it.
+/** Frees what a case owns, unloads its plug-ins and zeroes it. What was made from its models is gone before.
  *  @param the_case [in,out]  read or zeroed */
 void mor_case_clear(mor_context *context, mor_case *the_case);
 

@@ -31,11 +31,19 @@ static void clear_rocks(mor_context *context, mor_case_rocks *rocks)
     }
 }
 
+static void clear_external(mor_context *context, mor_case_external *external)
+{
+    mor_external_free(context, &external->made);
+    MOR_FREE(context, &external->constants);
+    MOR_FREE(context, &external->state_start);
+}
+
 void mor_case_clear(mor_context *context, mor_case *the_case)
 {
     for (int k = 0; k < the_case->n_soils; ++k) {
         mor_shape_free(context, &the_case->soils[k].shape);
         mor_case_shape_clear(context, &the_case->soils[k].outline);
+        clear_external(context, &the_case->soils[k].external);
     }
     for (int k = 0; k < the_case->n_walls; ++k) {
         mor_shape_free(context, &the_case->walls[k].shape);
@@ -51,6 +59,10 @@ void mor_case_clear(mor_context *context, mor_case *the_case)
     MOR_FREE(context, &the_case->bodies);
     for (int k = 0; k < the_case->n_rocks; ++k) {
         clear_rocks(context, &the_case->rocks[k]); /* after the bodies, which view their shapes */
+    }
+    mor_registry_free(context, &the_case->registry);
+    for (int k = 0; k < the_case->n_plugins; ++k) {
+        mor_plugin_unload(context, &the_case->plugins[k].plugin);
     }
     memset(the_case, 0, sizeof *the_case);
 }

@@ -53,6 +53,14 @@ static mor_status add_setting(mor_command *command, const char *setting)
     return status;
 }
 
+static mor_status add_plugin(mor_command *command, const char *path)
+{
+    const mor_status status = mor_session_add_plugin(command->session, path);
+    MOR_CHECK(command->context, status == MOR_OK || status == MOR_ERROR_MEMORY, MOR_ERROR_CONFIG,
+              "found --plugin '%s': %s", path, mor_session_message(command->session));
+    return status;
+}
+
 static mor_status take_option(mor_command *command, mor_command_option_kind kind, const char *value)
 {
     command->given |= 1u << kind;
@@ -81,6 +89,8 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
         return MOR_OK;
     case MOR_OPTION_STOP_AT:
         return set_stop(command, value);
+    case MOR_OPTION_PLUGIN:
+        return add_plugin(command, value);
     case MOR_OPTION_HELP:
     case MOR_OPTION_VERSION: /* answered once the whole line is read */
     case MOR_OPTION_COUNT:

@@ -36,6 +36,7 @@ typedef enum mor_command_option_kind {
     MOR_OPTION_DIAMETER,
     MOR_OPTION_LENGTH,
     MOR_OPTION_VOLUME,
+    MOR_OPTION_PLUGIN,
     MOR_OPTION_HELP,
     MOR_OPTION_VERSION,
     MOR_OPTION_COUNT

@@ -14,10 +14,13 @@ const mor_command_info mor_command_check_material = {
     .name = "check-material",
     .subject = "FILE",
     .word = MOR_WORD_FILE,
-    .text = "try the laws of mechanics on a material: the name of a model or a plug-in file.so",
-    .details = "Prints a table of laws, with what was found and what is allowed.",
+    .text = "try the laws of mechanics on a material: a model, a plug-in file.so, or the soils of a case.cfg",
+    .details = "Prints a table of laws, with what was found and what is allowed. Of a model or a plug-in, several sets "
+               "of parameters "
+               "are drawn from its ranges; of a case, those of the case are taken, as a law behind an interface needs.",
     .options = MOR_OPTION_BIT(THREADS) | MOR_OPTION_BIT(HELP),
-    .examples = {"moraine check-material drucker_prager", "moraine check-material ./my_material.so"},
+    .examples = {"moraine check-material drucker_prager", "moraine check-material ./my_material.so",
+                 "moraine check-material case.cfg"},
     .codes = {{MOR_EXIT_OK, "all laws hold"},
               {MOR_EXIT_FAILED, "a law failed"},
               {MOR_EXIT_BAD_INPUT, "neither a material nor a plug-in"}},

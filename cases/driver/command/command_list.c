@@ -55,7 +55,8 @@ const mor_command_info mor_command_list = {
     .details =
         "The lists are those that the reference holds. 'man' prints the manual page, 'completion' the completion "
         "for bash.",
-    .options = MOR_OPTION_BIT(HELP),
-    .examples = {"moraine list probes", "moraine list completion > moraine.bash; . ./moraine.bash"},
+    .options = MOR_OPTION_BIT(PLUGIN) | MOR_OPTION_BIT(HELP),
+    .examples = {"moraine list probes", "moraine list materials --plugin ./my_material.so",
+                 "moraine list completion > moraine.bash; . ./moraine.bash"},
     .codes = {MOR_COMMAND_CODES_COMMON},
     .run = list};

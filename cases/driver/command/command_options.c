@@ -27,6 +27,9 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
                            "as of --diameter"},
     [MOR_OPTION_VOLUME] = {"volume", '\0', "V", MOR_WORD_NONE, "scale the mesh to its volume (area)",
                            "as of --diameter"},
+    [MOR_OPTION_PLUGIN] = {"plugin", '\0', "FILE", MOR_WORD_FILE,
+                           "lists also the material models of a plug-in; may be given many times",
+                           "the models of the program"},
     [MOR_OPTION_HELP] = {"help", 'h', NULL, MOR_WORD_NONE, "what there is; behind a command, what that command does",
                          NULL},
     [MOR_OPTION_VERSION] = {"version", '\0', NULL, MOR_WORD_NONE, "version and commit", NULL}};

@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "materials/builtin.h"
+#include "materials/interfaces/interfaces.h"
 #include "moraine_build.h"
 
 #include <math.h>
@@ -42,6 +43,7 @@ static mor_status fill_session(mor_session *session)
     session->output = session->silence;
     snprintf(session->command, sizeof session->command, "libmoraine");
     MOR_TRY(context, mor_registry_new(context, &session->registry));
+    MOR_TRY(context, mor_interfaces_add(context, session->registry));
     return mor_registry_add_list(context, session->registry, mor_materials_builtin(NULL));
 }
 
@@ -141,6 +143,11 @@ void mor_session_set_log(mor_session *session, mor_log_sink sink, void *user)
     const bool is_listening = session->files.log != NULL;
     *(is_listening ? &session->files.previous_sink : &session->context.log_sink) = sink;
     *(is_listening ? &session->files.previous_user : &session->context.log_user) = user;
+}
+
+void mor_session_set_guard(mor_session *session, mor_session_guard guard)
+{
+    session->context.guard = guard;
 }
 
 mor_status mor_session_set_threads(mor_session *session, int n_threads)

@@ -70,7 +70,8 @@ mor_status mor_session_build(mor_session *session)
     mor_context *context = &session->context;
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_LOADED, MOR_SESSION_LOADED));
-    MOR_TRY(context, mor_simulation_init(context, &session->simulation, &session->the_case, session->registry));
+    const mor_registry *registry = session->the_case.registry;
+    MOR_TRY(context, mor_simulation_init(context, &session->simulation, &session->the_case, registry));
     const int n_sets = mor_simulation_sets(&session->simulation, false, sets);
     const mor_status status = mor_pictures_check(context, &session->the_case, sets, n_sets);
     if (status != MOR_OK) {

@@ -18,7 +18,7 @@ mor_status mor_session_save(mor_session *session, const char *folder)
     mor_context *context = &session->context;
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_READY, MOR_SESSION_READY));
     mor_session_set_folder(session, folder, false);
-    return mor_run_files_save_state(context, &session->files, session->registry);
+    return mor_run_files_save_state(context, &session->files, session->the_case.registry);
 }
 
 mor_status mor_session_resume(mor_session *session, const char *folder)
@@ -30,7 +30,7 @@ mor_status mor_session_resume(mor_session *session, const char *folder)
     mor_session_set_folder(session, folder, true);
     MOR_CHECK(context, mor_run_folder_has_checkpoint(context, folder), MOR_ERROR_IO,
               "found no checkpoint in '%s'; give a folder that mor_session_save or a run wrote", folder);
-    MOR_TRY(context, mor_run_files_keep_case(context, &session->files, session->registry, true));
+    MOR_TRY(context, mor_run_files_keep_case(context, &session->files, session->the_case.registry, true));
     const mor_status status = mor_run_files_restore(context, &session->files, &is_restored);
     if (status != MOR_OK) {
         mor_session_clear_simulation(session);
@@ -59,7 +59,7 @@ mor_status mor_session_run(mor_session *session, const char *folder, bool is_res
     MOR_TRY(context, mor_session_enter(session, MOR_SESSION_LOADED, MOR_SESSION_LOADED));
     mor_session_set_folder(session, folder, is_resume);
     session->options.stop_at = stop_time;
-    const mor_status status = mor_run(context, &session->files, session->registry, &found);
+    const mor_status status = mor_run(context, &session->files, session->the_case.registry, &found);
     if (session->files.series.stream == NULL) { /* refused, or ended while it settled */
         withdraw_run(session);
     } else {

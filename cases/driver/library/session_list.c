@@ -14,16 +14,27 @@
 #include <string.h>
 #include <unistd.h>
 
+static void list_parameters(const mor_schema *parameters, FILE *out)
+{
+    for (const mor_schema *p = parameters; p->key != NULL; ++p) {
+        fprintf(out, "  %-20s [%s] %s%s%s%s\n", p->key, strcmp(p->unit, "1") == 0 ? "-" : p->unit, p->text,
+                p->is_required ? "" : " (has a default)", p->role != MOR_ROLE_NONE ? "; role: " : "",
+                mor_role_text(p->role));
+    }
+}
+
 static void list_materials(const mor_registry *registry, FILE *out)
 {
     for (int k = 0; k < mor_registry_count(registry); ++k) {
         const mor_material *material = mor_registry_get(registry, k);
         fprintf(out, "%s %s: %s\n  from %s\n", material->name, material->version, material->text, material->literature);
-        for (const mor_schema *p = material->parameters; p->key != NULL; ++p) {
-            fprintf(out, "  %-20s [%s] %s%s%s%s\n", p->key, strcmp(p->unit, "1") == 0 ? "-" : p->unit, p->text,
-                    p->is_required ? "" : " (has a default)", p->role != MOR_ROLE_NONE ? "; role: " : "",
-                    mor_role_text(p->role));
-        }
+        list_parameters(material->parameters, out);
+    }
+    const mor_external_interface *interface = NULL;
+    for (int k = 0; (interface = mor_registry_interface(registry, k)) != NULL; ++k) {
+        fprintf(out, "%s: %s\n  takes library, law, props, state and state_start beside\n", interface->name,
+                interface->text);
+        list_parameters(interface->parameters, out);
     }
 }
 
@@ -127,20 +138,63 @@ mor_status mor_session_print_list(mor_session *session, const char *name)
 
 /* ---- Check of a material ----------------------------------------------------------------------------------------- */
 
-/* Tries one model; prints its table. */
-static mor_status try_material(mor_session *session, const mor_material *material, int *n_failed)
-{
-    enum { LINE = 1024 };
-    const double density = 2000.0; /* kg/m3, of a common soil; the laws hold for any */
-    char line[LINE];
+enum { CHECK_LINE = 1024 };
+
+/* A trial of one model, which may crash. */
+typedef struct trial {
+    mor_context *context;
+    const mor_material *material;
+    const double *parameters; /* shape [n_values], units of the schema; NULL: several sets are drawn */
+    double density;           /* kg/m3 */
     mor_conformance_report report;
-    MOR_TRY(&session->context, mor_conformance_run(&session->context, material, NULL, density, &report));
-    fprintf(session->output, "%s %s\n", material->name, material->version);
-    for (int k = 0; k < report.n_rows; ++k) {
-        mor_conformance_format(&report.rows[k], line, sizeof line);
+    mor_status status;
+} trial;
+
+static void run_trial(void *job)
+{
+    trial *it = job;
+    it->status = mor_conformance_run(it->context, it->material, it->parameters, it->density, &it->report);
+}
+
+/* Prints what was found; of a model that crashed the law that was tried last is the one in which it did. */
+static mor_status try_material(mor_session *session, trial *it, int *n_failed)
+{
+    char line[CHECK_LINE];
+    const int signal = mor_guard_run(session->context.guard, run_trial, it);
+    fprintf(session->output, "%s %s\n", it->material->name, it->material->version);
+    for (int k = 0; k < it->report.n_rows - (signal != 0); ++k) {
+        mor_conformance_format(&it->report.rows[k], line, sizeof line);
         fprintf(session->output, "  %s\n", line);
     }
-    *n_failed += report.n_failed;
+    MOR_CHECK(&session->context, signal == 0, MOR_ERROR_PLUGIN, "material '%s' crashed (%s) while this was tried: %s",
+              it->material->name, strsignal(signal),
+              it->report.n_rows > 0 ? it->report.rows[it->report.n_rows - 1].law : "making an instance");
+    *n_failed += it->report.n_failed;
+    return it->status;
+}
+
+/* Tries a model on parameters drawn from its schema. */
+static mor_status try_drawn(mor_session *session, const mor_material *material, int *n_failed)
+{
+    /* kg/m3, of a common soil; the laws hold for any */
+    trial it = {.context = &session->context, .material = material, .density = 2000.0};
+    return try_material(session, &it, n_failed);
+}
+
+/* Tries the models of the soils of a case, with their parameters. */
+static mor_status try_case(mor_session *session, const char *path, int *n_failed)
+{
+    const mor_case *the_case = &session->the_case;
+    MOR_TRY(&session->context, mor_session_load_file(session, path));
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        const mor_case_soil *soil = &the_case->soils[k];
+        trial it = {.context = &session->context,
+                    .material = soil->law,
+                    .parameters = soil->parameters,
+                    .density = soil->density};
+        fprintf(session->output, "soil '%s': ", soil->name);
+        MOR_TRY(&session->context, try_material(session, &it, n_failed));
+    }
     return MOR_OK;
 }
 
@@ -149,7 +203,14 @@ static mor_status try_plugin(mor_session *session, const char *path, int *n_fail
     mor_plugin *plugin = NULL;
     mor_status status = mor_plugin_load(&session->context, path, &plugin);
     for (int k = 0; status == MOR_OK && k < mor_plugin_count(plugin); ++k) {
-        status = try_material(session, mor_plugin_get(plugin, k), n_failed);
+        status = try_drawn(session, mor_plugin_get(plugin, k), n_failed);
+    }
+    const char *call = status == MOR_OK ? mor_plugin_forbidden_call(plugin) : NULL;
+    if (status == MOR_OK) {
+        fprintf(session->output,
+                "%s\n  %s  it takes memory from the services, and leaves printing and ending to the program%s%s\n",
+                path, call == NULL ? "pass" : "FAIL", call == NULL ? "" : ": it calls ", call == NULL ? "" : call);
+        *n_failed += call != NULL;
     }
     mor_plugin_unload(&session->context, &plugin);
     return status;
@@ -164,10 +225,13 @@ mor_status mor_session_check_material(mor_session *session, const char *name, in
     *n_failed = 0;
     MOR_CHECK(context, material != NULL || access(name, F_OK) == 0, MOR_ERROR_CONFIG,
               "found '%s', which is neither a material nor a file%s%s; allowed are the names in the list of "
-              "materials and paths of plug-ins",
+              "materials, paths of plug-ins, and of cases (.cfg), whose soils are then tried",
               name, near != NULL ? "; did you mean " : "", near != NULL ? near : "");
-    MOR_TRY(context,
-            material != NULL ? try_material(session, material, n_failed) : try_plugin(session, name, n_failed));
+    const size_t length = strlen(name);
+    const bool is_case = length > 4 && strcmp(name + length - 4, ".cfg") == 0;
+    MOR_TRY(context, material != NULL ? try_drawn(session, material, n_failed)
+                     : is_case        ? try_case(session, name, n_failed)
+                                      : try_plugin(session, name, n_failed));
     if (*n_failed > 0) {
         fprintf(session->output, "%d laws failed\n", *n_failed);
     }

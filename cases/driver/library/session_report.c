@@ -8,6 +8,7 @@
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/run/wall_time.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
+#include "core/base/hash.h"
 #include "relaxation/terrain/terrain.h"
 
 #include <math.h>
@@ -102,6 +103,16 @@ static void print_ground(FILE *out, const mor_case_wall *wall)
             wall->outline.ground.extends_edge ? "; beyond it level from its edge on" : "");
 }
 
+static void print_plugins(FILE *out, const mor_case *the_case)
+{
+    for (int k = 0; k < the_case->n_plugins; ++k) {
+        const mor_case_plugin *it = &the_case->plugins[k];
+        char hash[MOR_HASH_TEXT_BYTES];
+        mor_hash_format(it->file_hash, hash);
+        fprintf(out, "  plug-in                 %s: %s; xxh64 %s\n", it->file, it->models, hash);
+    }
+}
+
 static void print_sizes(FILE *out, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
@@ -112,6 +123,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     fprintf(out, "%s\n", c->title);
     fprintf(out, "  dimension               %d\n", c->dimension);
     fprintf(out, "  spacing                 %g m\n", c->spacing);
+    print_plugins(out, c);
     if (s->has_soil) {
         fprintf(out, "  soil                    %lld particles, smoothing length %g m, sound speed %.4g m/s\n",
                 (long long)s->soil.set.n_particles, s->soil.smoothing_length, s->soil.sound_speed);

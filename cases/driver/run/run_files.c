@@ -104,6 +104,21 @@ static void add_fact(mor_run_files *files, const char *key, const char *value)
     files->facts[files->n_facts++] = (mor_snapshot_fact){key, value};
 }
 
+/* One line for each: path, models and hash. */
+static void list_plugins(mor_run_files *files)
+{
+    size_t used = 0;
+    files->plugin_text[0] = '\0';
+    for (int k = 0; k < files->the_case->n_plugins; ++k) {
+        const mor_case_plugin *it = &files->the_case->plugins[k];
+        char hash[MOR_HASH_TEXT_BYTES];
+        mor_hash_format(it->file_hash, hash);
+        snprintf(files->plugin_text + used, sizeof files->plugin_text - used, "%s%s: %s; xxh64 %s", k > 0 ? "\n" : "",
+                 it->file, it->models, hash);
+        used += strlen(files->plugin_text + used);
+    }
+}
+
 static void set_facts(mor_run_files *files)
 {
     snprintf(files->seed_text, sizeof files->seed_text, "%" PRIu64, files->the_case->seed);
@@ -115,6 +130,10 @@ static void set_facts(mor_run_files *files)
     add_fact(files, "case", files->the_case->path);
     add_fact(files, "case_xxh64", files->hash_text);
     add_fact(files, "instruction_set", mor_pair_select(NULL)->instruction_set);
+    if (files->the_case->n_plugins > 0) {
+        list_plugins(files);
+        add_fact(files, "plugins", files->plugin_text);
+    }
 }
 
 mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool is_resume)

@@ -20,7 +20,7 @@
 /** The case as it was used, in the folder of a run. */
 #define MOR_RUN_CASE_FILE "case.resolved.cfg"
 
-enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16 };
+enum { MOR_RUN_COLUMNS_MAX = MOR_CASE_PROBES_MAX + 8, MOR_RUN_FACTS_MAX = 16, MOR_RUN_PLUGIN_BYTES = 640 };
 
 /** What was asked for. All strings are zero-terminated and borrowed. */
 typedef struct mor_run_options {
@@ -61,6 +61,7 @@ typedef struct mor_run_files {
     int n_facts;
     char seed_text[24]; /* seed as text, for the provenance */
     char hash_text[24]; /* hash of the case file as text */
+    char plugin_text[MOR_CASE_PLUGINS_MAX * MOR_RUN_PLUGIN_BYTES]; /* path, models and hash of each plug-in, by lines */
     uint64_t case_hash; /* of the case file; set by the caller */
     char *case_text;    /* zero-terminated; the case as it is used, which every checkpoint carries; freed by close */
     char *saved_text;   /* zero-terminated; the case the folder was started with; NULL: a new run; likewise */

@@ -141,6 +141,10 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     for (int k = 0; k < n_shapes; ++k) {
         inputs[1 + k] = (mor_summary_input){shapes[k].path, shapes[k].hash};
     }
+    mor_summary_plugin plugins[MOR_CASE_PLUGINS_MAX];
+    for (int k = 0; k < c->n_plugins; ++k) {
+        plugins[k] = (mor_summary_plugin){c->plugins[k].file, c->plugins[k].models, c->plugins[k].file_hash};
+    }
     mor_summary summary = {.failure = failure,
                            .results = results,
                            .n_results = c->n_probes,
@@ -149,7 +153,9 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
                            .particle_steps_per_second = particle_steps_per_second,
                            .n_threads = context->n_threads,
                            .inputs = inputs,
-                           .n_inputs = 1 + n_shapes};
+                           .n_inputs = 1 + n_shapes,
+                           .plugins = plugins,
+                           .n_plugins = c->n_plugins};
     mor_summary_statistics statistics[MOR_CASE_PROBES_MAX];
     for (int k = 0; k < c->n_probes; ++k) {
         results[k] = (mor_summary_result){.probe = c->probes[k].name,

@@ -3,6 +3,7 @@
 #include "core/material/checked.h"
 #include "core/material/conformance/conformance_bench.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -232,6 +233,10 @@ static void scale_with_units(mor_bench *bench, mor_conformance_row *row)
         mor_bench_skip(row, note);
         return;
     }
+    if ((bench->material->capabilities & MOR_MATERIAL_FIXED_UNITS) != 0) {
+        mor_bench_skip(row, "the model's constants have no units");
+        return;
+    }
     if (!make_reference(bench, row)) {
         return;
     }
@@ -333,6 +338,28 @@ static void never_pass_not_a_number(mor_bench *bench, mor_conformance_row *row)
     }
 }
 
+/* Memory that the process holds from the allocator, bytes. */
+static double count_memory(void)
+{
+    const struct mallinfo2 it = mallinfo2();
+    return (double)it.uordblks + (double)it.hblkhd;
+}
+
+/* What is taken in an update and not given back; what is given back at once is not seen. */
+static void allocate_nothing(mor_bench *bench, mor_conformance_row *row)
+{
+    if (!make_reference(bench, row)) { /* what is made once, at the first call, has been made before */
+        return;
+    }
+    const double before = count_memory();
+    for (int round = 0; round < 4; ++round) {
+        if (!is_ok(mor_bench_evaluate(bench, bench->instance, &bench->work, 0, N), row)) {
+            return;
+        }
+    }
+    mor_bench_take(row, count_memory() - before);
+}
+
 const mor_bench_entry mor_bench_common_laws[] = {
     {"a batch equals its particles one by one", equal_one_by_one, 0.0, "exact: numbers that differ in a bit"},
     {"any split equals the whole", equal_in_any_split, 0.0, "exact: numbers that differ in a bit"},
@@ -343,6 +370,7 @@ const mor_bench_entry mor_bench_common_laws[] = {
     {"units changed by powers of two change nothing", scale_with_units, 1e-9,
      "exact where the model promises it, else the model's own tolerances"},
     {"outputs are all written, inputs and neighbors untouched", keep_the_contract, 0.0, "exact: breaches"},
+    {"an update keeps no memory", allocate_nothing, 0.0, "exact: bytes"},
     {"not-a-number and infinity never pass as ok", never_pass_not_a_number, 0.0, "exact: numbers not finite"},
     {NULL, NULL, 0.0, NULL},
 };

@@ -33,7 +33,8 @@ enum {
     MOR_MATERIAL_NONLOCAL = 2,       /* declares a scalar field; operation nonlocal is present */
     MOR_MATERIAL_TANGENT = 4,        /* operation tangent is present */
     MOR_MATERIAL_DISSIPATION = 8,    /* advance_rate fills batch->dissipation when it is asked for */
-    MOR_MATERIAL_EXACT_SCALING = 16  /* results are bit-identical under units changed by powers of two */
+    MOR_MATERIAL_EXACT_SCALING = 16, /* results are bit-identical under units changed by powers of two */
+    MOR_MATERIAL_FIXED_UNITS = 32    /* has constants without units, so that it holds in SI units only */
 };
 
 /** What the host lends to create, destroy and describe, so that a plug-in has no undefined symbols. */

@@ -16,7 +16,7 @@ typedef struct mor_case_input {
     uint64_t hash;    /* of its content when it was read */
 } mor_case_input;
 
-/** Lists the files that the shapes of a case were made from, each once.
+/** Lists the plug-ins of a case and the files that its shapes were made from, each once.
  *  @param the_case [in]   from mor_case_read
  *  @param inputs   [out]  shape [room]
  *  @param room     [in]   most files listed

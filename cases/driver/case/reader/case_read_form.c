@@ -308,8 +308,12 @@ static void list_files(const mor_case_shape *outline, mor_case_input *inputs, in
 int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room)
 {
     int n_inputs = 0;
+    for (int k = 0; k < the_case->n_plugins; ++k) {
+        add_input(the_case->plugins[k].file, the_case->plugins[k].file_hash, inputs, room, &n_inputs);
+    }
     for (int k = 0; k < the_case->n_soils; ++k) {
         list_files(&the_case->soils[k].outline, inputs, room, &n_inputs);
+        add_input(the_case->soils[k].external.file, the_case->soils[k].external.file_hash, inputs, room, &n_inputs);
     }
     for (int k = 0; k < the_case->n_walls; ++k) {
         list_files(&the_case->walls[k].outline, inputs, room, &n_inputs);

@@ -135,6 +135,17 @@ static void print_probe_types(mor_case_probe_catalog catalog, FILE *stream)
     }
 }
 
+static void print_interfaces(const mor_registry *registry, FILE *stream)
+{
+    const mor_external_interface *interface = NULL;
+    for (int k = 0; (interface = mor_registry_interface(registry, k)) != NULL; ++k) {
+        print_heading(stream, 3, interface->text, interface->name);
+        for (const mor_schema *entry = interface->parameters; entry->key != NULL; ++entry) {
+            print_row(stream, entry, NULL, NULL);
+        }
+    }
+}
+
 static void print_models(const mor_registry *registry, FILE *stream)
 {
     fprintf(stream, "\n## Material models\n");
@@ -161,6 +172,7 @@ void mor_case_schema_print(const mor_registry *registry, mor_case_probe_catalog 
     }
     print_group(stream, 2, &mor_case_soil_group, NULL);
     print_group(stream, 3, &mor_case_material_group, NULL);
+    print_group(stream, 3, &mor_case_external_group, NULL);
     print_group(stream, 3, &mor_case_stress_group, NULL);
     print_group(stream, 2, &mor_case_wall_group, NULL);
     print_group(stream, 2, &mor_case_body_group, NULL);
@@ -182,4 +194,5 @@ void mor_case_schema_print(const mor_registry *registry, mor_case_probe_catalog 
     print_probe_types(probe_types, stream);
     print_group(stream, 2, &mor_case_expectation_group, NULL);
     print_models(registry, stream);
+    print_interfaces(registry, stream);
 }

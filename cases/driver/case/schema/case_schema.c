@@ -32,6 +32,9 @@ static const mor_case_key root_keys[] = {
     END};
 
 static const mor_case_part root_parts[] = {
+    {"plugins", false, "list of texts",
+     "shared objects with material models, which materials may then name; paths from the folder of the case file. A "
+     "plug-in is a program: load only what you trust"},
     {"domain", true, "group", "computational domain, a box; see outflow for soil that leaves it"},
     {"lattice", false, "group", "lattice of the initial positions of soil particles"},
     {"placement", false, "group", "rotation and translation of the whole scene, gravity included"},
@@ -186,13 +189,33 @@ static const mor_case_part soil_parts[] = {
     {"initial_stress", false, "group", "initial stress"},
     {NULL, false, NULL, NULL}};
 
-static const mor_case_key material_keys[] = {{{"model", WORDS, "1", REQUIRED, ANY, NULL, "name of the material model"},
-                                              MOR_CASE_STORE_NAME,
-                                              AT(mor_case_soil, model)},
-                                             {{"density", SCALAR, "kg/m3", REQUIRED, POSITIVE, NULL, "initial density"},
-                                              MOR_CASE_STORE_REALS,
-                                              AT(mor_case_soil, density)},
-                                             END};
+#define MODEL_KEYS                                                                                                     \
+    {{"model", WORDS, "1", REQUIRED, ANY, NULL, "name of the material model"},                                         \
+     MOR_CASE_STORE_NAME,                                                                                              \
+     AT(mor_case_soil, model)},                                                                                        \
+    {                                                                                                                  \
+        {"density", SCALAR, "kg/m3", REQUIRED, POSITIVE, NULL, "initial density"}, MOR_CASE_STORE_REALS,               \
+            AT(mor_case_soil, density)                                                                                 \
+    }
+static const mor_case_key material_keys[] = {MODEL_KEYS, END};
+
+static const mor_case_key external_keys[] = {
+    MODEL_KEYS,
+    {{"library", WORDS, "1", REQUIRED, ANY, NULL,
+      "shared object with the law; path from the folder of the case file. It is a program: load only what you trust"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_soil, external.file)},
+    {{"law", WORDS, "1", DEFAULT(NAN), ANY, NULL, "name of the law in the library; of a UMAT, what it gets as CMNAME"},
+     MOR_CASE_STORE_NAME,
+     AT(mor_case_soil, external.law),
+     .computed = "of the interface"},
+    END};
+
+static const mor_case_part external_parts[] = {
+    {"props", false, "list of numbers", "constants of the law, in its order and units (pascals, seconds)"},
+    {"state", false, "list of texts", "names of its state variables, in order; \"q[6]\" names six numbers"},
+    {"state_start", false, "list of numbers", "their initial values; those left out are zero"},
+    {NULL, false, NULL, NULL}};
 
 static const mor_case_key stress_keys[] = {
     {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled",
@@ -252,6 +275,9 @@ static const mor_case_part wall_parts[] = {{"shape", true, "shape", "the solid"}
 const mor_case_group mor_case_soil_group = {"soil", "Soil regions (list)", soil_keys, soil_parts,
                                             offsetof(mor_case_soil, written)};
 const mor_case_group mor_case_material_group = {"material", "Material of a soil region", material_keys, NULL,
+                                                offsetof(mor_case_soil, written_material)};
+const mor_case_group mor_case_external_group = {"material", "Material of a soil region by a law of another program",
+                                                external_keys, external_parts,
                                                 offsetof(mor_case_soil, written_material)};
 const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys, NULL,
                                               offsetof(mor_case_soil, written_stress)};

@@ -163,6 +163,7 @@ static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, 
     reader->dimension = peek_dimension(root);
     snprintf(the_case->path, sizeof the_case->path, "%s", root->origin);
     MOR_TRY(reader->context, mor_case_reader_names(reader, root, &mor_case_root_group, NULL, NULL));
+    MOR_TRY(reader->context, mor_case_reader_plugins(reader, root, the_case));
     MOR_TRY(reader->context, read_scale(reader, root, the_case));
     MOR_TRY(reader->context, mor_case_reader_group(reader, root, &mor_case_root_group, the_case));
     reader->spacing = the_case->spacing;

@@ -9,32 +9,61 @@
 
 /* What soil, walls and bodies have in common: a material, friction, a name of its own, a plane. */
 
+enum { WORDS_MAX = 64 };
+
 /* ---- Material ---------------------------------------------------------------------------------------------------- */
 
-/* Model: NULL for the word that stands for no model. */
-static mor_status read_model(const mor_case_reader *reader, const mor_case_node *node,
-                             const mor_case_material_slot *slot, const mor_material **model)
+/* The words that stand for a model: those without code, the models of the form, the interfaces. */
+static int list_words(const mor_case_reader *reader, const mor_case_material_slot *slot, const char **words)
 {
-    const char *words[MOR_CASE_PARAMETERS_MAX];
-    int n_words = 0;
-    const mor_case_node *name = NULL;
-    *model = NULL;
-    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "model", MOR_CASE_NODE_TEXT, &name));
+    int n = 0;
     for (const char *const *word = slot->bare_words; word != NULL && *word != NULL; ++word) {
-        if (strcmp(*word, name->text) == 0) {
-            return MOR_OK;
-        }
-        words[n_words++] = *word;
+        words[n++] = *word;
     }
     for (int k = 0; k < mor_registry_count(reader->registry); ++k) {
         const mor_material *listed = mor_registry_get(reader->registry, k);
-        if (listed->form == slot->form && n_words < MOR_CASE_PARAMETERS_MAX) {
-            words[n_words++] = listed->name;
+        if (listed->form == slot->form && n < WORDS_MAX) {
+            words[n++] = listed->name;
         }
+    }
+    const mor_external_interface *interface = NULL;
+    for (int k = 0; slot->external != NULL && (interface = mor_registry_interface(reader->registry, k)) != NULL; ++k) {
+        if (n < WORDS_MAX) {
+            words[n++] = interface->name;
+        }
+    }
+    return n;
+}
+
+static bool is_bare(const mor_case_material_slot *slot, const char *name)
+{
+    bool is_found = false;
+    for (const char *const *word = slot->bare_words; word != NULL && *word != NULL; ++word) {
+        is_found = is_found || strcmp(*word, name) == 0;
+    }
+    return is_found;
+}
+
+/* Model: NULL for the word that stands for no model, and where it is an interface that has yet to make it. */
+static mor_status read_model(const mor_case_reader *reader, const mor_case_node *node,
+                             const mor_case_material_slot *slot, const mor_material **model,
+                             const mor_external_interface **interface)
+{
+    const char *words[WORDS_MAX];
+    const mor_case_node *name = NULL;
+    *model = NULL;
+    *interface = NULL;
+    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "model", MOR_CASE_NODE_TEXT, &name));
+    if (is_bare(slot, name->text)) {
+        return MOR_OK;
+    }
+    *interface = slot->external != NULL ? mor_registry_find_interface(reader->registry, name->text) : NULL;
+    if (*interface != NULL) {
+        return MOR_OK;
     }
     *model = mor_registry_find(reader->registry, name->text);
     if (*model == NULL || (*model)->form != slot->form) {
-        return mor_case_reader_refuse(reader, name, slot->what, words, n_words);
+        return mor_case_reader_refuse(reader, name, slot->what, words, list_words(reader, slot, words));
     }
     MOR_CHECK(reader->context, mor_params_count((*model)->parameters) <= MOR_CASE_PARAMETERS_MAX, MOR_ERROR_PLUGIN,
               "the model '%s' has %d parameters; at most %d are allowed", name->text,
@@ -66,7 +95,7 @@ static mor_status try_material(const mor_case_reader *reader, const mor_case_nod
     mor_material_instance *instance = NULL;
     const mor_status status = mor_material_create(reader->context, model, *slot->density, slot->parameters, &instance);
     mor_material_destroy(reader->context, &instance);
-    if (status != MOR_ERROR_ARGUMENT) {
+    if (status != MOR_ERROR_ARGUMENT && status != MOR_ERROR_PLUGIN) {
         return status;
     }
     char why[MOR_CONTEXT_MESSAGE_BYTES];
@@ -77,19 +106,9 @@ static mor_status try_material(const mor_case_reader *reader, const mor_case_nod
                               model->name, why);
 }
 
-mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
-                                    const mor_case_material_slot *slot)
+static mor_status read_parameters(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schemas,
+                                  const mor_case_material_slot *slot)
 {
-    const mor_case_node *node = NULL;
-    const mor_material *model = NULL;
-    MOR_TRY(reader->context, mor_case_reader_member(reader, owner, "material", MOR_CASE_NODE_GROUP, &node));
-    MOR_TRY(reader->context, read_model(reader, node, slot, &model));
-    const mor_schema *schemas = model == NULL ? NULL : model->parameters;
-    MOR_TRY(reader->context, mor_case_reader_names(reader, node, slot->group, NULL, schemas));
-    MOR_TRY(reader->context, mor_case_reader_group(reader, node, slot->group, slot->record));
-    if (model == NULL) {
-        return MOR_OK;
-    }
     double *values = slot->parameters;
     for (int k = 0; schemas[k].key != NULL; ++k) {
         const mor_case_node *child = mor_case_node_find(node, schemas[k].key);
@@ -101,6 +120,46 @@ mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_cas
         }
         values += schemas[k].n_components;
     }
+    return MOR_OK;
+}
+
+/* Constants without units cannot follow the scale of the case. */
+static mor_status check_scale(const mor_case_reader *reader, const mor_case_node *node, const mor_material *model)
+{
+    const bool is_scaled = reader->length_power != 0 || reader->time_power != 0 || reader->mass_power != 0;
+    if (is_scaled && (model->capabilities & MOR_MATERIAL_FIXED_UNITS) != 0) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found the model '%s', whose constants have no units, in a case with a scale; "
+                                  "allowed: no scale; remove it",
+                                  model->name);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
+                                    const mor_case_material_slot *slot)
+{
+    const mor_case_node *node = NULL;
+    const mor_material *model = NULL;
+    const mor_external_interface *interface = NULL;
+    MOR_TRY(reader->context, mor_case_reader_member(reader, owner, "material", MOR_CASE_NODE_GROUP, &node));
+    MOR_TRY(reader->context, read_model(reader, node, slot, &model, &interface));
+    const mor_schema *schemas = interface != NULL ? interface->parameters : model == NULL ? NULL : model->parameters;
+    const mor_case_group *group = interface != NULL ? slot->outer_group : slot->group;
+    MOR_TRY(reader->context, mor_case_reader_names(reader, node, group, NULL, schemas));
+    MOR_TRY(reader->context, mor_case_reader_group(reader, node, group, slot->record));
+    if (interface != NULL) {
+        MOR_TRY(reader->context, mor_case_reader_external(reader, interface, node, slot->external));
+        model = &slot->external->made->material;
+    }
+    if (slot->law != NULL) {
+        *slot->law = model;
+    }
+    if (model == NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(reader->context, read_parameters(reader, node, schemas, slot));
+    MOR_TRY(reader->context, check_scale(reader, node, model));
     return try_material(reader, node, model, slot);
 }
 

@@ -19,6 +19,9 @@ static mor_status read_material(const mor_case_reader *reader, const mor_case_no
                                          .density = &soil->density,
                                          .parameters = soil->parameters,
                                          .written = &soil->written_parameters,
+                                         .law = &soil->law,
+                                         .external = &soil->external,
+                                         .outer_group = &mor_case_external_group,
                                          .what = "material model of a soil"};
     return mor_case_reader_material(reader, node, &slot);
 }

@@ -16,9 +16,12 @@ typedef struct mor_case_material_slot {
     mor_material_form form;        /* of the models allowed */
     const char *const *bare_words; /* models that have no parameters and no code; ends with NULL; NULL: none */
     const double *density;         /* one number, member of the record, unit kg/m3 */
-    double *parameters; /* shape [MOR_CASE_PARAMETERS_MAX], member of the record; units of the model's schema */
-    uint64_t *written;  /* one number, member of the record: which parameters were given */
-    const char *what;   /* zero-terminated; for messages: "material model of a soil" */
+    double *parameters;       /* shape [MOR_CASE_PARAMETERS_MAX], member of the record; units of the model's schema */
+    uint64_t *written;        /* one number, member of the record: which parameters were given */
+    const mor_material **law; /* one pointer, member of the record: the model; NULL: not kept */
+    mor_case_external *external;       /* member of the record: law of another program; NULL: none are allowed */
+    const mor_case_group *outer_group; /* its keys; NULL: likewise */
+    const char *what;                  /* zero-terminated; for messages: "material model of a soil" */
 } mor_case_material_slot;
 
 /** Reads the group material and lets the model check it.
@@ -26,6 +29,20 @@ typedef struct mor_case_material_slot {
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_PLUGIN for a model of too many parameters; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_case_node *owner,
                                     const mor_case_material_slot *slot);
+
+/** Reads what an interface is told and lets it make the law.
+ *  @param interface [in]      of the model's name
+ *  @param node      [in]      the group material, of known names
+ *  @param external  [in,out]  file and law are read; completed; owned by the case
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_external(const mor_case_reader *reader, const mor_external_interface *interface,
+                                    const mor_case_node *node, mor_case_external *external);
+
+/** Gives the case a registry of its own, loads its plug-ins into it, and reads with that one from here on.
+ *  @param root     [in]      the whole file
+ *  @param the_case [in,out]  gets the registry and the list of plug-ins
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_plugins(mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
 /** Refuses Coulomb friction without friction_coefficient, and that key with any other friction.
  *  @param node     [in]  a wall or a body

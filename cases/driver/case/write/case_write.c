@@ -172,15 +172,48 @@ static mor_status find_model(const mor_case_writer *w, const char *name, const m
     return MOR_OK;
 }
 
+static mor_case_presence presence_of_material_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_soil *soil = record;
+    return strcmp(key->schema.key, "law") == 0 && soil->external.law[0] == '\0' ? MOR_CASE_MENTION : MOR_CASE_WRITE;
+}
+
+static void write_numbers(const mor_case_writer *w, const char *key, const double *values, int n)
+{
+    fprintf(w->stream, "%*s%s = (", w->depth * MOR_CASE_INDENT, "", key);
+    for (int k = 0; k < n; ++k) {
+        char number[32];
+        snprintf(number, sizeof number, "%.17g", values[k]);
+        /* Else a large whole number would not be one of the language. */
+        fprintf(w->stream, "%s%s%s", k > 0 ? ", " : "", number, strpbrk(number, ".e") != NULL ? "" : ".0");
+    }
+    fprintf(w->stream, ");\n");
+}
+
+static void write_external(const mor_case_writer *w, const mor_case_external *external)
+{
+    write_numbers(w, "props", external->constants, external->n_constants);
+    fprintf(w->stream, "%*sstate = (", w->depth * MOR_CASE_INDENT, "");
+    for (int k = 0; k < external->n_states; ++k) {
+        fprintf(w->stream, "%s\"%s\"", k > 0 ? ", " : "", external->states[k]);
+    }
+    fprintf(w->stream, ");\n");
+    write_numbers(w, "state_start", external->state_start, external->n_state_start);
+    write_hash(w, external->file_hash);
+}
+
 static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
 {
-    const mor_material *model = NULL;
-    MOR_TRY(w->reader.context, find_model(w, soil->model, &model));
+    const bool is_external = soil->external.made != NULL;
+    const mor_case_group *group = is_external ? &mor_case_external_group : &mor_case_material_group;
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, mor_case_presence_always));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &soil->outline, "};"));
     mor_case_writer_open(w, "material", "{");
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_material_group, soil, mor_case_presence_always));
-    MOR_TRY(w->reader.context, write_parameters(w, model, soil->parameters, soil->written_parameters));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, soil, presence_of_material_key));
+    MOR_TRY(w->reader.context, write_parameters(w, soil->law, soil->parameters, soil->written_parameters));
+    if (is_external) {
+        write_external(w, &soil->external);
+    }
     mor_case_writer_close(w, "};");
     mor_case_writer_open(w, "initial_stress", "{");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_stress_group, soil, presence_of_stress_key));
@@ -477,11 +510,30 @@ static mor_status write_contact(mor_case_writer *w, const mor_case *the_case)
     return MOR_OK;
 }
 
+/* A plug-in that has changed is recognized by the line behind it. */
+static void write_plugins(mor_case_writer *w, const mor_case *the_case)
+{
+    if (the_case->n_plugins == 0) {
+        return;
+    }
+    mor_case_writer_open(w, "plugins", "(");
+    for (int k = 0; k < the_case->n_plugins; ++k) {
+        const mor_case_plugin *it = &the_case->plugins[k];
+        char value[MOR_CASE_VALUE_BYTES];
+        mor_case_writer_text(it->file, value, sizeof value);
+        fprintf(w->stream, "%*s# %s\n", w->depth * MOR_CASE_INDENT, "", it->models);
+        fprintf(w->stream, "%*s%s%s\n", w->depth * MOR_CASE_INDENT, "", value, k + 1 < the_case->n_plugins ? "," : "");
+        write_hash(w, it->file_hash);
+    }
+    mor_case_writer_close(w, ");");
+}
+
 static mor_status write_case(mor_case_writer *w, const mor_case *the_case)
 {
     fprintf(w->stream, "# The case as it was used: every value, in SI, before the scale. \"# default\" marks what the "
                        "case file\n# did not give.\n");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, mor_case_presence_always));
+    write_plugins(w, the_case);
     for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
         mor_case_writer_open(w, group->name, "{");
         MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, the_case, mor_case_presence_always));

@@ -295,11 +295,11 @@ static mor_status create_material(mor_context *context, const mor_case_soil *it,
     return place_refusal(context, it, status);
 }
 
-static mor_status create_materials(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
+static mor_status create_materials(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
     for (int k = 0; k < c->n_soils; ++k) {
-        MOR_TRY(context, mor_registry_require(context, registry, c->soils[k].model, &simulation->laws[k]));
+        simulation->laws[k] = c->soils[k].law;
     }
     if (is_one_material(simulation)) {
         MOR_TRY(context, create_material(context, &c->soils[0], simulation->laws[0], &simulation->material));
@@ -450,20 +450,21 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
     return MOR_OK;
 }
 
-static mor_status build_soil(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
+static mor_status build_soil(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
     mor_lattice_points regions[MOR_CASE_SOILS_MAX] = {{NULL, 0}};
     mor_soil_settings settings;
     mor_soil_kind kinds[MOR_CASE_SOILS_MAX];
     int64_t n_particles = 0;
-    mor_status status = create_materials(context, simulation, registry);
+    mor_status status = create_materials(context, simulation);
     for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
         status = fill_soil(context, c, k, n_particles, &regions[k]);
         n_particles += regions[k].n_points;
     }
     if (status == MOR_OK) {
         set_settings(simulation, kinds, &settings);
+        settings.guard = c->n_plugins > 0 ? context->guard : NULL;
         status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
         status = place_refusal(context, &c->soils[context->item >= 0 && context->item < c->n_soils ? context->item : 0],
                                status);
@@ -517,7 +518,7 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     simulation->has_soil = the_case->n_soils > 0;
     mor_simulation_find_up(the_case, simulation->up);
     find_frame(the_case, &simulation->frame);
-    mor_status status = simulation->has_soil ? build_soil(context, simulation, registry) : MOR_OK;
+    mor_status status = simulation->has_soil ? build_soil(context, simulation) : MOR_OK;
     if (status == MOR_OK) {
         status = mor_simulation_bodies_init(context, &simulation->bodies, the_case, registry, &simulation->frame,
                                             simulation->has_soil ? 1 : 0);
