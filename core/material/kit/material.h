@@ -34,7 +34,8 @@ enum {
     MOR_MATERIAL_TANGENT = 4,        /* operation tangent is present */
     MOR_MATERIAL_DISSIPATION = 8,    /* advance_rate fills batch->dissipation when it is asked for */
     MOR_MATERIAL_EXACT_SCALING = 16, /* results are bit-identical under units changed by powers of two */
-    MOR_MATERIAL_FIXED_UNITS = 32    /* has constants without units, so that it holds in SI units only */
+    MOR_MATERIAL_FIXED_UNITS = 32,   /* has constants without units, so that it holds in SI units only */
+    MOR_MATERIAL_RATE_DEPENDENT = 64 /* the stress depends on the rate: it may relax with time at rest */
 };
 
 /** What the host lends to create, destroy and describe, so that a plug-in has no undefined symbols. */
@@ -92,9 +93,10 @@ typedef struct mor_material_operations {
 
     /** Required for the rate form. Reads time_step, velocity_gradient, density, extra_stress_rate, stress_in, state_in;
      *  writes stress_out, state_out and, when asked, dissipation. Objective rotation and return mapping are included:
-     *  the host sees only the finished stress. Step zero is the identity. A rigid spin leaves the invariants unchanged.
-     *  The result is admissible. Returns MOR_RETRY_SMALLER_STEP when the increment is beyond what the model declares,
-     *  MOR_ERROR_NUMERIC when an input or a result is not finite. */
+     *  the host sees only the finished stress. Step zero is the identity. A rigid spin leaves the invariants unchanged,
+     *  or what rest for the same time makes of them (MOR_MATERIAL_RATE_DEPENDENT). The result is admissible.
+     *  Returns MOR_RETRY_SMALLER_STEP when the increment is beyond what the model declares, MOR_ERROR_NUMERIC when an
+     *  input or a result is not finite. */
     mor_status (*advance_rate)(const mor_material_instance *instance, const mor_batch *batch);
 
     /** Required for the total form. Reads deformation_gradient, state_in; writes first_piola_out, state_out. The
