@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "materials/hooke.h"
 
+#include "materials/invariants.h"
+
 #include <stddef.h>
 
 const mor_schema mor_hooke_parameters[] = {
@@ -12,6 +14,17 @@ const mor_schema mor_hooke_parameters[] = {
 
 const mor_schema mor_hooke_no_state[] = {{.key = NULL}};
 
+void mor_hooke_derive(mor_hooke *constants, double youngs, double poisson, double density)
+{
+    constants->shear = youngs / (2.0 * (1.0 + poisson));
+    constants->two_shear = 2.0 * constants->shear;
+    constants->bulk = youngs / (3.0 * (1.0 - 2.0 * poisson));
+    constants->lame = constants->bulk - constants->two_shear / 3.0;
+    const double third_of_pressure_wave = (constants->lame + constants->two_shear) / 3.0;
+    const double modulus = poisson < 0.0 ? third_of_pressure_wave : constants->bulk;
+    constants->wave_speed = sqrt(modulus / density);
+}
+
 mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance)
 {
     const mor_status status = services->memory_new(services->context, &instance->data, 1, sizeof(mor_hooke),
@@ -19,16 +32,8 @@ mor_status mor_hooke_create(const mor_services *services, mor_material_instance 
     if (status != MOR_OK) {
         return status;
     }
-    mor_hooke *constants = instance->data;
-    const double youngs = instance->parameters[MOR_HOOKE_YOUNGS_MODULUS];
-    const double poisson = instance->parameters[MOR_HOOKE_POISSONS_RATIO];
-    constants->shear = youngs / (2.0 * (1.0 + poisson));
-    constants->two_shear = 2.0 * constants->shear;
-    constants->bulk = youngs / (3.0 * (1.0 - 2.0 * poisson));
-    constants->lame = constants->bulk - constants->two_shear / 3.0;
-    const double third_of_pressure_wave = (constants->lame + constants->two_shear) / 3.0;
-    const double modulus = poisson < 0.0 ? third_of_pressure_wave : constants->bulk;
-    constants->wave_speed = sqrt(modulus / instance->density);
+    mor_hooke_derive(instance->data, instance->parameters[MOR_HOOKE_YOUNGS_MODULUS],
+                     instance->parameters[MOR_HOOKE_POISSONS_RATIO], instance->density);
     return MOR_OK;
 }
 
@@ -42,6 +47,18 @@ mor_status mor_hooke_wave_speed(const mor_material_instance *instance, const mor
     const mor_hooke *constants = instance->data;
     for (int64_t i = 0; i < batch->n; ++i) {
         speed[i] = constants->wave_speed;
+    }
+    return MOR_OK;
+}
+
+mor_status mor_hooke_energy(const mor_material_instance *instance, const mor_batch *batch, double *stored)
+{
+    const mor_hooke *c = instance->data;
+    for (int64_t i = 0; i < batch->n; ++i) {
+        const mor_symmetric stress = mor_symmetric_read(batch->stress_in + 6 * i);
+        const double i1 = mor_invariant_i1(stress);
+        /* p^2/(2K) + J2/(2G) with p = -I1/3 */
+        stored[i] = 0.5 * (i1 * i1 / (9.0 * c->bulk) + mor_invariant_j2(stress) / c->shear);
     }
     return MOR_OK;
 }

@@ -43,6 +43,13 @@ extern const mor_schema mor_hooke_parameters[];
 /** State schema of a law without internal variables; ended by key NULL. */
 extern const mor_schema mor_hooke_no_state[];
 
+/** Fills in the constants.
+ *  @param constants [out]  one
+ *  @param youngs    [in]   > 0; unit Pa
+ *  @param poisson   [in]   -1 < poisson < 0.5; unit 1
+ *  @param density   [in]   reference density, > 0; unit kg/m3 */
+void mor_hooke_derive(mor_hooke *constants, double youngs, double poisson, double density);
+
 /** The operation create: makes the constants of an instance.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_hooke_create(const mor_services *services, mor_material_instance *instance);
@@ -50,12 +57,17 @@ mor_status mor_hooke_create(const mor_services *services, mor_material_instance 
 /** The operation destroy. */
 void mor_hooke_destroy(const mor_services *services, mor_material_instance *instance);
 
-/** The operation wave_speed: c0 = sqrt(K/rho0), Zhang et al. (2024), whose time steps follow from it. Pressure waves
- *  run faster, at sqrt(K/rho0) times sqrt(3(1-nu)/(1+nu)): 1.34 times at nu = 0.25, and 1.73 times at nu = 0. This the
- *  CFL number 0.4 of the source allows for. Below nu = 0, where the ratio grows without bound, the speed is that of
- *  pressure waves over sqrt(3), which at nu = 0 is the same.
+/** The operation wave_speed, of laws whose data begin with a mor_hooke: c0 = sqrt(K/rho0), Zhang et al. (2024), whose
+ *  time steps follow from it. Pressure waves run faster, at sqrt(K/rho0) times sqrt(3(1-nu)/(1+nu)): 1.34 times at nu =
+ *  0.25, and 1.73 times at nu = 0. This the CFL number 0.4 of the source allows for. Below nu = 0, where the ratio
+ *  grows without bound, the speed is that of pressure waves over sqrt(3), which at nu = 0 is the same.
  *  @param speed    [out]  shape [n]; unit m/s
  *  Returns: MOR_OK. */
 mor_status mor_hooke_wave_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed);
+
+/** The operation energy of laws of rate form whose data begin with a mor_hooke: p^2/2K + J2/2G with p = -I1/3.
+ *  @param stored    [out]  shape [n]; unit J/m3
+ *  Returns: MOR_OK. */
+mor_status mor_hooke_energy(const mor_material_instance *instance, const mor_batch *batch, double *stored);
 
 #endif

@@ -24,18 +24,6 @@ static mor_status hypoelastic_advance_rate(const mor_material_instance *instance
     return mor_rate_run(instance->data, batch, advance_lanes, 0);
 }
 
-static mor_status hypoelastic_energy(const mor_material_instance *instance, const mor_batch *batch, double *stored)
-{
-    const mor_hooke *c = instance->data;
-    for (int64_t i = 0; i < batch->n; ++i) {
-        const mor_symmetric stress = mor_symmetric_read(batch->stress_in + 6 * i);
-        const double i1 = mor_invariant_i1(stress);
-        /* p^2/(2K) + J2/(2G) with p = -I1/3 */
-        stored[i] = 0.5 * (i1 * i1 / (9.0 * c->bulk) + mor_invariant_j2(stress) / c->shear);
-    }
-    return MOR_OK;
-}
-
 const mor_material MOR_ISA_NAME(mor_hypoelastic) = {
     .abi = MOR_MATERIAL_ABI,
     .struct_bytes = sizeof(mor_material),
@@ -53,6 +41,6 @@ const mor_material MOR_ISA_NAME(mor_hypoelastic) = {
             .destroy = mor_hooke_destroy,
             .wave_speed = mor_hooke_wave_speed,
             .advance_rate = hypoelastic_advance_rate,
-            .energy = hypoelastic_energy,
+            .energy = mor_hooke_energy,
         },
 };

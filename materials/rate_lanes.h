@@ -93,15 +93,16 @@ static MOR_LANES_INLINE mor_gradient mor_rate_gradient(const mor_rate_block *b, 
                           b->gradient[6][lane], b->gradient[7][lane], b->gradient[8][lane]};
 }
 
-/** Elastic trial of a lane, unit Pa: half of the increment before the rotation and half after it, which is of second
- *  order and symmetric in time. two_shear and lame in Pa. */
-static MOR_LANES_INLINE mor_symmetric mor_rate_predict(double two_shear, double lame, const mor_rate_block *b, int lane)
+/** Elastic trial, unit Pa: half of the increment before the rotation and half after it, which is of second order and
+ *  symmetric in time.
+ *  @param two_shear [in]  2G; unit Pa
+ *  @param lame      [in]  K - 2G/3; unit Pa
+ *  @param stress    [in]  at the start; unit Pa
+ *  @param extra     [in]  extra stress rate times the step; unit Pa
+ *  @param gradient  [in]  velocity gradient times the step; unit 1 */
+static MOR_LANES_INLINE mor_symmetric mor_rate_trial(double two_shear, double lame, mor_symmetric stress,
+                                                     mor_symmetric extra, mor_gradient gradient)
 {
-    const mor_symmetric stress = {b->stress[0][lane], b->stress[1][lane], b->stress[2][lane],
-                                  b->stress[3][lane], b->stress[4][lane], b->stress[5][lane]};
-    const mor_symmetric extra = {b->extra[0][lane], b->extra[1][lane], b->extra[2][lane],
-                                 b->extra[3][lane], b->extra[4][lane], b->extra[5][lane]};
-    const mor_gradient gradient = mor_rate_gradient(b, lane);
     const mor_symmetric strain = mor_gradient_strain(gradient);
     const double mean = lame * mor_invariant_i1(strain);
     const mor_symmetric elastic = {two_shear * strain.xx + mean, two_shear * strain.yy + mean,
@@ -110,6 +111,16 @@ static MOR_LANES_INLINE mor_symmetric mor_rate_predict(double two_shear, double 
     const mor_symmetric increment = mor_symmetric_add(elastic, 1.0, extra);
     const mor_symmetric rotated = mor_symmetric_spin(mor_symmetric_add(stress, 0.5, increment), gradient);
     return mor_symmetric_add(rotated, 0.5, increment);
+}
+
+/** Elastic trial of a lane, unit Pa; two_shear and lame in Pa, see mor_rate_trial. */
+static MOR_LANES_INLINE mor_symmetric mor_rate_predict(double two_shear, double lame, const mor_rate_block *b, int lane)
+{
+    const mor_symmetric stress = {b->stress[0][lane], b->stress[1][lane], b->stress[2][lane],
+                                  b->stress[3][lane], b->stress[4][lane], b->stress[5][lane]};
+    const mor_symmetric extra = {b->extra[0][lane], b->extra[1][lane], b->extra[2][lane],
+                                 b->extra[3][lane], b->extra[4][lane], b->extra[5][lane]};
+    return mor_rate_trial(two_shear, lame, stress, extra, mor_rate_gradient(b, lane));
 }
 
 /** Stores the end stress [Pa] of a lane. */
