@@ -9,7 +9,12 @@
     LAW(drucker_prager, isa)                                                                                           \
     LAW(neo_hookean, isa)                                                                                              \
     LAW(saint_venant_kirchhoff, isa)                                                                                   \
-    LAW(hypoelastic, isa)
+    LAW(hypoelastic, isa)                                                                                              \
+    LAW(mu_i, isa)                                                                                                     \
+    LAW(modified_cam_clay, isa)                                                                                        \
+    LAW(bingham, isa)                                                                                                  \
+    LAW(herschel_bulkley, isa)                                                                                         \
+    LAW(hencky_drucker_prager, isa)
 
 #define DECLARE(law, isa) extern const mor_material mor_##law##_##isa;
 #define ADDRESS(law, isa) &mor_##law##_##isa,

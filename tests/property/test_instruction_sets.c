@@ -24,34 +24,53 @@ enum { N = 1003, COMMAND_BYTES = 8192, PATH_BYTES = 512 }; /* N: no multiple of 
 /* What one law makes of one batch. */
 typedef struct outcome {
     mor_status status;
-    double stress[9 * N], state[N], dissipation[N], stored[N];
+    double stress[9 * N], state[MOR_MATERIAL_STATES_MAX][9 * N], dissipation[N], stored[N];
 } outcome;
+
+/* A value for a parameter that has neither role nor default. */
+static double guess_value(const mor_schema *entry)
+{
+    if (isfinite(entry->maximum)) {
+        return entry->minimum + 0.3 * (entry->maximum - entry->minimum);
+    }
+    return entry->minimum + (strcmp(entry->unit, "Pa") == 0 ? 1e4 : 1.0);
+}
 
 /* Values by role, so that any built-in law gets sensible ones. */
 static void fill_parameters(const mor_material *law, double *values)
 {
     static const double by_role[MOR_ROLE_COUNT] = {
-        [MOR_ROLE_YOUNGS_MODULUS] = 5.98e6, [MOR_ROLE_POISSONS_RATIO] = 0.3, [MOR_ROLE_FRICTION_ANGLE] = 0.45,
-        [MOR_ROLE_COHESION] = 800.0,        [MOR_ROLE_DILATION_ANGLE] = 0.1, [MOR_ROLE_TENSION_RATIO] = 0.7};
+        [MOR_ROLE_YOUNGS_MODULUS] = 5.98e6, [MOR_ROLE_POISSONS_RATIO] = 0.3,  [MOR_ROLE_SHEAR_MODULUS] = 2.3e6,
+        [MOR_ROLE_BULK_MODULUS] = 4.98e6,   [MOR_ROLE_FRICTION_ANGLE] = 0.45, [MOR_ROLE_COHESION] = 800.0,
+        [MOR_ROLE_DILATION_ANGLE] = 0.1,    [MOR_ROLE_TENSION_RATIO] = 0.7};
     mor_params_defaults(law->parameters, values);
-    for (int role = MOR_ROLE_NONE + 1; role < MOR_ROLE_COUNT; ++role) {
-        const int entry = mor_params_find_role(law->parameters, (mor_role)role);
-        if (entry >= 0) {
-            values[mor_params_offset(law->parameters, entry)] = by_role[role];
+    int offset = 0;
+    for (const mor_schema *entry = law->parameters; entry->key != NULL; ++entry) {
+        if (entry->role != MOR_ROLE_NONE) {
+            values[offset] = by_role[entry->role];
+        } else if (entry->is_required) {
+            values[offset] = guess_value(entry);
         }
+        offset += entry->n_components;
     }
 }
 
 static void run_law(const mor_material *law, outcome *out)
 {
-    static double gradient[9 * N], deformation[9 * N], stress[6 * N], density[N], state[N];
+    static double gradient[9 * N], deformation[9 * N], stress[6 * N], density[N];
+    static double state[MOR_MATERIAL_STATES_MAX][9 * N];
     double values[MOR_MATERIAL_PARAMETERS_MAX];
-    const double *state_in[] = {state};
-    double *state_out[] = {out->state};
+    const double *state_in[MOR_MATERIAL_STATES_MAX];
+    double *state_first[MOR_MATERIAL_STATES_MAX];
+    double *state_out[MOR_MATERIAL_STATES_MAX];
     mor_context context;
     mor_material_instance *instance = NULL;
     mor_context_init(&context);
     memset(out, 0, sizeof *out);
+    for (int k = 0; k < MOR_MATERIAL_STATES_MAX; ++k) {
+        state_in[k] = state_first[k] = state[k];
+        state_out[k] = out->state[k];
+    }
     for (uint64_t k = 0; k < 9 * N; ++k) {
         gradient[k] = 40.0 * (mor_random_uniform(3, k, 0) - 0.5);
         deformation[k] = 0.4 * (mor_random_uniform(3, k, 1) - 0.5) + (k % 9 % 4 == 0 ? 1.0 : 0.0);
@@ -65,6 +84,7 @@ static void run_law(const mor_material *law, outcome *out)
     fill_parameters(law, values);
     assert_int_equal(mor_material_create(&context, law, 2000.0, values, &instance), MOR_OK);
     const bool is_rate = law->form == MOR_MATERIAL_RATE;
+    const mor_batch first = {.n = N, .density = density, .stress_in = stress, .state_out = state_first};
     const mor_batch batch = {.n = N,
                              .time_step = 1e-4,
                              .density = density,
@@ -77,6 +97,7 @@ static void run_law(const mor_material *law, outcome *out)
                              .state_out = state_out,
                              .dissipation = out->dissipation};
     const mor_material_operations *o = &instance->operations;
+    assert_int_equal(o->init_state(instance, &first), MOR_OK);
     out->status = is_rate ? o->advance_rate(instance, &batch) : o->stress_total(instance, &batch);
     assert_int_equal(o->energy(instance, &batch, out->stored), MOR_OK);
     mor_material_destroy(&context, &instance);

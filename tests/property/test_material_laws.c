@@ -111,6 +111,36 @@ static void special_soils_obey_all_laws(void **state)
     }
 }
 
+/* Laws whose drawn parameters seldom flow, or lie far from what is used. */
+static void special_flows_obey_all_laws(void **state)
+{
+    (void)state;
+    const struct {
+        const char *name;
+        double values[MOR_MATERIAL_PARAMETERS_MAX];
+    } soils[] = {
+        {"mu_i", {1e6, 0.25, 0.03, 0.06, 0.279, 2e-3, 2450.0, 0.0}},
+        {"mu_i", {1e6, 0.25, 0.3819, 0.6435, 0.279, 1.0, 2450.0, 1.0}},
+        {"mu_i", {1e6, 0.0, 0.5, 0.5, 0.04, 1e-4, 2450.0, 0.9}},
+        {"mu_i", {1e8, 0.4, 0.0, 1.0, 10.0, 1e-3, 2650.0, 0.0}},
+        {"bingham", {1e6, 1e5, 20.0, 5.0, 0.0}},
+        {"bingham", {1e6, 1e5, 0.0, 50.0, 100.0}},
+        {"bingham", {1e6, 1e5, 100.0, 0.0, 0.0}},
+        {"herschel_bulkley", {1e6, 1e5, 20.0, 5.0, 0.0, 0.4, 1.0}},
+        {"herschel_bulkley", {1e6, 1e5, 0.0, 1e3, 0.0, 0.1, 100.0}},
+        {"herschel_bulkley", {1e6, 1e5, 5.0, 2.0, 0.0, 2.0, 0.1}},
+        {"modified_cam_clay", {0.2, 0.04, 0.45, 3e6, 1.2, 5e3, 1.0, 1e3}},
+        {"modified_cam_clay", {0.08, 0.01, 0.5, 1e7, 0.7, 2e5, 4.0, 1e3}},
+        {"modified_cam_clay", {0.3, 0.06, 0.35, 1e6, 2.0, 1e3, 1.0, 1e3}},
+        {"hencky_drucker_prager", {1e6, 0.2, 0.5235987755982988, 1.0}},
+        {"hencky_drucker_prager", {1e6, 0.0, 0.0, 0.0}},
+        {"hencky_drucker_prager", {1e7, 0.45, 1.5, 0.9}},
+    };
+    for (size_t k = 0; k < sizeof soils / sizeof soils[0]; ++k) {
+        check_special(law_named(soils[k].name), soils[k].values, k);
+    }
+}
+
 static void special_rocks_obey_all_laws(void **state)
 {
     (void)state;
@@ -243,6 +273,28 @@ static void each_law_notices_its_breach(void **state)
             fail_msg("breach %zu was not noticed by '%s' (figure %g)", k, row->law, row->figure);
         }
     }
+}
+
+static mor_verdict judge_spin(const mor_material *material, const double *values)
+{
+    mor_conformance_report report;
+    run_on(material, values, &report);
+    return find_row(&report, "rigid spin")->verdict;
+}
+
+static void spin_is_compared_with_rest_where_stress_relaxes(void **state)
+{
+    (void)state;
+    const double mud[] = {1e6, 1e5, 20.0, 5.0, 0.0};
+    const double soil[MOR_DRUCKER_PRAGER_COUNT] = {5.98e6, 0.3, 0.52, 1e3, 0.1, 0, 1};
+    mor_material flow = *law_named("bingham");
+    assert_int_equal(judge_spin(&flow, mud), MOR_VERDICT_PASS);
+    flow.capabilities &= ~(unsigned)MOR_MATERIAL_RATE_DEPENDENT;
+    assert_int_equal(judge_spin(&flow, mud), MOR_VERDICT_FAIL); /* relaxes without saying so */
+    mor_material spoiled = *law_named("drucker_prager");
+    spoiled.operations.advance_rate = advance_spoiled_1;
+    spoiled.capabilities |= MOR_MATERIAL_RATE_DEPENDENT;
+    assert_int_equal(judge_spin(&spoiled, soil), MOR_VERDICT_FAIL); /* the promise excuses nothing else */
 }
 
 static void a_leak_is_noticed(void **state)
@@ -390,9 +442,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_registered_material_obeys_all_laws),
         cmocka_unit_test(special_soils_obey_all_laws),
+        cmocka_unit_test(special_flows_obey_all_laws),
         cmocka_unit_test(special_rocks_obey_all_laws),
         cmocka_unit_test(template_plugin_builds_as_its_readme_says_and_obeys_all_laws),
         cmocka_unit_test(each_law_notices_its_breach),
+        cmocka_unit_test(spin_is_compared_with_rest_where_stress_relaxes),
         cmocka_unit_test(a_leak_is_noticed),
         cmocka_unit_test(total_form_is_tried_by_its_own_laws),
     };
