@@ -61,7 +61,8 @@ void mor_session_end_work(const locale_t *previous);
  *  numbers are read and written with a decimal point: nothing below needs to care for the locale of the program.
  *  Threads of parallel loops keep the program's, and neither read nor write numbers as text. */
 #define MOR_SESSION_WORK(session)                                                                                      \
-    const locale_t mor_previous_locale_ __attribute__((cleanup(mor_session_end_work))) = mor_session_begin_work(session)
+    const locale_t mor_previous_locale_ __attribute__((cleanup(mor_session_end_work), unused)) =                       \
+        mor_session_begin_work(session)
 
 /** Refuses what comes too early or too late.
  *  @param first [in]  stage that is needed
