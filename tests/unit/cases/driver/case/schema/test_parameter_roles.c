@@ -103,7 +103,7 @@ static void look_at(const char *case_text, outcome *out)
     scene_require(it, mor_simulation_warn(&it->context, &it->simulation));
     it->context.log_sink = NULL;
     scene_step(it, 3);
-    out->lateral_ratio = mor_simulation_lateral_ratio(it->simulation.material->material, &it->the_case.soils[0]);
+    out->lateral_ratio = mor_simulation_lateral_ratio(&it->simulation, 0);
     out->contact_modulus = mor_case_contact_modulus(&it->the_case, &it->the_case.bodies[0]);
     out->hash = mor_set_checksum(&it->simulation.soil.set);
     scene_free(it);
