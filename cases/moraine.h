@@ -156,7 +156,8 @@ mor_session_phase mor_session_find_phase(const mor_session *session);
 /* ---- A case ------------------------------------------------------------------------------------------------------ */
 
 /** Overrides a key of the cases that are loaded afterwards, as --set of the program does, until
- *  mor_session_clear_overrides. Which keys there are depends on the case: a wrong one is found by loading, and named.
+ *  mor_session_clear_overrides; or sets what mor_session_test_material tests. Which keys there are depends on the case
+ *  or the test: a wrong one is found by loading or testing, and named.
  *  @param setting [in]  zero-terminated "key=value", as "soil[0].material.cohesion=1 kPa"; copied
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT beyond 256 of them; MOR_ERROR_MEMORY. */
 mor_status mor_session_override(mor_session *session, const char *setting);
@@ -349,7 +350,8 @@ mor_status mor_session_explain(mor_session *session);
  *  @param index [in]  >= 0 */
 const char *mor_list_name(int index);
 
-/** Prints a list: materials (with those added), probes, fields, stages, shapes or keys of a case.
+/** Prints a list: materials (with those added), probes, fields, stages, shapes, keys of a case, or settings of element
+ *  tests.
  *  @param name [in]  zero-terminated; one of mor_list_name, else MOR_ERROR_ARGUMENT
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_IO when the stream refuses; MOR_ERROR_MEMORY. */
 mor_status mor_session_print_list(mor_session *session, const char *name);
@@ -362,6 +364,20 @@ mor_status mor_session_print_list(mor_session *session, const char *name);
  *  plug-in or its descriptor is wrong; MOR_ERROR_ARGUMENT when no parameters can be found that the law accepts;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed);
+
+/** Tests a material as a laboratory tests a soil: specimens at one point, deformed along a path; prints what was found
+ *  and writes a table of each specimen, specimen-1.csv and so on, and a figure, element.png. What is tested is said by
+ *  mor_session_override before, with units as in a case: "test.path=triaxial-compression", "test.stress=100 kPa, 200
+ *  kPa", parameters of the law as "cohesion=1 kPa", its state as "state.KEY=..."; mor_session_print_list prints all of
+ *  it as "tests". Or repeats the stress update that a run failed at, "test.replay=failed-point.cfg", and prints what
+ *  the law says; writes nothing then. A case that is loaded stays as it is.
+ *  @param model  [in]  zero-terminated name of a material in rate form; NULL: that of a soil, by "test.case=case.cfg"
+ *                      and "test.soil=name"
+ *  @param folder [in]  zero-terminated; made when missing; one that holds a run is refused
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for a model, a setting or a file that cannot be used, and for a folder that holds
+ *  a run or cannot be made; MOR_NOT_CONVERGED or MOR_RETRY_SMALLER_STEP when a specimen cannot follow its path, and
+ *  MOR_ERROR_NUMERIC when the law fails: results up to there are written; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_test_material(mor_session *session, const char *model, const char *folder);
 
 /** Which length or volume of a mesh is given. */
 typedef enum mor_session_size {

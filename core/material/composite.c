@@ -413,3 +413,23 @@ int mor_composite_is(const mor_material_instance *instance)
 {
     return instance->material->operations.advance_rate == advance_rate;
 }
+
+const mor_material_instance *mor_composite_find_part(const mor_material_instance *instance, const double *state,
+                                                     double *part_state)
+{
+    const mor_schema *own = instance->material->state;
+    if (!mor_composite_is(instance)) {
+        memcpy(part_state, state, (size_t)mor_params_count(own) * sizeof *state);
+        return instance;
+    }
+    /* The descriptor is the first member; the data of an instance may be those of a decorator around it. */
+    const composite *it = (const composite *)instance->material;
+    const int p = (int)state[0];
+    const mor_schema *of_part = it->parts[p]->material->state;
+    for (int k = 0; of_part[k].key != NULL; ++k) {
+        const int n = of_part[k].n_components;
+        memcpy(part_state, state + mor_params_offset(own, it->variables[p][k]), (size_t)n * sizeof *state);
+        part_state += n;
+    }
+    return it->parts[p];
+}

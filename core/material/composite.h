@@ -28,6 +28,13 @@ enum { MOR_COMPOSITE_PARTS_MAX = 16 };
 mor_status mor_composite_create(mor_context *context, const mor_material_instance *const *parts, int n_parts,
                                 mor_material_instance **instance);
 
+/** Returns the material that a particle of a composite is made of, and its part of the state; of any other instance
+ *  itself and the whole state.
+ *  @param state      [in]   shape [n_values]; of the particle; schema order; units of the schema of the instance
+ *  @param part_state [out]  shape [n_values]; schema order; units of the schema of the material returned */
+const mor_material_instance *mor_composite_find_part(const mor_material_instance *instance, const double *state,
+                                                     double *part_state);
+
 /** Returns whether an instance was made by mor_composite_create. */
 int mor_composite_is(const mor_material_instance *instance);
 

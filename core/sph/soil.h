@@ -57,6 +57,19 @@ enum {
     MOR_SOIL_OUTFLOW_STATE = 9
 };
 
+/** The stress update that stopped a step. */
+typedef struct mor_soil_failure {
+    bool is_known;                             /* there was one */
+    int64_t particle;                          /* number of the particle */
+    uint64_t step;                             /* number of the step */
+    double time, time_step;                    /* at the end of the step, and its length, s */
+    double density;                            /* kg/m3 */
+    double stress[6];                          /* shape [6]; at the start, Pa */
+    double velocity_gradient[9];               /* shape [3,3]; 1/s */
+    double extra_stress_rate[6];               /* shape [6]; Pa/s */
+    double state[9 * MOR_MATERIAL_STATES_MAX]; /* shape [n_values]; at the start; units of the law's schema */
+} mor_soil_failure;
+
 /** One soil. Owner: the run. */
 typedef struct mor_soil {
     mor_soil_settings settings;
@@ -93,6 +106,7 @@ typedef struct mor_soil {
     int64_t n_outflow;                          /* particles that have left the domain since the start */
     double outflow[MOR_SOIL_OUTFLOW_STATE];     /* of those, units of the enum above */
     bool has_lists;                             /* lists exist and belong to the present order */
+    mor_soil_failure failure;                   /* what a step failed at, for a report */
     double gravity[3];                          /* in the last step, with the ramp, m/s2 */
     double wall_force[MOR_SOIL_WALLS_MAX][3];   /* of the soil on each wall in the last step, N (N/m in plane strain) */
     double wall_impulse[MOR_SOIL_WALLS_MAX][3]; /* of the soil on each wall since the start, N s */

@@ -280,9 +280,31 @@ static mor_status find_crash(const update *it, int64_t first, int64_t n, int64_t
     return MOR_ERROR_CRASH;
 }
 
+/* Keeps what the failed update started from: the failed batch has its start values back. */
+static void keep_failure(const update *it, const mor_step *step, int64_t i, mor_soil_failure *failure)
+{
+    double *state = failure->state;
+    *failure = (mor_soil_failure){.is_known = true,
+                                  .particle = it->soil->set.id[i],
+                                  .step = step->number,
+                                  .time = step->time + step->length,
+                                  .time_step = it->length,
+                                  .density = it->density[i]};
+    memcpy(failure->stress, it->stress + 6 * i, sizeof failure->stress);
+    memcpy(failure->velocity_gradient, it->velocity_gradient + 9 * i, sizeof failure->velocity_gradient);
+    if (it->diffusion != NULL) {
+        memcpy(failure->extra_stress_rate, it->diffusion + 6 * i, sizeof failure->extra_stress_rate);
+    }
+    for (int k = 0; k < it->soil->material->n_state; ++k) {
+        const int64_t n = state_width(it->soil, k);
+        memcpy(state, it->state[k] + n * i, (size_t)n * sizeof *state);
+        state += n;
+    }
+}
+
 /* Does the failed batch again to learn which particle it was. */
 static mor_status report_stress(mor_context *context, const update *it, const mor_view *view, const mor_step *step,
-                                int64_t first)
+                                int64_t first, mor_soil_failure *failure)
 {
     const mor_soil *soil = it->soil;
     const int64_t left = soil->set.n_particles - first;
@@ -296,6 +318,7 @@ static mor_status report_stress(mor_context *context, const update *it, const mo
     const int64_t i = first + failed;
     const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
     const double *s = mor_view_quote(view, MOR_FIELD_STRESS, i);
+    keep_failure(it, step, i, failure);
     const mor_status told =
         MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
                  "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
@@ -319,5 +342,5 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
     mor_view_write_state(view, soil->state_fields, soil->material->n_state, job.state);
     const mor_blocks blocks = mor_soil_blocks(soil, BATCH, 4);
     const int64_t failed = mor_reduce_status(&blocks, context->n_threads, advance_block, &job, soil->room.statuses);
-    return failed < 0 ? MOR_OK : report_stress(context, &job, view, step, failed * BATCH);
+    return failed < 0 ? MOR_OK : report_stress(context, &job, view, step, failed * BATCH, &soil->failure);
 }

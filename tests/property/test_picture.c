@@ -1,8 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/picture/draw/chart.h"
 #include "cases/driver/picture/draw/colormap.h"
 #include "cases/driver/picture/view/camera.h"
 #include "cases/driver/picture/view/picture.h"
+#include "tests/common/near.h"
 #include "tests/common/pile.h"
 #include "tests/common/run_folder.h"
 
@@ -271,6 +273,58 @@ static void charts_show_each_curve_and_refuse_gaps(void **state)
     assert_non_null(strstr(folder->context.message, "series 1 (computed): point 5"));
 }
 
+/* Middle of the dots of a category, columns, left of a column; unit px. */
+static double find_dots(const mor_canvas *canvas, int category, int first, int last)
+{
+    double linear[3];
+    int color[3];
+    double sum = 0.0;
+    int n = 0;
+    mor_colormap_category(category, linear);
+    for (int c = 0; c < 3; ++c) {
+        color[c] = (int)(255.0 * mor_colormap_encode(linear[c]) + 0.5);
+    }
+    for (int row = 0; row < 625; ++row) {
+        for (int column = first; column < last; ++column) {
+            uint8_t rgb[3];
+            mor_canvas_pixel(canvas, column, row, rgb);
+            if (abs(rgb[0] - color[0]) + abs(rgb[1] - color[1]) + abs(rgb[2] - color[2]) < 12) {
+                sum += column;
+                n += 1;
+            }
+        }
+    }
+    assert_true(n > 10);
+    return sum / n;
+}
+
+/* Dots at 1, 10 and 100 are evenly spaced where the axis is logarithmic. */
+static void a_logarithmic_axis_gives_decades_equal_room(void **state)
+{
+    run_folder *folder = *state;
+    double x[3] = {1.0, 10.0, 100.0};
+    const double y[3] = {1.0, 2.0, 3.0};
+    const mor_chart_series series = {.x = x, .y = y, .n_points = 3, .style = MOR_CHART_POINTS};
+    const mor_chart chart = {.x_name = "pressure",
+                             .x_unit = "Pa",
+                             .series = &series,
+                             .n_series = 1,
+                             .has_log_x = true,
+                             .width = 1000,
+                             .height = 625};
+    mor_canvas *canvas = NULL;
+    assert_int_equal(mor_chart_draw(&folder->context, &chart, &canvas), MOR_OK);
+    const double left = find_dots(canvas, 0, 0, 300);
+    const double middle = find_dots(canvas, 0, 300, 800);
+    const double right = find_dots(canvas, 0, 800, 1000);
+    assert_true(right - left > 700.0);
+    assert_near(middle, 0.5 * (left + right), 1.0); /* a pixel */
+    mor_canvas_free(&folder->context, &canvas);
+    x[1] = 0.0;
+    assert_int_equal(mor_chart_draw(&folder->context, &chart, &canvas), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(folder->context.message, "on a logarithmic axis x must be > 0"));
+}
+
 static void long_texts_never_leave_their_place(void **state)
 {
     run_folder *folder = *state;
@@ -307,6 +361,8 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(light_falls_from_above, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(charts_show_each_curve_and_refuse_gaps, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_logarithmic_axis_gives_decades_equal_room, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(long_texts_never_leave_their_place, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -95,6 +95,7 @@ static const answer answers[] = {
     {{"list", "stages", NULL}, {"first drift", "momentum", "stress"}},
     {{"list", "shapes", NULL}, {"half_space: ", "polygon: "}},
     {{"list", "keys", NULL}, {"spacing", "density_reinitialization", "friction_angle"}},
+    {{"list", "tests", NULL}, {"test.k0", "true-triaxial", "six parts"}},
     {{"check", COLUMN, NULL}, {"case.cfg: ok. 5000 soil particles, 2 walls"}},
     {{"check", MOR_SOURCE_DIR "/cases/column-3d/case.cfg", NULL}, {"case.cfg: ok."}},
     {{"check", MOR_SOURCE_DIR "/cases/column-at-rest/case.cfg", NULL}, {"case.cfg: ok."}},

@@ -24,6 +24,8 @@ What a case can measure. Each line: type, [unit; unit in plane strain], meaning.
     "materials.md": ("materials", "Material models", """
 Each model with its literature and its parameters in SI units, [-] for none. The role of a parameter is what the program
 finds it by, whatever its name. Ranges and defaults are in [case_file.md](case_file.md)."""),
+    "tests.md": ("tests", "Element tests", """
+What `moraine material` can be told. How to use it is in [test_a_material.md](../guide/test_a_material.md)."""),
 }
 
 

@@ -61,6 +61,17 @@ static mor_status add_plugin(mor_command *command, const char *path)
     return status;
 }
 
+/* A setting of an element test that has an option of its own. */
+static mor_status add_test_setting(mor_command *command, mor_command_option_kind kind, const char *value)
+{
+    char setting[MOR_COMMAND_PATH_BYTES];
+    const char *name = mor_command_options[kind].name;
+    const int n = snprintf(setting, sizeof setting, "test.%s=%s", name, value);
+    MOR_CHECK(command->context, n > 0 && n < (int)sizeof setting, MOR_ERROR_CONFIG, "the value of --%s is too long",
+              name);
+    return add_setting(command, setting);
+}
+
 static mor_status take_option(mor_command *command, mor_command_option_kind kind, const char *value)
 {
     command->given |= 1u << kind;
@@ -91,6 +102,14 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
         return set_stop(command, value);
     case MOR_OPTION_PLUGIN:
         return add_plugin(command, value);
+    case MOR_OPTION_PATH:
+    case MOR_OPTION_STRESS:
+    case MOR_OPTION_STRAIN:
+    case MOR_OPTION_CASE:
+    case MOR_OPTION_SOIL:
+    case MOR_OPTION_DATA:
+    case MOR_OPTION_REPLAY:
+        return add_test_setting(command, kind, value);
     case MOR_OPTION_HELP:
     case MOR_OPTION_VERSION: /* answered once the whole line is read */
     case MOR_OPTION_COUNT:
@@ -222,7 +241,7 @@ static mor_status run_command(mor_command *command, int argc, char **argv, int *
     MOR_CHECK(command->context, optind + 2 >= argc, MOR_ERROR_CONFIG,
               "found '%s' behind '%s'; allowed is one %s; see moraine %s --help", argv[optind + 2], command->subject,
               info->subject, info->name);
-    MOR_CHECK(command->context, command->subject != NULL, MOR_ERROR_CONFIG,
+    MOR_CHECK(command->context, command->subject != NULL || info->has_default, MOR_ERROR_CONFIG,
               "moraine %s needs a %s; see moraine %s --help", info->name, info->subject, info->name);
     MOR_TRY(command->context, check_options(command, info));
     return info->run(command, exit_code);

@@ -37,6 +37,13 @@ typedef enum mor_command_option_kind {
     MOR_OPTION_LENGTH,
     MOR_OPTION_VOLUME,
     MOR_OPTION_PLUGIN,
+    MOR_OPTION_PATH,
+    MOR_OPTION_STRESS,
+    MOR_OPTION_STRAIN,
+    MOR_OPTION_CASE,
+    MOR_OPTION_SOIL,
+    MOR_OPTION_DATA,
+    MOR_OPTION_REPLAY,
     MOR_OPTION_HELP,
     MOR_OPTION_VERSION,
     MOR_OPTION_COUNT
@@ -114,6 +121,7 @@ typedef struct mor_command {
 typedef struct mor_command_info {
     const char *name;
     const char *subject; /* what stands for its subject in help */
+    bool has_default;    /* it can do without its subject */
     mor_command_word word;
     const char *(*list_word)(int index);            /* of MOR_WORD_LIST: its words; NULL behind the last one */
     const char *text;                               /* what it does, in a line */

@@ -51,7 +51,7 @@ const mor_command_info mor_command_list = {
     .subject = "WHAT",
     .word = MOR_WORD_LIST,
     .list_word = list_word,
-    .text = "list materials, probes, fields, stages, shapes, keys, or print man or completion",
+    .text = "list materials, probes, fields, stages, shapes, keys, tests, or print man or completion",
     .details =
         "The lists are those that the reference holds. 'man' prints the manual page, 'completion' the completion "
         "for bash.",

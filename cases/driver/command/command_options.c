@@ -5,12 +5,15 @@
 /* The one list of options. */
 const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_OUTPUT] = {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
-                           "run: runs/NAME; preview: runs/NAME-preview; relax: runs/relax-NAME"},
+                           "run: runs/NAME; preview: runs/NAME-preview; relax: runs/relax-NAME; material: "
+                           "runs/material-NAME"},
     [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE, "threads; results do not depend on their number",
                             "as many as the machine has cores"},
     [MOR_OPTION_SET] =
         {"set", 's', "KEY=VALUE", MOR_WORD_NONE,
-         "overrides a key of the case; may be given many times, such as --set spacing='2 mm' or --set "
+         "overrides a key of the case (of material: a parameter of the law, or a setting of the test); may be given "
+         "many "
+         "times, such as --set spacing='2 mm' or --set "
          "'soil[0].material.cohesion=1 kPa'; a group, as --set 'numerics={xsph=0.1;}', replaces all of it",
          "what the case says"},
     [MOR_OPTION_RESUME] = {"resume", '\0', NULL, MOR_WORD_NONE, "go on from the last good checkpoint of the folder",
@@ -28,8 +31,23 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_VOLUME] = {"volume", '\0', "V", MOR_WORD_NONE, "scale the mesh to its volume (area)",
                            "as of --diameter"},
     [MOR_OPTION_PLUGIN] = {"plugin", '\0', "FILE", MOR_WORD_FILE,
-                           "lists also the material models of a plug-in; may be given many times",
+                           "knows also the material models of a plug-in; may be given many times",
                            "the models of the program"},
+    [MOR_OPTION_PATH] = {"path", '\0', "PATH", MOR_WORD_NONE,
+                         "how the specimen is deformed, such as triaxial-compression", "it must be given"},
+    [MOR_OPTION_STRESS] = {"stress", '\0', "P", MOR_WORD_NONE,
+                           "axial stress at the start; several specimens as '100 kPa, 200 kPa'", "100 kPa"},
+    [MOR_OPTION_STRAIN] = {"strain", '\0', "E", MOR_WORD_NONE, "how far the specimen is deformed, such as '15 %'",
+                           "10 %, of cyclic paths 1 %, of spin a turn"},
+    [MOR_OPTION_CASE] = {"case", '\0', "FILE", MOR_WORD_FILE, "a case whose soil gives law, density and parameters",
+                         "they are set one by one"},
+    [MOR_OPTION_SOIL] = {"soil", '\0', "NAME", MOR_WORD_NONE, "name of the soil in that case", "its only one"},
+    [MOR_OPTION_DATA] = {"data", '\0', "FILE", MOR_WORD_FILE,
+                         "measured values, drawn as points: a table (CSV) with columns named as in the results",
+                         "none"},
+    [MOR_OPTION_REPLAY] = {"replay", '\0', "FILE", MOR_WORD_FILE,
+                           "repeat the stress update that a run failed at, from failed-point.cfg in its folder",
+                           "a test"},
     [MOR_OPTION_HELP] = {"help", 'h', NULL, MOR_WORD_NONE, "what there is; behind a command, what that command does",
                          NULL},
     [MOR_OPTION_VERSION] = {"version", '\0', NULL, MOR_WORD_NONE, "version and commit", NULL}};

@@ -11,7 +11,8 @@
     X(relax)                                                                                                           \
     X(render)                                                                                                          \
     X(list)                                                                                                            \
-    X(check_material)
+    X(check_material)                                                                                                  \
+    X(material)
 
 #define DECLARE(name) extern const mor_command_info mor_command_##name;
 COMMANDS(DECLARE)

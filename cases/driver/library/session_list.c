@@ -5,6 +5,7 @@
 #include "cases/driver/probe/probe.h"
 
 #include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/element/element_settings.h"
 #include "core/material/conformance/conformance.h"
 #include "core/material/params.h"
 #include "core/material/plugin.h"
@@ -105,11 +106,17 @@ static void list_keys(const mor_registry *registry, FILE *out)
     mor_case_schema_print(registry, mor_probe_type_at, out);
 }
 
+static void list_tests(const mor_registry *registry, FILE *out)
+{
+    (void)registry;
+    mor_element_settings_print(out);
+}
+
 static const struct {
     const char *name;
     void (*print)(const mor_registry *registry, FILE *out);
-} lists[] = {{"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields},
-             {"stages", list_stages},       {"shapes", list_shapes}, {"keys", list_keys}};
+} lists[] = {{"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields}, {"stages", list_stages},
+             {"shapes", list_shapes},       {"keys", list_keys},     {"tests", list_tests}};
 
 enum { N_LISTS = sizeof lists / sizeof *lists };
 

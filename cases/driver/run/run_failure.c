@@ -2,7 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/run/run_failure.h"
 
+#include "cases/driver/element/element_point.h"
 #include "cases/driver/picture/pictures.h"
+#include "core/material/composite.h"
 
 #include <math.h>
 #include <string.h>
@@ -56,10 +58,40 @@ static mor_status write_results(mor_context *context, mor_run_files *files, cons
                     : MOR_OK;
 }
 
+/* The stress update that the step failed at, when that is why it failed, to be repeated alone. */
+static mor_status write_point(mor_context *context, const mor_run_files *files)
+{
+    const mor_soil *soil = &files->simulation->soil;
+    const mor_soil_failure *failure = &soil->failure;
+    if (!files->simulation->has_soil || !failure->is_known) {
+        return MOR_OK;
+    }
+    char path[MOR_PATH_BYTES];
+    mor_element_point point = {.particle = failure->particle,
+                               .time = failure->time,
+                               .step = (int64_t)failure->step,
+                               .time_step = failure->time_step,
+                               .density = failure->density};
+    const mor_material_instance *law = mor_composite_find_part(soil->material, failure->state, point.state);
+    point.reference_density = law->density;
+    snprintf(point.model, sizeof point.model, "%.63s", law->material->name);
+    snprintf(point.set, sizeof point.set, "%.63s", soil->set.name);
+    memcpy(point.stress, failure->stress, sizeof point.stress);
+    memcpy(point.velocity_gradient, failure->velocity_gradient, sizeof point.velocity_gradient);
+    memcpy(point.extra_stress_rate, failure->extra_stress_rate, sizeof point.extra_stress_rate);
+    memcpy(point.parameters, law->parameters, (size_t)law->n_values * sizeof *law->parameters);
+    MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, MOR_ELEMENT_POINT_FILE));
+    return mor_element_point_write(context, law->material, &point, path);
+}
+
 mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files, retake_step retake)
 {
     const mor_context reason = *context;
     const mor_schedule *schedule = &files->simulation->schedule;
+    if (write_point(context, files) != MOR_OK) { /* the reason why the run stopped matters more */
+        mor_context_log(context, MOR_LOG_WARNING, "the failed stress update could not be written: %s",
+                        context->message);
+    }
     mor_status status = go_back(context, files, retake);
     const mor_summary_failure failure = {.reason = reason.message,
                                          .time = mor_schedule_time(schedule),

@@ -12,8 +12,8 @@
 
 enum { MOR_RUN_KEEP_INTERVAL = 64 /* steps from one state kept in memory to the next */ };
 
-/** Goes back to the last finished step, adds its row and a snapshot, prints the table, writes summary.json and the
- *  pictures.
+/** Writes the stress update that failed, where one did, to failed-point.cfg; goes back to the last finished step, adds
+ *  its row and a snapshot, prints the table, writes summary.json and the pictures.
  *  @param context [in,out]  holds the error that stopped the run, and does so again on return; what cannot
  *                           be written is logged as a warning
  *  @param files   [in,out]  started, with a state kept

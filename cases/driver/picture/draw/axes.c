@@ -49,30 +49,71 @@ static void draw_tick(mor_canvas *canvas, const mor_axes *axes, int side, const 
     mor_canvas_line(canvas, tick, 2, &pen);
 }
 
+/* Writes a number at its tick; returns its width in px. */
+static double draw_number(mor_canvas *canvas, const mor_axes *axes, int side, double value, const char *text,
+                          const mor_canvas_font *font)
+{
+    const double *r = axes->rectangle;
+    double at[2] = {axes->low[0], axes->low[1]};
+    double place[2];
+    at[side] = value;
+    mor_axes_place(axes, at, place);
+    draw_tick(canvas, axes, side, place);
+    const double number[2] = {side == 0 ? place[0] : r[0] - 0.65 * axes->text,
+                              side == 0 ? r[1] + r[3] + 1.25 * axes->text : place[1]};
+    mor_canvas_text(canvas, number, text, font);
+    return fmin(mor_canvas_text_width(canvas, text, font), font->limit);
+}
+
+/* Numbers 1 to 9 of each decade, 1, 2 and 5 or 1 alone, as there is room. */
+static void draw_log_numbers(mor_canvas *canvas, const mor_axes *axes, int limit, const mor_canvas_font *font)
+{
+    static const int steps[10] = {0, 1, 3, 0, 0, 5, 0, 0, 0, 0}; /* from 1, 2 and 5 to the next one */
+    const double width = axes->high[0] - axes->low[0];
+    const bool has_all = 20.0 * width <= limit; /* 9 and 10 are a twentieth of a decade apart */
+    const bool has_three = 3.0 * width <= limit;
+    const int decades = width > limit ? (int)ceil(width / limit) : 1;
+    for (int decade = (int)floor(axes->low[0]); decade <= (int)ceil(axes->high[0]); ++decade) {
+        const int last = decade % decades == 0 ? 9 : 0;
+        for (int k = 1; k <= last; k += has_all ? 1 : has_three ? steps[k] : 10) {
+            const double value = k * pow(10.0, decade);
+            if (log10(value) >= axes->low[0] && log10(value) <= axes->high[0]) {
+                char text[MOR_TICKS_TEXT_BYTES];
+                mor_ticks_format(value, pow(10.0, decade), text);
+                draw_number(canvas, axes, 0, log10(value), text, font);
+            }
+        }
+    }
+}
+
+/* Ticks and numbers at round values; returns the width of the widest number, in px. */
+static double draw_numbers(mor_canvas *canvas, const mor_axes *axes, int side, int limit, const mor_canvas_font *font)
+{
+    double widest = 1.5 * axes->text;
+    if (side == 0 && axes->has_log_x) {
+        draw_log_numbers(canvas, axes, limit, font);
+        return widest;
+    }
+    const mor_ticks ticks = mor_ticks_choose(axes->low[side], axes->high[side], limit);
+    for (int k = 0; k < ticks.n_ticks; ++k) {
+        const double value = mor_ticks_value(&ticks, k);
+        char text[MOR_TICKS_TEXT_BYTES];
+        mor_ticks_format(value, ticks.step, text);
+        widest = fmax(widest, draw_number(canvas, axes, side, value, text, font));
+    }
+    return widest;
+}
+
 static void draw_side(mor_canvas *canvas, const mor_axes *axes, int side)
 {
     const double *r = axes->rectangle;
     const double per_number = side == 0 ? 5.5 * axes->text : 2.6 * axes->text;
     const int limit = (int)fmin(fmax(r[2 + side] / per_number, 2.0), 11.0);
-    const mor_ticks ticks = mor_ticks_choose(axes->low[side], axes->high[side], limit);
     mor_canvas_font font = {.size = axes->text,
                             .anchor = side == 0 ? MOR_CANVAS_CENTER : MOR_CANVAS_RIGHT,
                             .limit = side == 0 ? 5.2 * axes->text : 4.0 * axes->text,
                             .color = {text_gray, text_gray, text_gray}};
-    double widest = 1.5 * axes->text;
-    for (int k = 0; k < ticks.n_ticks; ++k) {
-        double value[2] = {axes->low[0], axes->low[1]};
-        value[side] = mor_ticks_value(&ticks, k);
-        double place[2];
-        mor_axes_place(axes, value, place);
-        draw_tick(canvas, axes, side, place);
-        char text[MOR_TICKS_TEXT_BYTES];
-        mor_ticks_format(value[side], ticks.step, text);
-        const double number[2] = {side == 0 ? place[0] : r[0] - 0.65 * axes->text,
-                                  side == 0 ? r[1] + r[3] + 1.25 * axes->text : place[1]};
-        mor_canvas_text(canvas, number, text, &font);
-        widest = fmax(widest, fmin(mor_canvas_text_width(canvas, text, &font), font.limit));
-    }
+    const double widest = draw_numbers(canvas, axes, side, limit, &font);
     font.size = 1.1 * axes->text;
     font.anchor = MOR_CANVAS_CENTER;
     font.is_upward = side == 1;

@@ -16,6 +16,7 @@ typedef struct mor_axes {
     const char *label[2]; /* with units, zero-terminated UTF-8 */
     double text;          /* size of the numbers, unit px */
     bool has_grid;        /* thin lines across the plot area at the ticks */
+    bool has_log_x;       /* x and its ends are decimal logarithms of the values that the ticks name */
 } mor_axes;
 
 /** Draws frame, ticks, numbers and labels; of the grid only the lines, so that curves can be drawn over them. */

@@ -27,7 +27,7 @@ typedef struct sheet {
     mor_axes axes;
 } sheet;
 
-static mor_status check_series(mor_context *context, const mor_chart_series *series, int index)
+static mor_status check_series(mor_context *context, const mor_chart_series *series, int index, bool has_log_x)
 {
     const char *name = series->name != NULL ? series->name : "without name";
     MOR_CHECK(context, series->color_of >= 0 && series->color_of <= index, MOR_ERROR_ARGUMENT,
@@ -41,6 +41,9 @@ static mor_status check_series(mor_context *context, const mor_chart_series *ser
                   MOR_ERROR_ARGUMENT,
                   "series %d (%s): point %lld is (%g, %g); only finite numbers below %g can be drawn", index, name,
                   (long long)k, series->x[k], series->y[k], MOR_TICKS_LARGEST);
+        MOR_CHECK(context, !has_log_x || series->x[k] > 0.0, MOR_ERROR_ARGUMENT,
+                  "series %d (%s): point %lld is (%g, %g); on a logarithmic axis x must be > 0", index, name,
+                  (long long)k, series->x[k], series->y[k]);
     }
     return MOR_OK;
 }
@@ -53,9 +56,18 @@ static mor_status check_chart(mor_context *context, const mor_chart *chart)
               "the chart has %d notes; at most %d are allowed", chart->n_notes, MOR_CHART_NOTES_MAX);
     MOR_TRY(context, mor_canvas_check_size(context, chart->width, chart->height));
     for (int index = 0; index < chart->n_series; ++index) {
-        MOR_TRY(context, check_series(context, chart->series + index, index));
+        MOR_TRY(context, check_series(context, chart->series + index, index, chart->has_log_x));
     }
     return MOR_OK;
+}
+
+/* A logarithmic axis ends with the data, and holds a factor of three at least, so that there are numbers on it. */
+static void find_log_ends(double first, double last, sheet *s)
+{
+    const double room = fmax(0.5 * (log10(3.0) - (last - first)), 0.02 * (last - first));
+    s->axes.has_log_x = true;
+    s->axes.low[0] = first - room;
+    s->axes.high[0] = last + room;
 }
 
 /* Range of x (side 0) or y (side 1) over all series; y gets round ends, x ends with the data. */
@@ -77,6 +89,12 @@ static void find_side(sheet *s, int side)
     s->factor[side] = mor_ticks_prefix(unit != NULL ? unit : "1", fmax(fabs(low), fabs(high)), shown);
     low *= s->factor[side];
     high *= s->factor[side];
+    mor_ticks_label(side == 0 ? chart->x_name : chart->y_name, shown, s->label[side]);
+    s->axes.label[side] = s->label[side];
+    if (side == 0 && chart->has_log_x) {
+        find_log_ends(log10(low), log10(high), s);
+        return;
+    }
     const double first = low;
     const double last = high;
     mor_ticks_round_out(&low, &high, AXIS_TICKS);
@@ -87,13 +105,12 @@ static void find_side(sheet *s, int side)
     }
     s->axes.low[side] = low;
     s->axes.high[side] = high;
-    mor_ticks_label(side == 0 ? chart->x_name : chart->y_name, shown, s->label[side]);
-    s->axes.label[side] = s->label[side];
 }
 
 static void place_point(const sheet *s, const mor_chart_series *series, int64_t k, double *place)
 {
-    const double value[2] = {s->factor[0] * series->x[k], s->factor[1] * series->y[k]};
+    const double x = s->factor[0] * series->x[k];
+    const double value[2] = {s->chart->has_log_x ? log10(x) : x, s->factor[1] * series->y[k]};
     mor_axes_place(&s->axes, value, place);
 }
 

@@ -33,6 +33,7 @@ typedef struct mor_chart {
     const char *y_unit;             /* SI, such as "J"; NULL: "1" */
     const mor_chart_series *series; /* shape [n_series] */
     int n_series;                   /* 1 to MOR_CHART_SERIES_MAX */
+    bool has_log_x;                 /* x on a logarithmic axis: all x are > 0 */
     const char *const *notes;       /* shape [n_notes]; each a line under the legend, cut off where it is too long */
     int n_notes;                    /* 0 to MOR_CHART_NOTES_MAX */
     int width;                      /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
@@ -41,8 +42,8 @@ typedef struct mor_chart {
 
 /** Draws the chart.
  *  @param canvas  [out]     the address of one pointer; NULL on failure; the caller frees it with mor_canvas_free
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there is nothing to draw or a number is not finite, with series, point and
- *  value found; MOR_ERROR_MEMORY; what mor_canvas_new returns.
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there is nothing to draw or a number is not finite, or not > 0 on a
+ *  logarithmic axis, with series, point and value found; MOR_ERROR_MEMORY; what mor_canvas_new returns.
  *  Cost: O(points). */
 mor_status mor_chart_draw(mor_context *context, const mor_chart *chart, mor_canvas **canvas);
 

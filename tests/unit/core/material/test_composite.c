@@ -262,17 +262,42 @@ static void a_law_of_elastic_bodies_is_refused(void **state)
     mor_material_destroy(&it->context, &solid);
 }
 
+/* The composite has (index, plastic_strain); the elastic part has no variable of its own. */
+static void the_part_of_a_particle_is_found_with_its_state(void **state)
+{
+    mixture *it = *state;
+    mor_material_instance *inner = NULL;
+    mor_material_instance *checked = NULL;
+    const double of_clay[2] = {1.0, 0.25};
+    const double of_rock[2] = {2.0, 0.5};
+    double found = 0.0;
+    assert_ptr_equal(mor_composite_find_part(it->composite, of_clay, &found), it->parts[1]);
+    assert_true(found == 0.25);
+    assert_ptr_equal(mor_composite_find_part(it->composite, of_rock, &found), it->parts[2]);
+    assert_true(found == 0.25); /* untouched */
+    assert_ptr_equal(mor_composite_find_part(it->parts[0], of_rock + 1, &found), it->parts[0]);
+    assert_true(found == 0.5);
+    assert_int_equal(
+        mor_composite_create(&it->context, (const mor_material_instance *const *)it->parts, N_PARTS, &inner), MOR_OK);
+    assert_int_equal(mor_checked_create(&it->context, &inner, 0, &checked), MOR_OK);
+    assert_ptr_equal(mor_composite_find_part(checked, of_clay, &found), it->parts[1]);
+    mor_material_destroy(&it->context, &checked);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(each_particle_gets_the_bits_of_its_own_material),
-                                       TEST(an_update_in_place_gives_the_same_bits),
-                                       TEST(each_particle_has_the_wave_speed_and_energy_of_its_material),
-                                       TEST(the_particle_that_fails_is_named),
-                                       TEST(the_contract_is_kept_when_it_is_checked),
-                                       TEST(laws_share_variables_of_one_name),
-                                       TEST(a_variable_that_two_laws_understand_differently_is_refused),
-                                       TEST(a_law_of_elastic_bodies_is_refused)};
+    const struct CMUnitTest tests[] = {
+        TEST(each_particle_gets_the_bits_of_its_own_material),
+        TEST(an_update_in_place_gives_the_same_bits),
+        TEST(each_particle_has_the_wave_speed_and_energy_of_its_material),
+        TEST(the_particle_that_fails_is_named),
+        TEST(the_contract_is_kept_when_it_is_checked),
+        TEST(laws_share_variables_of_one_name),
+        TEST(a_variable_that_two_laws_understand_differently_is_refused),
+        TEST(a_law_of_elastic_bodies_is_refused),
+        TEST(the_part_of_a_particle_is_found_with_its_state),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

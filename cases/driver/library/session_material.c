@@ -1,0 +1,173 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The element test of a material. */
+#include "cases/driver/library/session_internal.h"
+#include "cases/driver/probe/probe.h"
+
+#include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/element/element_figure.h"
+#include "cases/driver/element/element_point.h"
+#include "cases/driver/element/element_test.h"
+#include "core/base/memory.h"
+#include "core/material/params.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double usual_density = 2000.0; /* kg/m3, of a common soil */
+
+/* What is made on the way. */
+typedef struct bench {
+    mor_session *session;
+    const char *model;            /* that was asked for; NULL: that of the case */
+    const char *const *list;      /* shape [n] of settings */
+    int n;                        /* number of settings */
+    mor_case *the_case;           /* whose soil is taken; NULL: none; owned */
+    const mor_material *material; /* borrowed */
+    mor_element_settings settings;
+    mor_element_record records[MOR_ELEMENT_SPECIMENS_MAX];
+    mor_element_record data; /* that was measured; empty: none */
+} bench;
+
+/* ---- The law ----------------------------------------------------------------------------------------------------- */
+
+static mor_status find_soil(mor_context *context, const mor_case *the_case, const char *name,
+                            const mor_case_soil **soil)
+{
+    char all[1024] = "";
+    *soil = NULL;
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        const size_t used = strlen(all);
+        snprintf(all + used, sizeof all - used, "%s'%s'", k == 0 ? "" : ", ", the_case->soils[k].name);
+        const bool is_it = name != NULL ? strcmp(name, the_case->soils[k].name) == 0 : the_case->n_soils == 1;
+        *soil = is_it ? &the_case->soils[k] : *soil;
+    }
+    MOR_CHECK(context, the_case->n_soils > 0, MOR_ERROR_CONFIG, "'%s' has no soil to be tested", the_case->path);
+    MOR_CHECK(context, *soil != NULL || name == NULL, MOR_ERROR_CONFIG, "found no soil '%s' in '%s'; allowed: %s", name,
+              the_case->path, all);
+    MOR_CHECK(context, *soil != NULL, MOR_ERROR_CONFIG, "'%s' has several soils; choose one by test.soil: %s",
+              the_case->path, all);
+    return MOR_OK;
+}
+
+/* Law, density and parameters of a soil of a case. */
+static mor_status take_soil(bench *it, const mor_element_words *words)
+{
+    mor_context *context = &it->session->context;
+    const mor_case_soil *soil = NULL;
+    MOR_TRY(context, MOR_NEW(context, &it->the_case, 1, "a case"));
+    MOR_TRY(context,
+            mor_case_read(context, words->case_file, NULL, 0, it->session->registry, mor_probe_type_at, it->the_case));
+    MOR_TRY(context, find_soil(context, it->the_case, words->soil, &soil));
+    MOR_CHECK(context, it->model == NULL || strcmp(it->model, soil->model) == 0, MOR_ERROR_CONFIG,
+              "found the model '%s', but soil '%s' of '%s' has '%s'; leave the model out, or the case", it->model,
+              soil->name, words->case_file, soil->model);
+    it->material = soil->law;
+    it->settings.density = soil->density;
+    memcpy(it->settings.parameters, soil->parameters,
+           (size_t)mor_params_count(it->material->parameters) * sizeof *soil->parameters);
+    return MOR_OK;
+}
+
+static mor_status take_model(bench *it, const mor_element_words *words)
+{
+    mor_context *context = &it->session->context;
+    if (words->case_file != NULL) {
+        return take_soil(it, words);
+    }
+    MOR_CHECK(context, it->model != NULL, MOR_ERROR_CONFIG,
+              "found no model to be tested; give its name, or a case by test.case");
+    MOR_CHECK(context, words->soil == NULL, MOR_ERROR_CONFIG, "found test.soil without test.case; give both");
+    MOR_TRY(context, mor_registry_require(context, it->session->registry, it->model, &it->material));
+    it->settings.density = usual_density;
+    mor_params_defaults(it->material->parameters, it->settings.parameters);
+    return MOR_OK;
+}
+
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
+
+static mor_status write_results(bench *it, const char *folder)
+{
+    mor_context *context = &it->session->context;
+    char path[MOR_PATH_BYTES];
+    char name[64];
+    MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
+    MOR_TRY(context, mor_run_folder_make(context, folder));
+    for (int k = 0; k < it->settings.n_specimens; ++k) {
+        snprintf(name, sizeof name, "specimen-%d.csv", k + 1);
+        MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
+        MOR_TRY(context, mor_element_record_write(context, &it->records[k], path));
+        fprintf(it->session->output, "table: %s\n", path);
+    }
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, "element.png"));
+    MOR_TRY(context, mor_element_figure_write(context, &it->settings, it->records, it->settings.n_specimens,
+                                              it->data.n_rows > 0 ? &it->data : NULL, path));
+    fprintf(it->session->output, "picture: %s\n", path);
+    return MOR_OK;
+}
+
+/* The stress update that a run failed at, once more. A case gives a law that has no name of its own outside of it. */
+static mor_status replay_point(bench *it, const mor_element_words *words)
+{
+    mor_context *context = &it->session->context;
+    const int n_words = 1 + (words->case_file != NULL) + (words->soil != NULL);
+    mor_element_point point;
+    MOR_CHECK(
+        context, it->n == n_words, MOR_ERROR_CONFIG,
+        "found test.replay with other settings than test.case and test.soil; a failed update is repeated as it was: "
+        "remove them, or change the file");
+    if (words->case_file != NULL) {
+        MOR_TRY(context, take_soil(it, words));
+    }
+    MOR_TRY(context, mor_element_point_read(context, words->replay, it->session->registry, &it->material, &point));
+    MOR_CHECK(context, it->model == NULL || strcmp(it->model, point.model) == 0, MOR_ERROR_CONFIG,
+              "found the model '%s', but '%s' is of '%s'; leave the model out", it->model, words->replay, point.model);
+    return mor_element_point_replay(context, it->material, &point, it->session->output);
+}
+
+static mor_status test_material(bench *it, const char *folder)
+{
+    mor_context *context = &it->session->context;
+    mor_element_words words;
+    mor_element_words_find(it->list, it->n, &words);
+    if (words.replay != NULL) {
+        return replay_point(it, &words);
+    }
+    MOR_TRY(context, take_model(it, &words));
+    MOR_TRY(context, mor_element_settings_read(context, it->material, it->list, it->n, &it->settings));
+    if (words.data != NULL) {
+        MOR_TRY(context, mor_element_record_read(context, words.data, &it->data));
+    }
+    MOR_TRY(context, mor_element_test_run(context, it->material, &it->settings, it->records));
+    mor_element_test_print(it->material, &it->settings, it->records, it->session->output);
+    MOR_TRY(context, write_results(it, folder));
+    for (int k = 0; k < it->settings.n_specimens; ++k) {
+        MOR_CHECK(context, it->records[k].status == MOR_OK, it->records[k].status,
+                  "the specimen of %s did not reach the end of its path; its table ends where it stopped",
+                  it->records[k].name);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_session_test_material(mor_session *session, const char *model, const char *folder)
+{
+    MOR_SESSION_WORK(session);
+    mor_context *context = &session->context;
+    bench *it = NULL;
+    MOR_TRY(context, MOR_NEW(context, &it, 1, "an element test"));
+    it->session = session;
+    it->model = model;
+    it->list = (const char *const *)session->overrides;
+    it->n = session->n_overrides;
+    const mor_status status = test_material(it, folder);
+    for (int k = 0; k < MOR_ELEMENT_SPECIMENS_MAX; ++k) {
+        mor_element_record_clear(context, &it->records[k]);
+    }
+    mor_element_record_clear(context, &it->data);
+    if (it->the_case != NULL) {
+        mor_case_clear(context, it->the_case);
+        MOR_FREE(context, &it->the_case);
+    }
+    MOR_FREE(context, &it);
+    return status;
+}
