@@ -82,7 +82,7 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         const returned r = map_to_cone(&m, mor_rate_predict(m.two_shear, m.lame, b, lane));
         mor_rate_write(b, lane, r.stress);
-        b->state[lane] += r.plastic_strain;
+        b->state[0][lane] += r.plastic_strain;
         b->dissipation[lane] = r.dissipation;
     }
 }

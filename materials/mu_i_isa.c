@@ -92,7 +92,7 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
         const mor_symmetric trial = mor_rate_predict(f.model.elastic.two_shear, f.model.elastic.lame, b, lane);
         const returned r = return_trial(&f, trial);
         mor_rate_write(b, lane, r.stress);
-        b->state[lane] += r.slip * INVERSE_SQRT3;
+        b->state[0][lane] += r.slip * INVERSE_SQRT3;
         b->dissipation[lane] = r.dissipation;
     }
 }

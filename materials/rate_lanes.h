@@ -16,15 +16,20 @@
 /** Largest norm of the velocity gradient times the step; beyond it one increment is no longer small; unit 1. */
 #define MOR_RATE_INCREMENT_LIMIT 1.0
 
+/** Largest number of state variables, one number each, that a law of this frame may have. */
+enum { MOR_RATE_STATES_MAX = 2 };
+
 /** A block of particles, one array per number, so that every loop over lanes can be one of vectors. */
 typedef struct mor_rate_block {
-    double stress[6][MOR_LANES];   /* Pa, start, then end */
-    double gradient[9][MOR_LANES]; /* velocity gradient times the step, 1 */
-    double extra[6][MOR_LANES];    /* extra stress rate times the step, Pa */
-    double state[MOR_LANES];       /* of a law with one state variable, start, then end; its unit */
-    double dissipation[MOR_LANES]; /* J/m3 */
-    double increment2[MOR_LANES];  /* squared norm of gradient, 1 */
-    double nonfinite[MOR_LANES];   /* 0 when all results are finite, else NaN; 1 */
+    double stress[6][MOR_LANES];                  /* Pa, start, then end */
+    double gradient[9][MOR_LANES];                /* velocity gradient times the step, 1 */
+    double extra[6][MOR_LANES];                   /* extra stress rate times the step, Pa */
+    double state[MOR_RATE_STATES_MAX][MOR_LANES]; /* state variables, start, then end; their units */
+    double dissipation[MOR_LANES];                /* J/m3 */
+    double increment2[MOR_LANES];                 /* squared norm of gradient, 1 */
+    double nonfinite[MOR_LANES];                  /* 0 when all results are finite, else NaN; 1 */
+    int n_unsolved;             /* lanes whose equations a law did not solve: the step is repeated in parts */
+    int is_unsolved[MOR_LANES]; /* 0 or 1; read when n_unsolved is not 0 */
 } mor_rate_block;
 
 /** The end of one block: reads gradient, extra; updates stress, state; writes dissipation. */
@@ -49,8 +54,8 @@ static MOR_LANES_INLINE void mor_rate_load_part(const double *from, int64_t n_la
 /** Reads a block.
  *  @param first     [in]   first particle
  *  @param n_lanes   [in]   1 to MOR_LANES
- *  @param has_state [in]   whether the law has a state variable */
-static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
+ *  @param n_state   [in]   state variables of the law, 0 to MOR_RATE_STATES_MAX */
+static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first, int64_t n_lanes, int n_state,
                                            mor_rate_block *b)
 {
     mor_rate_load_part(batch->stress_in + 6 * first, n_lanes, 6, 1.0, b->stress);
@@ -58,16 +63,18 @@ static MOR_LANES_INLINE void mor_rate_load(const mor_batch *batch, int64_t first
     if (batch->extra_stress_rate != NULL) {
         mor_rate_load_part(batch->extra_stress_rate + 6 * first, n_lanes, 6, batch->time_step, b->extra);
     }
-    for (int64_t lane = 0; has_state && lane < n_lanes; ++lane) {
-        b->state[lane] = batch->state_in[0][first + lane];
+    for (int k = 0; k < n_state; ++k) {
+        for (int64_t lane = 0; lane < n_lanes; ++lane) {
+            b->state[k][lane] = batch->state_in[k][first + lane];
+        }
     }
 }
 
 /** Writes what a law changed.
  *  @param first     [in]      first particle
  *  @param n_lanes   [in]      1 to MOR_LANES
- *  @param has_state [in]      whether the law has a state variable */
-static MOR_LANES_INLINE void mor_rate_store(const mor_batch *batch, int64_t first, int64_t n_lanes, int has_state,
+ *  @param n_state   [in]      state variables of the law, 0 to MOR_RATE_STATES_MAX */
+static MOR_LANES_INLINE void mor_rate_store(const mor_batch *batch, int64_t first, int64_t n_lanes, int n_state,
                                             const mor_rate_block *b)
 {
     for (int64_t lane = 0; lane < n_lanes; ++lane) {
@@ -75,8 +82,10 @@ static MOR_LANES_INLINE void mor_rate_store(const mor_batch *batch, int64_t firs
             batch->stress_out[6 * (first + lane) + a] = b->stress[a][lane];
         }
     }
-    for (int64_t lane = 0; has_state && lane < n_lanes; ++lane) {
-        batch->state_out[0][first + lane] = b->state[lane];
+    for (int k = 0; k < n_state; ++k) {
+        for (int64_t lane = 0; lane < n_lanes; ++lane) {
+            batch->state_out[k][first + lane] = b->state[k][lane];
+        }
     }
     if (batch->dissipation != NULL) {
         for (int64_t lane = 0; lane < n_lanes; ++lane) {
@@ -137,7 +146,8 @@ static MOR_LANES_INLINE void mor_rate_write(mor_rate_block *b, int lane, mor_sym
 /** Finds the first lane whose results are not valid, and why.
  *  @param n_lanes     [in]   1 to MOR_LANES
  *  @param failed_lane [out]  one number; without meaning when all are valid
- *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small; MOR_ERROR_NUMERIC. */
+ *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small, or for equations that were not solved;
+ *  MOR_ERROR_NUMERIC. */
 static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t n_lanes, int64_t *failed_lane)
 {
     for (int64_t lane = 0; lane < n_lanes; ++lane) {
@@ -148,6 +158,9 @@ static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t 
         if (b->increment2[lane] > MOR_RATE_INCREMENT_LIMIT * MOR_RATE_INCREMENT_LIMIT) {
             return MOR_RETRY_SMALLER_STEP;
         }
+        if (b->n_unsolved != 0 && b->is_unsolved[lane]) {
+            return MOR_RETRY_SMALLER_STEP;
+        }
         if (!(b->nonfinite[lane] == 0.0)) {
             return MOR_ERROR_NUMERIC;
         }
@@ -156,42 +169,45 @@ static inline mor_status mor_rate_find_failure(const mor_rate_block *b, int64_t 
 }
 
 /** Sets increment2 and nonfinite; whether the results of all lanes are valid. Returns: 0 or 1. */
-static MOR_LANES_INLINE int mor_rate_check_block(mor_rate_block *b, int has_state)
+static MOR_LANES_INLINE int mor_rate_check_block(mor_rate_block *b, int n_state)
 {
     double worst = 0.0;
     double zero = 0.0;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         b->increment2[lane] = mor_gradient_norm2(mor_rate_gradient(b, lane));
         b->nonfinite[lane] = 0.0 * b->stress[0][lane] + 0.0 * b->stress[1][lane] + 0.0 * b->stress[2][lane] +
-                             0.0 * b->stress[3][lane] + 0.0 * b->stress[4][lane] + 0.0 * b->stress[5][lane] +
-                             (has_state ? 0.0 * b->state[lane] : 0.0);
+                             0.0 * b->stress[3][lane] + 0.0 * b->stress[4][lane] + 0.0 * b->stress[5][lane];
+        for (int k = 0; k < n_state; ++k) {
+            b->nonfinite[lane] += 0.0 * b->state[k][lane];
+        }
         worst = b->increment2[lane] > worst ? b->increment2[lane] : worst;
         zero += b->nonfinite[lane];
     }
-    return worst <= MOR_RATE_INCREMENT_LIMIT * MOR_RATE_INCREMENT_LIMIT && zero == 0.0;
+    return worst <= MOR_RATE_INCREMENT_LIMIT * MOR_RATE_INCREMENT_LIMIT && zero == 0.0 && b->n_unsolved == 0;
 }
 
 /** Runs a law over a batch. The last block runs through the same code with empty lanes: a result must not depend on a
  *  particle's index.
  *  @param constants [in]      the law's
  *  @param law       [in]      the end of one block
- *  @param has_state [in]      whether the law has a state variable, which is then the first one
- *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small; MOR_ERROR_NUMERIC. */
+ *  @param n_state   [in]      its state variables, one number each, 0 to MOR_RATE_STATES_MAX
+ *  Returns: MOR_OK; MOR_RETRY_SMALLER_STEP for an increment that is not small, or where the law did not solve its
+ *  equations; MOR_ERROR_NUMERIC. */
 static MOR_LANES_INLINE mor_status mor_rate_run(const void *constants, const mor_batch *batch, mor_rate_law law,
-                                                int has_state)
+                                                int n_state)
 {
     mor_rate_block b = {0};
     for (int64_t first = 0; first < batch->n; first += MOR_LANES) {
         const int64_t left = batch->n - first;
         const int64_t n_lanes = left < MOR_LANES ? left : MOR_LANES;
         if (n_lanes == MOR_LANES) {
-            mor_rate_load(batch, first, MOR_LANES, has_state, &b);
+            mor_rate_load(batch, first, MOR_LANES, n_state, &b);
         } else {
             b = (mor_rate_block){0};
-            mor_rate_load(batch, first, n_lanes, has_state, &b);
+            mor_rate_load(batch, first, n_lanes, n_state, &b);
         }
         law(constants, &b);
-        if (!mor_rate_check_block(&b, has_state)) {
+        if (!mor_rate_check_block(&b, n_state)) {
             int64_t failed_lane = 0;
             const mor_status status = mor_rate_find_failure(&b, n_lanes, &failed_lane);
             if (batch->failed != NULL) {
@@ -200,9 +216,9 @@ static MOR_LANES_INLINE mor_status mor_rate_run(const void *constants, const mor
             return status;
         }
         if (n_lanes == MOR_LANES) {
-            mor_rate_store(batch, first, MOR_LANES, has_state, &b);
+            mor_rate_store(batch, first, MOR_LANES, n_state, &b);
         } else {
-            mor_rate_store(batch, first, n_lanes, has_state, &b);
+            mor_rate_store(batch, first, n_lanes, n_state, &b);
         }
     }
     return MOR_OK;
