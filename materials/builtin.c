@@ -14,7 +14,10 @@
     LAW(modified_cam_clay, isa)                                                                                        \
     LAW(bingham, isa)                                                                                                  \
     LAW(herschel_bulkley, isa)                                                                                         \
-    LAW(hencky_drucker_prager, isa)
+    LAW(hencky_drucker_prager, isa)                                                                                    \
+    LAW(mohr_coulomb, isa)                                                                                             \
+    LAW(matsuoka_nakai, isa)                                                                                           \
+    LAW(tresca, isa)
 
 #define DECLARE(law, isa) extern const mor_material mor_##law##_##isa;
 #define ADDRESS(law, isa) &mor_##law##_##isa,

@@ -1,0 +1,43 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_MATERIALS_FRICTIONAL_H
+#define MOR_MATERIALS_FRICTIONAL_H
+
+#include "core/base/schema.h"
+
+#include <math.h>
+
+/** @file
+ *  Schema entries that frictional laws share: strength and dilation angle, and the accumulated plastic strain. */
+
+/** Schema entry of the friction angle; excluded is 1 for a law that needs friction, 0 for one that does not. */
+#define MOR_FRICTIONAL_FRICTION_ANGLE_SCHEMA(excluded)                                                                 \
+    {                                                                                                                  \
+        .key = "friction_angle", .role = MOR_ROLE_FRICTION_ANGLE, .kind = MOR_SCHEMA_REAL, .n_components = 1,          \
+        .unit = "rad", .is_required = 1, .minimum = 0.0, .maximum = 1.57079632679489662,                               \
+        .excludes_minimum = (excluded), .excludes_maximum = 1, .text = "friction angle"                                \
+    }
+
+/** Schema entry of the cohesion. */
+#define MOR_FRICTIONAL_COHESION_SCHEMA                                                                                 \
+    {                                                                                                                  \
+        .key = "cohesion", .role = MOR_ROLE_COHESION, .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "Pa",        \
+        .minimum = 0.0, .maximum = INFINITY, .text = "cohesion c"                                                      \
+    }
+
+/** Schema entry of the dilation angle. */
+#define MOR_FRICTIONAL_DILATION_ANGLE_SCHEMA                                                                           \
+    {                                                                                                                  \
+        .key = "dilation_angle", .role = MOR_ROLE_DILATION_ANGLE, .kind = MOR_SCHEMA_REAL, .n_components = 1,          \
+        .unit = "rad", .minimum = 0.0, .maximum = 1.57079632679489662, .excludes_maximum = 1,                          \
+        .text = "dilation angle, at most the friction angle"                                                           \
+    }
+
+/** Schema entry of the accumulated deviatoric plastic strain, a state variable. */
+#define MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA                                                                           \
+    {                                                                                                                  \
+        .key = "plastic_strain", .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "1", .minimum = 0.0,              \
+        .maximum = INFINITY, .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"                   \
+    }
+
+#endif
