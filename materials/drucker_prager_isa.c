@@ -1,10 +1,12 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Elastic, perfectly plastic Drucker-Prager soil with non-associated flow: Zhang et al. (2024), eqs. 4 to 12.
+/* Elastic, plastic Drucker-Prager soil with non-associated flow: Zhang et al. (2024), eqs. 4 to 12. Perfectly plastic,
+ * or with strength and dilation that change linearly with the plastic strain.
  * Deviations from the paper: the flow term of eq. 7 uses the dilation slope and the deviatoric strain; the return of
  * eqs. 11 and 12 follows the flow direction when the dilation angle is not zero; rotation is exact. */
 #include "materials/drucker_prager.h"
 
+#include "materials/frictional.h"
 #include "materials/hooke.h"
 #include "materials/invariants.h"
 #include "materials/rate_lanes.h"
@@ -12,6 +14,9 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* What changes with the plastic strain. */
+enum { FRICTION, COHESION, DILATION, STRENGTH_COUNT };
 
 /* Constants of one instance. */
 typedef struct drucker_prager {
@@ -27,6 +32,11 @@ typedef struct drucker_prager {
     double inverse_shear;     /* 1/G, 1/Pa */
     double inverse_nine_bulk; /* 1/(9K), 1/Pa */
     double wave_speed;        /* m/s */
+    double tension_ratio;     /* largest mean tension as a part of the apex, 1 */
+    mor_drucker_prager_cone cone;
+    double residual_strain;        /* plastic strain at which the change is complete; 0: perfectly plastic; 1 */
+    double start[STRENGTH_COUNT];  /* at no plastic strain; rad, Pa, rad */
+    double change[STRENGTH_COUNT]; /* from there to the residual values; rad, Pa, rad */
 } drucker_prager;
 
 /* A yield function this far above zero, relative to the stresses that enter it, is rounding. Without it a mapped stress
@@ -87,11 +97,102 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
     }
 }
 
+/* Hardening and softening: cone and potential are those of the plastic strain at the end of the step. */
+
+/* Sets all that follows from cone and potential. */
+static void set_cone(drucker_prager *m, mor_drucker_prager_surface yield, double dilation)
+{
+    const int has_apex = yield.slope > 0.0;
+    const double apex = has_apex ? yield.strength / yield.slope : INFINITY;
+    m->friction = yield.slope;
+    m->strength = yield.strength;
+    m->pressure_return = 9.0 * m->bulk * dilation / (9.0 * m->bulk * yield.slope * dilation + m->shear);
+    m->cap = m->tension_ratio > 0.0 ? m->tension_ratio * apex : 0.0;
+    /* Exactly zero at the apex, where the difference would leave rounding. */
+    m->strength_at_cap = m->tension_ratio < 1.0 ? yield.strength * (1.0 - m->tension_ratio * has_apex) : 0.0;
+}
+
+static void set_cone_of_angles(drucker_prager *m, const double *value)
+{
+    if (m->cone == MOR_DRUCKER_PRAGER_MATCHED) {
+        set_cone(m, mor_drucker_prager_matched_fit(value[FRICTION], value[COHESION], value[DILATION]),
+                 mor_drucker_prager_cone_fit(MOR_DRUCKER_PRAGER_PLANE_STRAIN, value[DILATION], 0.0).slope);
+    } else {
+        set_cone(m, mor_drucker_prager_cone_fit(m->cone, value[FRICTION], value[COHESION]),
+                 mor_drucker_prager_cone_fit(m->cone, value[DILATION], 0.0).slope);
+    }
+}
+
+static void set_cone_of_strain(drucker_prager *m, double plastic_strain)
+{
+    const double ratio = plastic_strain / m->residual_strain;
+    const double part = ratio < 1.0 ? ratio : 1.0;
+    double value[STRENGTH_COUNT];
+    for (int k = 0; k < STRENGTH_COUNT; ++k) {
+        value[k] = m->start[k] + part * m->change[k];
+    }
+    set_cone_of_angles(m, value);
+}
+
+/* Finds the plastic strain whose cone returns the trial by just that strain: secant steps inside a bracket, which the
+ * start and the loss of all shear stress close, and every third step its middle. The cone of the start decides whether
+ * the trial is outside at all. */
+static returned harden(const drucker_prager *constants, mor_symmetric trial, double start, int *is_solved)
+{
+    enum { ITERATIONS = 100 };
+    static const double TOLERANCE = 4.0 * DBL_EPSILON;
+    if (start >= constants->residual_strain) {
+        *is_solved = 1;
+        return map_to_cone(&constants[1], trial);
+    }
+    drucker_prager m = *constants;
+    set_cone_of_strain(&m, start);
+    returned r = map_to_cone(&m, trial);
+    double low = start;
+    double high = start + sqrt(mor_invariant_j2(trial)) * m.inverse_shear * INVERSE_SQRT3;
+    const double rounding = TOLERANCE * high;
+    double before = start;
+    double miss_before = r.plastic_strain;
+    double strain = start + r.plastic_strain;
+    *is_solved = !(r.plastic_strain > 0.0);
+    for (int k = 0; k < ITERATIONS && !*is_solved; ++k) {
+        set_cone_of_strain(&m, strain);
+        r = map_to_cone(&m, trial);
+        const double miss = start + r.plastic_strain - strain;
+        low = miss > 0.0 ? strain : low;
+        high = miss > 0.0 ? high : strain;
+        /* A trial within rounding of the cone slips or not: there the miss changes sign by a jump. */
+        *is_solved = fabs(miss) <= rounding || high - low <= rounding;
+        const double fall = miss_before - miss;
+        const double secant = strain + miss * (strain - before) / (fall != 0.0 ? fall : 1.0);
+        before = strain;
+        miss_before = miss;
+        strain = k % 3 < 2 && fall != 0.0 && secant > low && secant < high ? secant : 0.5 * (low + high);
+    }
+    return r;
+}
+
+static MOR_LANES_INLINE void advance_hardening_lanes(const void *constants, mor_rate_block *b)
+{
+    const drucker_prager *m = constants;
+    for (int lane = 0; lane < MOR_LANES; ++lane) {
+        int is_solved = 1;
+        const returned r = harden(m, mor_rate_predict(m->two_shear, m->lame, b, lane), b->state[0][lane], &is_solved);
+        mor_rate_write(b, lane, r.stress);
+        b->state[0][lane] += r.plastic_strain;
+        b->dissipation[lane] = r.dissipation;
+        b->is_unsolved[lane] = !is_solved;
+        b->n_unsolved += !is_solved;
+    }
+}
+
 /* Operations. */
 
 static mor_status drucker_prager_advance_rate(const mor_material_instance *instance, const mor_batch *batch)
 {
-    return mor_rate_run(instance->data, batch, advance_lanes, 1);
+    const drucker_prager *model = instance->data;
+    return model->residual_strain > 0.0 ? mor_rate_run(model, batch, advance_hardening_lanes, 1)
+                                        : mor_rate_run(model, batch, advance_lanes, 1);
 }
 
 static mor_status drucker_prager_wave_speed(const mor_material_instance *instance, const mor_batch *batch,
@@ -119,68 +220,120 @@ static mor_status drucker_prager_energy(const mor_material_instance *instance, c
 static mor_status drucker_prager_admissible(const mor_material_instance *instance, const mor_batch *batch,
                                             double *distance)
 {
-    const drucker_prager *model = instance->data;
+    drucker_prager model = *(const drucker_prager *)instance->data;
     for (int64_t i = 0; i < batch->n; ++i) {
+        if (model.residual_strain > 0.0) {
+            set_cone_of_strain(&model, batch->state_in[0][i]);
+        }
         const mor_symmetric stress = mor_symmetric_read(batch->stress_in + 6 * i);
         const double i1 = mor_invariant_i1(stress);
-        const double cone = model->friction * i1 + sqrt(mor_invariant_j2(stress)) - model->strength;
-        const double cap = (i1 - model->cap) * (1.0 / 3.0);
+        const double cone = model.friction * i1 + sqrt(mor_invariant_j2(stress)) - model.strength;
+        const double cap = (i1 - model.cap) * (1.0 / 3.0);
         distance[i] = cone > cap ? cone : cap;
     }
     return MOR_OK;
 }
 
-static mor_status set_cap(const mor_services *services, drucker_prager *model, double tension_ratio)
+static mor_status check_dilation(const mor_services *services, const char *dilation_key, double dilation,
+                                 const char *friction_key, double friction)
 {
-    const int has_apex = model->friction > 0.0;
-    if (!has_apex && tension_ratio > 0.0 && tension_ratio < 1.0) {
+    return dilation <= friction
+               ? MOR_OK
+               : MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
+                                   "drucker_prager: %s is %g rad, more than %s %g rad: such flow would create energy; "
+                                   "use at most the friction angle",
+                                   dilation_key, dilation, friction_key, friction);
+}
+
+/* Residual values as they are meant: a friction angle of 0 stands for that of the start. */
+static void read_residual(const double *value, double *residual)
+{
+    const double friction = value[MOR_DRUCKER_PRAGER_RESIDUAL_FRICTION_ANGLE];
+    residual[FRICTION] = friction > 0.0 ? friction : value[MOR_DRUCKER_PRAGER_FRICTION_ANGLE];
+    residual[COHESION] = value[MOR_DRUCKER_PRAGER_RESIDUAL_COHESION];
+    residual[DILATION] = value[MOR_DRUCKER_PRAGER_RESIDUAL_DILATION_ANGLE];
+}
+
+static mor_status check_residual(const mor_services *services, const double *value)
+{
+    double residual[STRENGTH_COUNT];
+    read_residual(value, residual);
+    if (value[MOR_DRUCKER_PRAGER_RESIDUAL_STRAIN] > 0.0) {
+        return check_dilation(services, "residual_dilation_angle", residual[DILATION], "residual_friction_angle",
+                              residual[FRICTION]);
+    }
+    if (value[MOR_DRUCKER_PRAGER_RESIDUAL_FRICTION_ANGLE] > 0.0 || residual[COHESION] > 0.0 ||
+        residual[DILATION] > 0.0) {
+        return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
+                                 "drucker_prager: residual values are given, but residual_strain is 0, which means "
+                                 "that the strength does not change; give the plastic strain at which they are "
+                                 "reached, or leave them out");
+    }
+    return MOR_OK;
+}
+
+static mor_status check_parameters(const mor_services *services, const double *value)
+{
+    const double tension_ratio = value[MOR_DRUCKER_PRAGER_TENSION_RATIO];
+    mor_status status = check_dilation(services, "dilation_angle", value[MOR_DRUCKER_PRAGER_DILATION_ANGLE],
+                                       "friction_angle", value[MOR_DRUCKER_PRAGER_FRICTION_ANGLE]);
+    if (status == MOR_OK) {
+        status = check_residual(services, value);
+    }
+    if (status == MOR_OK && !(value[MOR_DRUCKER_PRAGER_FRICTION_ANGLE] > 0.0) && tension_ratio > 0.0 &&
+        tension_ratio < 1.0) {
         return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
                                  "drucker_prager: tension_ratio is %g, but without friction the cone has no apex to "
                                  "take a part of; use 0 (no tension) or 1 (no limit)",
                                  tension_ratio);
     }
-    const double apex = has_apex ? model->strength / model->friction : INFINITY;
-    model->cap = tension_ratio > 0.0 ? tension_ratio * apex : 0.0;
-    /* Exactly zero at the apex, where the difference would leave rounding. */
-    model->strength_at_cap = tension_ratio < 1.0 ? model->strength * (1.0 - tension_ratio * has_apex) : 0.0;
-    return MOR_OK;
+    return status;
+}
+
+static void set_strengths(drucker_prager *model, const double *value)
+{
+    double residual[STRENGTH_COUNT];
+    read_residual(value, residual);
+    model->cone = (mor_drucker_prager_cone)value[MOR_DRUCKER_PRAGER_CONE];
+    model->tension_ratio = value[MOR_DRUCKER_PRAGER_TENSION_RATIO];
+    model->residual_strain = value[MOR_DRUCKER_PRAGER_RESIDUAL_STRAIN];
+    model->start[FRICTION] = value[MOR_DRUCKER_PRAGER_FRICTION_ANGLE];
+    model->start[COHESION] = value[MOR_DRUCKER_PRAGER_COHESION];
+    model->start[DILATION] = value[MOR_DRUCKER_PRAGER_DILATION_ANGLE];
+    for (int k = 0; k < STRENGTH_COUNT; ++k) {
+        model->change[k] = residual[k] - model->start[k];
+    }
+    set_cone_of_angles(model, model->start);
 }
 
 static mor_status drucker_prager_create(const mor_services *services, mor_material_instance *instance)
 {
     const double *value = instance->parameters;
-    const double friction_angle = value[MOR_DRUCKER_PRAGER_FRICTION_ANGLE];
-    const double dilation_angle = value[MOR_DRUCKER_PRAGER_DILATION_ANGLE];
-    if (dilation_angle > friction_angle) {
-        return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
-                                 "drucker_prager: dilation_angle is %g rad, more than friction_angle %g rad: such flow "
-                                 "would create energy; use at most the friction angle",
-                                 dilation_angle, friction_angle);
+    mor_status status = check_parameters(services, value);
+    if (status == MOR_OK) {
+        status = services->memory_new(services->context, &instance->data, 2, sizeof(drucker_prager),
+                                      "drucker_prager constants");
     }
-    drucker_prager *model = NULL;
-    const mor_status status =
-        services->memory_new(services->context, &instance->data, 1, sizeof *model, "drucker_prager constants");
     if (status != MOR_OK) {
         return status;
     }
-    model = instance->data;
-    const mor_drucker_prager_cone cone = (mor_drucker_prager_cone)value[MOR_DRUCKER_PRAGER_CONE];
-    const mor_drucker_prager_surface yield =
-        mor_drucker_prager_cone_fit(cone, friction_angle, value[MOR_DRUCKER_PRAGER_COHESION]);
-    const double dilation = mor_drucker_prager_cone_fit(cone, dilation_angle, 0.0).slope;
+    drucker_prager *model = instance->data;
     const double youngs = value[MOR_DRUCKER_PRAGER_YOUNGS_MODULUS];
     const double poisson = value[MOR_DRUCKER_PRAGER_POISSONS_RATIO];
     model->shear = youngs / (2.0 * (1.0 + poisson));
     model->bulk = youngs / (3.0 * (1.0 - 2.0 * poisson));
     model->two_shear = 2.0 * model->shear;
     model->lame = model->bulk - model->two_shear / 3.0;
-    model->friction = yield.slope;
-    model->strength = yield.strength;
-    model->pressure_return = 9.0 * model->bulk * dilation / (9.0 * model->bulk * yield.slope * dilation + model->shear);
     model->inverse_shear = 1.0 / model->shear;
     model->inverse_nine_bulk = 1.0 / (9.0 * model->bulk);
     model->wave_speed = sqrt(model->bulk / instance->density);
-    return set_cap(services, model, value[MOR_DRUCKER_PRAGER_TENSION_RATIO]);
+    set_strengths(model, value);
+    /* The second of the two is that of the residual strength. */
+    model[1] = model[0];
+    if (model->residual_strain > 0.0) {
+        set_cone_of_strain(&model[1], model->residual_strain);
+    }
+    return MOR_OK;
 }
 
 static void drucker_prager_destroy(const mor_services *services, mor_material_instance *instance)
@@ -191,68 +344,47 @@ static void drucker_prager_destroy(const mor_services *services, mor_material_in
 static const mor_schema PARAMETERS[] = {
     [MOR_DRUCKER_PRAGER_YOUNGS_MODULUS] = MOR_HOOKE_YOUNGS_MODULUS_SCHEMA,
     [MOR_DRUCKER_PRAGER_POISSONS_RATIO] = MOR_HOOKE_POISSONS_RATIO_SCHEMA,
-    [MOR_DRUCKER_PRAGER_FRICTION_ANGLE] = {.key = "friction_angle",
-                                           .role = MOR_ROLE_FRICTION_ANGLE,
-                                           .kind = MOR_SCHEMA_REAL,
-                                           .n_components = 1,
-                                           .unit = "rad",
-                                           .is_required = 1,
-                                           .minimum = 0.0,
-                                           .maximum = 1.57079632679489662,
-                                           .excludes_maximum = 1,
-                                           .text = "friction angle"},
-    [MOR_DRUCKER_PRAGER_COHESION] = {.key = "cohesion",
-                                     .role = MOR_ROLE_COHESION,
-                                     .kind = MOR_SCHEMA_REAL,
-                                     .n_components = 1,
-                                     .unit = "Pa",
-                                     .minimum = 0.0,
-                                     .maximum = INFINITY,
-                                     .text = "cohesion c"},
-    [MOR_DRUCKER_PRAGER_DILATION_ANGLE] = {.key = "dilation_angle",
-                                           .role = MOR_ROLE_DILATION_ANGLE,
-                                           .kind = MOR_SCHEMA_REAL,
-                                           .n_components = 1,
-                                           .unit = "rad",
-                                           .minimum = 0.0,
-                                           .maximum = 1.57079632679489662,
-                                           .excludes_maximum = 1,
-                                           .text = "dilation angle, at most the friction angle"},
+    [MOR_DRUCKER_PRAGER_FRICTION_ANGLE] = MOR_FRICTIONAL_FRICTION_ANGLE_SCHEMA(0),
+    [MOR_DRUCKER_PRAGER_COHESION] = MOR_FRICTIONAL_COHESION_SCHEMA,
+    [MOR_DRUCKER_PRAGER_DILATION_ANGLE] = MOR_FRICTIONAL_DILATION_ANGLE_SCHEMA,
     [MOR_DRUCKER_PRAGER_CONE] = {.key = "cone",
                                  .kind = MOR_SCHEMA_CHOICE,
                                  .n_components = 1,
                                  .unit = "1",
-                                 .choices = "plane_strain|compression|extension",
+                                 .choices = "plane_strain|compression|extension|matched",
                                  .text = "where the cone meets the Mohr-Coulomb surface"},
-    [MOR_DRUCKER_PRAGER_TENSION_RATIO] = {.key = "tension_ratio",
-                                          .role = MOR_ROLE_TENSION_RATIO,
-                                          .kind = MOR_SCHEMA_REAL,
-                                          .n_components = 1,
-                                          .unit = "1",
-                                          .default_value = 1.0,
-                                          .minimum = 0.0,
-                                          .maximum = 1.0,
-                                          .text = "largest mean tension as a part of the cone's apex, c / tan(phi)"},
+    [MOR_DRUCKER_PRAGER_TENSION_RATIO] =
+        MOR_FRICTIONAL_TENSION_RATIO_SCHEMA("largest mean tension as a part of the cone's apex, c / tan(phi)"),
+    [MOR_DRUCKER_PRAGER_RESIDUAL_STRAIN] = {.key = "residual_strain",
+                                            .kind = MOR_SCHEMA_REAL,
+                                            .n_components = 1,
+                                            .unit = "1",
+                                            .minimum = 0.0,
+                                            .maximum = INFINITY,
+                                            .text = "plastic strain at which friction, cohesion and dilation have "
+                                                    "become the residual ones; 0: they do not change"},
+    [MOR_DRUCKER_PRAGER_RESIDUAL_FRICTION_ANGLE] =
+        MOR_FRICTIONAL_ANGLE_SCHEMA("residual_friction_angle", "friction angle from residual_strain on; 0: as before"),
+    [MOR_DRUCKER_PRAGER_RESIDUAL_COHESION] = {.key = "residual_cohesion",
+                                              .kind = MOR_SCHEMA_REAL,
+                                              .n_components = 1,
+                                              .unit = "Pa",
+                                              .minimum = 0.0,
+                                              .maximum = INFINITY,
+                                              .text = "cohesion from residual_strain on"},
+    [MOR_DRUCKER_PRAGER_RESIDUAL_DILATION_ANGLE] = MOR_FRICTIONAL_ANGLE_SCHEMA(
+        "residual_dilation_angle", "dilation angle from residual_strain on; 0: shear at constant volume"),
     [MOR_DRUCKER_PRAGER_COUNT] = {.key = NULL},
 };
 
-static const mor_schema STATE[] = {
-    {.key = "plastic_strain",
-     .kind = MOR_SCHEMA_REAL,
-     .n_components = 1,
-     .unit = "1",
-     .minimum = 0.0,
-     .maximum = INFINITY,
-     .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"},
-    {.key = NULL},
-};
+static const mor_schema STATE[] = {MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA, {.key = NULL}};
 
 const mor_material MOR_ISA_NAME(mor_drucker_prager) = {
     .abi = MOR_MATERIAL_ABI,
     .struct_bytes = sizeof(mor_material),
     .name = "drucker_prager",
-    .version = "1.0",
-    .text = "elastic, perfectly plastic soil with friction and cohesion, non-associated flow",
+    .version = "1.1",
+    .text = "elastic, plastic soil with friction and cohesion on a cone, non-associated flow, hardening, softening",
     .literature = "Zhang et al. (2024), eqs. 4 to 12; Drucker and Prager (1952); Hughes and Winget (1980)",
     .form = MOR_MATERIAL_RATE,
     .capabilities = MOR_MATERIAL_PATH_DEPENDENT | MOR_MATERIAL_DISSIPATION | MOR_MATERIAL_EXACT_SCALING,

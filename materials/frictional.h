@@ -33,6 +33,20 @@
         .text = "dilation angle, at most the friction angle"                                                           \
     }
 
+/** Schema entry of an angle without a role, from 0, which is the default, to below a right angle. */
+#define MOR_FRICTIONAL_ANGLE_SCHEMA(word, line)                                                                        \
+    {                                                                                                                  \
+        .key = (word), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "rad", .minimum = 0.0,                      \
+        .maximum = 1.57079632679489662, .excludes_maximum = 1, .text = (line)                                          \
+    }
+
+/** Schema entry of the limit of tension; line says of which stress. */
+#define MOR_FRICTIONAL_TENSION_RATIO_SCHEMA(line)                                                                      \
+    {                                                                                                                  \
+        .key = "tension_ratio", .role = MOR_ROLE_TENSION_RATIO, .kind = MOR_SCHEMA_REAL, .n_components = 1,            \
+        .unit = "1", .default_value = 1.0, .minimum = 0.0, .maximum = 1.0, .text = (line)                              \
+    }
+
 /** Schema entry of the accumulated deviatoric plastic strain, a state variable. */
 #define MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA                                                                           \
     {                                                                                                                  \

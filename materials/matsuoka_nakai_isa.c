@@ -8,9 +8,7 @@
  * function r y is a convex norm of the deviator; its gradient is the deviatoric flow. Backward Euler then leaves one
  * equation in the Lode angle, with a zero between compression and the angle of the trial. */
 #include "materials/frictional.h"
-#include "materials/hooke.h"
 #include "materials/principal_lanes.h"
-#include "materials/rate_lanes.h"
 
 #include <float.h>
 #include <math.h>

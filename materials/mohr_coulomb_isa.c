@@ -4,9 +4,6 @@
  * returned exactly in principal stresses. docs/theory/mohr_coulomb.md. */
 #include "materials/frictional.h"
 #include "materials/hexagon.h"
-#include "materials/hooke.h"
-#include "materials/principal_lanes.h"
-#include "materials/rate_lanes.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -173,15 +170,8 @@ static const mor_schema PARAMETERS[] = {
     [FRICTION_ANGLE] = MOR_FRICTIONAL_FRICTION_ANGLE_SCHEMA(0),
     [COHESION] = MOR_FRICTIONAL_COHESION_SCHEMA,
     [DILATION_ANGLE] = MOR_FRICTIONAL_DILATION_ANGLE_SCHEMA,
-    [TENSION_RATIO] = {.key = "tension_ratio",
-                       .role = MOR_ROLE_TENSION_RATIO,
-                       .kind = MOR_SCHEMA_REAL,
-                       .n_components = 1,
-                       .unit = "1",
-                       .default_value = 1.0,
-                       .minimum = 0.0,
-                       .maximum = 1.0,
-                       .text = "largest tensile stress as a part of that at the apex, c / tan(phi)"},
+    [TENSION_RATIO] =
+        MOR_FRICTIONAL_TENSION_RATIO_SCHEMA("largest tensile stress as a part of that at the apex, c / tan(phi)"),
     [PARAMETER_COUNT] = {.key = NULL},
 };
 

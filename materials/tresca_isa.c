@@ -4,9 +4,6 @@
  * may grow with the logarithm of the rate of plastic shear. docs/theory/mohr_coulomb.md. */
 #include "materials/frictional.h"
 #include "materials/hexagon.h"
-#include "materials/hooke.h"
-#include "materials/principal_lanes.h"
-#include "materials/rate_lanes.h"
 
 #include <float.h>
 #include <math.h>

@@ -74,7 +74,8 @@ static inline void rock_scene_open(rock_scene *it, int dimension, double spacing
         it->settings.domain_minimum[a] = -1000.0 * spacing;
         it->settings.domain_maximum[a] = 1000.0 * spacing;
     }
-    const double parameters[] = {1e6, 0.3, 0.5, 1000.0, 0.0, MOR_DRUCKER_PRAGER_PLANE_STRAIN, 1.0};
+    const double parameters[MOR_DRUCKER_PRAGER_COUNT] = {1e6, 0.3, 0.5, 1000.0, 0.0, MOR_DRUCKER_PRAGER_PLANE_STRAIN,
+                                                         1.0};
     memcpy(it->parameters, parameters, sizeof parameters);
     it->pile.dimension = dimension;
     it->pile.spacing = spacing;

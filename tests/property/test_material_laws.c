@@ -105,6 +105,9 @@ static void special_soils_obey_all_laws(void **state)
         {3e9, 0.35, 0.26, 8.4e3, 0.2, 2, 0.3},
         {1e6, -0.5, 1.5, 1e3, 1.5, 1, 0},
         {1e-3, 0.3, 0.5, 1e-6, 0.1, 0, 1},
+        {3e9, 0.35, 0.26, 8.4e3, 0.2, 3, 1},
+        {5.98e6, 0.3, 0.7, 5e3, 0.2, 3, 1, 0.05, 0.5},
+        {5.98e6, 0.3, 0.5, 0, 0.1, 1, 0.5, 1e-3, 0.6, 2e3, 0.3},
     };
     for (size_t k = 0; k < sizeof soils / sizeof soils[0]; ++k) {
         check_special(law_named("drucker_prager"), soils[k], k);
@@ -138,6 +141,34 @@ static void special_flows_obey_all_laws(void **state)
     };
     for (size_t k = 0; k < sizeof soils / sizeof soils[0]; ++k) {
         check_special(law_named(soils[k].name), soils[k].values, k);
+    }
+}
+
+static void special_frictional_soils_obey_all_laws(void **state)
+{
+    (void)state;
+    /* E, nu, phi, c, psi, and for Mohr-Coulomb the tension ratio */
+    const double soils[][6] = {
+        {5.98e6, 0.3, 0.5235987755982988, 0, 0, 1},
+        {5.98e6, 0.3, 0.52, 0, 0.52, 1},
+        {1e7, 0.45, 0.7, 1e4, 0.2, 0},
+        {3e9, 0.35, 0.26, 8.4e3, 0.2, 0.3},
+        {1e6, -0.5, 1.4, 1e3, 1.3, 1},
+        {1e-3, 0.3, 0.5, 1e-6, 0.1, 0.5},
+        {1e7, 0.0, 0.01, 1e4, 0, 1},
+    };
+    for (size_t k = 0; k < sizeof soils / sizeof soils[0]; ++k) {
+        check_special(law_named("mohr_coulomb"), soils[k], k);
+        check_special(law_named("matsuoka_nakai"), soils[k], k);
+    }
+    const double no_friction[2][6] = {{1e7, 0.3, 0, 1e4, 0, 1}, {1e7, 0.49, 0, 1e4, 0, 0}};
+    check_special(law_named("mohr_coulomb"), no_friction[0], 0);
+    check_special(law_named("mohr_coulomb"), no_friction[1], 1);
+    /* E, nu, s_u, m, reference rate: below and above the rates of the laws' paths */
+    const double clays[][5] = {
+        {1e7, 0.3, 1e4, 0, 1}, {1e7, 0.499, 1e3, 0, 1}, {1e7, 0.49, 1e4, 0.1, 1e-6}, {1e7, 0.45, 1e4, 1.0, 100.0}};
+    for (size_t k = 0; k < sizeof clays / sizeof clays[0]; ++k) {
+        check_special(law_named("tresca"), clays[k], k);
     }
 }
 
@@ -443,6 +474,7 @@ int main(void)
         cmocka_unit_test(every_registered_material_obeys_all_laws),
         cmocka_unit_test(special_soils_obey_all_laws),
         cmocka_unit_test(special_flows_obey_all_laws),
+        cmocka_unit_test(special_frictional_soils_obey_all_laws),
         cmocka_unit_test(special_rocks_obey_all_laws),
         cmocka_unit_test(template_plugin_builds_as_its_readme_says_and_obeys_all_laws),
         cmocka_unit_test(each_law_notices_its_breach),

@@ -14,17 +14,14 @@
 
 #define DEG (MOR_PI / 180.0)
 
-typedef struct soil_values {
-    double youngs, poisson, friction, cohesion, dilation, cone, tension_ratio; /* schema order */
-} soil_values;
-
-static const soil_values SAND = {5.98e6, 0.3, 30.0 * DEG, 0.0, 0.0, MOR_DRUCKER_PRAGER_PLANE_STRAIN, 1.0};
+static const double SAND[MOR_DRUCKER_PRAGER_COUNT] = {
+    5.98e6, 0.3, 30.0 * DEG, 0.0, 0.0, MOR_DRUCKER_PRAGER_PLANE_STRAIN, 1.0};
 
 static mor_material_instance *make(mor_context *context)
 {
     mor_context_init(context);
     mor_material_instance *soil = NULL;
-    assert_int_equal(mor_material_create(context, law_named("drucker_prager"), 2000.0, &SAND.youngs, &soil), MOR_OK);
+    assert_int_equal(mor_material_create(context, law_named("drucker_prager"), 2000.0, SAND, &soil), MOR_OK);
     return soil;
 }
 
@@ -75,15 +72,34 @@ static void cone_constants_match_the_table(void **state)
 static void all_cones_share_the_apex_and_are_ordered(void **state)
 {
     (void)state;
-    mor_drucker_prager_surface s[3];
-    for (int cone = 0; cone < 3; ++cone) {
+    mor_drucker_prager_surface s[4];
+    for (int cone = 0; cone < 4; ++cone) {
         s[cone] = mor_drucker_prager_cone_fit((mor_drucker_prager_cone)cone, 30.0 * DEG, 20e3);
         check_close(s[cone].strength / (3.0 * s[cone].slope), 20e3 / tan(30.0 * DEG), 1e-9); /* some ulp of 3e4 */
     }
     assert_true(s[MOR_DRUCKER_PRAGER_COMPRESSION].slope > s[MOR_DRUCKER_PRAGER_EXTENSION].slope);
     assert_true(s[MOR_DRUCKER_PRAGER_EXTENSION].slope > s[MOR_DRUCKER_PRAGER_PLANE_STRAIN].slope);
+    const mor_drucker_prager_surface matched = s[MOR_DRUCKER_PRAGER_MATCHED];
+    check_close(matched.slope, 0.5 / 3.0, 1e-15);                 /* sin(phi)/3; an ulp */
+    check_close(matched.strength, 20e3 * cos(30.0 * DEG), 1e-11); /* c cos(phi); some ulp */
     const mor_drucker_prager_surface none = mor_drucker_prager_cone_fit(MOR_DRUCKER_PRAGER_PLANE_STRAIN, 0.0, 7.0);
     assert_true(none.slope == 0.0 && none.strength == 7.0); /* exact */
+}
+
+/* Flow that dilates with the friction angle is associated; in between the slope falls from one cone to the other. */
+static void matched_cone_ends_at_the_associated_one(void **state)
+{
+    (void)state;
+    double before = sin(35.0 * DEG) / 3.0;
+    for (int k = 0; k <= 35; ++k) {
+        const mor_drucker_prager_surface cone = mor_drucker_prager_matched_fit(35.0 * DEG, 7e3, k * DEG);
+        assert_true(cone.slope <= before * (1.0 + 1e-15));                             /* an ulp */
+        check_close(cone.strength / (3.0 * cone.slope), 7e3 / tan(35.0 * DEG), 1e-11); /* some ulp of 1e4 */
+        before = cone.slope;
+    }
+    const mor_drucker_prager_surface associated =
+        mor_drucker_prager_cone_fit(MOR_DRUCKER_PRAGER_PLANE_STRAIN, 35.0 * DEG, 7e3);
+    check_close(before, associated.slope, 1e-15); /* some ulp */
 }
 
 static void energies_match_closed_forms(void **state)
@@ -108,23 +124,33 @@ static void wrong_parameters_are_refused_with_a_reason(void **state)
 {
     (void)state;
     const struct {
-        soil_values values;
+        double values[MOR_DRUCKER_PRAGER_COUNT]; /* schema order */
         double density;
         const char *word;
     } cases[] = {
-        {{0, 0.3, 0.5, 0, 0, 0, 1}, 2000, "youngs_modulus"},     {{1e6, 0.5, 0.5, 0, 0, 0, 1}, 2000, "poissons_ratio"},
-        {{1e6, -1, 0.5, 0, 0, 0, 1}, 2000, "poissons_ratio"},    {{1e6, 0.3, 1.6, 0, 0, 0, 1}, 2000, "friction_angle"},
-        {{1e6, 0.3, NAN, 0, 0, 0, 1}, 2000, "required"},         {{1e6, 0.3, 0.5, -1, 0, 0, 1}, 2000, "cohesion"},
-        {{1e6, 0.3, 0.5, 0, 0.6, 0, 1}, 2000, "dilation_angle"}, {{1e6, 0.3, 0.5, 0, 0, 3, 1}, 2000, "cone"},
-        {{1e6, 0.3, 0.5, 0, 0, 0.5, 1}, 2000, "cone"},           {{1e6, 0.3, 0.5, 0, 0, 0, 1.1}, 2000, "tension_ratio"},
-        {{1e6, 0.3, 0.0, 0, 0, 0, 0.5}, 2000, "tension_ratio"},  {{1e6, 0.3, 0.5, 0, 0, 0, 1}, 0, "density"},
+        {{0, 0.3, 0.5, 0, 0, 0, 1}, 2000, "youngs_modulus"},
+        {{1e6, 0.5, 0.5, 0, 0, 0, 1}, 2000, "poissons_ratio"},
+        {{1e6, -1, 0.5, 0, 0, 0, 1}, 2000, "poissons_ratio"},
+        {{1e6, 0.3, 1.6, 0, 0, 0, 1}, 2000, "friction_angle"},
+        {{1e6, 0.3, NAN, 0, 0, 0, 1}, 2000, "required"},
+        {{1e6, 0.3, 0.5, -1, 0, 0, 1}, 2000, "cohesion"},
+        {{1e6, 0.3, 0.5, 0, 0.6, 0, 1}, 2000, "dilation_angle"},
+        {{1e6, 0.3, 0.5, 0, 0, 4, 1}, 2000, "cone"},
+        {{1e6, 0.3, 0.5, 0, 0, 0.5, 1}, 2000, "cone"},
+        {{1e6, 0.3, 0.5, 0, 0, 0, 1.1}, 2000, "tension_ratio"},
+        {{1e6, 0.3, 0.0, 0, 0, 0, 0.5}, 2000, "tension_ratio"},
+        {{1e6, 0.3, 0.5, 0, 0, 0, 1}, 0, "density"},
         {{1e6, 0.3, 0.5, 0, 0, 0, 1}, NAN, "density"},
+        {{1e6, 0.3, 0.5, 0, 0, 0, 1, 0, 0.4}, 2000, "residual_strain"},
+        {{1e6, 0.3, 0.5, 0, 0, 0, 1, 0, 0, 5.0}, 2000, "residual_strain"},
+        {{1e6, 0.3, 0.5, 0, 0, 0, 1, 0, 0, 0, 0.1}, 2000, "residual_strain"},
+        {{1e6, 0.3, 0.5, 0, 0, 0, 1, 0.1, 0.4, 0, 0.45}, 2000, "residual_dilation_angle"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         mor_context context;
         mor_context_init(&context);
         mor_material_instance *soil = NULL;
-        const double *values = &cases[k].values.youngs;
+        const double *values = cases[k].values;
         assert_int_equal(mor_material_create(&context, law_named("drucker_prager"), cases[k].density, values, &soil),
                          MOR_ERROR_ARGUMENT);
         assert_null(soil);
@@ -174,6 +200,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cone_constants_match_the_table),
         cmocka_unit_test(all_cones_share_the_apex_and_are_ordered),
+        cmocka_unit_test(matched_cone_ends_at_the_associated_one),
         cmocka_unit_test(energies_match_closed_forms),
         cmocka_unit_test(wrong_parameters_are_refused_with_a_reason),
         cmocka_unit_test(bad_input_stops_with_the_particle),
