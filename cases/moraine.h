@@ -307,8 +307,8 @@ typedef enum mor_session_outcome {
  *  that was refused, or ended before its first row, has no results: the case is loaded still, and may be run into
  *  another folder. A case that cannot be built leaves no new folder behind.
  *  @param folder    [in]   zero-terminated; made when missing
- *  @param is_resume [in]   go on from the checkpoint of the folder, which must be there; else a folder that holds a run
- *                          is refused
+ *  @param is_resume [in]   go on from the folder's checkpoint, or start where there is none; else a folder that holds a
+ *                          run is refused
  *  @param stop_time [in]   stop with a checkpoint at the first step at or after this time, unit s; NaN: at the end
  *  @param outcome   [out]  one word
  *  Returns: MOR_OK, also when stopped, interrupted, or an expectation was missed; MOR_ERROR_ARGUMENT when no case is

@@ -71,11 +71,6 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files)
     const mor_run_options *options = files->options;
     MOR_TRY(context, refuse_run(context, options)); /* before anything is made in the folder of another run */
     files->is_folder_new = access(options->folder, F_OK) != 0;
-    MOR_CHECK(
-        context, !options->is_resume || !files->is_folder_new, MOR_ERROR_CONFIG,
-        "found no folder '%s' to resume; allowed: the folder of a run that was started; correct its name, or start "
-        "a new run",
-        options->folder);
     MOR_TRY(context, mor_run_folder_make(context, options->folder));
     MOR_TRY(context, mor_durable_file_join(context, path, options->folder, IMAGES_FOLDER));
     MOR_TRY(context, mor_run_folder_make(context, path));
