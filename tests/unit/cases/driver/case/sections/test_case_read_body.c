@@ -328,7 +328,7 @@ static void a_case_without_bodies_takes_nothing_that_is_about_them(void **state)
         {"probes=( { type = \"contact_depth\"; } )", "in a case without bodies"},
         {"contact.restitution=1", "found 'contact', which has no effect in a case without bodies"},
         {"bodies=( )", "allowed: a list of 1 to 4096 groups"},
-        {"soil=( )", "allowed: a list of 1 to 8 groups"}};
+        {"soil=( )", "allowed: a list of 1 to 16 groups"}};
     refuse_all(*state, soil_text, "", rows, sizeof rows / sizeof rows[0]);
 }
 
