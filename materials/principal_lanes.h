@@ -219,7 +219,7 @@ static MOR_LANES_INLINE void mor_principal_merge(const mor_hooke *elastic, const
         const int is_plastic = p->is_plastic[lane] != 0.0;
         b->state[0][lane] += is_plastic ? slip : 0.0;
         /* Not negative in exact arithmetic because no law dilates more than it has friction. */
-        b->dissipation[lane] = is_plastic & (work > 0.0) ? work : 0.0;
+        b->dissipation[lane] = (is_plastic & (work > 0.0)) != 0 ? work : 0.0;
     }
 }
 

@@ -21,7 +21,7 @@ subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpl
   double precision, pointer :: nowhere, kept(:)
   integer :: a, fault, count
   integer(c_intptr_t) :: address
-  common /work/ scratch
+  common /kept/ scratch
 
   fault = nint(props(3))
   shear = props(1) / (2.0d0 * (1.0d0 + props(2)))
