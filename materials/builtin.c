@@ -17,7 +17,8 @@
     LAW(hencky_drucker_prager, isa)                                                                                    \
     LAW(mohr_coulomb, isa)                                                                                             \
     LAW(matsuoka_nakai, isa)                                                                                           \
-    LAW(tresca, isa)
+    LAW(tresca, isa)                                                                                                   \
+    LAW(hypoplastic_sand, isa)
 
 #define DECLARE(law, isa) extern const mor_material mor_##law##_##isa;
 #define ADDRESS(law, isa) &mor_##law##_##isa,

@@ -28,6 +28,11 @@ typedef enum mor_role {
     MOR_ROLE_COHESION,       /* c of Mohr and Coulomb; the undrained strength where phi is zero; Pa */
     MOR_ROLE_DILATION_ANGLE, /* psi, rad */
     MOR_ROLE_TENSION_RATIO,  /* largest mean tension as a part of that at the apex, 1 */
+    /* How the rates of a law are integrated: core/material/kit/integration.h. */
+    MOR_ROLE_INTEGRATION_METHOD, /* a choice, 1 */
+    MOR_ROLE_RELATIVE_TOLERANCE, /* 1 */
+    MOR_ROLE_ABSOLUTE_TOLERANCE, /* of the stress, Pa */
+    MOR_ROLE_SUB_STEPS_MAX,      /* a whole number, 1 */
     MOR_ROLE_COUNT
 } mor_role;
 

@@ -230,6 +230,24 @@ static json_t *make_failure(mor_context *context, const mor_summary_failure *fai
     return object;
 }
 
+static const char *const COUNTS[] = {"updates", "sub_steps", "rejected", "rates", "failures"};
+enum { N_COUNTS = sizeof COUNTS / sizeof *COUNTS };
+
+static json_t *make_integration(const mor_summary_integration *it)
+{
+    const int64_t counts[N_COUNTS] = {it->n_updates, it->n_sub_steps, it->n_rejected, it->n_rates, it->n_failures};
+    json_t *object = json_object();
+    int error = 0;
+    for (int k = 0; k < N_COUNTS; ++k) {
+        error |= add_member(object, COUNTS[k], json_integer(counts[k]));
+    }
+    if (error != 0) {
+        json_decref(object);
+        return NULL;
+    }
+    return object;
+}
+
 /* The whole document, NULL when memory runs out or two names are the same. */
 static json_t *make_document(mor_context *context, const mor_summary *summary)
 {
@@ -243,6 +261,9 @@ static json_t *make_document(mor_context *context, const mor_summary *summary)
     error |= add_member(document, "failure", make_failure(context, summary->failure));
     error |= add_member(document, "results", make_results(context, summary));
     error |= add_member(document, "expect", make_expectations(context, summary));
+    if (summary->integration != NULL) {
+        error |= add_member(document, "integration", make_integration(summary->integration));
+    }
     error |= add_member(document, "warnings", make_warnings(context, summary));
     error |= add_member(document, "state_hash", make_hash(summary->state_hash));
     error |= add_member(document, "speed", speed);
@@ -424,6 +445,16 @@ static mor_status check_outcome(mor_context *context, const char *path, const js
     return fits ? MOR_OK : fail_member(context, path, "failure", "null of a run that finished, else why it failed");
 }
 
+static mor_status check_integration(mor_context *context, const char *path, const json_t *integration)
+{
+    for (int k = 0; k < N_COUNTS && integration != NULL; ++k) {
+        if (!json_is_integer(json_object_get(integration, COUNTS[k]))) {
+            return fail_member(context, path, "integration", "whole numbers of updates, sub_steps and so on");
+        }
+    }
+    return MOR_OK;
+}
+
 static mor_status check_document(mor_context *context, const char *path, const json_t *document)
 {
     const json_t *version = json_object_get(document, "version");
@@ -440,6 +471,7 @@ static mor_status check_document(mor_context *context, const char *path, const j
     for (size_t k = 0; k < json_array_size(expectations); ++k) {
         MOR_TRY(context, check_expectation(context, path, json_array_get(expectations, k), results));
     }
+    MOR_TRY(context, check_integration(context, path, json_object_get(document, "integration")));
     MOR_TRY(context, check_warnings(context, path, json_object_get(document, "warnings")));
     if (!is_hash(json_object_get(document, "state_hash"))) {
         return fail_member(context, path, "state_hash", "16 hexadecimal digits");

@@ -19,6 +19,8 @@
  *                     "impulse", "impulse_unit" (of a force), "remark" (if there is one) }, ... },
  *        "expect": [ { "probe", "statistic", "measured", "reference", "tolerance", "tolerance_low", "tolerance_kind",
  *                      "unit", "pass", "source" }, ... ],
+ *        "integration" (of materials whose rates are integrated): { "updates", "sub_steps", "rejected", "rates",
+ *                       "failures": numbers },
  *        "warnings": [ text, ... ],
  *        "state_hash": "16 hexadecimal digits",
  *        "speed": { "particle_steps_per_second": number },
@@ -90,11 +92,21 @@ typedef struct mor_summary_failure {
     int64_t particle;   /* its number */
 } mor_summary_failure;
 
+/** What the integration of materials has taken since the start of the run; numbers, 1. */
+typedef struct mor_summary_integration {
+    int64_t n_updates;   /* steps of particles */
+    int64_t n_sub_steps; /* accepted ones */
+    int64_t n_rejected;  /* sub-steps repeated because the error was too large */
+    int64_t n_rates;     /* evaluations of a law */
+    int64_t n_failures;  /* updates repeated with smaller steps */
+} mor_summary_integration;
+
 /** Everything in the file. A view: nothing in it is owned. */
 typedef struct mor_summary {
     const mor_summary_failure *failure; /* NULL: the run reached its end */
     const mor_summary_result *results;  /* shape [n_results] */
     int n_results;
+    const mor_summary_integration *integration;  /* NULL: of no material */
     const mor_summary_expectation *expectations; /* shape [n_expectations] */
     int n_expectations;
     const char *const *warnings; /* shape [n_warnings]; zero-terminated; what was warned of, in order */

@@ -447,6 +447,7 @@ static void checked_destroy(const mor_services *services, mor_material_instance 
     if (data != NULL) {
         mor_material_destroy(services->context, &data->inner);
     }
+    instance->integration = NULL; /* of the inner instance */
     services->memory_free(services->context, &instance->data);
 }
 

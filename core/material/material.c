@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/material/params.h"
+#include "core/material/rate_integration.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -117,8 +118,15 @@ static const char *find_operation_fault(const mor_material *material)
     if (material->form != MOR_MATERIAL_RATE && material->form != MOR_MATERIAL_TOTAL) {
         return "form must be MOR_MATERIAL_RATE or MOR_MATERIAL_TOTAL";
     }
-    if (material->form == MOR_MATERIAL_RATE && operations->advance_rate == NULL) {
-        return "the rate form requires advance_rate";
+    if (material->form == MOR_MATERIAL_RATE &&
+        (operations->advance_rate == NULL) == (operations->stress_rate == NULL)) {
+        return "the rate form requires one of advance_rate and stress_rate";
+    }
+    if (operations->limit != NULL && operations->stress_rate == NULL) {
+        return "operation limit goes with stress_rate";
+    }
+    if ((material->capabilities & MOR_MATERIAL_DISSIPATION) != 0 && operations->stress_rate != NULL) {
+        return "a law with stress_rate reports no dissipation; remove the capability MOR_MATERIAL_DISSIPATION";
     }
     if (material->form == MOR_MATERIAL_TOTAL && operations->stress_total == NULL) {
         return "the total form requires stress_total";
@@ -221,6 +229,9 @@ mor_status mor_material_create(mor_context *context, const mor_material *materia
         mor_services_init(context, &services);
         status = material->operations.create(&services, made);
     }
+    if (status == MOR_OK) {
+        status = mor_rate_integration_init(context, made);
+    }
     if (status != MOR_OK) {
         mor_material_destroy(context, &made);
         return mor_context_pass(context, status, MOR_HERE);
@@ -237,6 +248,7 @@ void mor_material_destroy(mor_context *context, mor_material_instance **instance
     mor_services services;
     mor_services_init(context, &services);
     (*instance)->operations.destroy(&services, *instance);
+    mor_rate_integration_clear(context, *instance);
     double *parameters = (double *)(uintptr_t)(*instance)->parameters;
     MOR_FREE(context, &parameters);
     MOR_FREE(context, instance);

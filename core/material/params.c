@@ -56,6 +56,10 @@ static const struct {
     [MOR_ROLE_COHESION] = {"cohesion c", "Pa"},
     [MOR_ROLE_DILATION_ANGLE] = {"dilation angle psi", "rad"},
     [MOR_ROLE_TENSION_RATIO] = {"tension ratio", "1"},
+    [MOR_ROLE_INTEGRATION_METHOD] = {"method of integration", "1"},
+    [MOR_ROLE_RELATIVE_TOLERANCE] = {"relative tolerance of the integration", "1"},
+    [MOR_ROLE_ABSOLUTE_TOLERANCE] = {"absolute tolerance of the integration", "Pa"},
+    [MOR_ROLE_SUB_STEPS_MAX] = {"largest number of sub-steps", "1"},
 };
 
 const char *mor_role_text(mor_role role)
@@ -231,8 +235,11 @@ static const char *find_role_fault(const mor_schema *schema, const mor_schema *e
     if (mor_params_find_role(schema, entry->role) != (int)(entry - schema)) {
         return "another entry has the same role";
     }
-    if (entry->kind != MOR_SCHEMA_REAL || strcmp(entry->unit, mor_role_unit(entry->role)) != 0) {
-        return "its role needs a real number in the unit of the role (core/base/schema.h)";
+    const mor_schema_kind kind = entry->role == MOR_ROLE_INTEGRATION_METHOD ? MOR_SCHEMA_CHOICE
+                                 : entry->role == MOR_ROLE_SUB_STEPS_MAX    ? MOR_SCHEMA_INTEGER
+                                                                            : MOR_SCHEMA_REAL;
+    if (entry->kind != kind || strcmp(entry->unit, mor_role_unit(entry->role)) != 0) {
+        return "its role needs a value of the kind and unit of the role, mostly a real number (core/base/schema.h)";
     }
     return NULL;
 }
@@ -262,7 +269,7 @@ static const char *find_entry_fault(const mor_schema *schema, const mor_schema *
         return "n_components must be 1, or 1 to 9 for a vector";
     }
     if (entry->kind == MOR_SCHEMA_CHOICE) {
-        return is_text_present(entry->choices) ? NULL : "a choice needs its words";
+        return is_text_present(entry->choices) ? find_role_fault(schema, entry) : "a choice needs its words";
     }
     if (entry->kind == MOR_SCHEMA_BOOLEAN) {
         return is_value_allowed(entry, entry->default_value) ? NULL : "its default must be 0 or 1";

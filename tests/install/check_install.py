@@ -63,7 +63,8 @@ class Install:
     def check_files(self):
         for name in ("share/man/man1/moraine.1", "share/bash-completion/completions/moraine",
                      "share/doc/moraine/README.md", "share/doc/moraine/docs/index.md",
-                     "share/moraine/template/CMakeLists.txt", "bin/moraine"):
+                     "share/moraine/template/CMakeLists.txt", "share/moraine/template_rates/CMakeLists.txt",
+                     "bin/moraine"):
             expect(os.path.isfile(os.path.join(self.prefix, name)), f"{name} was not installed")
         stray = [path for path in glob.glob(os.path.join(self.prefix, "**"), recursive=True)
                  if path.endswith((".h", ".c")) and not path.startswith((self.include, os.path.join(
@@ -75,7 +76,8 @@ class Install:
         headers = sorted(glob.glob(os.path.join(self.include, "**/*.h"), recursive=True))
         expect(len(headers) >= 6, f"headers are missing: {headers}")
         texts = {os.path.relpath(path, self.include): open(path, encoding="utf-8").read() for path in headers}
-        template = open(os.path.join(self.prefix, "share/moraine/template/undrained_clay.c"), encoding="utf-8").read()
+        sources = glob.glob(os.path.join(self.prefix, "share/moraine/template*/*.c"))
+        template = "".join(open(path, encoding="utf-8").read() for path in sources)
         for name in texts:
             run([self.options.cc, "-std=c11", "-fsyntax-only", "-Wall", "-Werror", "-x", "c", f"-I{self.include}",
                  os.path.join(self.include, name)])
@@ -168,15 +170,23 @@ class Install:
         expect(not self.needs_library(os.path.join(build, "column_static")), "moraine::static is not static")
 
     def check_template(self):
-        """Built as a project of its own, checked and run."""
-        folder = os.path.join(self.scratch, "my_clay")
-        shutil.copytree(os.path.join(self.prefix, "share/moraine/template"), folder)
+        """Each built as a project of its own and checked."""
+        self.build_template("template_rates", "viscoplastic_soil")
+        self.check_template_run(self.build_template("template", "undrained_clay"))
+
+    def build_template(self, name, law):
+        folder = os.path.join(self.scratch, f"my_{law}")
+        shutil.copytree(os.path.join(self.prefix, "share/moraine", name), folder)
         build = os.path.join(folder, "build")
         run([self.options.cmake, "-S", folder, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
              f"-DCMAKE_C_COMPILER={self.options.cc}"])
         run([self.options.cmake, "--build", build])
-        table = run([self.program, "check-material", os.path.join(build, "undrained_clay.so")], env=self.env)
-        expect("undrained_clay" in table and "failed" not in table, table)
+        table = run([self.program, "check-material", os.path.join(build, f"{law}.so")], env=self.env)
+        expect(law in table and "failed" not in table, table)
+        return folder
+
+    def check_template_run(self, folder):
+        """The clay in a case."""
         results = os.path.join(folder, "results")
         run([self.program, "run", os.path.join(folder, "slump.cfg"), "-o", results, "--set", "end=0.2 s", "--set",
              "output.pictures=false"], env=self.env)

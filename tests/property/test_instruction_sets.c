@@ -19,7 +19,7 @@
 
 /* One source text for several instruction sets: which is taken, and that results do not tell. */
 
-enum { N = 1003, COMMAND_BYTES = 8192, PATH_BYTES = 512 }; /* N: no multiple of the lanes */
+enum { N = 1003, NUMBERS = 16, COMMAND_BYTES = 8192, PATH_BYTES = 512 }; /* N: no multiple of the lanes */
 
 /* What one law makes of one batch. */
 typedef struct outcome {
@@ -36,6 +36,19 @@ static double guess_value(const mor_schema *entry)
     return entry->minimum + (strcmp(entry->unit, "Pa") == 0 ? 1e4 : 1.0);
 }
 
+/* Void ratios must be in their order. */
+static void fill_void_ratios(const mor_material *law, double *values)
+{
+    static const char *const keys[] = {"densest_void_ratio", "void_ratio", "critical_void_ratio", "loosest_void_ratio"};
+    static const double ratios[] = {0.61, 0.75, 0.98, 1.1};
+    for (int k = 0; k < 4; ++k) {
+        const int entry = mor_params_find(law->parameters, keys[k]);
+        if (entry >= 0) {
+            values[mor_params_offset(law->parameters, entry)] = ratios[k];
+        }
+    }
+}
+
 /* Values by role, so that any built-in law gets sensible ones. */
 static void fill_parameters(const mor_material *law, double *values)
 {
@@ -46,13 +59,14 @@ static void fill_parameters(const mor_material *law, double *values)
     mor_params_defaults(law->parameters, values);
     int offset = 0;
     for (const mor_schema *entry = law->parameters; entry->key != NULL; ++entry) {
-        if (entry->role != MOR_ROLE_NONE) {
+        if (entry->role != MOR_ROLE_NONE && entry->role < MOR_ROLE_INTEGRATION_METHOD) {
             values[offset] = by_role[entry->role];
         } else if (entry->is_required) {
             values[offset] = guess_value(entry);
         }
         offset += entry->n_components;
     }
+    fill_void_ratios(law, values);
 }
 
 static void run_law(const mor_material *law, outcome *out)
@@ -99,7 +113,8 @@ static void run_law(const mor_material *law, outcome *out)
     const mor_material_operations *o = &instance->operations;
     assert_int_equal(o->init_state(instance, &first), MOR_OK);
     out->status = is_rate ? o->advance_rate(instance, &batch) : o->stress_total(instance, &batch);
-    assert_int_equal(o->energy(instance, &batch, out->stored), MOR_OK);
+    const mor_status status = o->energy(instance, &batch, out->stored);
+    assert_true(status == MOR_OK || status == MOR_ERROR_UNSUPPORTED);
     mor_material_destroy(&context, &instance);
 }
 

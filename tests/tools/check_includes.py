@@ -15,8 +15,8 @@ DOORS = {
     r"hdf5\.h|H5\w+\.h": ("core/io/hdf5_file.c",),
     r"libconfig\.h": ("core/io/case_file/case_file.c",),
     r"(udunits2/)?udunits2?\.h": ("core/base/units.c",),
-    r"(sundials|arkode|cvode)/.*": ("core/time/ode.c",),
-    r"(nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*": ("core/time/ode.c", "core/material/element/newton.c"),
+    r"(sundials|arkode|cvode)/.*": ("core/time/ode/ode.c",),
+    r"(nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*": ("core/time/ode/ode.c", "core/material/element/newton.c"),
     r"kinsol/.*": ("core/material/element/newton.c",),
     r"embree3/.*": ("cases/driver/picture/view/scene.c", "relaxation/mesh/mesh_distance.c"),
     r"(libpng\d*/)?png\.h": ("cases/driver/picture/draw/png_file.c",),
@@ -39,7 +39,7 @@ LIBC = re.compile(
 
 GENERATED = {"moraine_build.h": "cases/driver/library"}
 # A user's project in the tree: it may include what that room may.
-KITS = {"materials/template": "materials"}
+KITS = {"materials/template": "materials", "materials/template_rates": "materials"}
 # The program is its commands and the library behind cases/moraine.h.
 MAINS = {"cases/driver/main.c": ("cases", "cases/driver/command")}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

@@ -9,6 +9,7 @@
 #include "cases/driver/run/run_table.h"
 #include "core/base/hash.h"
 #include "core/io/summary.h"
+#include "core/material/rate_integration.h"
 
 #include <math.h>
 #include <string.h>
@@ -113,6 +114,36 @@ static mor_status find_result(mor_context *context, mor_run_files *files, int pr
     return mor_probe_value(context, files->simulation, probe, value);
 }
 
+/* What the materials whose rates are integrated have taken; returns whether there are any. */
+static bool find_integration(const mor_simulation *simulation, mor_summary_integration *integration)
+{
+    mor_integration_statistics it = {0};
+    for (int k = -1; k < MOR_CASE_SOILS_MAX; ++k) {
+        const mor_material_instance *material = k < 0 ? simulation->material : simulation->parts[k];
+        if (material != NULL) {
+            mor_rate_integration_add(material, &it);
+        }
+    }
+    *integration = (mor_summary_integration){.n_updates = it.n_updates,
+                                             .n_sub_steps = it.n_sub_steps,
+                                             .n_rejected = it.n_rejected,
+                                             .n_rates = it.n_rates,
+                                             .n_failures = it.n_failures};
+    return it.n_updates > 0;
+}
+
+static void print_integration(FILE *out, const mor_summary_integration *it)
+{
+    if (it != NULL) {
+        const double n = (double)it->n_updates;
+        fprintf(out,
+                "\nintegration of the material: %.4g sub-steps and %.4g rates per particle and step, %lld sub-steps "
+                "rejected, %lld updates repeated with smaller steps\n",
+                (double)it->n_sub_steps / n, (double)it->n_rates / n, (long long)it->n_rejected,
+                (long long)it->n_failures);
+    }
+}
+
 /* Above the table of a run that did not reach its end. */
 static void print_failure(FILE *out, const mor_summary *summary)
 {
@@ -167,6 +198,8 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
         fill_statistics(files->simulation, k, &statistics[k]);
     }
     *n_missed = compare(c, results, failure != NULL, expectations);
+    mor_summary_integration integration;
+    summary.integration = find_integration(files->simulation, &integration) ? &integration : NULL;
     fill_summary(files, &summary);
     MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, MOR_SUMMARY_FILE));
     if (isnan(particle_steps_per_second)) {
@@ -175,6 +208,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     MOR_TRY(context, mor_summary_write(context, path, &summary));
     print_failure(files->options->output, &summary);
     MOR_TRY(context, mor_run_table_print(context, c, &summary, files->options->output));
+    print_integration(files->options->output, summary.integration);
     print_warnings(files->options->output, &files->warnings);
     return MOR_OK;
 }

@@ -2,6 +2,26 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/simulation.h"
 
+#include "core/material/rate_integration.h"
+
+#include <stdio.h>
+
+/* What the integration of each material has taken: of the one material, or of the parts of a composite. */
+static mor_status list_integration(mor_context *context, mor_simulation *s, mor_state_list *list)
+{
+    for (int k = -1; k < MOR_CASE_SOILS_MAX; ++k) {
+        mor_material_instance *material = k < 0 ? s->material : s->parts[k];
+        int64_t *counts = material != NULL ? mor_rate_integration_counts(material) : NULL;
+        char owner[32];
+        if (counts != NULL) {
+            snprintf(owner, sizeof owner, "material_%d", k < 0 ? 0 : k);
+            MOR_TRY(context, mor_state_add(context, list, owner, "integration", MOR_STATE_INT64, MOR_INTEGRATION_COUNTS,
+                                           counts));
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simulation, mor_state_list *list)
 {
     mor_simulation *s = simulation;
@@ -10,6 +30,7 @@ mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simul
     if (s->bodies.has_contact) {
         MOR_TRY(context, mor_contact_list_state(context, &s->bodies.contact, list));
     }
+    MOR_TRY(context, list_integration(context, s, list));
     MOR_TRY(context, mor_state_add(context, list, own, "initial_energies", MOR_STATE_DOUBLE, 3, s->initial_energies));
     return mor_state_add(context, list, own, "surface_height", MOR_STATE_DOUBLE, 1, &s->surface_height);
 }

@@ -31,6 +31,10 @@ static double guess_size(const char *unit)
 
 static double draw_value(const mor_schema *entry, double uniform, double coin)
 {
+    /* Tolerances are no property of the soil. */
+    if (entry->role >= MOR_ROLE_INTEGRATION_METHOD && entry->role <= MOR_ROLE_SUB_STEPS_MAX) {
+        return entry->kind == MOR_SCHEMA_CHOICE ? 0.0 : entry->default_value;
+    }
     if (entry->kind == MOR_SCHEMA_CHOICE) {
         return floor(uniform * mor_params_choice(entry->choices, NULL));
     }

@@ -13,13 +13,14 @@
  *  Read core/material/kit/batch.h first. */
 
 /** Number of this contract; a plug-in made for another number is refused. */
-enum { MOR_MATERIAL_ABI = 2 };
+enum { MOR_MATERIAL_ABI = 3 };
 
 /** Bounds that let the host keep fixed tables. */
 enum { MOR_MATERIAL_PARAMETERS_MAX = 32, MOR_MATERIAL_STATES_MAX = 16, MOR_MATERIAL_TEXT_BYTES = 4096 };
 
 typedef struct mor_material mor_material;
 typedef struct mor_material_instance mor_material_instance;
+typedef struct mor_material_integration mor_material_integration;
 
 /** How the stress follows from the motion. */
 typedef enum mor_material_form {
@@ -91,13 +92,30 @@ typedef struct mor_material_operations {
      *  speed of the acoustic waves that the method resolves: it sets the step and the Riemann impedance. */
     mor_status (*wave_speed)(const mor_material_instance *instance, const mor_batch *batch, double *speed);
 
-    /** Required for the rate form. Reads time_step, velocity_gradient, density, extra_stress_rate, stress_in, state_in;
-     *  writes stress_out, state_out and, when asked, dissipation. Objective rotation and return mapping are included:
-     *  the host sees only the finished stress. Step zero is the identity. A rigid spin leaves the invariants unchanged,
-     *  or what rest for the same time makes of them (MOR_MATERIAL_RATE_DEPENDENT). The result is admissible.
-     *  Returns MOR_RETRY_SMALLER_STEP when the increment is beyond what the model declares, MOR_ERROR_NUMERIC when an
-     *  input or a result is not finite. */
+    /** Required for the rate form, or stress_rate in its place. Reads time_step, velocity_gradient, density,
+     *  extra_stress_rate, stress_in, state_in; writes stress_out, state_out and, when asked, dissipation. Objective
+     *  rotation and return mapping are included: the host sees only the finished stress. Step zero is the identity. A
+     *  rigid spin leaves the invariants unchanged, or what rest for the same time makes of them
+     *  (MOR_MATERIAL_RATE_DEPENDENT). The result is admissible. Returns MOR_RETRY_SMALLER_STEP when the increment is
+     *  beyond what the model declares, MOR_ERROR_NUMERIC when an input or a result is not finite. */
     mor_status (*advance_rate)(const mor_material_instance *instance, const mor_batch *batch);
+
+    /** In place of advance_rate: a law given as d(stress)/dt = f(stress, state, D). Reads density, velocity_gradient,
+     *  stress_in, state_in; writes stress_rate, shape [n,6], unit Pa/s, and state_rate, shape [n_state] of [n,
+     *  components] in schema order, units of the schema per second. The host makes advance_rate of it: it integrates
+     *  both over the step with error control (core/material/kit/integration.h) and adds rotation and extra_stress_rate.
+     *
+     *  The rate is the objective one: velocity_gradient comes as its symmetric part D, in axes that turn with the
+     *  particle, so that the law never sees a spin. A state variable of six components is a symmetric tensor, in the
+     *  order of the stress, and is turned like it; all others are scalars. Together with the stress there may be at
+     *  most 32 numbers. State variables should be of order one, see the tolerances in kit/integration.h.
+     *  It is also called for trial values on the way. Returns a recoverable code where the rate is not defined. */
+    mor_status (*stress_rate)(const mor_material_instance *instance, const mor_batch *batch, double *stress_rate,
+                              double *const *state_rate);
+
+    /** Only with stress_rate. Default: nothing. Called for the end of each step: reads density, stress_in, state_in;
+     *  writes stress_out, state_out: what lies outside of the law's domain (a tension, say) is put back into it. */
+    mor_status (*limit)(const mor_material_instance *instance, const mor_batch *batch);
 
     /** Required for the total form. Reads deformation_gradient, state_in; writes first_piola_out, state_out. The
      *  identity gives the declared reference stress (zero unless stated). MOR_RETRY_SMALLER_STEP when det F <= 0. */
@@ -150,13 +168,14 @@ struct mor_material {
 
 /** A model bound to numbers. Owner: whoever created it. After creation it is constant, so that threads may share it. */
 struct mor_material_instance {
-    const mor_material *material;       /* borrowed; outlives the instance */
-    mor_material_operations operations; /* the model's, defaults filled in once; optional ones may be NULL */
-    double density;                     /* reference density, > 0; unit kg/m3 */
-    const double *parameters;           /* shape [n_values], schema order, checked; owned; units: of the schema */
-    int n_values;                       /* numbers in parameters */
-    int n_state;                        /* entries of the state schema */
-    void *data;                         /* the model's own; made by create, freed by destroy */
+    const mor_material *material;          /* borrowed; outlives the instance */
+    mor_material_operations operations;    /* the model's, defaults filled in once; optional ones may be NULL */
+    double density;                        /* reference density, > 0; unit kg/m3 */
+    const double *parameters;              /* shape [n_values], schema order, checked; owned; units: of the schema */
+    int n_values;                          /* numbers in parameters */
+    int n_state;                           /* entries of the state schema */
+    void *data;                            /* the model's own; made by create, freed by destroy */
+    mor_material_integration *integration; /* the host's, of a model with stress_rate; NULL otherwise */
 };
 
 /** Checks that a descriptor keeps the contract: ABI, size, strings, schemas, required operations, capability bits.

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_TIME_ODE_H
-#define MOR_CORE_TIME_ODE_H
+#ifndef MOR_CORE_TIME_ODE_ODE_H
+#define MOR_CORE_TIME_ODE_ODE_H
 
 #include "core/base/context.h"
 
@@ -17,8 +17,10 @@ typedef struct mor_ode mor_ode;
 
 /** How to integrate. */
 typedef enum mor_ode_method {
-    MOR_ODE_EXPLICIT, /* ARKODE, explicit Runge-Kutta of order 4 with adaptive steps: for non-stiff systems */
-    MOR_ODE_STIFF     /* CVODE, backward differentiation with Newton and a dense difference Jacobian */
+    MOR_ODE_EXPLICIT, /* ARKODE, explicit Runge-Kutta with adaptive steps: for non-stiff systems */
+    MOR_ODE_STIFF,    /* CVODE, backward differentiation with Newton and a dense difference Jacobian: for long spans */
+    MOR_ODE_IMPLICIT  /* ARKODE, diagonally implicit Runge-Kutta, Newton and Jacobian as before: for stiff systems on
+                         short spans, since it starts at its full order */
 } mor_ode_method;
 
 /** The right-hand side. May be called at any t of the interval and at trial states that are discarded later.
@@ -33,8 +35,13 @@ typedef mor_status (*mor_ode_rate)(double t, const double *y, double *y_rate, vo
 typedef struct mor_ode_settings {
     mor_ode_method method;
     int n;                            /* number of unknowns, 1 to MOR_ODE_MAX */
+    int order;                        /* of a Runge-Kutta method: 2 to 5 explicit, 2 to 4 implicit; 0: 4 and 3 */
     double relative_tolerance;        /* error allowed per step relative to |y|, in [1e-14, 0.1]; unit 1 */
     const double *absolute_tolerance; /* shape [n], error allowed per step near y = 0, > 0; units of y; copied */
+    const int *groups;                /* shape [n], 0 to n - 1: unknowns of one group are the components of one vector
+                                         or tensor, whose length is |y| for all of them; copied; NULL: each alone */
+    const double *counts;             /* shape [n], > 0: how often the square of an unknown counts in lengths (2 for
+                                         off-diagonal components of a symmetric tensor); copied; NULL: once; unit 1 */
     int64_t n_steps_max;              /* steps allowed in one solve, >= 1 */
 } mor_ode_settings;
 
@@ -51,8 +58,12 @@ typedef struct mor_ode_report {
  *  Cost: allocates. Threads: not concurrently with the same context. */
 mor_status mor_ode_new(mor_context *context, const mor_ode_settings *settings, mor_ode **ode);
 
+/** Sets the length of the first step that later solves try, before they know better.
+ *  @param length [in]  > 0; 0: found by the integrator, for which it calls f; unit s */
+void mor_ode_set_first_step(mor_ode *ode, double length);
+
 /** Integrates from t_start to t_end; f is never called outside of them.
- *  @param ode    [in,out]  one thread at a time
+ *  @param ode    [in,out]  one thread at a time; allocates nothing
  *  @param rate   [in]      one function
  *  @param user   [in,out]  handed to rate; may be NULL
  *  @param span   [in]      shape [2], t_start and t_end, t_end >= t_start; unit s

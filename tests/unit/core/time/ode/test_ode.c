@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/memory.h"
-#include "core/time/ode.h"
+#include "core/time/ode/ode.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -49,7 +49,7 @@ static mor_status decay(double t, const double *y, double *y_rate, void *user)
 static void decay_is_exponential_and_asked_inside_the_span(void **state)
 {
     (void)state;
-    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_STIFF; ++method) {
+    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_IMPLICIT; ++method) {
         mor_context context;
         mor_ode *ode = make(&context, (mor_ode_method)method, 1);
         bounds seen = {.least = INFINITY, .most = -INFINITY, .decay = 3.0};
@@ -108,7 +108,7 @@ static mor_status hypoelastic_shear(double t, const double *y, double *y_rate, v
 static void hypoelastic_shear_follows_sine_and_cosine(void **state)
 {
     (void)state;
-    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_STIFF; ++method) {
+    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_IMPLICIT; ++method) {
         mor_context context;
         mor_ode *ode = make(&context, (mor_ode_method)method, 2);
         double y[2] = {0.0, 0.0};
@@ -122,7 +122,7 @@ static void hypoelastic_shear_follows_sine_and_cosine(void **state)
 static void result_does_not_depend_on_what_was_solved_before(void **state)
 {
     (void)state;
-    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_STIFF; ++method) {
+    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_IMPLICIT; ++method) {
         mor_context context;
         mor_ode *ode = make(&context, (mor_ode_method)method, 2);
         double first[2] = {0.1, 0.2};
@@ -171,7 +171,7 @@ static void failures_are_values_and_leave_the_start(void **state)
     (void)state;
     const mor_status refusals[3] = {MOR_RETRY_SMALLER_STEP, MOR_ERROR_NUMERIC, MOR_OK};
     const mor_status expected[3] = {MOR_RETRY_SMALLER_STEP, MOR_ERROR_NUMERIC, MOR_RETRY_SMALLER_STEP};
-    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_STIFF; ++method) {
+    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_IMPLICIT; ++method) {
         for (int k = 0; k < 3; ++k) {
             mor_context context;
             mor_ode *ode = make(&context, (mor_ode_method)method, 1);
@@ -190,7 +190,7 @@ static void failures_are_values_and_leave_the_start(void **state)
 static void too_few_steps_is_not_converged(void **state)
 {
     (void)state;
-    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_STIFF; ++method) {
+    for (int method = MOR_ODE_EXPLICIT; method <= MOR_ODE_IMPLICIT; ++method) {
         mor_context context;
         mor_context_init(&context);
         const mor_ode_settings settings = {.method = (mor_ode_method)method,
@@ -208,6 +208,15 @@ static void too_few_steps_is_not_converged(void **state)
     }
 }
 
+static mor_ode_settings ask(mor_ode_method method, int n, double relative, const double *absolute, int64_t n_steps)
+{
+    return (mor_ode_settings){.method = method,
+                              .n = n,
+                              .relative_tolerance = relative,
+                              .absolute_tolerance = absolute,
+                              .n_steps_max = n_steps};
+}
+
 static void wrong_settings_are_refused_with_their_value(void **state)
 {
     (void)state;
@@ -216,14 +225,14 @@ static void wrong_settings_are_refused_with_their_value(void **state)
         mor_ode_settings settings;
         const char *word;
     } cases[] = {
-        {{MOR_ODE_EXPLICIT, 0, 1e-6, LOOSE, 10}, "n is 0"},
-        {{MOR_ODE_STIFF, MOR_ODE_MAX + 1, 1e-6, LOOSE, 10}, "n is 33"},
-        {{MOR_ODE_EXPLICIT, 1, 0.5, LOOSE, 10}, "relative_tolerance is 0.5"},
-        {{MOR_ODE_EXPLICIT, 1, NAN, LOOSE, 10}, "relative_tolerance"},
-        {{MOR_ODE_EXPLICIT, 1, 1e-6, NULL, 10}, "absolute_tolerance is missing"},
-        {{MOR_ODE_EXPLICIT, 1, 1e-6, negative, 10}, "absolute_tolerance[0] is -1"},
-        {{MOR_ODE_EXPLICIT, 1, 1e-6, LOOSE, 0}, "n_steps_max is 0"},
-        {{(mor_ode_method)7, 1, 1e-6, LOOSE, 10}, "method is 7"},
+        {ask(MOR_ODE_EXPLICIT, 0, 1e-6, LOOSE, 10), "n is 0"},
+        {ask(MOR_ODE_STIFF, MOR_ODE_MAX + 1, 1e-6, LOOSE, 10), "n is 33"},
+        {ask(MOR_ODE_EXPLICIT, 1, 0.5, LOOSE, 10), "relative_tolerance is 0.5"},
+        {ask(MOR_ODE_EXPLICIT, 1, NAN, LOOSE, 10), "relative_tolerance"},
+        {ask(MOR_ODE_EXPLICIT, 1, 1e-6, NULL, 10), "absolute_tolerance is missing"},
+        {ask(MOR_ODE_EXPLICIT, 1, 1e-6, negative, 10), "absolute_tolerance[0] is -1"},
+        {ask(MOR_ODE_EXPLICIT, 1, 1e-6, LOOSE, 0), "n_steps_max is 0"},
+        {ask((mor_ode_method)7, 1, 1e-6, LOOSE, 10), "method is 7"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         mor_context context;
