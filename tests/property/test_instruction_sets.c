@@ -19,7 +19,7 @@
 
 /* One source text for several instruction sets: which is taken, and that results do not tell. */
 
-enum { N = 1003, NUMBERS = 16, COMMAND_BYTES = 8192, PATH_BYTES = 512 }; /* N: no multiple of the lanes */
+enum { N = 1003, COMMAND_BYTES = 8192, PATH_BYTES = 512 }; /* N: no multiple of the lanes */
 
 /* What one law makes of one batch. */
 typedef struct outcome {
