@@ -17,7 +17,7 @@ static const char sand_case[] =
     "walls = ( { name = 'floor'; friction = 'rough';"
     "    shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (0, 1, 0); }; } );"
     "probes = ( { type = 'run_out'; }, { type = 'height'; }, { type = 'kinetic_energy'; } );"
-    "output = { snapshots = 2; pictures = false; };";
+    "output = { snapshots = 6; pictures = false; };";
 
 static void run_case(run_folder *folder, const char *name, double stop_at, bool is_resume, int n_threads)
 {
