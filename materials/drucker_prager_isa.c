@@ -6,10 +6,10 @@
  * eqs. 11 and 12 follows the flow direction when the dilation angle is not zero; rotation is exact. */
 #include "materials/drucker_prager.h"
 
-#include "materials/frictional.h"
-#include "materials/hooke.h"
-#include "materials/invariants.h"
-#include "materials/rate_lanes.h"
+#include "materials/frame/frictional.h"
+#include "materials/frame/hooke.h"
+#include "materials/frame/invariants.h"
+#include "materials/frame/rate_lanes.h"
 
 #include <float.h>
 #include <math.h>
@@ -43,21 +43,13 @@ typedef struct drucker_prager {
  * would be mapped again and again by its last bit. */
 static const double YIELD_ROUNDING = 16.0 * DBL_EPSILON;
 
-static const double INVERSE_SQRT3 = 0.57735026918962576451;
-
 /* The update of one particle. */
-
-typedef struct returned {
-    mor_symmetric stress;  /* Pa */
-    double plastic_strain; /* increment, 1 */
-    double dissipation;    /* increment, J/m3 */
-} returned;
 
 /* Backward Euler on the cone: I1 falls along the flow direction, sqrt(J2) follows from the yield surface. Beyond the
  * cap (the apex when the tension ratio is 1) I1 is the cap and sqrt(J2) at most the cone's there. With no dilation this
  * is Zhang et al. (2024) eqs. 11 and 12. Selections instead of branches, so that all lanes run the same
  * instructions. */
-static MOR_LANES_INLINE returned map_to_cone(const drucker_prager *m, mor_symmetric trial)
+static MOR_LANES_INLINE mor_rate_end map_to_cone(const drucker_prager *m, mor_symmetric trial)
 {
     const double i1 = mor_invariant_i1(trial);
     const double root = sqrt(mor_invariant_j2(trial));
@@ -75,11 +67,9 @@ static MOR_LANES_INLINE returned map_to_cone(const drucker_prager *m, mor_symmet
     const double slip = is_plastic ? (root - root_new) * m->inverse_shear : 0.0;
     const double opening = is_plastic ? (i1 - i1_new) * m->inverse_nine_bulk : 0.0;
     const double work = root_new * slip + i1_new * opening;
-    return (returned){
-        .stress = {is_plastic ? mapped.xx : trial.xx, is_plastic ? mapped.yy : trial.yy,
-                   is_plastic ? mapped.zz : trial.zz, is_plastic ? mapped.xy : trial.xy,
-                   is_plastic ? mapped.yz : trial.yz, is_plastic ? mapped.zx : trial.zx},
-        .plastic_strain = slip * INVERSE_SQRT3,
+    return (mor_rate_end){
+        .stress = mor_symmetric_select(is_plastic, mapped, trial),
+        .slip = slip,
         /* Not negative in exact arithmetic because the dilation angle is at most the friction angle. */
         .dissipation = work > 0.0 ? work : 0.0,
     };
@@ -90,10 +80,7 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
     /* A copy, so that the compiler can rely on it not being changed by stores to the block. */
     const drucker_prager m = *(const drucker_prager *)constants;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
-        const returned r = map_to_cone(&m, mor_rate_predict(m.two_shear, m.lame, b, lane));
-        mor_rate_write(b, lane, r.stress);
-        b->state[0][lane] += r.plastic_strain;
-        b->dissipation[lane] = r.dissipation;
+        mor_rate_finish(b, lane, map_to_cone(&m, mor_rate_predict(m.two_shear, m.lame, b, lane)));
     }
 }
 
@@ -137,7 +124,7 @@ static void set_cone_of_strain(drucker_prager *m, double plastic_strain)
 /* Finds the plastic strain whose cone returns the trial by just that strain: secant steps inside a bracket, which the
  * start and the loss of all shear stress close, and every third step its middle. The cone of the start decides whether
  * the trial is outside at all. */
-static returned harden(const drucker_prager *constants, mor_symmetric trial, double start, int *is_solved)
+static mor_rate_end harden(const drucker_prager *constants, mor_symmetric trial, double start, int *is_solved)
 {
     enum { ITERATIONS = 100 };
     static const double TOLERANCE = 4.0 * DBL_EPSILON;
@@ -147,18 +134,18 @@ static returned harden(const drucker_prager *constants, mor_symmetric trial, dou
     }
     drucker_prager m = *constants;
     set_cone_of_strain(&m, start);
-    returned r = map_to_cone(&m, trial);
+    mor_rate_end r = map_to_cone(&m, trial);
     double low = start;
-    double high = start + sqrt(mor_invariant_j2(trial)) * m.inverse_shear * INVERSE_SQRT3;
+    double high = start + sqrt(mor_invariant_j2(trial)) * m.inverse_shear * MOR_INVERSE_SQRT3;
     const double rounding = TOLERANCE * high;
     double before = start;
-    double miss_before = r.plastic_strain;
-    double strain = start + r.plastic_strain;
-    *is_solved = !(r.plastic_strain > 0.0);
+    double miss_before = mor_rate_plastic_strain(r);
+    double strain = start + mor_rate_plastic_strain(r);
+    *is_solved = !(mor_rate_plastic_strain(r) > 0.0);
     for (int k = 0; k < ITERATIONS && !*is_solved; ++k) {
         set_cone_of_strain(&m, strain);
         r = map_to_cone(&m, trial);
-        const double miss = start + r.plastic_strain - strain;
+        const double miss = start + mor_rate_plastic_strain(r) - strain;
         low = miss > 0.0 ? strain : low;
         high = miss > 0.0 ? high : strain;
         /* A trial within rounding of the cone slips or not: there the miss changes sign by a jump. */
@@ -177,10 +164,9 @@ static MOR_LANES_INLINE void advance_hardening_lanes(const void *constants, mor_
     const drucker_prager *m = constants;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         int is_solved = 1;
-        const returned r = harden(m, mor_rate_predict(m->two_shear, m->lame, b, lane), b->state[0][lane], &is_solved);
-        mor_rate_write(b, lane, r.stress);
-        b->state[0][lane] += r.plastic_strain;
-        b->dissipation[lane] = r.dissipation;
+        const mor_rate_end r =
+            harden(m, mor_rate_predict(m->two_shear, m->lame, b, lane), b->state[0][lane], &is_solved);
+        mor_rate_finish(b, lane, r);
         b->is_unsolved[lane] = !is_solved;
         b->n_unsolved += !is_solved;
     }

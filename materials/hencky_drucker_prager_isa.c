@@ -5,8 +5,8 @@
  * does not make the stress oscillate. The state is the logarithmic elastic strain e = ln(b)/2 instead of the elastic
  * left Cauchy-Green tensor b = exp(2e) of the paper: b holds strains only to the rounding of 1. docs/theory/flow.md. */
 #include "core/base/eigen.h"
-#include "materials/hooke.h"
-#include "materials/rate_point.h"
+#include "materials/frame/hooke.h"
+#include "materials/frame/rate_point.h"
 
 #include <float.h>
 #include <math.h>
@@ -32,8 +32,6 @@ static const double YIELD_ROUNDING = 16.0 * DBL_EPSILON;
 /* Series are used up to this squared norm, and summed until what is left is below rounding. */
 static const double SERIES_NORM2 = 0.04;
 static const double SERIES_REST = 0.01 * DBL_EPSILON;
-
-static const double INVERSE_SQRT3 = 0.57735026918962576451;
 
 /* a y + y a^T, unit 1. */
 static mor_symmetric drive(mor_gradient a, mor_symmetric y)
@@ -197,7 +195,7 @@ static mor_status advance_point(const void *constants, mor_rate_point *p)
         const double end = limit < root ? limit : root;
         strain = mor_symmetric_rescale(strain, end / (root > 0.0 ? root : 1.0), opening < 0.0 ? opening / 3.0 : 0.0);
         const double slip = (root - end) / m->elastic.shear;
-        state[STATE_PLASTIC_STRAIN] += slip * INVERSE_SQRT3;
+        state[STATE_PLASTIC_STRAIN] += slip * MOR_INVERSE_SQRT3;
         p->dissipation = end * slip / volume;
     }
     mor_symmetric_write(strain, state);

@@ -3,8 +3,8 @@
 /* Mud that stands below a yield stress and flows above it: Herschel and Bulkley (1926), and Bingham (1922) as their
  * case of exponent 1. Elastic below yield, so that it comes to rest; the viscoplastic rate (Perzyna (1966)) is
  * implicit: no limit of the step follows from it. docs/theory/flow.md. */
-#include "materials/hooke.h"
-#include "materials/rate_lanes.h"
+#include "materials/frame/hooke.h"
+#include "materials/frame/rate_lanes.h"
 
 #include <float.h>
 #include <math.h>
@@ -43,8 +43,6 @@ typedef struct flow {
 
 /* Most steps of Newton's method; from a start within a factor of two of the root it takes six to ten. */
 enum { NEWTON_STEPS = 60 };
-
-static const double INVERSE_SQRT3 = 0.57735026918962576451;
 
 /* Root x of linear x + scale x^power = excess for power > 1, all of them > 0; x has no unit, the others are stresses or
  * all have none. The function is convex and rising, and both starts lie above the root: Newton's method falls to it. */
@@ -85,13 +83,7 @@ static double find_viscous_stress(const flow *f, double excess)
     return k * pow(solve_convex(g, k, n, excess), n); /* x */
 }
 
-typedef struct returned {
-    mor_symmetric stress; /* Pa */
-    double slip;          /* plastic shear, 1 */
-    double dissipation;   /* increment, J/m3 */
-} returned;
-
-static MOR_LANES_INLINE returned return_trial(const flow *f, mor_symmetric trial)
+static MOR_LANES_INLINE mor_rate_end return_trial(const flow *f, mor_symmetric trial)
 {
     const double i1 = mor_invariant_i1(trial);
     const double root = sqrt(mor_invariant_j2(trial));
@@ -104,7 +96,7 @@ static MOR_LANES_INLINE returned return_trial(const flow *f, mor_symmetric trial
     }
     const double slip = (root - end) * f->model.inverse_shear;
     const double opening = (i1 - i1_end) * f->model.inverse_nine_bulk;
-    return (returned){
+    return (mor_rate_end){
         .stress = end < root || i1_end < i1
                       ? mor_symmetric_rescale(trial, end / (root > 0.0 ? root : 1.0), i1_end * (1.0 / 3.0))
                       : trial,
@@ -118,10 +110,7 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
     const flow f = *(const flow *)constants;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         const mor_symmetric trial = mor_rate_predict(f.model.elastic.two_shear, f.model.elastic.lame, b, lane);
-        const returned r = return_trial(&f, trial);
-        mor_rate_write(b, lane, r.stress);
-        b->state[0][lane] += r.slip * INVERSE_SQRT3;
-        b->dissipation[lane] = r.dissipation;
+        mor_rate_finish(b, lane, return_trial(&f, trial));
     }
 }
 

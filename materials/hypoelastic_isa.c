@@ -4,8 +4,8 @@
  * updated-Lagrangian SPH. Rotation is exact (Hughes and Winget (1980)). For strains well below 1: in simple shear the
  * Jaumann rate makes the stress oscillate, G sin(gamma). Stored energy is per current volume; no work is dissipated.
  * docs/theory/elastic.md. */
-#include "materials/hooke.h"
-#include "materials/rate_lanes.h"
+#include "materials/frame/hooke.h"
+#include "materials/frame/rate_lanes.h"
 
 #include <math.h>
 #include <stddef.h>

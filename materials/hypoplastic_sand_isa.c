@@ -5,8 +5,8 @@
 #include "core/material/kit/integration.h"
 #include "core/material/kit/lanes.h"
 #include "core/material/kit/material.h"
-#include "materials/invariants.h"
-#include "materials/lane_math.h"
+#include "materials/frame/invariants.h"
+#include "materials/frame/lane_math.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -7,8 +7,8 @@
  * the surface is a cubic in q, whose largest root gives f = r y(t) - slope q, y = cos(acos(-corner cos 3t) / 3). The
  * function r y is a convex norm of the deviator; its gradient is the deviatoric flow. Backward Euler then leaves one
  * equation in the Lode angle, with a zero between compression and the angle of the trial. */
-#include "materials/frictional.h"
-#include "materials/principal_lanes.h"
+#include "materials/frame/frictional.h"
+#include "materials/frame/principal_lanes.h"
 
 #include <float.h>
 #include <math.h>
@@ -34,8 +34,6 @@ typedef struct shape {
     double y, first, second;
 } shape;
 
-static const double INVERSE_SQRT3 = 0.57735026918962576451;
-
 /* y(w) = cos(acos(w)/3) is the largest root of 4 y^3 - 3 y = w, w = -corner cos(3t). With y = 1/2 + z that is
  * z^2 (6 + 4 z) = 1 + w, in which nothing cancels at the corner of a triangle, where both sides vanish. In
  * u = sqrt((1 + w)/2) z is smooth: Newton's method starts from the quadratic with the value and slope of z at u = 0 and
@@ -47,7 +45,7 @@ static MOR_LANES_INLINE shape find_shape(const matsuoka_nakai *m, double cosine,
     /* 1 - cos(3t) = (1 - cos t)(2 cos t + 1)^2 */
     const double rise = m->gap + m->corner * (sine * sine / (1.0 + cosine)) * (turn * turn);
     const double u = sqrt(0.5 * rise);
-    double z = u * (INVERSE_SQRT3 + u * (0.5 - INVERSE_SQRT3));
+    double z = u * (MOR_INVERSE_SQRT3 + u * (0.5 - MOR_INVERSE_SQRT3));
     for (int k = 0; k < STEPS; ++k) {
         const double slope = 12.0 * z * (1.0 + z);
         z -= (z * z * (6.0 + 4.0 * z) - rise) / (slope > 0.0 ? slope : 1.0);
@@ -84,7 +82,7 @@ static MOR_LANES_INLINE void read_trial(const matsuoka_nakai *m, const mor_princ
         const double mean = (t.first + t.second + t.third) * (1.0 / 3.0);
         s->root[lane] = range > DBL_MIN ? range * unit : 0.0;
         s->lift[lane] = m->slope * (m->apex - mean);
-        s->cosine[lane] = range > DBL_MIN ? (1.0 + lower) * 0.5 * INVERSE_SQRT3 / unit : 1.0;
+        s->cosine[lane] = range > DBL_MIN ? (1.0 + lower) * 0.5 * MOR_INVERSE_SQRT3 / unit : 1.0;
         s->sine[lane] = range > DBL_MIN ? 0.5 * upper / unit : 0.0;
         s->half[lane] = s->sine[lane] / (1.0 + s->cosine[lane]);
         s->low[lane] = 0.0;
@@ -153,7 +151,7 @@ static MOR_LANES_INLINE mor_principal find_end(const matsuoka_nakai *m, const so
     const double kept = lift > 0.0 ? lift : 0.0;
     const double mean = m->apex - kept / m->slope;
     const double root = kept / y;
-    const double shared = root * cosine * INVERSE_SQRT3;
+    const double shared = root * cosine * MOR_INVERSE_SQRT3;
     return (mor_principal){mean + shared + root * sine, mean + shared - root * sine, mean - 2.0 * shared};
 }
 

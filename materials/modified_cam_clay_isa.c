@@ -6,8 +6,8 @@
  * elasticity has a potential; with a constant Poisson's ratio it would not (Zytynski et al. (1978)).
  * docs/theory/flow.md. */
 #include "core/material/kit/material.h"
-#include "materials/invariants.h"
-#include "materials/rate_point.h"
+#include "materials/frame/invariants.h"
+#include "materials/frame/rate_point.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Elastic, perfectly plastic Mohr-Coulomb soil with non-associated flow and an optional limit of tension (Rankine),
  * returned exactly in principal stresses. docs/theory/mohr_coulomb.md. */
-#include "materials/frictional.h"
-#include "materials/hexagon.h"
+#include "materials/frame/frictional.h"
+#include "materials/frame/hexagon.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -4,8 +4,8 @@
  * et al. (2022), eqs. 6, 7, 9. Deviations from Hu et al.: the bulk modulus is not divided by three; the plastic rate
  * is the plastic part only and is solved for together with mu(I) (Dunatunga and Kamrin (2015)), because mu from the
  * trial rate is but of first order. docs/theory/flow.md. */
-#include "materials/hooke.h"
-#include "materials/rate_lanes.h"
+#include "materials/frame/hooke.h"
+#include "materials/frame/rate_lanes.h"
 
 #include <float.h>
 #include <math.h>
@@ -41,14 +41,6 @@ typedef struct flow {
     double viscosity_scale; /* G I0 dt / d, Pa s/m */
 } flow;
 
-static const double INVERSE_SQRT3 = 0.57735026918962576451;
-
-typedef struct returned {
-    mor_symmetric stress; /* Pa */
-    double slip;          /* plastic shear, 1 */
-    double dissipation;   /* increment, J/m3 */
-} returned;
-
 /* End value of sqrt(J2) at pressure p >= 0. With S0 = mu_s p, S2 = mu_2 p and the trial T it is the root of
  * (T - t)/(G dt) = I0/d sqrt(p/rho_s) (t - S0)/(S2 - t) between S0 and S2: t = 2 H/(B + sqrt(B^2 - 4 H)) with
  * B = S2 + T + a, H = S2 T + S0 a. The discriminant is written as a sum of positive parts. */
@@ -67,7 +59,7 @@ static MOR_LANES_INLINE double return_shear(const flow *f, double p, double tria
 }
 
 /* No tension: a positive mean trial stress ends as no stress at all. */
-static MOR_LANES_INLINE returned return_trial(const flow *f, mor_symmetric trial)
+static MOR_LANES_INLINE mor_rate_end return_trial(const flow *f, mor_symmetric trial)
 {
     const double mean = mor_invariant_i1(trial) * (1.0 / 3.0);
     const double root = sqrt(mor_invariant_j2(trial));
@@ -76,10 +68,8 @@ static MOR_LANES_INLINE returned return_trial(const flow *f, mor_symmetric trial
     const int is_plastic = (end < root) | (mean > 0.0);
     const mor_symmetric mapped = mor_symmetric_rescale(trial, end / (root > 0.0 ? root : 1.0), mean < 0.0 ? mean : 0.0);
     const double slip = (root - end) * f->model.inverse_shear;
-    return (returned){
-        .stress = {is_plastic ? mapped.xx : trial.xx, is_plastic ? mapped.yy : trial.yy,
-                   is_plastic ? mapped.zz : trial.zz, is_plastic ? mapped.xy : trial.xy,
-                   is_plastic ? mapped.yz : trial.yz, is_plastic ? mapped.zx : trial.zx},
+    return (mor_rate_end){
+        .stress = mor_symmetric_select(is_plastic, mapped, trial),
         .slip = slip,
         .dissipation = end * slip,
     };
@@ -90,10 +80,7 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
     const flow f = *(const flow *)constants;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         const mor_symmetric trial = mor_rate_predict(f.model.elastic.two_shear, f.model.elastic.lame, b, lane);
-        const returned r = return_trial(&f, trial);
-        mor_rate_write(b, lane, r.stress);
-        b->state[0][lane] += r.slip * INVERSE_SQRT3;
-        b->dissipation[lane] = r.dissipation;
+        mor_rate_finish(b, lane, return_trial(&f, trial));
     }
 }
 

@@ -3,7 +3,7 @@
 /* Compressible Neo-Hookean solid, Zhang et al. (2024) eqs. 39 to 41:
  * W = mu tr(E) - mu ln J + lambda/2 (ln J)^2, S = mu (I - C^-1) + lambda ln(J) C^-1, P = F S.
  * W is zero without deformation. docs/theory/elastic.md. */
-#include "materials/total_lanes.h"
+#include "materials/frame/total_lanes.h"
 
 /* Range of det F - 1 in which the series below is used; rock stays inside it. */
 static const double SERIES_FROM = -0.29;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Hooke's law between Green-Lagrange strain E and second Piola-Kirchhoff stress: S = lambda tr(E) I + 2 mu E, P = F S.
  * For large rotations and small strains; it softens in strong compression. docs/theory/elastic.md. */
-#include "materials/total_lanes.h"
+#include "materials/frame/total_lanes.h"
 
 /* P = F S */
 static MOR_LANES_INLINE void stress_block(const mor_hooke *c, mor_total_block *b)

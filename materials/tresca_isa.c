@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Undrained clay: elastic, perfectly plastic, the largest shear stress at most the undrained strength (Tresca), which
  * may grow with the logarithm of the rate of plastic shear. docs/theory/mohr_coulomb.md. */
-#include "materials/frictional.h"
-#include "materials/hexagon.h"
+#include "materials/frame/frictional.h"
+#include "materials/frame/hexagon.h"
 
 #include <float.h>
 #include <math.h>

@@ -12,7 +12,7 @@
 #include "core/geometry/shape_moments.h"
 #include "core/material/checked.h"
 #include "core/time/schedule.h"
-#include "materials/hooke.h"
+#include "materials/frame/hooke.h"
 #include "tests/common/laws.h"
 
 #include <math.h>

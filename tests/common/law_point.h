@@ -154,20 +154,32 @@ static inline void law_point_triaxial(law_point *p, double axial, double lateral
     fail_msg("the lateral stress was not reached");
 }
 
+/** Mean pressure of a stress, shape [6]. */
+static inline double stress_pressure(const double *stress)
+{
+    return -mor_symmetric_trace(stress) / 3.0;
+}
+
+/** sqrt(J2) of a stress, shape [6]. */
+static inline double stress_root_j2(const double *stress)
+{
+    const double pressure = stress_pressure(stress);
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double s = stress[a] + pressure;
+        sum += 0.5 * s * s + stress[3 + a] * stress[3 + a];
+    }
+    return sqrt(sum);
+}
+
 static inline double law_point_pressure(const law_point *p)
 {
-    return -mor_symmetric_trace(p->stress) / 3.0;
+    return stress_pressure(p->stress);
 }
 
 static inline double law_point_root_j2(const law_point *p)
 {
-    const double pressure = law_point_pressure(p);
-    double sum = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double s = p->stress[a] + pressure;
-        sum += 0.5 * s * s + p->stress[3 + a] * p->stress[3 + a];
-    }
-    return sqrt(sum);
+    return stress_root_j2(p->stress);
 }
 
 static inline void law_point_check_close(double found, double expected, double tolerance)

@@ -4,7 +4,7 @@
 #define MOR_TESTS_COMMON_ROCK_POINT_H
 
 #include "core/base/math.h"
-#include "materials/hooke.h"
+#include "materials/frame/hooke.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -20,7 +20,7 @@
 /** What a test of files works with. */
 typedef struct run_folder {
     mor_context context;
-    char path[MOR_PATH_BYTES]; /* the scratch folder */
+    char path[MOR_PATH_BYTES];           /* the scratch folder */
     char log[MOR_CONTEXT_MESSAGE_BYTES]; /* last logged line */
     int n_logged;
 } run_folder;

@@ -5,9 +5,9 @@
 #include "core/material/plugin.h"
 #include "materials/builtin.h"
 #include "materials/drucker_prager.h"
-#include "materials/hooke.h"
+#include "materials/frame/hooke.h"
+#include "tests/common/conformance.h"
 #include "tests/common/laws.h"
-#include "tests/common/template.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -18,55 +18,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-enum { LINE_BYTES = 1024 };
-
-/* Laws of which one given by its rates says nothing. */
-#define NO_DISSIPATION "dissipation is not negative; work is stored or dissipated"
-
-static const mor_conformance_row *find_row(const mor_conformance_report *report, const char *words)
-{
-    for (int k = 0; k < report->n_rows; ++k) {
-        if (strstr(report->rows[k].law, words) != NULL) {
-            return &report->rows[k];
-        }
-    }
-    fail_msg("no law is called '%s'", words);
-    return NULL;
-}
-
-static void run_on(const mor_material *material, const double *parameters, mor_conformance_report *report)
-{
-    mor_context context;
-    mor_context_init(&context);
-    const mor_status status = mor_conformance_run(&context, material, parameters, 2000.0, report);
-    if (status != MOR_OK) {
-        fail_msg("%s", context.message);
-    }
-    assert_int_equal(context.memory_bytes, 0);
-    assert_int_equal(context.status, MOR_OK);
-}
-
-/* Every law must hold; those named may be skipped. */
-static void check_all(const mor_material *material, const char *may_skip)
-{
-    mor_conformance_report report;
-    run_on(material, NULL, &report);
-    assert_true(report.n_rows >= 18);
-    for (int k = 0; k < report.n_rows; ++k) {
-        char line[LINE_BYTES];
-        mor_conformance_format(&report.rows[k], line, sizeof line);
-        if (report.rows[k].verdict == MOR_VERDICT_FAIL) {
-            fail_msg("%s: %s", material->name, line);
-        }
-        const int is_allowed =
-            report.rows[k].verdict == MOR_VERDICT_PASS || strstr(may_skip, report.rows[k].law) != NULL;
-        if (!is_allowed) {
-            fail_msg("%s skipped: %s", material->name, line);
-        }
-    }
-    assert_int_equal(report.n_failed, 0);
-}
 
 static void every_registered_material_obeys_all_laws(void **state)
 {
@@ -80,7 +31,7 @@ static void every_registered_material_obeys_all_laws(void **state)
     for (int k = 0; k < mor_registry_count(registry); ++k) {
         const mor_material *law = mor_registry_get(registry, k);
         const int reports_dissipation = law->form == MOR_MATERIAL_TOTAL || law->operations.advance_rate != NULL;
-        check_all(law, reports_dissipation ? "" : NO_DISSIPATION);
+        conformance_check(law, reports_dissipation ? "" : CONFORMANCE_NO_DISSIPATION);
     }
     mor_registry_free(&context, &registry);
 }
@@ -89,9 +40,9 @@ static void every_registered_material_obeys_all_laws(void **state)
 static void check_special(const mor_material *material, const double *parameters, size_t number)
 {
     mor_conformance_report report;
-    run_on(material, parameters, &report);
+    conformance_run(material, parameters, &report);
     for (int r = 0; r < report.n_rows; ++r) {
-        char line[LINE_BYTES];
+        char line[CONFORMANCE_LINE_BYTES];
         mor_conformance_format(&report.rows[r], line, sizeof line);
         if (report.rows[r].verdict == MOR_VERDICT_FAIL) {
             fail_msg("%s %zu: %s", material->name, number, line);
@@ -193,23 +144,6 @@ static void special_rocks_obey_all_laws(void **state)
     }
 }
 
-static void template_plugins_build_as_their_readmes_say_and_obey_all_laws(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *project, *law, *may_skip;
-    } templates[] = {{"template", "undrained_clay", ""}, {"template_rates", "viscoplastic_soil", NO_DISSIPATION}};
-    for (size_t k = 0; k < sizeof templates / sizeof *templates; ++k) {
-        mor_context context;
-        template_law it = {0};
-        mor_context_init(&context);
-        template_open(&context, MOR_SOURCE_DIR, templates[k].project, templates[k].law, &it);
-        check_all(it.material, templates[k].may_skip);
-        template_close(&context, &it);
-        assert_int_equal(context.memory_bytes, 0);
-    }
-}
-
 /* Laws must be able to fail: Drucker-Prager with one operation spoiled, and the law that must notice. */
 
 static mor_status spoil(const mor_material_instance *instance, const mor_batch *batch, int kind)
@@ -289,8 +223,8 @@ static void each_law_notices_its_breach(void **state)
         mor_material spoiled = *law_named("drucker_prager");
         spoiled.operations.advance_rate = breaches[k].advance;
         mor_conformance_report report;
-        run_on(&spoiled, soil, &report);
-        const mor_conformance_row *row = find_row(&report, breaches[k].law);
+        conformance_run(&spoiled, soil, &report);
+        const mor_conformance_row *row = conformance_find(&report, breaches[k].law);
         if (row->verdict != MOR_VERDICT_FAIL) {
             fail_msg("breach %zu was not noticed by '%s' (figure %g)", k, row->law, row->figure);
         }
@@ -300,8 +234,8 @@ static void each_law_notices_its_breach(void **state)
 static mor_verdict judge_spin(const mor_material *material, const double *values)
 {
     mor_conformance_report report;
-    run_on(material, values, &report);
-    return find_row(&report, "rigid spin")->verdict;
+    conformance_run(material, values, &report);
+    return conformance_find(&report, "rigid spin")->verdict;
 }
 
 static void spin_is_compared_with_rest_where_stress_relaxes(void **state)
@@ -329,7 +263,7 @@ static void a_leak_is_noticed(void **state)
     mor_context_init(&context);
     mor_conformance_report report;
     assert_int_equal(mor_conformance_run(&context, &spoiled, soil, 2000.0, &report), MOR_OK);
-    assert_int_equal(find_row(&report, "memory")->verdict, MOR_VERDICT_FAIL);
+    assert_int_equal(conformance_find(&report, "memory")->verdict, MOR_VERDICT_FAIL);
     assert_true(context.memory_bytes > 0);
     while (n_kept > 0) {
         mor_memory_free(&context, &kept[--n_kept]);
@@ -448,14 +382,14 @@ static const mor_material ROCK = {
 static void total_form_is_tried_by_its_own_laws(void **state)
 {
     (void)state;
-    check_all(&ROCK, "");
+    conformance_check(&ROCK, "");
     mor_material skewed = ROCK;
     skewed.operations.stress_total = rock_skewed_stress;
     mor_conformance_report report;
-    run_on(&skewed, NULL, &report);
+    conformance_run(&skewed, NULL, &report);
     const char *const laws[] = {"no deformation", "no moment", "a rotation turns", "derivative of the energy"};
     for (int k = 0; k < 4; ++k) {
-        assert_int_equal(find_row(&report, laws[k])->verdict, MOR_VERDICT_FAIL);
+        assert_int_equal(conformance_find(&report, laws[k])->verdict, MOR_VERDICT_FAIL);
     }
 }
 
@@ -467,7 +401,6 @@ int main(void)
         cmocka_unit_test(special_flows_obey_all_laws),
         cmocka_unit_test(special_frictional_soils_obey_all_laws),
         cmocka_unit_test(special_rocks_obey_all_laws),
-        cmocka_unit_test(template_plugins_build_as_their_readmes_say_and_obey_all_laws),
         cmocka_unit_test(each_law_notices_its_breach),
         cmocka_unit_test(spin_is_compared_with_rest_where_stress_relaxes),
         cmocka_unit_test(a_leak_is_noticed),

@@ -38,8 +38,8 @@ LIBC = re.compile(
     r"|sys/(ioctl|mman|random|resource|stat|time|times|types|uio|utsname|wait))\.h")
 
 GENERATED = {"moraine_build.h": "cases/driver/library"}
-# A user's project in the tree: it may include what that room may.
-KITS = {"materials/template": "materials", "materials/template_rates": "materials"}
+# A user's project in the tree: it may include what that room may, which is what is installed.
+KITS = {"materials/template": "materials/frame", "materials/template_rates": "materials/frame"}
 # The program is its commands and the library behind cases/moraine.h.
 MAINS = {"cases/driver/main.c": ("cases", "cases/driver/command")}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

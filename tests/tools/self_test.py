@@ -25,7 +25,7 @@ import check_sessions
 import check_text
 import source
 
-COMPILER = "cc"
+COMPILER, CTEST = "cc", "ctest"
 TAG = "/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.\n * SPDX-License-Identifier: Apache-2.0 */\n"
 
 
@@ -43,6 +43,7 @@ mor_add_room(core/material/kit DEPENDS core/base)
 mor_add_room(core/material DEPENDS core/base core/material/kit)
 mor_add_room(core/io DEPENDS core/base core/material DOORS hdf5)
 mor_add_room(materials DEPENDS core/base core/material/kit FUSED)
+mor_add_room(materials/frame DEPENDS core/base core/material/kit)
 mor_add_room(bodies DEPENDS core/base)
 mor_add_room(cases/driver/case DEPENDS core/base)
 """,
@@ -122,8 +123,9 @@ class Includes(Sample):
     def test_materials_must_not_see_particles(self):
         self.refuse("materials/sand.c", '#include "core/particle/set.h"', "core/base, core/material")
 
-    def test_materials_template_is_held_to_the_same_rule(self):
-        self.refuse("materials/template/sand.c", '#include "core/particle/set.h"', "core/base, core/material/kit")
+    def test_materials_template_must_not_see_what_is_not_installed(self):
+        self.write("materials/frame/sum.h", TAG)
+        self.refuse("materials/template/sand.c", '#include "materials/frame/sum.h"', "core/base, core/material/kit")
 
     def test_depending_on_a_room_does_not_show_the_rooms_below_it(self):
         self.write("core/material/params.h", TAG)
@@ -590,8 +592,6 @@ class Tests(Sample):
         self.write("CTestTestfile.cmake", "add_test(unit/test_length true)\n")
         self.assertEqual(check_tests.list_registered(self.root, CTEST), {"unit/test_length"})
 
-
-CTEST = "ctest"
 
 if __name__ == "__main__":
     if len(sys.argv) == 3:

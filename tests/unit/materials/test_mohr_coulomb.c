@@ -210,16 +210,7 @@ static void mapping_twice_changes_nothing(void **state)
         values.tension_ratio = k % 5 == 0 ? 0.3 : 1.0;
         law_point p;
         open_soil(&p, values);
-        double trial[6];
-        for (uint64_t a = 0; a < 6; ++a) {
-            trial[a] = 1e5 * (mor_random_uniform(2, k, a) - (a < 3 ? 0.7 : 0.5));
-        }
-        point_map(&p, trial);
-        const law_point once = p;
-        const double still[9] = {0};
-        assert_int_equal(law_point_try(&p, still, NULL, 0.0), MOR_OK);
-        assert_memory_equal(once.stress, p.stress, sizeof once.stress); /* exact: rounding is recognized as such */
-        assert_true(once.state[0] == p.state[0]);                       /* exact */
+        point_check_mapping_twice(&p, k);
         law_point_close(&p);
     }
 }

@@ -145,7 +145,7 @@ static void faulty_plugins_are_refused_with_the_reason(void **state)
     const struct {
         const char *name, *options, *word;
     } cases[] = {
-        {"other_abi", "-DABI=77", "does not serve interface 2"},
+        {"other_abi", "-DABI=77", "does not serve interface 3"},
         {"stubborn", "-DABI=77 -UREFUSAL -DREFUSAL=\\&LIST", "built for interface 77"},
         {"short", "-DBYTES=16", "16 bytes"},
         {"nameless", "-DNAME='\"\"'", "without a name"},

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_LANE_MATH_H
-#define MOR_MATERIALS_LANE_MATH_H
+#ifndef MOR_MATERIALS_FRAME_LANE_MATH_H
+#define MOR_MATERIALS_FRAME_LANE_MATH_H
 
 #include "core/material/kit/lanes.h"
 

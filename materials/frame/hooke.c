@@ -1,8 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/hooke.h"
+#include "materials/frame/hooke.h"
 
-#include "materials/invariants.h"
+#include "materials/frame/invariants.h"
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_FRICTIONAL_H
-#define MOR_MATERIALS_FRICTIONAL_H
+#ifndef MOR_MATERIALS_FRAME_FRICTIONAL_H
+#define MOR_MATERIALS_FRAME_FRICTIONAL_H
 
 #include "core/base/schema.h"
 

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_HOOKE_H
-#define MOR_MATERIALS_HOOKE_H
+#ifndef MOR_MATERIALS_FRAME_HOOKE_H
+#define MOR_MATERIALS_FRAME_HOOKE_H
 
 #include "core/material/kit/material.h"
 

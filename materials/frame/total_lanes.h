@@ -1,11 +1,11 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_TOTAL_LANES_H
-#define MOR_MATERIALS_TOTAL_LANES_H
+#ifndef MOR_MATERIALS_FRAME_TOTAL_LANES_H
+#define MOR_MATERIALS_FRAME_TOTAL_LANES_H
 
 #include "core/material/kit/lanes.h"
-#include "materials/hooke.h"
-#include "materials/invariants.h"
+#include "materials/frame/hooke.h"
+#include "materials/frame/invariants.h"
 
 /** @file
  *  The frame of an elastic law of total form: blocks of particles, strain, change of volume, refusal of inverted

@@ -1,10 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_RATE_LANES_H
-#define MOR_MATERIALS_RATE_LANES_H
+#ifndef MOR_MATERIALS_FRAME_RATE_LANES_H
+#define MOR_MATERIALS_FRAME_RATE_LANES_H
 
 #include "core/material/kit/lanes.h"
-#include "materials/invariants.h"
+#include "materials/frame/invariants.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -141,6 +141,27 @@ static MOR_LANES_INLINE void mor_rate_write(mor_rate_block *b, int lane, mor_sym
     b->stress[3][lane] = stress.xy;
     b->stress[4][lane] = stress.yz;
     b->stress[5][lane] = stress.zx;
+}
+
+/** The end of a lane by a law whose first state variable is the accumulated deviatoric plastic strain. */
+typedef struct mor_rate_end {
+    mor_symmetric stress; /* Pa */
+    double slip;          /* increment of the plastic shear strain: fall of sqrt(J2) over G, 1 */
+    double dissipation;   /* increment, J/m3 */
+} mor_rate_end;
+
+/** The increment of the plastic strain, sqrt(2/3 de:de); unit 1. */
+static MOR_LANES_INLINE double mor_rate_plastic_strain(mor_rate_end end)
+{
+    return end.slip * MOR_INVERSE_SQRT3;
+}
+
+/** Stores the end of a lane. */
+static MOR_LANES_INLINE void mor_rate_finish(mor_rate_block *b, int lane, mor_rate_end end)
+{
+    mor_rate_write(b, lane, end.stress);
+    b->state[0][lane] += mor_rate_plastic_strain(end);
+    b->dissipation[lane] = end.dissipation;
 }
 
 /** Finds the first lane whose results are not valid, and why.

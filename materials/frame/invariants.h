@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_INVARIANTS_H
-#define MOR_MATERIALS_INVARIANTS_H
+#ifndef MOR_MATERIALS_FRAME_INVARIANTS_H
+#define MOR_MATERIALS_FRAME_INVARIANTS_H
 
 #include <math.h>
 
@@ -9,6 +9,9 @@
  *  Tensor algebra that material models share: invariants, strain increment, objective rotation. Arguments and results
  *  go by value, so that a compiler can keep them in vector registers when the functions are called in a loop over
  *  lanes. No formula holds a dimensional constant: all results scale exactly under units changed by powers of two. */
+
+/** 1 / sqrt(3). */
+#define MOR_INVERSE_SQRT3 0.57735026918962576451
 
 /** A symmetric tensor; components in the order of core/base/math.h. Unit: of the quantity. */
 typedef struct mor_symmetric {
@@ -42,6 +45,13 @@ static inline mor_symmetric mor_symmetric_add(mor_symmetric a, double factor, mo
 {
     return (mor_symmetric){a.xx + factor * b.xx, a.yy + factor * b.yy, a.zz + factor * b.zz,
                            a.xy + factor * b.xy, a.yz + factor * b.yz, a.zx + factor * b.zx};
+}
+
+/** a where the choice is not 0, else b; without a branch. Unit: of a and b. */
+static inline mor_symmetric mor_symmetric_select(int choice, mor_symmetric a, mor_symmetric b)
+{
+    return (mor_symmetric){choice ? a.xx : b.xx, choice ? a.yy : b.yy, choice ? a.zz : b.zz,
+                           choice ? a.xy : b.xy, choice ? a.yz : b.yz, choice ? a.zx : b.zx};
 }
 
 /** First invariant, the trace; unit: of a. */

@@ -1,18 +1,18 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_RATE_POINT_H
-#define MOR_MATERIALS_RATE_POINT_H
+#ifndef MOR_MATERIALS_FRAME_RATE_POINT_H
+#define MOR_MATERIALS_FRAME_RATE_POINT_H
 
 #include "core/material/kit/material.h"
-#include "materials/invariants.h"
-#include "materials/rate_lanes.h"
+#include "materials/frame/invariants.h"
+#include "materials/frame/rate_lanes.h"
 
 #include <math.h>
 
 /** @file
  *  The frame of a law of rate form that iterates or branches, one particle at a time, with any number of state
  *  variables: reading and writing, refusal of increments that are not small and of results that are not finite. Laws
- *  that run the same instructions for all particles: materials/rate_lanes.h. */
+ *  that run the same instructions for all particles: materials/frame/rate_lanes.h. */
 
 /** Most numbers of state of a particle. */
 enum { MOR_POINT_NUMBERS = 16 };

@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_HEXAGON_H
-#define MOR_MATERIALS_HEXAGON_H
+#ifndef MOR_MATERIALS_FRAME_HEXAGON_H
+#define MOR_MATERIALS_FRAME_HEXAGON_H
 
-#include "materials/principal_lanes.h"
+#include "materials/frame/principal_lanes.h"
 
 /** @file
  *  The return to a pyramid (Mohr-Coulomb) or prism (Tresca) of six planes in principal stresses: backward Euler, exact

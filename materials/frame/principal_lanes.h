@@ -1,11 +1,11 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_MATERIALS_PRINCIPAL_LANES_H
-#define MOR_MATERIALS_PRINCIPAL_LANES_H
+#ifndef MOR_MATERIALS_FRAME_PRINCIPAL_LANES_H
+#define MOR_MATERIALS_FRAME_PRINCIPAL_LANES_H
 
 #include "core/base/eigen.h"
-#include "materials/hooke.h"
-#include "materials/rate_lanes.h"
+#include "materials/frame/hooke.h"
+#include "materials/frame/rate_lanes.h"
 
 #include <float.h>
 #include <math.h>
@@ -70,15 +70,14 @@ static MOR_LANES_INLINE int mor_principal_may_yield(const mor_principal_bound *b
 {
     static const double SAFETY = 1e-12;
     static const double SMALL = 1e-280;
-    static const double INVERSE_SQRT3 = 0.57735026918962576451;
     int n_outside = 0;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         const mor_symmetric trial = mor_principal_trial(p, lane);
         const double mean = mor_invariant_i1(trial) * (1.0 / 3.0);
         const double j2 = mor_invariant_j2(trial);
         const double root = sqrt(j2);
-        const double cone = 2.0 * root + bound->sine * (2.0 * mean + root * INVERSE_SQRT3) - bound->strength;
-        const double cap = mean + 2.0 * INVERSE_SQRT3 * root - bound->tension;
+        const double cone = 2.0 * root + bound->sine * (2.0 * mean + root * MOR_INVERSE_SQRT3) - bound->strength;
+        const double cap = mean + 2.0 * MOR_INVERSE_SQRT3 * root - bound->tension;
         const double rounding = SAFETY * (root + fabs(mean) + bound->strength);
         n_outside += (cone > -rounding) | (cap > -rounding) | (j2 < SMALL);
     }

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "materials/rate_lanes.h"
+#include "materials/frame/rate_lanes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
