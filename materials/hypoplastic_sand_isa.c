@@ -278,6 +278,19 @@ static mor_status sand_stress_rate(const mor_material_instance *instance, const 
     return MOR_OK;
 }
 
+/* Compression beyond the densest packing is none of the soil's: velocity gradients of particles at a surface have such
+ * errors, and would leave a void ratio at which the law has no strength limit. */
+static double keep_possible(const sand *m, double void_ratio, double pressure)
+{
+    if (void_ratio >= m->densest) {
+        return void_ratio;
+    }
+    const double least = LEAST_PRESSURE * m->shift;
+    const double relative = 3.0 * (pressure > least ? pressure : least) / m->hardness;
+    const double densest = m->densest * mor_lane_exp(-mor_lane_exp(m->exponent * mor_lane_log(relative)));
+    return void_ratio > densest ? void_ratio : densest;
+}
+
 /* Sand has no tension: a mean stress above zero becomes zero, and what remains of the deviator is what the minimum
  * pressure can hold. Continuous, so that a small change of the start makes a small change of the end. */
 static mor_status sand_limit(const mor_material_instance *instance, const mor_batch *batch)
@@ -293,7 +306,8 @@ static mor_status sand_limit(const mor_material_instance *instance, const mor_ba
         mor_symmetric_write(stress, batch->stress_out + 6 * i);
         mor_symmetric_write(mor_symmetric_read(batch->state_in[STATE_INTERGRANULAR] + 6 * i),
                             batch->state_out[STATE_INTERGRANULAR] + 6 * i);
-        batch->state_out[STATE_VOID_RATIO][i] = batch->state_in[STATE_VOID_RATIO][i];
+        batch->state_out[STATE_VOID_RATIO][i] =
+            keep_possible(m, batch->state_in[STATE_VOID_RATIO][i], m->shift - mor_invariant_i1(stress) * (1.0 / 3.0));
     }
     return MOR_OK;
 }

@@ -421,6 +421,25 @@ static void unloading_beyond_zero_leaves_no_tension(void **state)
     discard(&s);
 }
 
+static void nothing_is_denser_than_the_densest_packing(void **state)
+{
+    (void)state;
+    const double still[9] = {0.0};
+    for (int k = 0; k < 3; ++k) {
+        specimen s;
+        const double pressure = 1e3 * pow(10.0, k);
+        make(&s, 0.5, 1e-4, 1e-4);
+        press(&s, pressure, pressure);
+        assert_int_equal(step(&s, still), MOR_OK);
+        const double densest = E_D0 * decay(pressure_of(s.stress));
+        assert_true(fabs(s.void_ratio - densest) < 1e-14); /* closed form; rounding */
+        s.void_ratio = 1.0001 * densest;
+        assert_int_equal(step(&s, still), MOR_OK);
+        assert_true(s.void_ratio == 1.0001 * densest); /* exact */
+        discard(&s);
+    }
+}
+
 static void impossible_void_ratios_are_refused(void **state)
 {
     (void)state;
@@ -452,6 +471,7 @@ int main(void)
         cmocka_unit_test(drained_triaxial_path_follows_an_independent_integration),
         cmocka_unit_test(sub_stepping_converges_at_its_order),
         cmocka_unit_test(unloading_beyond_zero_leaves_no_tension),
+        cmocka_unit_test(nothing_is_denser_than_the_densest_packing),
         cmocka_unit_test(impossible_void_ratios_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
