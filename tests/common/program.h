@@ -124,4 +124,20 @@ static inline void program_expect_text(const char *text, const char *part)
     }
 }
 
+/** Starts the program as program_start does and kills it after some seconds; false when it had ended before, which must
+ *  have been well. */
+static inline bool program_kill_after(run_folder *folder, const char *const *arguments, double seconds)
+{
+    const pid_t child = program_start(folder, arguments);
+    usleep((useconds_t)(1e6 * seconds));
+    assert_int_equal(kill(child, SIGKILL), 0);
+    program_outcome outcome = program_finish(folder, child);
+    const bool is_killed = outcome.signal == SIGKILL;
+    if (!is_killed && outcome.exit_code != 0) {
+        fail_msg("the run ended with code %d: %s", outcome.exit_code, outcome.errors);
+    }
+    program_clear(&outcome);
+    return is_killed;
+}
+
 #endif

@@ -44,21 +44,6 @@ static void check_snapshots(run_folder *folder, const char *run)
     mor_snapshot_list_clear(&folder->context, &list);
 }
 
-/* Starts or resumes the run and kills it after some seconds; false when it had ended before. */
-static bool kill_after(run_folder *folder, const char *const *arguments, double seconds)
-{
-    const pid_t child = program_start(folder, arguments);
-    usleep((useconds_t)(1e6 * seconds));
-    assert_int_equal(kill(child, SIGKILL), 0);
-    program_outcome outcome = program_finish(folder, child);
-    const bool is_killed = outcome.signal == SIGKILL;
-    if (!is_killed && outcome.exit_code != 0) {
-        fail_msg("the run ended with code %d: %s", outcome.exit_code, outcome.errors);
-    }
-    program_clear(&outcome);
-    return is_killed;
-}
-
 /* Kills a run of a case, zero-terminated text, and resumes it until it ends. */
 static void kill_at_random_moments(run_folder *folder, const char *text, const char *spacing)
 {
@@ -78,7 +63,7 @@ static void kill_at_random_moments(run_folder *folder, const char *text, const c
     int n_killed = 0;
     for (int k = 0; k < n_kills; ++k) {
         const double part = mor_random_uniform(folder->context.seed, (uint64_t)k, 1);
-        n_killed += kill_after(folder, killed, 0.35 * duration * part);
+        n_killed += program_kill_after(folder, killed, 0.35 * duration * part);
         check_snapshots(folder, "killed");
     }
     assert_true(n_killed >= 1); /* the first comes well before the end */
@@ -93,9 +78,8 @@ static void run_killed_at_random_moments_ends_as_if_never_killed(void **state)
 
 static void run_with_rocks_killed_at_random_moments_ends_as_if_never_killed(void **state)
 {
-    static const char probes[] =
-        "probes = ( { type = 'kinetic_energy'; }, { type = 'contact_depth'; },"
-        "  { type = 'wall_contact_force'; wall = 'floor'; direction = (0, 1, 0); } );";
+    static const char probes[] = "probes = ( { type = 'kinetic_energy'; }, { type = 'contact_depth'; },"
+                                 "  { type = 'wall_contact_force'; wall = 'floor'; direction = (0, 1, 0); } );";
     char text[sizeof body_plane + sizeof probes];
     snprintf(text, sizeof text, "%s%s", body_plane, probes);
     kill_at_random_moments(*state, text, "spacing=5 mm");
@@ -127,7 +111,7 @@ static void case_file_of_a_run_killed_at_its_start_is_whole_or_missing(void **st
         char run[32];
         snprintf(run, sizeof run, "early_%d", k);
         const char *const started[] = {"run", case_path, "-t", "1", "-o", run, NULL};
-        kill_after(folder, started, seconds);
+        program_kill_after(folder, started, seconds);
         size_t n_bytes = 0;
         unsigned char *bytes = run_folder_load(finished_run_file(folder, path, run, CASE_FILE), &n_bytes);
         if (bytes != NULL) {
