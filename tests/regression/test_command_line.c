@@ -103,7 +103,7 @@ static const answer answers[] = {
     {{"explain", COLUMN, "-s", "spacing=5 mm", "-t", "1", NULL},
      {" 800 particles, smoothing length", "1 sub-step per step", "bytes per soil particle",
       "Stages of a step of 'soil'"}},
-    {{"check-material", "drucker_prager", NULL}, {"drucker_prager"}},
+    {{"check-material", "drucker_prager", NULL}, {"drucker_prager", "cost of an update", "    mohr_coulomb "}},
 };
 
 enum { N_ANSWERS = sizeof answers / sizeof *answers };

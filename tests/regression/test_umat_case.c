@@ -171,6 +171,7 @@ static void material_of_a_case_is_checked_with_its_parameters(void **state)
     program_outcome outcome = program_run(folder, (const char *const[]){"check-material", "case.cfg", NULL}, 0);
     program_expect_text(outcome.output, "soil 'sand': umat");
     program_expect_text(outcome.output, "pass  a superposed rotation turns the stress with it");
+    program_expect_text(outcome.output, "    drucker_prager "); /* in the table of costs */
     program_clear(&outcome);
     write_fault(folder, 6);
     outcome = program_run(folder, (const char *const[]){"check-material", "case.cfg", NULL}, 1);

@@ -15,9 +15,11 @@ const mor_command_info mor_command_check_material = {
     .subject = "FILE",
     .word = MOR_WORD_FILE,
     .text = "try the laws of mechanics on a material: a model, a plug-in file.so, or the soils of a case.cfg",
-    .details = "Prints a table of laws, with what was found and what is allowed. Of a model or a plug-in, several sets "
-               "of parameters "
-               "are drawn from its ranges; of a case, those of the case are taken, as a law behind an interface needs.",
+    .details =
+        "Prints a table of laws, with what was found and what is allowed, and what an update of a particle costs "
+        "beside one of the built-in models, timed in the same moment. Of a model or a plug-in, several sets of "
+        "parameters are drawn from its ranges; of a case, those of the case are taken, as a law behind an "
+        "interface needs.",
     .options = MOR_OPTION_BIT(THREADS) | MOR_OPTION_BIT(HELP),
     .examples = {"moraine check-material drucker_prager", "moraine check-material ./my_material.so",
                  "moraine check-material case.cfg"},

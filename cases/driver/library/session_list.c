@@ -1,19 +1,17 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What there is: lists, and the check of a material. */
+/* What there is: lists. */
 #include "cases/driver/library/session_internal.h"
 #include "cases/driver/probe/probe.h"
 
 #include "cases/driver/case/schema/case_schema.h"
 #include "cases/driver/element/element_settings.h"
-#include "core/material/conformance/conformance.h"
 #include "core/material/params.h"
 #include "core/material/plugin.h"
 #include "core/particle/field.h"
 #include "core/sph/soil.h"
 
 #include <string.h>
-#include <unistd.h>
 
 static void list_parameters(const mor_schema *parameters, FILE *out)
 {
@@ -141,106 +139,4 @@ mor_status mor_session_print_list(mor_session *session, const char *name)
         snprintf(names + n, sizeof names - n, "%s%s", k == 0 ? "" : k + 1 < N_LISTS ? ", " : " and ", lists[k].name);
     }
     return MOR_FAIL(context, MOR_ERROR_ARGUMENT, "found '%s', which is no list; allowed are %s", name, names);
-}
-
-/* ---- Check of a material ----------------------------------------------------------------------------------------- */
-
-enum { CHECK_LINE = 1024 };
-
-/* A trial of one model, which may crash. */
-typedef struct trial {
-    mor_context *context;
-    const mor_material *material;
-    const double *parameters; /* shape [n_values], units of the schema; NULL: several sets are drawn */
-    double density;           /* kg/m3 */
-    mor_conformance_report report;
-    mor_status status;
-} trial;
-
-static void run_trial(void *job)
-{
-    trial *it = job;
-    it->status = mor_conformance_run(it->context, it->material, it->parameters, it->density, &it->report);
-}
-
-/* Prints what was found; of a model that crashed the law that was tried last is the one in which it did. */
-static mor_status try_material(mor_session *session, trial *it, int *n_failed)
-{
-    char line[CHECK_LINE];
-    const int signal = mor_guard_run(session->context.guard, run_trial, it);
-    fprintf(session->output, "%s %s\n", it->material->name, it->material->version);
-    for (int k = 0; k < it->report.n_rows - (signal != 0); ++k) {
-        mor_conformance_format(&it->report.rows[k], line, sizeof line);
-        fprintf(session->output, "  %s\n", line);
-    }
-    MOR_CHECK(&session->context, signal == 0, MOR_ERROR_PLUGIN, "material '%s' crashed (%s) while this was tried: %s",
-              it->material->name, strsignal(signal),
-              it->report.n_rows > 0 ? it->report.rows[it->report.n_rows - 1].law : "making an instance");
-    *n_failed += it->report.n_failed;
-    return it->status;
-}
-
-/* Tries a model on parameters drawn from its schema. */
-static mor_status try_drawn(mor_session *session, const mor_material *material, int *n_failed)
-{
-    /* kg/m3, of a common soil; the laws hold for any */
-    trial it = {.context = &session->context, .material = material, .density = 2000.0};
-    return try_material(session, &it, n_failed);
-}
-
-/* Tries the models of the soils of a case, with their parameters. */
-static mor_status try_case(mor_session *session, const char *path, int *n_failed)
-{
-    const mor_case *the_case = &session->the_case;
-    MOR_TRY(&session->context, mor_session_load_file(session, path));
-    for (int k = 0; k < the_case->n_soils; ++k) {
-        const mor_case_soil *soil = &the_case->soils[k];
-        trial it = {.context = &session->context,
-                    .material = soil->law,
-                    .parameters = soil->parameters,
-                    .density = soil->density};
-        fprintf(session->output, "soil '%s': ", soil->name);
-        MOR_TRY(&session->context, try_material(session, &it, n_failed));
-    }
-    return MOR_OK;
-}
-
-static mor_status try_plugin(mor_session *session, const char *path, int *n_failed)
-{
-    mor_plugin *plugin = NULL;
-    mor_status status = mor_plugin_load(&session->context, path, &plugin);
-    for (int k = 0; status == MOR_OK && k < mor_plugin_count(plugin); ++k) {
-        status = try_drawn(session, mor_plugin_get(plugin, k), n_failed);
-    }
-    const char *call = status == MOR_OK ? mor_plugin_forbidden_call(plugin) : NULL;
-    if (status == MOR_OK) {
-        fprintf(session->output,
-                "%s\n  %s  it takes memory from the services, and leaves printing and ending to the program%s%s\n",
-                path, call == NULL ? "pass" : "FAIL", call == NULL ? "" : ": it calls ", call == NULL ? "" : call);
-        *n_failed += call != NULL;
-    }
-    mor_plugin_unload(&session->context, &plugin);
-    return status;
-}
-
-mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed)
-{
-    MOR_SESSION_WORK(session);
-    mor_context *context = &session->context;
-    const mor_material *material = mor_registry_find(session->registry, name);
-    const char *near = mor_registry_nearest(session->registry, name);
-    *n_failed = 0;
-    MOR_CHECK(context, material != NULL || access(name, F_OK) == 0, MOR_ERROR_CONFIG,
-              "found '%s', which is neither a material nor a file%s%s; allowed are the names in the list of "
-              "materials, paths of plug-ins, and of cases (.cfg), whose soils are then tried",
-              name, near != NULL ? "; did you mean " : "", near != NULL ? near : "");
-    const size_t length = strlen(name);
-    const bool is_case = length > 4 && strcmp(name + length - 4, ".cfg") == 0;
-    MOR_TRY(context, material != NULL ? try_drawn(session, material, n_failed)
-                     : is_case        ? try_case(session, name, n_failed)
-                                      : try_plugin(session, name, n_failed));
-    if (*n_failed > 0) {
-        fprintf(session->output, "%d laws failed\n", *n_failed);
-    }
-    return MOR_OK;
 }

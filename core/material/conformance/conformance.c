@@ -3,7 +3,6 @@
 #include "core/material/conformance/conformance.h"
 
 #include "core/base/memory.h"
-#include "core/base/random.h"
 #include "core/material/conformance/conformance_bench.h"
 #include "core/material/params.h"
 
@@ -11,75 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { DRAWN_SETS = 6, DRAW_ATTEMPTS = 64 };
-
-/* Drawing parameters from the ranges of the schema. */
-
-static double guess_size(const char *unit)
-{
-    static const struct {
-        const char *unit;
-        double size;
-    } SIZES[] = {{"Pa", 1e6}, {"m", 1e-3}, {"kg/m3", 2e3}, {"s", 1e-3}, {"Pa s", 1e2}};
-    for (size_t k = 0; k < sizeof SIZES / sizeof SIZES[0]; ++k) {
-        if (strcmp(unit, SIZES[k].unit) == 0) {
-            return SIZES[k].size;
-        }
-    }
-    return 1.0;
-}
-
-static double draw_value(const mor_schema *entry, double uniform, double coin)
-{
-    /* Tolerances are no property of the soil. */
-    if (entry->role >= MOR_ROLE_INTEGRATION_METHOD && entry->role <= MOR_ROLE_SUB_STEPS_MAX) {
-        return entry->kind == MOR_SCHEMA_CHOICE ? 0.0 : entry->default_value;
-    }
-    if (entry->kind == MOR_SCHEMA_CHOICE) {
-        return floor(uniform * mor_params_choice(entry->choices, NULL));
-    }
-    if (entry->kind == MOR_SCHEMA_BOOLEAN) {
-        return floor(2.0 * uniform);
-    }
-    if (!entry->is_required && coin < 0.5) {
-        return entry->default_value;
-    }
-    const double size = guess_size(entry->unit) * pow(10.0, 2.0 * uniform - 1.0);
-    double value = size;
-    if (isfinite(entry->minimum) && isfinite(entry->maximum)) {
-        /* Away from the ends, where a modulus or a strength may lose all meaning. */
-        value = entry->minimum + (0.05 + 0.9 * uniform) * (entry->maximum - entry->minimum);
-    } else if (isfinite(entry->minimum)) {
-        value = entry->minimum + size;
-    } else if (isfinite(entry->maximum)) {
-        value = entry->maximum - size;
-    }
-    return entry->kind == MOR_SCHEMA_INTEGER ? ceil(value) : value;
-}
-
-static mor_status draw_parameters(mor_context *context, const mor_material *material, double density, int set,
-                                  double *values)
-{
-    for (int attempt = 0; attempt < DRAW_ATTEMPTS; ++attempt) {
-        const uint64_t id = (uint64_t)(set * DRAW_ATTEMPTS + attempt);
-        int k = 0;
-        for (const mor_schema *entry = material->parameters; entry->key != NULL; ++entry) {
-            for (int a = 0; a < entry->n_components; ++a, ++k) {
-                values[k] = draw_value(entry, mor_random_uniform(context->seed, id, (uint64_t)(2 * k)),
-                                       mor_random_uniform(context->seed, id, (uint64_t)(2 * k + 1)));
-            }
-        }
-        mor_material_instance *instance = NULL;
-        if (mor_material_create(context, material, density, values, &instance) == MOR_OK) {
-            mor_material_destroy(context, &instance);
-            return MOR_OK;
-        }
-    }
-    return MOR_FAIL(context, MOR_ERROR_ARGUMENT,
-                    "material '%s' refused all of %d parameter sets drawn from its own schema; tighten the ranges of "
-                    "the schema, or give the parameters. Its last reason: %s",
-                    material->name, DRAW_ATTEMPTS, context->message);
-}
+enum { DRAWN_SETS = 6 };
 
 /* Laws that need no instance. */
 
@@ -172,37 +103,6 @@ static void run_laws(mor_bench *bench, const mor_bench_entry *laws, mor_conforma
     }
 }
 
-static mor_status measure_modulus(mor_bench *bench)
-{
-    const double zero[6] = {0};
-    double state[MOR_BENCH_NUMBERS] = {0};
-    double *state_out[MOR_MATERIAL_STATES_MAX] = {0};
-    const double *state_in[MOR_MATERIAL_STATES_MAX] = {0};
-    int offset = 0;
-    for (int k = 0; k < bench->instance->n_state; ++k) {
-        state_out[k] = state + offset;
-        state_in[k] = state + offset;
-        offset += bench->material->state[k].n_components;
-    }
-    const mor_material_operations *operations = &bench->instance->operations;
-    mor_batch batch = {.n = 1, .density = &bench->density, .stress_in = zero, .state_out = state_out};
-    mor_status status = operations->init_state(bench->instance, &batch);
-    batch.state_in = state_in;
-    batch.state_out = NULL;
-    double speed = 0.0;
-    if (status == MOR_OK) {
-        status = operations->wave_speed(bench->instance, &batch, &speed);
-    }
-    double limit = INFINITY;
-    if (status == MOR_OK) {
-        status = operations->max_step(bench->instance, &batch, &limit);
-    }
-    bench->modulus = bench->density * speed * speed;
-    bench->time_step = limit < 0x1p-12 ? limit : 0x1p-12;
-    const int is_usable = bench->modulus > 0.0 && isfinite(bench->modulus) && bench->time_step > 0.0;
-    return status == MOR_OK && !is_usable ? MOR_ERROR_NUMERIC : status;
-}
-
 static void run_set(mor_bench *bench, mor_conformance_report *report)
 {
     int place = 0;
@@ -213,7 +113,7 @@ static void run_set(mor_bench *bench, mor_conformance_report *report)
         *row = (mor_conformance_row){.law = "wave speed is usable and ordinary paths can be followed",
                                      .reason = "exact: no path may stop"};
     }
-    mor_status status = measure_modulus(bench);
+    mor_status status = mor_bench_measure(bench);
     if (status == MOR_OK) {
         status = mor_bench_prepare(bench);
     }
@@ -244,7 +144,7 @@ static mor_status run_all_sets(mor_context *context, mor_bench *bench, const dou
     const int n_sets = parameters != NULL ? 1 : DRAWN_SETS;
     for (int set = 0; set < n_sets; ++set) {
         if (parameters == NULL) {
-            MOR_TRY(context, draw_parameters(context, bench->material, bench->density, set, values));
+            MOR_TRY(context, mor_bench_draw(context, bench->material, bench->density, set, values));
         }
         bench->parameters = parameters != NULL ? parameters : values;
         bench->seed = context->seed + (uint64_t)set;

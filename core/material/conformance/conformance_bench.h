@@ -11,7 +11,8 @@
 
 enum {
     MOR_BENCH_PARTICLES = 37, /* odd, and neither a multiple of a vector width nor of a checked chunk */
-    MOR_BENCH_NUMBERS = 9 * MOR_MATERIAL_STATES_MAX
+    MOR_BENCH_NUMBERS = 9 * MOR_MATERIAL_STATES_MAX,
+    MOR_BENCH_PLAIN = -1 /* in place of the number of a set: what need not be given has its default */
 };
 
 /** Everything one evaluation reads and writes; large enough for any model. */
@@ -58,6 +59,17 @@ typedef struct mor_bench_entry {
 extern const mor_bench_entry mor_bench_rate_laws[];
 extern const mor_bench_entry mor_bench_total_laws[];
 extern const mor_bench_entry mor_bench_common_laws[];
+
+/** Draws parameters from the ranges of a schema.
+ *  @param density [in]   > 0; unit kg/m3
+ *  @param set     [in]   number of the set, >= 0, or MOR_BENCH_PLAIN
+ *  @param values  [out]  shape [n_values] in schema order, units of the schema; accepted by the material
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when the material accepts none. */
+mor_status mor_bench_draw(mor_context *context, const mor_material *material, double density, int set, double *values);
+
+/** Sets modulus and time_step of a bench from the unstressed material.
+ *  Returns: MOR_OK; the status of an operation; MOR_ERROR_NUMERIC where wave speed or step limit are unusable. */
+mor_status mor_bench_measure(mor_bench *bench);
 
 /** Fills start with states reached by random paths and with a motion for one more step.
  *  Returns: MOR_OK; the status of init_state or of the step that stopped. */

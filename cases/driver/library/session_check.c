@@ -1,0 +1,170 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The check of a material: the laws it must obey, and what it costs. */
+#include "cases/driver/library/session_internal.h"
+
+#include "core/material/conformance/conformance.h"
+#include "core/material/conformance/conformance_cost.h"
+#include "core/material/plugin.h"
+#include "materials/builtin.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { CHECK_LINE = 1024 };
+
+/* A trial of one model, which may crash. */
+typedef struct trial {
+    mor_context *context;
+    const mor_material *material;
+    const double *parameters; /* shape [n_values], units of the schema; NULL: several sets are drawn */
+    double density;           /* kg/m3 */
+    mor_conformance_report report;
+    double seconds[MOR_COST_STRAINS]; /* of an update of a particle */
+    mor_status status;
+} trial;
+
+/* Processor time of this thread, s: other programs do not count. */
+static double read_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void run_trial(void *job)
+{
+    trial *it = job;
+    it->status = mor_conformance_run(it->context, it->material, it->parameters, it->density, &it->report);
+    if (it->status == MOR_OK) {
+        it->status =
+            mor_conformance_cost(it->context, it->material, it->parameters, it->density, read_seconds, it->seconds);
+    }
+}
+
+/* One line of the table of costs; of total form, whose updates know no strain, one number. */
+static void print_cost(FILE *out, const mor_material *material, const double *seconds)
+{
+    const int n = material->form == MOR_MATERIAL_RATE ? MOR_COST_STRAINS : 1;
+    fprintf(out, "    %-26s", material->name);
+    for (int k = 0; k < n; ++k) {
+        if (isfinite(seconds[k])) {
+            fprintf(out, "%10.4g", 1e9 * seconds[k]);
+        } else {
+            fprintf(out, "%10s", "-");
+        }
+    }
+    fprintf(out, "\n");
+}
+
+/* The cost of an update beside those of the built-in models of the same form, timed one after the other. */
+static mor_status print_costs(mor_session *session, const trial *it)
+{
+    const mor_plugin_list *list = mor_materials_builtin(NULL);
+    FILE *out = session->output;
+    if (it->material->form == MOR_MATERIAL_RATE) {
+        fprintf(out, "  cost of an update by the strain in it, ns per particle and thread\n    %-26s", "");
+        for (int k = 0; k < MOR_COST_STRAINS; ++k) {
+            fprintf(out, "%10.0e", mor_conformance_cost_strains[k]);
+        }
+        fprintf(out, "\n");
+    } else {
+        fprintf(out, "  cost of an update, ns per particle and thread\n");
+    }
+    print_cost(out, it->material, it->seconds);
+    for (int k = 0; k < list->n_materials; ++k) {
+        const mor_material *other = list->materials[k];
+        double seconds[MOR_COST_STRAINS];
+        if (other->form != it->material->form || strcmp(other->name, it->material->name) == 0) {
+            continue;
+        }
+        MOR_TRY(&session->context,
+                mor_conformance_cost(&session->context, other, NULL, it->density, read_seconds, seconds));
+        print_cost(out, other, seconds);
+    }
+    return MOR_OK;
+}
+
+/* Prints what was found; of a model that crashed the law that was tried last is the one in which it did. */
+static mor_status try_material(mor_session *session, trial *it, int *n_failed)
+{
+    char line[CHECK_LINE];
+    const int signal = mor_guard_run(session->context.guard, run_trial, it);
+    fprintf(session->output, "%s %s\n", it->material->name, it->material->version);
+    for (int k = 0; k < it->report.n_rows - (signal != 0); ++k) {
+        mor_conformance_format(&it->report.rows[k], line, sizeof line);
+        fprintf(session->output, "  %s\n", line);
+    }
+    MOR_CHECK(&session->context, signal == 0, MOR_ERROR_PLUGIN, "material '%s' crashed (%s) while this was tried: %s",
+              it->material->name, strsignal(signal),
+              it->report.n_rows > 0 ? it->report.rows[it->report.n_rows - 1].law : "making an instance");
+    *n_failed += it->report.n_failed;
+    return it->status == MOR_OK ? print_costs(session, it) : it->status;
+}
+
+/* Tries a model on parameters drawn from its schema. */
+static mor_status try_drawn(mor_session *session, const mor_material *material, int *n_failed)
+{
+    /* kg/m3, of a common soil; the laws hold for any */
+    trial it = {.context = &session->context, .material = material, .density = 2000.0};
+    return try_material(session, &it, n_failed);
+}
+
+/* Tries the models of the soils of a case, with their parameters. */
+static mor_status try_case(mor_session *session, const char *path, int *n_failed)
+{
+    const mor_case *the_case = &session->the_case;
+    MOR_TRY(&session->context, mor_session_load_file(session, path));
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        const mor_case_soil *soil = &the_case->soils[k];
+        trial it = {.context = &session->context,
+                    .material = soil->law,
+                    .parameters = soil->parameters,
+                    .density = soil->density};
+        fprintf(session->output, "soil '%s': ", soil->name);
+        MOR_TRY(&session->context, try_material(session, &it, n_failed));
+    }
+    return MOR_OK;
+}
+
+static mor_status try_plugin(mor_session *session, const char *path, int *n_failed)
+{
+    mor_plugin *plugin = NULL;
+    mor_status status = mor_plugin_load(&session->context, path, &plugin);
+    for (int k = 0; status == MOR_OK && k < mor_plugin_count(plugin); ++k) {
+        status = try_drawn(session, mor_plugin_get(plugin, k), n_failed);
+    }
+    const char *call = status == MOR_OK ? mor_plugin_forbidden_call(plugin) : NULL;
+    if (status == MOR_OK) {
+        fprintf(session->output,
+                "%s\n  %s  it takes memory from the services, and leaves printing and ending to the program%s%s\n",
+                path, call == NULL ? "pass" : "FAIL", call == NULL ? "" : ": it calls ", call == NULL ? "" : call);
+        *n_failed += call != NULL;
+    }
+    mor_plugin_unload(&session->context, &plugin);
+    return status;
+}
+
+mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed)
+{
+    MOR_SESSION_WORK(session);
+    mor_context *context = &session->context;
+    const mor_material *material = mor_registry_find(session->registry, name);
+    const char *near = mor_registry_nearest(session->registry, name);
+    *n_failed = 0;
+    MOR_CHECK(context, material != NULL || access(name, F_OK) == 0, MOR_ERROR_CONFIG,
+              "found '%s', which is neither a material nor a file%s%s; allowed are the names in the list of "
+              "materials, paths of plug-ins, and of cases (.cfg), whose soils are then tried",
+              name, near != NULL ? "; did you mean " : "", near != NULL ? near : "");
+    const size_t length = strlen(name);
+    const bool is_case = length > 4 && strcmp(name + length - 4, ".cfg") == 0;
+    MOR_TRY(context, material != NULL ? try_drawn(session, material, n_failed)
+                     : is_case        ? try_case(session, name, n_failed)
+                                      : try_plugin(session, name, n_failed));
+    if (*n_failed > 0) {
+        fprintf(session->output, "%d laws failed\n", *n_failed);
+    }
+    return MOR_OK;
+}
