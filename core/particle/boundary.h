@@ -21,6 +21,12 @@ typedef enum mor_wall_friction {
     MOR_WALL_COULOMB /* shear traction at most the coefficient times the compressive normal traction */
 } mor_wall_friction;
 
+/** How one soil slides along a patch. */
+typedef struct mor_boundary_friction {
+    mor_wall_friction kind;
+    double coefficient; /* Coulomb only, >= 0, 1 */
+} mor_boundary_friction;
+
 /** What the soil reads of a point, in one record of eight doubles. */
 enum {
     MOR_BOUNDARY_POSITION = 0, /* 3, in the middle of the soil's step, m */
@@ -35,9 +41,11 @@ typedef struct mor_boundary_patch {
     bool is_driven;              /* moves as prescribed, whatever the forces on it; for the audit of energy alone */
     mor_wall_friction friction;  /* of the pair soil - patch */
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
-    double force[3];             /* [written by the soil] of the soil on the patch in the last step, N (N/m) */
-    double impulse[3];           /* [written by the soil] given by the soil since the start, N s (N s/m) */
-    double moment[3];            /* [written by the soil] about the origin of coordinates, N m (N in plane strain) */
+    const mor_boundary_friction *friction_of_soil; /* shape [regions of the soil]; borrowed, outlives the boundary;
+                                                    * NULL: the two above with every soil */
+    double force[3];   /* [written by the soil] of the soil on the patch in the last step, N (N/m) */
+    double impulse[3]; /* [written by the soil] given by the soil since the start, N s (N s/m) */
+    double moment[3];  /* [written by the soil] about the origin of coordinates, N m (N in plane strain) */
 } mor_boundary_patch;
 
 /** A moving boundary. Owner: whoever moves it; the soil borrows it. Points of a patch are contiguous and sorted so that

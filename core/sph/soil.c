@@ -70,8 +70,8 @@ static const mor_stage soil_stages[] = {
      SHARED(MOMENTS) | SHARED(SPIN_STRESS), BIT(ACCELERATION),
      "removes the net moment of the internal forces of the soil, when switched on", has_angular_momentum},
     {"boundary forces", mor_soil_sum_boundary_forces,
-     SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES), SHARED(WALL_FORCES),
-     BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
+     SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE),
+     SHARED(WALL_FORCES), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
     {"kick", mor_soil_kick, 0, 0,
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
      "velocities to the end of the step", NULL},
@@ -83,7 +83,7 @@ static const mor_stage soil_stages[] = {
     {"energy of forces", mor_soil_audit_forces,
      SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(SPIN_STRESS) | BIT(MASS) |
          BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(STRAIN_RATE) |
-         BIT(ARTIFICIAL_STRESS),
+         BIT(ARTIFICIAL_STRESS) | SHARED(STATE),
      0, SHARED(ENERGY_SUMS) | SHARED(RECORDS) | SHARED(SHORT_LISTS),
      "energy dissipated by forces other than the stress, at an interval, when a probe needs it", has_audit},
     {"gradient correction", mor_soil_correct_gradient,
@@ -255,6 +255,23 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     return mor_reduce_room_init(context, &soil->room, n_particles / MOR_SOIL_BATCH + 1, MOR_SOIL_BLOCK_VALUES);
 }
 
+/* The state variables of the material, and the number of the region where there are several. */
+static mor_status add_state(mor_context *context, mor_soil *soil)
+{
+    static const mor_schema region = {.key = MOR_COMPOSITE_INDEX_KEY,
+                                      .kind = MOR_SCHEMA_INTEGER,
+                                      .n_components = 1,
+                                      .unit = "1",
+                                      .text = "number of the soil region, from 0"};
+    const mor_material *material = soil->material->material;
+    MOR_TRY(context,
+            mor_set_add_state(context, &soil->set, material->state, soil->material->n_state, soil->state_fields));
+    soil->region_field = mor_composite_is(soil->material) ? soil->state_fields[0] : -1;
+    return soil->region_field < 0 && soil->settings.n_regions > 1
+               ? mor_set_add_state(context, &soil->set, &region, 1, &soil->region_field)
+               : MOR_OK;
+}
+
 mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name, const mor_soil_settings *settings,
                          const mor_material_instance *material, int64_t n_particles)
 {
@@ -275,8 +292,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
-        status =
-            mor_set_add_state(context, &soil->set, material->material->state, material->n_state, soil->state_fields);
+        status = add_state(context, soil);
     }
     if (status == MOR_OK) {
         status = set_kinds(context, soil);

@@ -45,6 +45,8 @@ typedef struct mor_soil_settings {
     const mor_soil_kind *kinds;        /* shape [n_kinds]; of the parts of a composite, borrowed by mor_soil_init; NULL:
                                           one soil, of the two above */
     int n_kinds;
+    int n_regions; /* parts of the soil that the state variable MOR_COMPOSITE_INDEX_KEY tells apart, whether or not their
+                      materials differ; of a composite the number of its parts; 0 or 1: one */
 } mor_soil_settings;
 
 /** What has left the domain since the start. */
@@ -76,6 +78,7 @@ typedef struct mor_soil {
     mor_set set;
     const mor_material_instance *material;        /* borrowed; outlives the soil */
     int state_fields[MOR_MATERIAL_STATES_MAX];    /* indices of the material's state variables in the set */
+    int region_field;                             /* index of the number of the region in the set; -1: one region */
     mor_soil_kind kinds[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds]; in the order of the composite's parts */
     int n_kinds;
     mor_pair_soil pair_soils[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds] */

@@ -42,6 +42,16 @@ typedef struct mor_soil_barrier {
     double radius;    /* r_p, m, > 0, at most the support of the kernel */
 } mor_soil_barrier;
 
+/** The soil as the boundary forces see it. Everything is borrowed. */
+typedef struct mor_contact_soil {
+    mor_dissipation dissipation; /* on which sign of the closing speed the limiter acts */
+    double limiter_rate;         /* eta / c0, s/m; of one material */
+    const double *of_soil;       /* shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one material */
+    const double *region;        /* shape [n_particles], number of the region a particle is of, 1; NULL: one region */
+    const double *records;       /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+    int64_t n_particles;
+} mor_contact_soil;
+
 /** One boundary and its relation to the soil. Owner: the soil solver. */
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
@@ -141,14 +151,8 @@ void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *con
 
 /** Adds the boundary's part of the acceleration and sets stick, and force and moment of the patches.
  *  @param contact      [in,out]  sums must be current
- *  @param dissipation  [in]      on which sign of the closing speed the limiter acts
- *  @param limiter_rate [in]      eta / c0, unit s/m; of one soil
- *  @param of_soil      [in]      shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil
- *  @param records      [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
- *  @param n_particles  [in]      number of soil particles
  *  @param acceleration [in,out]  shape [n_particles, 3], unit m/s2; added to */
-void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
-                                 double limiter_rate, const double *of_soil, const double *records, int64_t n_particles,
+void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, const mor_contact_soil *soil,
                                  double *acceleration);
 
 /** Distributes the boundary forces to the points of a borrowed boundary, so that force and moment of each patch are

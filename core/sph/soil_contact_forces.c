@@ -105,12 +105,11 @@ static double limited_speed(double closing, mor_dissipation dissipation)
 /* What the boundary force on a particle depends on beside the particle. */
 typedef struct boundary_terms {
     mor_dissipation dissipation;
-    double limiter_rate;             /* eta / c0 of the particle's soil, s/m */
-    const double *of_soil;           /* shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
-    const mor_boundary_patch *patch; /* its friction */
-    const double *velocity;          /* of the boundary, m/s */
-    const double *gradient;          /* sum V grad_i W, 1/m */
-    const double *repulsion;         /* acceleration by the barrier, m/s2; NULL without */
+    double limiter_rate;            /* eta / c0 of the particle's soil, s/m */
+    mor_boundary_friction friction; /* of that soil with the patch */
+    const double *velocity;         /* of the boundary, m/s */
+    const double *gradient;         /* sum V grad_i W, 1/m */
+    const double *repulsion;        /* acceleration by the barrier, m/s2; NULL without */
 } boundary_terms;
 
 /* Adds the acceleration of one particle by the wall to what the continued stress gave; returns the part of the
@@ -138,7 +137,7 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     const double own = factor * (mor_vector_dot(traction, normal) - pressure);
     const double continued = mor_vector_dot(acceleration, normal);
     const double along = own + continued;
-    const double own_part = p->patch->friction == MOR_WALL_SMOOTH ? 0.0 : 1.0;
+    const double own_part = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];
     for (int a = 0; a < 3; ++a) {
         tangential[a] = own_part * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]) + acceleration[a] -
@@ -146,9 +145,9 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     }
     double hold = 1.0;
     double stick = own_part;
-    if (p->patch->friction == MOR_WALL_COULOMB) {
+    if (p->friction.kind == MOR_WALL_COULOMB) {
         const double pressing = p->repulsion != NULL ? along + mor_vector_dot(p->repulsion, normal) : along;
-        const double limit = p->patch->friction_coefficient * (pressing > 0.0 ? pressing : 0.0);
+        const double limit = p->friction.coefficient * (pressing > 0.0 ? pressing : 0.0);
         const double trial = mor_vector_length(tangential);
         const double noise =
             -factor * NOISE * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
@@ -162,33 +161,36 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
 }
 
 /* Finds the boundary forces of one slot and adds them to the acceleration of its particles. */
-static void add_slot_acceleration(mor_soil_contact *contact, boundary_terms p, int64_t slot, const double *records,
-                                  int64_t n_particles, double *acceleration)
+static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_soil *soil, int64_t slot,
+                                  double *acceleration)
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
-    p.patch = &contact->boundary->patches[contact->slots[slot].patch];
-    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
+    const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
+    boundary_terms p = {.dissipation = soil->dissipation, .limiter_rate = soil->limiter_rate};
+    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
-        const double *record = records + (first + k) * MOR_RECORD_SIZE;
+        const int64_t i = first + k;
+        const double *record = soil->records + i * MOR_RECORD_SIZE;
         const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
         double *own = contact->acceleration + 3 * lane;
         double repulsion[3] = {0.0, 0.0, 0.0};
         own[0] = own[1] = own[2] = 0.0;
+        p.friction = mor_soil_contact_friction(patch, soil->region, i);
         if (contact->stress != MOR_WALL_STRESS_UNIFORM) {
-            add_continuation(contact, p.patch->friction, lane, record, own);
+            add_continuation(contact, p.friction.kind, lane, record, own);
         }
         for (int a = 0; a < 3 && contact->barrier.is_on; ++a) {
             repulsion[a] = contact->repulsion[3 * lane + a] / mass;
         }
-        if (p.of_soil != NULL) {
-            p.limiter_rate = 2.0 * p.of_soil[(first + k) * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_LIMITER];
+        if (soil->of_soil != NULL) {
+            p.limiter_rate = 2.0 * soil->of_soil[i * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_LIMITER];
         }
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
         contact->stick[lane] = find_boundary_acceleration(&p, record, own);
         for (int a = 0; a < 3; ++a) {
-            acceleration[(first + k) * 3 + a] += contact->barrier.is_on ? own[a] + repulsion[a] : own[a];
+            acceleration[i * 3 + a] += contact->barrier.is_on ? own[a] + repulsion[a] : own[a];
         }
     }
 }
@@ -219,22 +221,20 @@ static void sum_patch(mor_soil_contact *contact, int patch, const double *record
     memcpy(contact->boundary->patches[patch].moment, moment, sizeof moment);
 }
 
-void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, mor_dissipation dissipation,
-                                 double limiter_rate, const double *of_soil, const double *records, int64_t n_particles,
+void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, const mor_contact_soil *soil,
                                  double *acceleration)
 {
     const int n_patches = contact->boundary->n_patches;
-    const boundary_terms shared = {.dissipation = dissipation, .limiter_rate = limiter_rate, .of_soil = of_soil};
     if (contact->barrier.is_on) {
-        mor_soil_contact_repel(context, contact, records, n_particles);
+        mor_soil_contact_repel(context, contact, soil->records, soil->n_particles);
     }
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
-            add_slot_acceleration(contact, shared, slot, records, n_particles, acceleration);
+            add_slot_acceleration(contact, soil, slot, acceleration);
         }
     }
     MOR_PARALLEL_FOR (context, patch, n_patches, 1) {
-        sum_patch(contact, (int)patch, records, n_particles);
+        sum_patch(contact, (int)patch, soil->records, soil->n_particles);
     }
     memset(contact->force, 0, sizeof contact->force);
     for (int p = 0; p < n_patches; ++p) {

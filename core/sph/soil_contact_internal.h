@@ -23,6 +23,16 @@ static inline const double *mor_soil_contact_velocity(const mor_soil_contact *co
     return contact->is_wall ? contact->velocity : contact->mean_velocity + 3 * lane;
 }
 
+/** Friction of a patch with the soil of a particle.
+ *  @param region   [in]  shape [n_particles], number of the region each is of, 1; NULL: one region
+ *  @param particle [in]  index in the set */
+static inline mor_boundary_friction mor_soil_contact_friction(const mor_boundary_patch *patch, const double *region,
+                                                              int64_t particle)
+{
+    return patch->friction_of_soil != NULL ? patch->friction_of_soil[region != NULL ? (int)region[particle] : 0]
+                                           : (mor_boundary_friction){patch->friction, patch->friction_coefficient};
+}
+
 /** Finds the barrier's force on each particle and the longest step it allows.
  *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles [in]      number of soil particles */

@@ -33,17 +33,15 @@ static void add_strain(const double *difference, const double *gradient, double 
 
 /* (E7) for one particle and one patch: force times velocity, and the strain rates that the mirrored velocity gave, as
  * in the boundary gradient. Where the boundary slips it is friction that strains along it. */
-static void audit_lane(const mor_soil_contact *contact, int64_t slot, int64_t k, const double *record,
+static void audit_lane(const mor_soil_contact *contact, mor_wall_friction friction, int64_t lane, const double *record,
                        const double *middle, double *taken, double *strains)
 {
-    const int64_t lane = slot * MOR_CLUSTER + k;
     const double *velocity = mor_soil_contact_velocity(contact, lane);
     const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
     const double length2 = mor_vector_dot(gradient, gradient);
     const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
     const double stick = contact->stick[lane];
-    const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
-    const bool slips = patch->friction == MOR_WALL_COULOMB && stick < 1.0;
+    const bool slips = friction == MOR_WALL_COULOMB && stick < 1.0;
     double relative[3];
     double across[3];
     double along[3];
@@ -71,11 +69,13 @@ static void audit_contact(mor_context *context, const mor_soil_powers *job, cons
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+            const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n); ++k) {
                 double middle[3];
                 find_middle_velocity(job, first + k, middle);
-                audit_lane(contact, slot, k, job->records + (first + k) * MOR_RECORD_SIZE, middle,
-                           energy->scratch + 3 * (first + k), energy->strains + 12 * (first + k));
+                const mor_boundary_friction law = mor_soil_contact_friction(patch, job->region, first + k);
+                audit_lane(contact, law.kind, slot * MOR_CLUSTER + k, job->records + (first + k) * MOR_RECORD_SIZE,
+                           middle, energy->scratch + 3 * (first + k), energy->strains + 12 * (first + k));
             }
         }
     }
@@ -222,6 +222,7 @@ mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *vi
     const size_t n = (size_t)soil->set.n_particles;
     mor_soil_energy *energy = mor_view_write_shared(view, MOR_RESOURCE_ENERGY_SUMS, soil->energy);
     mor_soil_powers job = {.soil = soil,
+                           .region = mor_soil_read_region(soil, view),
                            .step = step,
                            .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
                            .mass = mor_view_read(view, MOR_FIELD_MASS),

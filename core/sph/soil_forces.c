@@ -125,12 +125,16 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
     double *acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
+    const mor_contact_soil seen = {.dissipation = (mor_dissipation)soil->settings.scheme.wall_dissipation,
+                                   .limiter_rate = soil->constants.limiter_rate,
+                                   .of_soil = arrays.of_soil,
+                                   .region = mor_soil_read_region(soil, view),
+                                   .records = arrays.records,
+                                   .n_particles = arrays.n_particles};
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
         mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner);
-        mor_soil_contact_sum_forces(context, contact, (mor_dissipation)soil->settings.scheme.wall_dissipation,
-                                    soil->constants.limiter_rate, arrays.of_soil, arrays.records, arrays.n_particles,
-                                    acceleration);
+        mor_soil_contact_sum_forces(context, contact, &seen, acceleration);
         mor_soil_contact_share_forces(context, contact, soil->table, &soil->constants, arrays.records,
                                       arrays.n_particles);
     }

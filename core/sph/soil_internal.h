@@ -76,6 +76,13 @@ static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
  *  @param lists [in]  MOR_RESOURCE_LISTS or MOR_RESOURCE_SHORT_LISTS, which the loop reads */
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int lists);
 
+/** Number of the region that each particle is of, shape [n_particles], unit 1; NULL: one region. Needs the material
+ *  state declared. */
+static inline const double *mor_soil_read_region(const mor_soil *soil, mor_view *view)
+{
+    return soil->region_field >= 0 ? mor_view_read(view, soil->region_field) : NULL;
+}
+
 /** Runs a pair loop over all clusters.
  *  @param loop      [in]      which */
 void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
@@ -94,6 +101,7 @@ typedef struct mor_soil_powers {
     const double *stress;                         /* shape [n, 6], Pa */
     const double *stress_diffusion;               /* shape [n, 6], Pa/s; NULL without */
     const double *state[MOR_MATERIAL_STATES_MAX]; /* state variables of the material */
+    const double *region;                         /* shape [n], number of the region, 1; NULL: one region */
 } mor_soil_powers;
 
 /** Adds the powers of all particles, block by block, to those of the present sample of the audit.

@@ -100,6 +100,15 @@ static inline double *floor_record(floor_case *f)
     return f->soil.records;
 }
 
+/** The soil as the wall sees it. */
+static inline mor_contact_soil floor_soil(const floor_case *f, mor_dissipation dissipation)
+{
+    return (mor_contact_soil){.dissipation = dissipation,
+                              .limiter_rate = f->soil.constants.limiter_rate,
+                              .records = f->soil.records,
+                              .n_particles = f->soil.n};
+}
+
 /** The wall's work in one step, after the lists have been made anew. */
 static inline void floor_run(floor_case *f, mor_dissipation dissipation)
 {
@@ -115,8 +124,8 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
     assert_int_equal(mor_soil_contact_build(context, &f->wall, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &f->wall, table, constants, f->soil.records);
     mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation);
-    mor_soil_contact_sum_forces(context, &f->wall, dissipation, constants->limiter_rate, NULL, f->soil.records,
-                                f->soil.n, f->acceleration);
+    const mor_contact_soil seen = floor_soil(f, dissipation);
+    mor_soil_contact_sum_forces(context, &f->wall, &seen, f->acceleration);
     mor_soil_contact_sum_gradient(context, &f->wall, f->soil.records, f->soil.n, f->velocity_gradient, f->density_rate);
 }
 

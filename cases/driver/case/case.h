@@ -164,6 +164,20 @@ typedef enum mor_case_friction {
     MOR_CASE_FRICTION_COULOMB
 } mor_case_friction;
 
+/** Friction of a wall or a body with one soil. */
+typedef struct mor_case_soil_friction {
+    char soil[MOR_CASE_NAME_BYTES]; /* name of the region */
+    mor_case_friction friction;
+    double coefficient; /* Coulomb only, 1 */
+    uint64_t written;
+} mor_case_soil_friction;
+
+/** Soils whose friction is not that with the others. */
+typedef struct mor_case_frictions {
+    mor_case_soil_friction of[MOR_CASE_SOILS_MAX];
+    int n;
+} mor_case_frictions;
+
 /** One wall. */
 typedef struct mor_case_wall {
     char name[MOR_CASE_NAME_BYTES];
@@ -172,9 +186,10 @@ typedef struct mor_case_wall {
     mor_case_shape outline; /* what shape was built from; owned by the case */
     mor_case_friction friction;
     double friction_coefficient; /* Coulomb only, 1 */
-    double velocity[3];          /* prescribed velocity, m/s */
-    double contact_modulus;      /* Young's modulus of its surface for bodies that touch it; 0: rigid, Pa */
-    double contact_poisson;      /* Poisson's ratio of it, 1 */
+    mor_case_frictions friction_with;
+    double velocity[3];     /* prescribed velocity, m/s */
+    double contact_modulus; /* Young's modulus of its surface for bodies that touch it; 0: rigid, Pa */
+    double contact_poisson; /* Poisson's ratio of it, 1 */
     uint64_t written;
 } mor_case_wall;
 
@@ -212,7 +227,8 @@ typedef struct mor_case_body {
     double contact_poisson;                     /* Poisson's ratio of a rigid body's surface in contact, 1 */
     mor_case_friction soil_friction;
     double soil_friction_coefficient; /* Coulomb only, 1 */
-    bool is_prescribed;               /* rigid: moves with its velocities whatever forces act on it */
+    mor_case_frictions friction_with;
+    bool is_prescribed; /* rigid: moves with its velocities whatever forces act on it */
     mor_case_particles particles;
     bool is_locked[6];            /* rigid: no translation along x, y, z; no rotation about x, y, z */
     bool has_spring;              /* rigid: spring and damper to a fixed point */
@@ -295,7 +311,8 @@ enum {
     MOR_CASE_PROBE_ORIGIN = 16,
     MOR_CASE_PROBE_DIRECTION = 32,
     MOR_CASE_PROBE_RADIAL = 64,
-    MOR_CASE_PROBE_BODY = 128
+    MOR_CASE_PROBE_BODY = 128,
+    MOR_CASE_PROBE_SOIL = 256
 };
 
 /** What sets a type of probe apart, beside its keys. */
@@ -334,6 +351,7 @@ typedef struct mor_case_probe {
     char measure[MOR_CASE_NAME_BYTES]; /* of a run-out: "mass_percentile" or "thickness" */
     char wall[MOR_CASE_NAME_BYTES];    /* of a wall force */
     char body[MOR_CASE_NAME_BYTES];    /* of a probe of one body */
+    char soil[MOR_CASE_NAME_BYTES];    /* of a probe of one soil; "": of all */
     bool is_radial;                    /* run-out measured as a radius about origin, else along direction */
     double origin[3];                  /* m */
     double direction[3];               /* unit vector; run-out and force component */

@@ -4,6 +4,7 @@
 
 #include "cases/driver/picture/charts.h"
 #include "cases/driver/picture/picture_color.h"
+#include "cases/driver/picture/picture_soils.h"
 #include "cases/driver/picture/picture_wall.h"
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/picture/view/camera.h"
@@ -79,6 +80,7 @@ typedef struct layer {
     double *position;                /* shape [n, 3], m */
     double *value;                   /* shape [n], its color; NULL: not colored */
     double *part;                    /* shape [n], number of the body; NULL: not known */
+    mor_picture_soils soils;         /* in whose order the particles are; n_soils 0: in any */
 } layer;
 
 /* Everything that stays the same over the pictures of a run, and the layers of the present one. */
@@ -155,6 +157,11 @@ static mor_status read_layer(mor_context *context, gallery *g, const mor_snapsho
     MOR_TRY(context, read_field(context, snapshot, l->set, "position", &l->position));
     if (is_colored(l->set->name, g->has_soil)) {
         MOR_TRY(context, read_colors(context, g, snapshot, l));
+    }
+    if (l->is_soil && l->value != NULL && strcmp(g->color.name, MOR_COMPOSITE_INDEX_KEY) == 0) {
+        l->soils.n_soils = g->the_case->n_soils;
+        MOR_TRY(context, mor_picture_soils_sort(context, l->value, l->set->n_particles, l->position, &l->soils));
+        MOR_FREE(context, &l->value);
     }
     if (!l->is_soil && body != NULL && body->n_components == 1) {
         MOR_TRY(context, read_field(context, snapshot, l->set, "body", &l->part));
@@ -423,8 +430,14 @@ static int list_groups(const gallery *g, mor_picture_group *groups)
     int tone = 0;
     bool is_first = true;
     for (int k = 0; k < g->n_layers; ++k) {
-        groups[n++] = show_layer(g, &g->layers[k], tone);
-        tone += !g->layers[k].is_soil;
+        const layer *l = &g->layers[k];
+        const mor_picture_group all = show_layer(g, l, tone);
+        if (l->soils.n_soils > 0) {
+            n += mor_picture_soils_list(&l->soils, g->the_case, &all, groups + n);
+        } else {
+            groups[n++] = all;
+        }
+        tone += !l->is_soil;
     }
     for (int w = 0; w < g->the_case->n_walls && n < MOR_PICTURE_GROUPS_MAX; ++w) {
         if (g->walls[w].n_points > 0 && !g->is_omitted[w]) {

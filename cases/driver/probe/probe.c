@@ -25,11 +25,12 @@ static bool is_same_frame(const mor_measure_frame *a, const mor_measure_frame *b
 static mor_status find_profile(mor_context *context, const view *v)
 {
     mor_probe_scan *scan = v->scan;
-    if (!scan->has_profile || !is_same_frame(&scan->profile_frame, &v->frame)) {
+    if (!scan->has_profile || scan->profile_soil != v->soil || !is_same_frame(&scan->profile_frame, &v->frame)) {
         scan->has_profile = false;
         MOR_TRY(context,
                 mor_measure_profile_fill(context, &v->points, &v->frame, v->points.spacing, 0.0, &scan->profile));
         scan->profile_frame = v->frame;
+        scan->profile_soil = v->soil;
         scan->has_profile = true;
     }
     return MOR_OK;
@@ -83,11 +84,11 @@ static double find_outward(const view *v, const double *position, double *outwar
     return radius;
 }
 
-/* Outermost particle of a set that lies above the origin of the probe, or what was found before. */
-static double find_toe(const view *v, const mor_set *set, double outermost)
+/* Outermost of some points that lie above the origin of the probe, or what was found before. */
+static double find_toe(const view *v, const double *positions, int64_t n, double outermost)
 {
-    for (int64_t i = 0; i < set->n_particles; ++i) {
-        const double *position = set->data[MOR_FIELD_POSITION] + 3 * i;
+    for (int64_t i = 0; i < n; ++i) {
+        const double *position = positions + 3 * i;
         double outward[3];
         double height = 0.0;
         for (int a = 0; a < 3; ++a) {
@@ -106,10 +107,11 @@ static mor_status toe(mor_context *context, const view *v, double *value)
     double outermost = -INFINITY;
     (void)context;
     if (simulation->has_soil) {
-        outermost = find_toe(v, &simulation->soil.set, outermost);
+        outermost = find_toe(v, v->points.position, v->points.n_points, outermost);
     }
-    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
-        outermost = find_toe(v, &simulation->bodies.groups[g]->set, outermost);
+    for (int g = 0; g < simulation->bodies.n_groups && v->soil < 0; ++g) {
+        const mor_set *set = &simulation->bodies.groups[g]->set;
+        outermost = find_toe(v, set->data[MOR_FIELD_POSITION], set->n_particles, outermost);
     }
     *value = isfinite(outermost) ? outermost : 0.0;
     return MOR_OK;
@@ -126,7 +128,7 @@ static mor_status front_speed(mor_context *context, const view *v, double *value
         double outward[3];
         const double distance = find_outward(v, v->points.position + 3 * i, outward);
         if (fabs(distance - reach) <= v->points.spacing) {
-            momentum += v->points.mass[i] * mor_vector_dot(field(v, MOR_FIELD_VELOCITY) + 3 * i, outward);
+            momentum += v->points.mass[i] * mor_vector_dot(v->velocity + 3 * i, outward);
             mass += v->points.mass[i];
         }
     }
@@ -151,8 +153,12 @@ static mor_status repose_angle(mor_context *context, const view *v, double *valu
 static mor_status soil_kinetic_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
+    if (v->soil >= 0) {
+        *value = mor_measure_kinetic_energy(&v->points, v->velocity);
+        return MOR_OK;
+    }
     if (!v->scan->has_soil_kinetic) {
-        v->scan->soil_kinetic = mor_measure_kinetic_energy(&v->points, field(v, MOR_FIELD_VELOCITY));
+        v->scan->soil_kinetic = mor_measure_kinetic_energy(&v->points, v->velocity);
         v->scan->has_soil_kinetic = true;
     }
     *value = v->scan->soil_kinetic;
@@ -267,7 +273,7 @@ static mor_status momentum(mor_context *context, const view *v, double *value)
     double of_bodies[3];
     double angular[3];
     (void)context;
-    mor_measure_momentum(&v->points, field(v, MOR_FIELD_VELOCITY), vector);
+    mor_measure_momentum(&v->points, v->velocity, vector);
     mor_simulation_bodies_momentum(&v->simulation->bodies, v->frame.origin, of_bodies, angular);
     *value = mor_vector_dot(vector, v->frame.direction) + mor_vector_dot(of_bodies, v->frame.direction);
     return MOR_OK;
@@ -310,7 +316,7 @@ static mor_status wall_impulse(mor_context *context, const view *v, double *valu
 static mor_status wall_gap(mor_context *context, const view *v, double *value)
 {
     const mor_case *c = v->simulation->the_case;
-    const double *position = field(v, MOR_FIELD_POSITION);
+    const double *position = v->points.position;
     const double time = mor_schedule_time(&v->simulation->schedule);
     for (int w = 0; w < c->n_walls; ++w) {
         if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
@@ -334,26 +340,30 @@ static mor_status wall_gap(mor_context *context, const view *v, double *value)
 
 static mor_status largest_speed(mor_context *context, const view *v, double *value)
 {
-    return mor_measure_speed(context, &v->points, field(v, MOR_FIELD_VELOCITY), v->probe->percentile, value);
+    return mor_measure_speed(context, &v->points, v->velocity, v->probe->percentile, value);
 }
 
-/* Densities, kg/m3, and the soil that tells what they should be. */
+/* Densities, kg/m3, and what they should be: that of one soil, or what the soil says of each particle. */
 typedef struct drift_job {
     const double *density;
-    const mor_soil *soil;
+    const mor_soil *soil; /* NULL: one */
+    double reference;
 } drift_job;
 
 static void fill_drifts(const void *argument, int64_t first, int64_t n, double *values)
 {
     const drift_job job = *(const drift_job *)argument;
     for (int64_t i = 0; i < n; ++i) {
-        values[i] = fabs(job.density[first + i] / mor_soil_reference_density(job.soil, first + i) - 1.0);
+        const double reference = job.soil != NULL ? mor_soil_reference_density(job.soil, first + i) : job.reference;
+        values[i] = fabs(job.density[first + i] / reference - 1.0);
     }
 }
 
 static mor_status density_drift(mor_context *context, const view *v, double *value)
 {
-    const drift_job job = {v->points.density, &v->simulation->soil};
+    const bool is_one = v->soil >= 0;
+    const drift_job job = {v->points.density, is_one ? NULL : &v->simulation->soil,
+                           is_one ? v->simulation->the_case->soils[v->soil].density : 0.0};
     return mor_measure_share(context, &v->points, fill_drifts, &job, v->probe->percentile, value);
 }
 
@@ -369,7 +379,7 @@ mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *s
                                        .mass = data[MOR_FIELD_MASS],
                                        .density = data[MOR_FIELD_DENSITY],
                                        .n_threads = context->n_threads};
-    const drift_job job = {points.density, soil};
+    const drift_job job = {points.density, soil, 0.0};
     *value = 0.0;
     return points.n_points == 0 ? MOR_OK : mor_measure_share(context, &points, fill_drifts, &job, percent, value);
 }
@@ -414,99 +424,103 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
     return MOR_OK;
 }
 
-static const mor_probe_measure measures[] = {
-    {.type = {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "run-out distance of the deposit"},
-     .run = run_out,
-     .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = {"toe", "m", "m", ALONG, 0, 0, 100.0,
-              "largest distance of a particle, of soil or rocks, that lies higher than origin; 0: there is none"},
-     .run = toe,
-     .cost = MOR_PROBE_COST_SUM},
-    {.type = {"front_speed", "m/s", "m/s", FRONT, 0, OF_SOIL, 99.5, "speed of the front of the deposit"},
-     .run = front_speed,
-     .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = {"height", "m", "m", PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0, "height of the deposit, against gravity"},
-     .run = height,
-     .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = {"repose_angle", "rad", "rad", ALONG, 0, OF_SOIL, 100.0, "slope of the free surface"},
-     .run = repose_angle,
-     .cost = MOR_PROBE_COST_PROFILE},
-    {.type = {"stray_share", "1", "1", ALONG | THICKNESS, 0, OF_SOIL, 100.0, "share of the mass outside the deposit"},
-     .run = stray_share,
-     .cost = MOR_PROBE_COST_PROFILE},
-    {.type = {"kinetic_energy", "J", "J/m", 0, 0, 0, 100.0, "kinetic energy of soil and bodies"},
-     .run = kinetic_energy,
-     .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = {"potential_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
-              "potential energy of soil and bodies, zero at origin"},
-     .run = potential_energy,
-     .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = {"elastic_energy", "J", "J/m", 0, 0, 0, 100.0,
-              "elastic energy stored in soil, bodies, their contacts and their springs"},
-     .run = elastic_energy,
-     .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = {"total_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
-              "kinetic, potential and elastic energy of soil and bodies"},
-     .run = total_energy,
-     .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = {"energy_left", "1", "1", ORIGIN, 0, 0, 100.0, "total energy / initial total energy, of soil and bodies"},
-     .run = energy_left,
-     .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = {"dissipated_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
-              "initial total energy - total energy - energy that left the domain, of soil and bodies"},
-     .run = dissipated_energy,
-     .cost = MOR_PROBE_COST_ENERGIES},
-    {.type = {"mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0, "mass of the soil"}, .run = mass, .cost = MOR_PROBE_COST_SUM},
-    {.type = {"outflow_mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0,
-              "mass of the soil that left the domain and was removed; added to mass, the initial mass of the soil"},
-     .run = outflow_mass},
-    {.type = {"outflow_momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, OF_SOIL, 100.0,
-              "momentum along direction of the soil that left, each particle when it left"},
-     .run = outflow_momentum},
-    {.type =
-         {"outflow_energy", "J", "J/m", ORIGIN, 0, OF_SOIL, 100.0,
-          "kinetic, potential (zero at origin) and elastic energy of the soil that left, each particle when it left"},
-     .run = outflow_energy},
-    {.type = {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0,
-              "momentum of soil and bodies along direction"},
-     .run = momentum,
-     .cost = MOR_PROBE_COST_SUM},
-    {.type = {"center_of_mass", "m", "m", ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
-              "center of mass of the soil from origin along direction"},
-     .run = center_of_mass,
-     .cost = MOR_PROBE_COST_SUM},
-    {.type = {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL | FORCE, 100.0,
-              "force of the soil on a wall along direction"},
-     .run = wall_force},
-    {.type = {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
-              "impulse of the soil on a wall since the start along direction"},
-     .run = wall_impulse},
-    {.type = {"wall_gap", "m", "m", WALL, WALL, OF_SOIL, 100.0,
-              "smallest distance of a soil particle from the surface of a wall; negative: inside"},
-     .run = wall_gap,
-     .cost = MOR_PROBE_COST_DISTANCE},
-    {.type = {"largest_speed", "m/s", "m/s", PERCENTILE, 0, OF_SOIL, 100.0, "largest speed of a soil particle"},
-     .run = largest_speed,
-     .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = {"density_drift", "1", "1", PERCENTILE, 0, OF_SOIL, 99.0,
-              "relative deviation of the density from its initial value"},
-     .run = density_drift,
-     .cost = MOR_PROBE_COST_PERCENTILE},
-    {.type = {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0,
-              "relative error of the vertical stress in a column at rest"},
-     .run = stress_error,
-     .cost = MOR_PROBE_COST_STRESS},
-    {.type = {"stress_ratio", "1", "1", 0, 0, OF_SOIL, 100.0, "mean lateral stress / vertical stress"},
-     .run = stress_ratio,
-     .cost = MOR_PROBE_COST_STRESS},
-    {.type = {"stress_noise", "Pa", "Pa", 0, 0, OF_SOIL, 100.0,
-              "standard deviation of the vertical stress from its least-squares line over height"},
-     .run = stress_noise,
-     .cost = MOR_PROBE_COST_STRESS},
-    {.type = {"soil_kinetic_energy", "J", "J/m", 0, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
-     .run = soil_kinetic_energy,
-     .cost = MOR_PROBE_COST_KINETIC},
-    {.run = NULL}};
+static const mor_probe_measure measures[] =
+    {{.type = {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "run-out distance of the deposit"},
+      .run = run_out,
+      .cost = MOR_PROBE_COST_PERCENTILE},
+     {.type = {"toe", "m", "m", SOIL | ALONG, 0, 0, 100.0,
+               "largest distance of a particle, of soil or rocks, that lies higher than origin; 0: there is none"},
+      .run = toe,
+      .cost = MOR_PROBE_COST_SUM},
+     {.type = {"front_speed", "m/s", "m/s", FRONT, 0, OF_SOIL, 99.5, "speed of the front of the deposit"},
+      .run = front_speed,
+      .cost = MOR_PROBE_COST_PERCENTILE},
+     {.type = {"height", "m", "m", SOIL | PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0,
+               "height of the deposit, against gravity"},
+      .run = height,
+      .cost = MOR_PROBE_COST_PERCENTILE},
+     {.type = {"repose_angle", "rad", "rad", SOIL | ALONG, 0, OF_SOIL, 100.0, "slope of the free surface"},
+      .run = repose_angle,
+      .cost = MOR_PROBE_COST_PROFILE},
+     {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS, 0, OF_SOIL, 100.0,
+               "share of the mass outside the deposit"},
+      .run = stray_share,
+      .cost = MOR_PROBE_COST_PROFILE},
+     {.type = {"kinetic_energy", "J", "J/m", 0, 0, 0, 100.0, "kinetic energy of soil and bodies"},
+      .run = kinetic_energy,
+      .cost = MOR_PROBE_COST_ENERGIES},
+     {.type = {"potential_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+               "potential energy of soil and bodies, zero at origin"},
+      .run = potential_energy,
+      .cost = MOR_PROBE_COST_ENERGIES},
+     {.type = {"elastic_energy", "J", "J/m", 0, 0, 0, 100.0,
+               "elastic energy stored in soil, bodies, their contacts and their springs"},
+      .run = elastic_energy,
+      .cost = MOR_PROBE_COST_ENERGIES},
+     {.type = {"total_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+               "kinetic, potential and elastic energy of soil and bodies"},
+      .run = total_energy,
+      .cost = MOR_PROBE_COST_ENERGIES},
+     {.type = {"energy_left", "1", "1", ORIGIN, 0, 0, 100.0, "total energy / initial total energy, of soil and bodies"},
+      .run = energy_left,
+      .cost = MOR_PROBE_COST_ENERGIES},
+     {.type = {"dissipated_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+               "initial total energy - total energy - energy that left the domain, of soil and bodies"},
+      .run = dissipated_energy,
+      .cost = MOR_PROBE_COST_ENERGIES},
+     {.type = {"mass", "kg", "kg/m", SOIL, 0, OF_SOIL, 100.0, "mass of the soil"},
+      .run = mass,
+      .cost = MOR_PROBE_COST_SUM},
+     {.type = {"outflow_mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0,
+               "mass of the soil that left the domain and was removed; added to mass, the initial mass of the soil"},
+      .run = outflow_mass},
+     {.type = {"outflow_momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, OF_SOIL, 100.0,
+               "momentum along direction of the soil that left, each particle when it left"},
+      .run = outflow_momentum},
+     {.type =
+          {"outflow_energy", "J", "J/m", ORIGIN, 0, OF_SOIL, 100.0,
+           "kinetic, potential (zero at origin) and elastic energy of the soil that left, each particle when it left"},
+      .run = outflow_energy},
+     {.type = {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0,
+               "momentum of soil and bodies along direction"},
+      .run = momentum,
+      .cost = MOR_PROBE_COST_SUM},
+     {.type = {"center_of_mass", "m", "m", SOIL | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+               "center of mass of the soil from origin along direction"},
+      .run = center_of_mass,
+      .cost = MOR_PROBE_COST_SUM},
+     {.type = {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL | FORCE, 100.0,
+               "force of the soil on a wall along direction"},
+      .run = wall_force},
+     {.type = {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
+               "impulse of the soil on a wall since the start along direction"},
+      .run = wall_impulse},
+     {.type = {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
+               "smallest distance of a soil particle from the surface of a wall; negative: inside"},
+      .run = wall_gap,
+      .cost = MOR_PROBE_COST_DISTANCE},
+     {.type = {"largest_speed", "m/s", "m/s", SOIL | PERCENTILE, 0, OF_SOIL, 100.0, "largest speed of a soil particle"},
+      .run = largest_speed,
+      .cost = MOR_PROBE_COST_PERCENTILE},
+     {.type = {"density_drift", "1", "1", SOIL | PERCENTILE, 0, OF_SOIL, 99.0,
+               "relative deviation of the density from its initial value"},
+      .run = density_drift,
+      .cost = MOR_PROBE_COST_PERCENTILE},
+     {.type = {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0,
+               "relative error of the vertical stress in a column at rest"},
+      .run = stress_error,
+      .cost = MOR_PROBE_COST_STRESS},
+     {.type = {"stress_ratio", "1", "1", 0, 0, OF_SOIL, 100.0, "mean lateral stress / vertical stress"},
+      .run = stress_ratio,
+      .cost = MOR_PROBE_COST_STRESS},
+     {.type = {"stress_noise", "Pa", "Pa", 0, 0, OF_SOIL, 100.0,
+               "standard deviation of the vertical stress from its least-squares line over height"},
+      .run = stress_noise,
+      .cost = MOR_PROBE_COST_STRESS},
+     {.type = {"soil_kinetic_energy", "J", "J/m", SOIL, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
+      .run = soil_kinetic_energy,
+      .cost = MOR_PROBE_COST_KINETIC},
+     {.run = NULL}};
 
 const mor_case_probe_type *mor_probe_type_at(int index)
 {
@@ -535,6 +549,8 @@ void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
                 .body = track->bodies[probe] < 0 ? NULL : &simulation->bodies.of[track->bodies[probe]],
                 .wall = track->walls[probe],
                 .number = probe,
+                .soil = mor_probe_find_soil(c, probe),
+                .velocity = data[MOR_FIELD_VELOCITY],
                 .points = {simulation->soil.set.n_particles, c->dimension, c->spacing, data[MOR_FIELD_POSITION],
                            data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY], 0, &track->scan->orders[probe]},
                 .frame = {.is_radial = it->is_radial}};
@@ -547,10 +563,11 @@ mor_status mor_probe_view_measure(mor_context *context, const view *v, double *v
 {
     view shared = *v;
     *value = NAN;
+    mor_probe_scan_part(&shared);
     const mor_probe_cost cost = v->measure->cost;
     const bool needs_soil =
         cost == MOR_PROBE_COST_PERCENTILE || cost == MOR_PROBE_COST_PROFILE || cost == MOR_PROBE_COST_STRESS;
-    if (needs_soil && v->points.n_points == 0) {
+    if (needs_soil && shared.points.n_points == 0) {
         return MOR_OK; /* all of it has left: there is nothing to measure */
     }
     shared.points.n_threads = context->n_threads;

@@ -11,6 +11,13 @@
 
 struct mor_probe_measure;
 
+/** The particles of one soil, gathered. */
+typedef struct mor_probe_part {
+    bool is_current;                              /* of this measurement */
+    int64_t n;                                    /* particles */
+    double *position, *velocity, *mass, *density; /* room for all particles; owned; m, m/s, kg (kg/m), kg/m3 */
+} mor_probe_part;
+
 /** What the probes of one measurement share, so that it is found once, and their scratch. Owner: the track. */
 typedef struct mor_probe_scan {
     bool has_energies;  /* energies are of this measurement */
@@ -19,8 +26,10 @@ typedef struct mor_probe_scan {
     double soil_kinetic; /* J (J/m) */
     bool has_profile;
     mor_measure_frame profile_frame;               /* that the profile was made in */
+    int profile_soil;                              /* that it was made of; -1: all */
     mor_measure_profile profile;                   /* owned */
     mor_measure_order orders[MOR_CASE_PROBES_MAX]; /* of the percentile of each probe; owned */
+    mor_probe_part parts[MOR_CASE_SOILS_MAX];      /* of the soils that probes name; owned */
 } mor_probe_scan;
 
 /** Everything a measurement may need, in the placed frame. */
@@ -33,6 +42,8 @@ typedef struct mor_probe_view {
     const mor_simulation_body *body; /* NULL: of none */
     int wall;                        /* number in the case; -1: of none */
     int number;                      /* of the probe in the case */
+    int soil;                        /* number of the soil region that it measures; -1: all */
+    const double *velocity;          /* shape [points.n_points, 3], m/s */
     mor_measure_points points;       /* of the soil */
     mor_measure_frame frame;
 } mor_probe_view;
@@ -88,6 +99,13 @@ void mor_probe_scan_free(mor_context *context, mor_probe_scan **scan);
 
 /** Forgets what was found for the measurement before. */
 void mor_probe_scan_begin(mor_probe_scan *scan);
+
+/** Returns the number of the soil region that a probe measures; -1: all.
+ *  @param probe [in]  index of the probe in the case */
+int mor_probe_find_soil(const mor_case *the_case, int probe);
+
+/** Restricts a view of one soil to its particles, which are gathered once for each measurement. */
+void mor_probe_scan_part(mor_probe_view *view);
 
 /** Prepares the measurement of a probe.
  *  @param probe      [in]   index of the probe in the case */

@@ -22,7 +22,9 @@ typedef struct mor_simulation {
     mor_material_instance *material;                  /* of the soil; a composite when regions differ; NULL without */
     const mor_material *laws[MOR_CASE_SOILS_MAX];     /* shape [n_soils]; models of the soil regions; borrowed */
     mor_material_instance *parts[MOR_CASE_SOILS_MAX]; /* shape [n_soils]; of the composite; NULL without */
-    mor_soil soil;                                    /* zeroed without soil */
+    mor_boundary_friction *frictions; /* shape [n_walls + n_bodies, n_soils]; with each soil; owned; NULL: each wall and
+                                         body has one friction with all soils */
+    mor_soil soil;                    /* zeroed without soil */
     mor_simulation_bodies bodies;
     mor_simulation_frame frame;
     mor_schedule schedule;

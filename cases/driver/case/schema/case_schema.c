@@ -270,7 +270,23 @@ static const mor_case_key wall_keys[] = {
      .needs = MOR_CASE_NEEDS_BODIES | MOR_CASE_NEEDS_COMPLIANCE},
     END};
 
-static const mor_case_part wall_parts[] = {{"shape", true, "shape", "the solid"}, {NULL, false, NULL, NULL}};
+static const mor_case_part wall_parts[] = {
+    {"shape", true, "shape", "the solid"},
+    {"friction_with", false, "list of groups", "soils with which the friction is another one"},
+    {NULL, false, NULL, NULL}};
+
+static const mor_case_key friction_keys[] = {
+    {{"soil", WORDS, "1", REQUIRED, ANY, NULL, "name of the soil"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_soil_friction, soil)},
+    {{"friction", CHOICE, "1", DEFAULT(0.0), ANY, "rough|smooth|coulomb", "with this soil, as of a wall"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_case_soil_friction, friction)},
+    {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL,
+      "Coulomb friction coefficient with this soil; required with coulomb, else refused"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_soil_friction, coefficient)},
+    END};
 
 const mor_case_group mor_case_soil_group = {"soil", "Soil regions (list)", soil_keys, soil_parts,
                                             offsetof(mor_case_soil, written)};
@@ -283,6 +299,9 @@ const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress 
                                               offsetof(mor_case_soil, written_stress)};
 const mor_case_group mor_case_wall_group = {"walls", "Walls (list)", wall_keys, wall_parts,
                                             offsetof(mor_case_wall, written)};
+
+const mor_case_group mor_case_friction_group = {"friction_with", "Friction of a wall or a body with one soil (list)",
+                                                friction_keys, NULL, offsetof(mor_case_soil_friction, written)};
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------------ */
 

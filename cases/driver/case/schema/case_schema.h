@@ -101,6 +101,9 @@ extern const char *const mor_case_rigid_words[];
 extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
     mor_case_probe_group, mor_case_expectation_group;
 
+/** Members of the list friction_with of walls, bodies and rocks; record mor_case_soil_friction. */
+extern const mor_case_group mor_case_friction_group;
+
 /** The group material of a soil whose model is an interface to laws of other programs; record mor_case_soil. */
 extern const mor_case_group mor_case_external_group;
 

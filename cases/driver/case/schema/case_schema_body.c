@@ -88,6 +88,7 @@ static const mor_case_key body_keys[] = {
 static const mor_case_part body_parts[] = {
     {"shape", true, "shape", "shape of the body, in its own frame"},
     {"material", true, "group", "model, density, and the parameters of the model"},
+    {"friction_with", false, "list of groups", "soils with which the friction is another one"},
     {"locked", false, "list of words", "of a free rigid body: no motion along x, y, z, no rotation about rx, ry, rz"},
     {"spring", false, "group", "of a free rigid body: spring and damper to a fixed point"},
     {"clamp", false, "shape",

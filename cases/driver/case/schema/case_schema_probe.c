@@ -23,6 +23,9 @@ static const mor_case_key probe_keys[] = {
     {{"body", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the body that is measured"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case_probe, body)},
+    {{"soil", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the soil that is measured; without it, all soil"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_probe, soil)},
     {{"measure", MOR_SCHEMA_CHOICE, 1, "1", 0, 0.0, ANY, "mass_percentile|thickness",
       "definition of the edge of the deposit: distance that contains percentile of the mass, or where it becomes "
       "thinner "
@@ -102,7 +105,7 @@ const mor_case_own_column mor_case_own_columns[] = {
     {"time", "s"}, {"step", "1"}, {"step_length", "s"}, {"rate_ratio", "1"}, {NULL, NULL}};
 
 const char *const mor_case_probe_key_names[] = {"wall",      "measure", "percentile", "thickness", "origin",
-                                                "direction", "radial",  "body",       NULL};
+                                                "direction", "radial",  "body",       "soil",      NULL};
 
 const mor_case_probe_type *mor_case_probe_type_find(mor_case_probe_catalog catalog, const char *name)
 {

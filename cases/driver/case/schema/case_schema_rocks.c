@@ -81,6 +81,7 @@ static const mor_case_part rocks_parts[] = {
     {"forms", true, "list of groups",
      "rock, sphere, ellipsoid, outline or mesh; each rock gets one at random, scaled to its size"},
     {"material", true, "group", "as of a body"},
+    {"friction_with", false, "list of groups", "as of a body"},
     {NULL, false, NULL, NULL}};
 
 const mor_case_group mor_case_rocks_group = {"rocks", "Rocks packed into a region (list)", rocks_keys, rocks_parts,

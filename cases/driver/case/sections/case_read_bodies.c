@@ -157,6 +157,7 @@ mor_status mor_case_reader_bodies(const mor_case_reader *reader, const mor_case_
         /* Counted before it is read, so that a half-read one is freed, too. */
         mor_case_body *body = &the_case->bodies[the_case->n_bodies++];
         MOR_TRY(reader->context, mor_case_reader_body(reader, node, body));
+        MOR_TRY(reader->context, mor_case_reader_frictions(reader, node, the_case, &body->friction_with));
         MOR_TRY(reader->context, mor_case_reader_height(reader, the_case, body));
         MOR_TRY(reader->context, mor_case_reader_body_name(reader, node, the_case, body));
         MOR_TRY(reader->context, check_locks(reader, node, the_case, body));

@@ -201,22 +201,3 @@ mor_status mor_case_reader_refuse_duplicate(const mor_case_reader *reader, const
                               "once (it is taken by line %d); choose another",
                               name, first->line);
 }
-
-mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_case_node *node,
-                                    mor_case_friction friction)
-{
-    const mor_case_node *coefficient = mor_case_node_find(node, "friction_coefficient");
-    const bool is_coulomb = friction == MOR_CASE_FRICTION_COULOMB;
-    if (is_coulomb && coefficient == NULL) {
-        return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found no 'friction_coefficient' for friction = \"coulomb\"; "
-                                  "allowed: >= 0; add it");
-    }
-    if (!is_coulomb && coefficient != NULL) {
-        return MOR_CASE_NODE_FAIL(
-            reader->context, coefficient,
-            "found 'friction_coefficient', which has no effect with "
-            "this friction; allowed: with friction = \"coulomb\"; remove it or change the friction");
-    }
-    return MOR_OK;
-}

@@ -259,6 +259,10 @@ static mor_status check_probe_names(const mor_case_reader *reader, const mor_cas
 {
     const char *walls[MOR_CASE_WALLS_MAX];
     const char *bodies[MOR_CASE_BODIES_MAX];
+    const char *soils[MOR_CASE_SOILS_MAX];
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        soils[k] = the_case->soils[k].name;
+    }
     for (int k = 0; k < the_case->n_walls; ++k) {
         walls[k] = the_case->walls[k].name;
     }
@@ -267,6 +271,8 @@ static mor_status check_probe_names(const mor_case_reader *reader, const mor_cas
     }
     MOR_TRY(reader->context, check_name(reader, mor_case_node_find(node, "wall"), "name of a wall", probe->wall, walls,
                                         the_case->n_walls));
+    MOR_TRY(reader->context, check_name(reader, mor_case_node_find(node, "soil"), "name of a soil", probe->soil, soils,
+                                        the_case->n_soils));
     return check_body(reader, node, the_case, probe->body, bodies);
 }
 

@@ -406,6 +406,7 @@ mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_n
     for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
         mor_case_rocks *rocks = &the_case->rocks[the_case->n_rocks++];
         MOR_TRY(reader->context, read_rocks(reader, node, rocks));
+        MOR_TRY(reader->context, mor_case_reader_frictions(reader, node, the_case, &rocks->body.friction_with));
         if (rocks->list[0] != '\0') {
             MOR_TRY(reader->context, add_list(reader, node, the_case, rocks));
         } else {

@@ -140,6 +140,7 @@ static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_wall_group, wall));
     MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", wall->velocity));
     MOR_TRY(reader->context, mor_case_reader_friction(reader, node, wall->friction));
+    MOR_TRY(reader->context, mor_case_reader_frictions(reader, node, the_case, &wall->friction_with));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &wall->outline, &wall->shape));
     MOR_TRY(reader->context, check_ground(reader, node, wall));

@@ -51,6 +51,14 @@ mor_status mor_case_reader_plugins(mor_case_reader *reader, const mor_case_node 
 mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_case_node *node,
                                     mor_case_friction friction);
 
+/** Reads the list friction_with of a wall, a body or a group of rocks.
+ *  @param owner     [in]      its group
+ *  @param the_case  [in]      soils are known
+ *  @param frictions [in,out]  zeroed before
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_frictions(const mor_case_reader *reader, const mor_case_node *owner,
+                                     const mor_case *the_case, mor_case_frictions *frictions);
+
 /** Reads the lists soil, walls and bodies, and the group contact.
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);

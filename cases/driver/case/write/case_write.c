@@ -229,9 +229,34 @@ static mor_case_presence presence_of_wall_key(const mor_case_key *key, const voi
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
 
+static mor_case_presence presence_of_friction_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_soil_friction *it = record;
+    const bool is_idle =
+        strcmp(key->schema.key, "friction_coefficient") == 0 && it->friction != MOR_CASE_FRICTION_COULOMB;
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+static mor_status write_frictions(mor_case_writer *w, const mor_case_frictions *frictions)
+{
+    if (frictions->n == 0) {
+        return MOR_OK;
+    }
+    mor_case_writer_open(w, "friction_with", "(");
+    for (int k = 0; k < frictions->n; ++k) {
+        mor_case_writer_open(w, "", "{");
+        MOR_TRY(w->reader.context,
+                mor_case_writer_keys(w, &mor_case_friction_group, &frictions->of[k], presence_of_friction_key));
+        mor_case_writer_close(w, k + 1 < frictions->n ? "}," : "}");
+    }
+    mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
 static mor_status write_wall(mor_case_writer *w, const mor_case_wall *wall)
 {
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_wall_group, wall, presence_of_wall_key));
+    MOR_TRY(w->reader.context, write_frictions(w, &wall->friction_with));
     return write_shape(w, "shape", &wall->outline, "};");
 }
 
@@ -312,6 +337,7 @@ static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const
 {
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_group, body, presence_of_body_key));
     MOR_TRY(w->reader.context, mention_modulus(w, the_case, body));
+    MOR_TRY(w->reader.context, write_frictions(w, &body->friction_with));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
     MOR_TRY(w->reader.context, write_body_material(w, body));
     write_locks(w, body);
@@ -386,6 +412,7 @@ static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
 {
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_rocks_group, rocks, presence_of_rocks_key));
     write_hash(w, rocks->list_hash);
+    MOR_TRY(w->reader.context, write_frictions(w, &rocks->body.friction_with));
     if (rocks->list[0] == '\0') {
         MOR_TRY(w->reader.context, write_packing(w, rocks));
     }
@@ -397,56 +424,6 @@ static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
     }
     mor_case_writer_close(w, ");");
     return write_body_material(w, &rocks->body);
-}
-
-/* ---- Probes and expectations ------------------------------------------------------------------------------------- */
-
-static mor_case_presence presence_of_probe_key(const mor_case_key *key, const void *record)
-{
-    const mor_case_probe *probe = record;
-    const mor_case_probe_type *type = probe->kind;
-    const char *name = key->schema.key;
-    for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
-        if (strcmp(mor_case_probe_key_names[k], name) == 0 && (type->allowed >> k & 1U) == 0) {
-            return MOR_CASE_OMIT;
-        }
-    }
-    const bool has_measure = (type->allowed & MOR_CASE_PROBE_MEASURE) != 0;
-    const bool is_by_thickness = strcmp(probe->measure, "thickness") == 0;
-    const bool is_idle = (strcmp(name, "window") == 0 && isnan(probe->window[0])) ||
-                         (strcmp(name, "direction") == 0 && probe->is_radial) ||
-                         (strcmp(name, "percentile") == 0 && has_measure && is_by_thickness) ||
-                         (strcmp(name, "thickness") == 0 && has_measure && !is_by_thickness);
-    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
-}
-
-static const char *find_unit(const mor_case *the_case, const char *probe, mor_case_statistic statistic)
-{
-    for (int k = 0; k < the_case->n_probes; ++k) {
-        if (strcmp(the_case->probes[k].name, probe) == 0) {
-            return mor_case_statistic_unit(the_case->probes[k].kind, statistic, the_case->dimension);
-        }
-    }
-    return "1";
-}
-
-static mor_status write_expectation(const mor_case_writer *w, const mor_case *the_case,
-                                    const mor_case_expectation *expectation)
-{
-    const mor_case_group *group = &mor_case_expectation_group;
-    const char *unit = find_unit(the_case, expectation->probe, expectation->statistic);
-    for (int k = 0; group->keys[k].schema.key != NULL; ++k) {
-        mor_case_key key = group->keys[k];
-        const bool is_tolerance = strncmp(key.schema.key, "tolerance", strlen("tolerance")) == 0;
-        if (strcmp(key.schema.key, "value") == 0 || (is_tolerance && expectation->is_absolute)) {
-            key.schema.unit = unit;
-        }
-        char value[MOR_CASE_VALUE_BYTES];
-        MOR_TRY(w->reader.context,
-                mor_case_writer_member(w, &key, (const char *)expectation + key.offset, value, sizeof value));
-        mor_case_writer_line(w, key.schema.key, value, (expectation->written >> k & 1) == 0);
-    }
-    return MOR_OK;
 }
 
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
@@ -468,9 +445,9 @@ static mor_status write_entry(mor_case_writer *w, const mor_case *the_case, list
     case PAIRS:
         return mor_case_writer_keys(w, &mor_case_pair_group, &the_case->contact.pairs[k], mor_case_presence_always);
     case PROBES:
-        return mor_case_writer_keys(w, &mor_case_probe_group, &the_case->probes[k], presence_of_probe_key);
+        return mor_case_writer_probe(w, &the_case->probes[k]);
     case EXPECT:
-        return write_expectation(w, the_case, &the_case->expectations[k]);
+        return mor_case_writer_expectation(w, the_case, &the_case->expectations[k]);
     case LIST_COUNT:
         break;
     }

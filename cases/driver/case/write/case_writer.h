@@ -78,4 +78,14 @@ void mor_case_writer_close(mor_case_writer *w, const char *bracket);
 mor_status mor_case_writer_keys(const mor_case_writer *w, const mor_case_group *group, const void *record,
                                 mor_case_key_presence presence_of);
 
+/** Writes a probe.
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_probe(const mor_case_writer *w, const mor_case_probe *probe);
+
+/** Writes an expectation.
+ *  @param the_case    [in]  whose probes tell the units
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_expectation(const mor_case_writer *w, const mor_case *the_case,
+                                       const mor_case_expectation *expectation);
+
 #endif

@@ -323,6 +323,7 @@ static void set_settings(const mor_simulation *simulation, mor_soil_kind *kinds,
         .spacing = c->spacing,
         .lateral_ratio = mor_simulation_lateral_ratio(simulation, 0),
         .reference_density = c->soils[0].density,
+        .n_regions = c->n_soils,
     };
     const mor_simulation_frame *frame = &simulation->frame;
     memcpy(s->gravity, frame->gravity, sizeof s->gravity);
@@ -368,8 +369,8 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
             memcpy(data[MOR_FIELD_VELOCITY] + 3 * i, velocity, sizeof velocity);
             data[MOR_FIELD_DENSITY][i] = it->density;
             data[MOR_FIELD_MASS][i] = it->density * volume;
-            if (mor_composite_is(simulation->material)) {
-                data[simulation->soil.state_fields[0]][i] = k;
+            if (simulation->soil.region_field >= 0) {
+                data[simulation->soil.region_field][i] = k;
             }
         }
         simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
@@ -524,6 +525,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
                                             simulation->has_soil ? 1 : 0);
     }
     if (status == MOR_OK) {
+        status = mor_simulation_set_frictions(context, simulation);
+    }
+    if (status == MOR_OK) {
         status = mor_narrow_gaps_check(context, simulation);
     }
     if (status == MOR_OK) {
@@ -550,6 +554,7 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
     mor_probe_track_free(context, &simulation->probes);
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
+    MOR_FREE(context, &simulation->frictions);
     mor_material_destroy(context, &simulation->material);
     for (int k = 0; k < MOR_CASE_SOILS_MAX; ++k) {
         mor_material_destroy(context, &simulation->parts[k]);

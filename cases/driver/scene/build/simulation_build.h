@@ -58,6 +58,11 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
 mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
                                      const mor_lattice_points *regions);
 
+/** Gives walls and bodies their friction with each soil, where a case says that soils differ.
+ *  @param simulation [in,out]  with its bodies; owns the table that the patches borrow
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_simulation_set_frictions(mor_context *context, mor_simulation *simulation);
+
 /** Fills one wall of a case with particles, in the placed frame. They stand for the true volume of the wall up to its
  *  true surface: cells of the lattice that the surface cuts have the share inside; ground has whole ones that follow
  *  it.

@@ -94,8 +94,11 @@ static void run(meeting *m, const mor_pair_table *table)
     assert_int_equal(mor_soil_contact_build(context, &m->contact, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &m->contact, table, c, m->soil.records);
     mor_soil_contact_sum_divergence(context, &m->contact, table, c, m->soil.records, &m->soil.relation);
-    mor_soil_contact_sum_forces(context, &m->contact, MOR_DISSIPATION_BOTH, c->limiter_rate, NULL, m->soil.records,
-                                m->soil.n, m->acceleration);
+    const mor_contact_soil seen = {.dissipation = MOR_DISSIPATION_BOTH,
+                                   .limiter_rate = c->limiter_rate,
+                                   .records = m->soil.records,
+                                   .n_particles = m->soil.n};
+    mor_soil_contact_sum_forces(context, &m->contact, &seen, m->acceleration);
     mor_soil_contact_share_forces(context, &m->contact, table, c, m->soil.records, m->soil.n);
 }
 

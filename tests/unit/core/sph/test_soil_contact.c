@@ -413,8 +413,8 @@ static void walls_add_to_what_is_there_and_any_number_of_threads_agrees(void **s
         assert_memory_equal(alone.velocity_gradient, f.velocity_gradient, sizeof f.velocity_gradient);
         assert_memory_equal(alone.density_rate, f.density_rate, sizeof f.density_rate);
         assert_memory_equal(alone.wall.force, f.wall.force, sizeof f.wall.force);
-        mor_soil_contact_sum_forces(&f.soil.context, &f.wall, MOR_DISSIPATION_BOTH, f.soil.constants.limiter_rate, NULL,
-                                    f.soil.records, f.soil.n, f.acceleration);
+        const mor_contact_soil seen = floor_soil(&f, MOR_DISSIPATION_BOTH);
+        mor_soil_contact_sum_forces(&f.soil.context, &f.wall, &seen, f.acceleration);
         for (int i = 0; i < 3 * f.soil.n; ++i) {
             assert_true(f.acceleration[i] == 2.0 * alone.acceleration[i]); /* exact: added once more */
         }

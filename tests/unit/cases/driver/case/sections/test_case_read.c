@@ -37,7 +37,9 @@ static const char full_text[] =
     "    initial_stress = { type = \"k0\"; }; } );\n"
     "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (0, 0, 0); normal = (0, 0, 3); }; },\n"
     "  { name = \"gate\"; shape = { type = \"box\"; min = (1, 1, 1); max = (2, 2, 2); }; friction = \"coulomb\";\n"
-    "    friction_coefficient = 0.3; velocity = (0, 0, 1); } );\n"
+    "    friction_coefficient = 0.3; velocity = (0, 0, 1);\n"
+    "    friction_with = ( { soil = \"second\"; friction = \"smooth\"; },\n"
+    "      { soil = \"column\"; friction = \"coulomb\"; friction_coefficient = 0.7; } ); } );\n"
     "numerics = { dissipation = \"both\"; damping = \"2 1/s\"; gravity_ramp = \"10 ms\"; artificial_stress = true;\n"
     "  reconstruction = \"linear\"; stress_diffusion_limiter = \"motion\";\n"
     "  density_reinitialization = 0; dissipation_factor = 50; };\n"
@@ -83,6 +85,13 @@ static void values_arrive_in_si(void **state)
     assert_int_equal(soil->place.line, 7);
     assert_int_equal(c->walls[1].friction, MOR_CASE_FRICTION_COULOMB);
     assert_true(c->walls[1].friction_coefficient == 0.3 && c->walls[1].velocity[2] == 1.0); /* exact */
+    const mor_case_frictions *frictions = &c->walls[1].friction_with;
+    assert_int_equal(c->walls[0].friction_with.n, 0);
+    assert_int_equal(frictions->n, 2);
+    assert_string_equal(frictions->of[0].soil, "second");
+    assert_int_equal(frictions->of[0].friction, MOR_CASE_FRICTION_SMOOTH);
+    assert_int_equal(frictions->of[1].friction, MOR_CASE_FRICTION_COULOMB);
+    assert_true(frictions->of[1].coefficient == 0.7); /* exact */
     assert_int_equal(c->numerics.dissipation, 2);
     assert_int_equal(c->numerics.wall_dissipation, 0);
     assert_true(c->numerics.dissipation_factor == 50.0 && c->numerics.damping == 2.0); /* exact */
@@ -227,6 +236,13 @@ static void what_belongs_together_is_demanded_together(void **state)
                 {"probes=( { type = \"run_out\"; measure = \"thickness\"; percentile = 50; } )", "\"mass_percentile\""},
                 {"probes=( { type = \"mass\"; percentile = 50; } )", "no effect on a probe of type 'mass'"},
                 {"walls[1].friction=smooth", "'friction_coefficient', which has no effect"},
+                {"walls[1].friction_with[0].soil=sand", "name of a soil"},
+                {"walls[1].friction_with[0].soil=column", "the soil 'column' again"},
+                {"walls[1].friction_with[0].friction=coulomb", "found no 'friction_coefficient'"},
+                {"walls[1].friction_with[1].friction=rough", "'friction_coefficient', which has no effect"},
+                {"walls[1].friction_with[1].colour=red", "unknown name 'colour'"},
+                {"probes=( { type = \"mass\"; soil = \"sand\"; } )", "name of a soil"},
+                {"probes=( { type = \"total_energy\"; soil = \"second\"; } )", "no effect on a probe of type"},
                 {"soil[1].initial_stress.settle_time=1 s", "'settle_time', which has no effect"},
                 {"soil[1].name=column", "the name 'column' again"},
                 {"soil[0].material.dilation_angle=31 deg", "that 'drucker_prager' refuses"},

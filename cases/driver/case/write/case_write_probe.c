@@ -1,0 +1,61 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Probes and expectations of a case, as they were used. */
+#include "cases/driver/case/write/case_writer.h"
+
+#include <math.h>
+#include <string.h>
+
+static mor_case_presence presence_of_probe_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_probe *probe = record;
+    const mor_case_probe_type *type = probe->kind;
+    const char *name = key->schema.key;
+    for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
+        if (strcmp(mor_case_probe_key_names[k], name) == 0 && (type->allowed >> k & 1U) == 0) {
+            return MOR_CASE_OMIT;
+        }
+    }
+    const bool has_measure = (type->allowed & MOR_CASE_PROBE_MEASURE) != 0;
+    const bool is_by_thickness = strcmp(probe->measure, "thickness") == 0;
+    const bool is_idle = (strcmp(name, "soil") == 0 && probe->soil[0] == '\0') ||
+                         (strcmp(name, "window") == 0 && isnan(probe->window[0])) ||
+                         (strcmp(name, "direction") == 0 && probe->is_radial) ||
+                         (strcmp(name, "percentile") == 0 && has_measure && is_by_thickness) ||
+                         (strcmp(name, "thickness") == 0 && has_measure && !is_by_thickness);
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+mor_status mor_case_writer_probe(const mor_case_writer *w, const mor_case_probe *probe)
+{
+    return mor_case_writer_keys(w, &mor_case_probe_group, probe, presence_of_probe_key);
+}
+
+static const char *find_unit(const mor_case *the_case, const char *probe, mor_case_statistic statistic)
+{
+    for (int k = 0; k < the_case->n_probes; ++k) {
+        if (strcmp(the_case->probes[k].name, probe) == 0) {
+            return mor_case_statistic_unit(the_case->probes[k].kind, statistic, the_case->dimension);
+        }
+    }
+    return "1";
+}
+
+mor_status mor_case_writer_expectation(const mor_case_writer *w, const mor_case *the_case,
+                                       const mor_case_expectation *expectation)
+{
+    const mor_case_group *group = &mor_case_expectation_group;
+    const char *unit = find_unit(the_case, expectation->probe, expectation->statistic);
+    for (int k = 0; group->keys[k].schema.key != NULL; ++k) {
+        mor_case_key key = group->keys[k];
+        const bool is_tolerance = strncmp(key.schema.key, "tolerance", strlen("tolerance")) == 0;
+        if (strcmp(key.schema.key, "value") == 0 || (is_tolerance && expectation->is_absolute)) {
+            key.schema.unit = unit;
+        }
+        char value[MOR_CASE_VALUE_BYTES];
+        MOR_TRY(w->reader.context,
+                mor_case_writer_member(w, &key, (const char *)expectation + key.offset, value, sizeof value));
+        mor_case_writer_line(w, key.schema.key, value, (expectation->written >> k & 1) == 0);
+    }
+    return MOR_OK;
+}
