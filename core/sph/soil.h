@@ -45,7 +45,7 @@ typedef struct mor_soil_settings {
     const mor_soil_kind *kinds;        /* shape [n_kinds]; of the parts of a composite, borrowed by mor_soil_init; NULL:
                                           one soil, of the two above */
     int n_kinds;
-    int n_regions; /* parts of the soil that the state variable MOR_COMPOSITE_INDEX_KEY tells apart, whether or not their
+    int n_regions; /* parts that the state variable MOR_COMPOSITE_INDEX_KEY tells apart, whether or not their
                       materials differ; of a composite the number of its parts; 0 or 1: one */
 } mor_soil_settings;
 

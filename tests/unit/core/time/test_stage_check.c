@@ -32,6 +32,7 @@ static void open_proof(proof *it, bool is_checked, const mor_material *law)
     scene->settings.scheme.density_reinitialization = 1;
     scene->settings.scheme.sort_interval = 1;
     scene->settings.gravity[1] = -9.81;
+    scene->settings.n_regions = 2; /* of one material: all particles are of the first */
     rock_scene_add_soil(scene, (const double[3]){0.005, 0.005, 0.0}, sides);
     rock_scene_build(scene);
     rock_scene_add_wall(scene, "floor", (const double[3]){-0.015, -0.025, 0.0}, floor, MOR_WALL_ROUGH,
