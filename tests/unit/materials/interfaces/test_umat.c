@@ -217,7 +217,31 @@ static void random_gradient(int step_number, double size, double *gradient)
     }
 }
 
-/* The built-in law and the same in Fortran along a path with rotation, plastic flow and stress diffusion. */
+/* Drives the built-in law and the same in Fortran along a path with rotation, plastic flow and stress diffusion; returns
+ * the largest difference of a component of stress over the pressure at the start, and leaves both at its end. */
+static double compare_along_a_path(specimen *own, specimen *it, int n_steps)
+{
+    const double pressure = 2e4;
+    double worst = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        own->stress[a] = it->stress[a] = -pressure;
+    }
+    for (int k = 0; k < n_steps; ++k) {
+        double gradient[9];
+        double extra[6];
+        random_gradient(k, 2e-3, gradient);
+        for (int m = 0; m < 6; ++m) {
+            extra[m] = 1e3 * gradient[m];
+        }
+        assert_int_equal(step(own, gradient, extra, 1.0, own->stress, own->state), MOR_OK);
+        assert_int_equal(step(it, gradient, extra, 1.0, it->stress, it->state), MOR_OK);
+        for (int m = 0; m < 6; ++m) {
+            worst = fmax(worst, fabs(own->stress[m] - it->stress[m]) / pressure);
+        }
+    }
+    return worst;
+}
+
 static void drucker_prager_in_fortran_is_the_built_in_law(void **state)
 {
     run_folder *folder = *state;
@@ -228,32 +252,42 @@ static void drucker_prager_in_fortran_is_the_built_in_law(void **state)
     const double constants[5] = {5.98e6, 0.3, yield.slope, yield.strength, slope};
     specimen own;
     specimen it = {.law = NULL};
-    double worst = 0.0;
     start(folder, &own, "umat_drucker_prager",
           &(mor_external_request){.constants = constants, .n_constants = 5, .states = names, .n_states = 1});
     assert_int_equal(mor_material_create(&folder->context, law_named("drucker_prager"), density, values, &it.instance),
                      MOR_OK);
-    for (int a = 0; a < 3; ++a) {
-        own.stress[a] = it.stress[a] = -2e4;
-    }
-    for (int k = 0; k < 2000; ++k) {
-        double gradient[9];
-        double extra[6];
-        random_gradient(k, 2e-3, gradient);
-        for (int m = 0; m < 6; ++m) {
-            extra[m] = 1e3 * gradient[m];
-        }
-        assert_int_equal(step(&own, gradient, extra, 1.0, own.stress, own.state), MOR_OK);
-        assert_int_equal(step(&it, gradient, extra, 1.0, it.stress, it.state), MOR_OK);
-        for (int m = 0; m < 6; ++m) {
-            worst = fmax(worst, fabs(own.stress[m] - it.stress[m]) / 2e4);
-        }
-    }
-    assert_true(it.state[0][0] > 0.05); /* it has flowed */
-    assert_true(worst < 1e-10);         /* rounding of two thousand steps */
+    assert_true(compare_along_a_path(&own, &it, 2000) < 1e-10); /* rounding of two thousand steps */
+    assert_true(it.state[0][0] > 0.05);                         /* it has flowed */
     assert_true(fabs(own.state[0][0] / it.state[0][0] - 1.0) < 1e-10);
     mor_material_destroy(&folder->context, &it.instance);
     end(folder, &own);
+}
+
+/* With and without cohesion and dilation; opened at the end, so that the apex is met, too. */
+static void mohr_coulomb_in_fortran_is_the_built_in_law(void **state)
+{
+    run_folder *folder = *state;
+    static const double soils[3][2] = {{1e3, 0.2}, {0.0, 0.0}, {4e3, 0.52}}; /* cohesion, Pa; dilation, rad */
+    for (int k = 0; k < 3; ++k) {
+        const double values[6] = {5.98e6, 0.3, 0.52, soils[k][0], soils[k][1], 1.0};
+        const double constants[5] = {5.98e6, 0.3, 0.52, soils[k][0], soils[k][1]};
+        specimen own;
+        specimen it = {.law = NULL};
+        start(folder, &own, "umat_mohr_coulomb", &(mor_external_request){.constants = constants, .n_constants = 5});
+        assert_int_equal(
+            mor_material_create(&folder->context, law_named("mohr_coulomb"), density, values, &it.instance), MOR_OK);
+        assert_true(compare_along_a_path(&own, &it, 2000) < 1e-10); /* rounding of two thousand steps */
+        assert_true(it.state[0][0] > 0.04);                         /* it has flowed */
+        static const double opening[9] = {0.2, 0.01, 0.0, 0.0, 0.2, 0.0, 0.0, 0.02, 0.2};
+        assert_int_equal(step(&own, opening, NULL, 1.0, own.stress, own.state), MOR_OK);
+        assert_int_equal(step(&it, opening, NULL, 1.0, it.stress, it.state), MOR_OK);
+        for (int m = 0; m < 6; ++m) {
+            const double apex = m < 3 ? soils[k][0] / tan(0.52) : 0.0;
+            assert_true(fabs(own.stress[m] - apex) < 1e-10 * 2e4 && fabs(it.stress[m] - apex) < 1e-10 * 2e4);
+        }
+        mor_material_destroy(&folder->context, &it.instance);
+        end(folder, &own);
+    }
 }
 
 /* Triaxial compression at a constant ratio of strains ends where s1 (1 + sin phi) - s3 (1 - sin phi) = 2 c cos phi. */
@@ -450,6 +484,7 @@ int main(void)
         UMAT_TEST(law_is_told_time_strain_rotation_and_deformation),
         UMAT_TEST(state_starts_with_the_values_given),
         UMAT_TEST(drucker_prager_in_fortran_is_the_built_in_law),
+        UMAT_TEST(mohr_coulomb_in_fortran_is_the_built_in_law),
         UMAT_TEST(mohr_coulomb_in_fortran_ends_on_its_surface),
         UMAT_TEST(sound_laws_obey_all_laws_of_mechanics),
         UMAT_TEST(broken_laws_are_told_by_the_law_of_mechanics_that_they_break),
