@@ -439,7 +439,9 @@ static const mor_probe_measure measures[] =
                "height of the deposit, against gravity"},
       .run = height,
       .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"repose_angle", "rad", "rad", SOIL | ALONG, 0, OF_SOIL, 100.0, "slope of the free surface"},
+     {.type = {"repose_angle", "rad", "rad", SOIL | ALONG, 0, OF_SOIL, 100.0,
+               "slope of the free surface: of the least-squares line through the highest particles of each spacing of "
+               "distance beyond the top, from 20 to 80 % of the height"},
       .run = repose_angle,
       .cost = MOR_PROBE_COST_PROFILE},
      {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS, 0, OF_SOIL, 100.0,
