@@ -56,6 +56,8 @@ static const number_key numbers[] = {
     WHOLE(n_steps, "steps", 500.0, STEPS_MAX, "steps for the strain, once; rows of the table"),
     WHOLE(n_cycles, "cycles", 10.0, CYCLES_MAX, "cycles of a cyclic path"),
     REAL(b, "b", "1", 0.5, 0.0, 0, 1.0, "intermediate stress of true-triaxial, (yy - xx) / (zz - xx)"),
+    REAL(amplitude, "amplitude", "Pa", NAN, 0.0, 1, INFINITY,
+         "of a cyclic path, in place of a strain: it turns where deviator or shear stress are off the start by this"),
     REAL(void_ratio, "void_ratio", "1", NAN, 0.0, 1, 100.0, "void ratio at the start, for the table and the chart"),
     REAL(tolerance, "tolerance", "1", default_tolerance, 1e-12, 0, 1e-2, "error of a stress that is held, relative"),
 };
@@ -68,7 +70,8 @@ static const struct {
 } word_keys[] = {
     {"path", "how the specimen is deformed: one of the paths"},
     {"stress", "axial stress at the start, >= 0 Pa; several specimens: '100 kPa, 200 kPa'; default 100 kPa"},
-    {"strain", "how far: axial strain, shear strain or angle, > 0; default 0.1, of cyclic paths 0.01, of spin a turn"},
+    {"strain", "how far: axial strain, shear strain or angle, > 0; default 0.1, of cyclic paths 0.01, of spin a turn; "
+               "with test.amplitude the strain within which that stress is to be reached"},
     {"control", "in place of a path, six parts for xx, yy, zz, xy, yz, zx: a number, the strain rate as a multiple of "
                 "test.rate (tension positive); 'stress', which is kept; 'stress 10 kPa/s', which changes"},
     {"data", "measured values to be drawn as well: a table with columns named as in the results"},
@@ -336,6 +339,15 @@ static mor_status read_strain(const reader *r, mor_element_settings *settings)
     return text != NULL ? read_number(r, key, text, &schema, &settings->strain) : MOR_OK;
 }
 
+static mor_status check_amplitude(const reader *r, const mor_element_settings *settings)
+{
+    const bool is_cyclic = settings->path != NULL && settings->path->is_cyclic;
+    MOR_CHECK(r->context, isnan(settings->amplitude) || is_cyclic, MOR_ERROR_CONFIG,
+              "found test.amplitude for '%s', which does not turn; give it with a cyclic path, or leave it out",
+              settings->name);
+    return MOR_OK;
+}
+
 static mor_status read_control(const reader *r, const char *text, mor_element_settings *settings)
 {
     static const mor_schema rate = {.key = "control",
@@ -444,6 +456,7 @@ static mor_status read_all(const reader *r, mor_element_settings *settings)
     MOR_TRY(r->context, check_keys(r));
     MOR_TRY(r->context, read_numbers(r, settings));
     MOR_TRY(r->context, read_path(r, settings));
+    MOR_TRY(r->context, check_amplitude(r, settings));
     MOR_TRY(r->context, read_stresses(r, settings));
     MOR_TRY(r->context, read_strain(r, settings));
     return read_material(r, settings);

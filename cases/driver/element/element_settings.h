@@ -36,6 +36,7 @@ typedef struct mor_element_settings {
     double b;                                 /* of a path that has_b, 1 */
     double void_ratio;                        /* at the start, 1; NaN: not known */
     double tolerance;                         /* of the stress, relative, 1 */
+    double amplitude;                         /* of the stress of a cyclic path, Pa; NaN: the strain is the amplitude */
     int n_steps;                              /* for the strain, once */
     int n_cycles;                             /* of a cyclic path */
     double density;                           /* at the start, kg/m3 */

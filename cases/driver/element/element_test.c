@@ -44,9 +44,75 @@ static mor_status start_specimen(mor_context *context, const mor_element_setting
     return mor_element_check(context, driver, element);
 }
 
+/* Deviator stress, positive where the axis is compressed more, or shear stress, as the path drives it; Pa. */
+static double measure_stress(const mor_element_settings *settings, const mor_element *element)
+{
+    return settings->path->measure == MOR_ELEMENT_AXIAL ? element->stress[MOR_XX] - element->stress[MOR_ZZ]
+                                                        : element->stress[MOR_ZX];
+}
+
+/* A turn of a cyclic path at a stress: where that is, and the sign of the way there. */
+typedef struct turn {
+    double stress; /* Pa */
+    double sign;
+} turn;
+
+/* How far the specimen is beyond it, Pa. */
+static double pass_turn(const mor_element_settings *settings, const turn *it, const mor_element *element)
+{
+    return it->sign * (measure_stress(settings, element) - it->stress);
+}
+
+/* Puts a specimen that has passed a turn within a step back onto it: the part of the step by the false position. */
+static mor_status stop_at_turn(mor_context *context, const mor_element_settings *settings, mor_element_driver *driver,
+                               const turn *it, const mor_element *before, double length, mor_element *element)
+{
+    enum { ITERATIONS = 60 };
+    const double allowed = settings->tolerance * settings->amplitude;
+    double part[2] = {0.0, 1.0};
+    double miss[2] = {pass_turn(settings, it, before), pass_turn(settings, it, element)};
+    double last = miss[1];
+    for (int k = 0; k < ITERATIONS && fabs(last) > allowed; ++k) {
+        const double next =
+            k % 3 < 2 ? part[0] - miss[0] * (part[1] - part[0]) / (miss[1] - miss[0]) : 0.5 * (part[0] + part[1]);
+        *element = *before;
+        MOR_TRY(context, mor_element_advance(context, driver, next * length, element));
+        last = pass_turn(settings, it, element);
+        part[last > 0.0] = next;
+        miss[last > 0.0] = last;
+    }
+    return MOR_OK;
+}
+
+/* One phase of a cyclic path with an amplitude of the stress, a row after each step and at its turn. */
+static mor_status follow_to_stress(mor_context *context, const mor_element_settings *settings,
+                                   mor_element_driver *driver, const turn *it, int n_steps, mor_element *element,
+                                   mor_element_record *record)
+{
+    const bool is_signed = settings->path->measure == MOR_ELEMENT_AXIAL;
+    const double length = settings->strain / settings->rate / settings->n_steps;
+    for (int k = 0; k < n_steps; ++k) {
+        const mor_element before = *element;
+        MOR_TRY(context, mor_element_advance(context, driver, length, element));
+        const bool is_there = pass_turn(settings, it, element) >= 0.0;
+        if (is_there) {
+            MOR_TRY(context, stop_at_turn(context, settings, driver, it, &before, length, element));
+        }
+        mor_element_record_add(record, element, is_signed);
+        if (is_there) {
+            return MOR_OK;
+        }
+    }
+    return MOR_FAIL(context, MOR_NOT_CONVERGED,
+                    "the stress has come to %.6g kPa, not to %.6g kPa, within a strain of %.4g; an amplitude may lie "
+                    "beyond the strength; lower test.amplitude, or raise test.strain",
+                    1e-3 * measure_stress(settings, element), 1e-3 * it->stress,
+                    (double)n_steps / settings->n_steps * settings->strain);
+}
+
 /* One phase, a row after each step. */
 static mor_status follow_phase(mor_context *context, const mor_element_settings *settings, mor_element_driver *driver,
-                               double phase, mor_element *element, mor_element_record *record)
+                               double phase, const turn *it, mor_element *element, mor_element_record *record)
 {
     mor_element_control control = settings->control;
     const bool is_signed = settings->path != NULL && settings->path->measure == MOR_ELEMENT_AXIAL;
@@ -56,6 +122,9 @@ static mor_status follow_phase(mor_context *context, const mor_element_settings 
         mor_element_path_control(settings->path, copysign(settings->rate, phase), settings->b, &control);
     }
     MOR_TRY(context, mor_element_begin(context, driver, element, &control));
+    if (it != NULL) {
+        return follow_to_stress(context, settings, driver, it, n_steps, element, record);
+    }
     for (int k = 0; k < n_steps; ++k) {
         MOR_TRY(context, mor_element_advance(context, driver, length, element));
         mor_element_record_add(record, element, is_signed);
@@ -68,16 +137,22 @@ static mor_status run_specimen(mor_context *context, const mor_material *materia
 {
     char name[MOR_ELEMENT_NAME_BYTES];
     mor_element element;
+    const int n_phases = count_phases(settings);
     int64_t n_rows = 1;
-    for (int k = 0; k < count_phases(settings); ++k) {
+    for (int k = 0; k < n_phases; ++k) {
         n_rows += (int64_t)fabs(find_phase(settings, k)) * settings->n_steps;
     }
     snprintf(name, sizeof name, "%.4g kPa", 1e-3 * axial);
     MOR_TRY(context, mor_element_record_init(context, material, name, settings->void_ratio, n_rows, record));
     MOR_TRY(context, annotate_error(context, start_specimen(context, settings, driver, axial, &element)));
     mor_element_record_add(record, &element, settings->path != NULL && settings->path->measure == MOR_ELEMENT_AXIAL);
-    for (int k = 0; k < count_phases(settings) && record->status == MOR_OK; ++k) {
-        record->status = follow_phase(context, settings, driver, find_phase(settings, k), &element, record);
+    const double middle = isnan(settings->amplitude) ? 0.0 : measure_stress(settings, &element);
+    for (int k = 0; k < n_phases && record->status == MOR_OK; ++k) {
+        const double phase = find_phase(settings, k);
+        const turn at = {.stress = middle + (k == n_phases - 1 ? 0.0 : copysign(settings->amplitude, phase)),
+                         .sign = copysign(1.0, phase)};
+        record->status =
+            follow_phase(context, settings, driver, phase, isnan(settings->amplitude) ? NULL : &at, &element, record);
     }
     if (record->status != MOR_OK) {
         mor_context_log(context, MOR_LOG_WARNING, "specimen of %s: %s", record->name, context->message);

@@ -217,8 +217,8 @@ static void random_gradient(int step_number, double size, double *gradient)
     }
 }
 
-/* Drives the built-in law and the same in Fortran along a path with rotation, plastic flow and stress diffusion; returns
- * the largest difference of a component of stress over the pressure at the start, and leaves both at its end. */
+/* Drives the built-in law and the same in Fortran along a path with rotation, plastic flow and stress diffusion;
+ * returns the largest difference of a component of stress over the pressure at the start. */
 static double compare_along_a_path(specimen *own, specimen *it, int n_steps)
 {
     const double pressure = 2e4;
