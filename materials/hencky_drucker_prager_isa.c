@@ -281,6 +281,7 @@ static const mor_schema PARAMETERS[] = {
                         .excludes_maximum = 1,
                         .text = "friction angle in triaxial compression"},
     [GAS_DENSITY_RATIO] = {.key = "gas_density_ratio",
+                           .role = MOR_ROLE_GAS_DENSITY_RATIO,
                            .kind = MOR_SCHEMA_REAL,
                            .n_components = 1,
                            .unit = "1",

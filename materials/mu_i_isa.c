@@ -206,6 +206,7 @@ static const mor_schema PARAMETERS[] = {
                        .excludes_minimum = 1,
                        .text = "density of the grains, in the inertial number"},
     [GAS_DENSITY_RATIO] = {.key = "gas_density_ratio",
+                           .role = MOR_ROLE_GAS_DENSITY_RATIO,
                            .kind = MOR_SCHEMA_REAL,
                            .n_components = 1,
                            .unit = "1",

@@ -60,6 +60,7 @@ static const struct {
     [MOR_ROLE_RELATIVE_TOLERANCE] = {"relative tolerance of the integration", "1"},
     [MOR_ROLE_ABSOLUTE_TOLERANCE] = {"absolute tolerance of the integration", "Pa"},
     [MOR_ROLE_SUB_STEPS_MAX] = {"largest number of sub-steps", "1"},
+    [MOR_ROLE_GAS_DENSITY_RATIO] = {"gas density ratio", "1"},
 };
 
 const char *mor_role_text(mor_role role)

@@ -8,6 +8,9 @@
 #define MATERIAL                                                                                                       \
     "material = { model = 'drucker_prager'; density = 2000; youngs_modulus = 2e6; poissons_ratio = 0.3;"               \
     " friction_angle = '30 deg'; };"
+#define MU_I                                                                                                           \
+    "{model=\"mu_i\"; density=2000; youngs_modulus=2e6; poissons_ratio=0.3; static_friction=0.48; "                    \
+    "limiting_friction=0.6; grain_diameter=1e-3; "
 #define WALL(name, point, normal)                                                                                      \
     "{ name = '" name "'; friction = 'smooth'; shape = { type = 'half_space'; point = " point "; normal = " normal     \
     "; }; }"
@@ -48,6 +51,9 @@ static const scene columns[] = {
     {"soil[1].initial_stress={type=\"k0\"; surface_level=0.4;}", NULL},
     {"soil[1].shape.max=(0.2, 0.36)", NULL}, /* eight rows */
     {"soil[0].initial_stress={type=\"settled\"; settle_time=1e5;}", "settle_time = 100000 s takes up to about 2.7"},
+    /* A rule for loose soil that a setting of the scheme defeats: piles below a funnel were 30 % too wide. */
+    {"soil[0].material=" MU_I "gas_density_ratio=1.0;}", "soil 's' has no stress where it is loose, but density by"},
+    {"soil[0].material=" MU_I "}", NULL},
     {"numerics.courant=1e-8", "end = 0.001 s takes about 1.11e+08 steps"},
     {"probes[0].percentile=0.995",
      "found percentile = 0.995, which is 0.995 %: percentiles are in percent; if 99.5 % is"},

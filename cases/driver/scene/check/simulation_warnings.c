@@ -73,6 +73,22 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
     }
 }
 
+/* Around loose particles the summation takes what is missing for a free surface and raises their density. */
+static void warn_of_gas(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    for (int k = 0; k < c->n_soils && c->numerics.density_reinitialization > 0; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        if (mor_params_role_value(s->laws[k]->parameters, it->parameters, MOR_ROLE_GAS_DENSITY_RATIO, 0.0) > 0.0) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s' has no stress where it is loose, but density by summation brings the density of "
+                            "loose soil back to the initial one, so that it bears stress again: set "
+                            "numerics.density_reinitialization = 0 where soil comes apart",
+                            it->name);
+        }
+    }
+}
+
 /* Densities outside those of any soil or rock: a unit is missing. */
 static void warn_of_density(mor_context *context, const char *what, const char *name, double density, double least,
                             double largest)
@@ -254,6 +270,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     }
     if (simulation->has_soil) {
         warn_of_lateral_stress(context, simulation);
+        warn_of_gas(context, simulation);
     }
     warn_of_densities(context, c);
     warn_of_moduli(context, c);
