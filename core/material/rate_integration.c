@@ -92,7 +92,8 @@ typedef struct block {
     double strain_rate[9 * BLOCK];
     double rotation[9 * BLOCK]; /* half of that of the step */
     int is_turning[BLOCK];
-    int is_done[BLOCK]; /* a single step was enough */
+    int is_done[BLOCK];   /* a single step was enough */
+    double error2[BLOCK]; /* squared error of the single step tried last over the tolerance, 1 */
     double start[BLOCK * MOR_ODE_MAX];
     double trial[BLOCK * MOR_ODE_MAX];
     double rates[4][BLOCK * MOR_ODE_MAX];
@@ -264,9 +265,10 @@ static double measure_error(const block *b, int i, weights w)
 
 /* Whether an explicit step is accurate, and was no luck: where a stiff law is near its balance, a small error would
  * grow in each explicit step, and show only when it is as large as the tolerance. */
-static int is_accurate(const block *b, int i, weights of_error)
+static int is_accurate(block *b, int i, weights of_error)
 {
     const double error2 = measure_error(b, i, of_error);
+    b->error2[i] = error2;
     if (!b->instance->integration->is_stiff) {
         return error2 <= 1.0;
     }
@@ -323,6 +325,22 @@ static void try_single_step(block *b, mor_ode_report *sum)
     accept(b, (weights){4, {-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0}}, sum);
 }
 
+/* The first sub-step to try, s: of an explicit method, what the error of the whole step leads to. */
+static double find_first_step(const block *b, int i)
+{
+    static const double SAFETY = 0.8;
+    const double *d = b->strain_rate + 9 * i;
+    double strain2 = 0.0;
+    for (int a = 0; a < 9; ++a) {
+        strain2 += d[a] * d[a];
+    }
+    const double longest = fmin(FIRST_STRAIN / sqrt(strain2), b->time_step);
+    if (b->instance->integration->is_stiff || !(b->error2[i] > 1.0 && b->error2[i] < INFINITY)) {
+        return longest;
+    }
+    return fmin(longest, SAFETY * b->time_step / cbrt(sqrt(b->error2[i])));
+}
+
 /* What a single step has left undone. */
 static mor_status solve(block *b, mor_ode *ode, int i, mor_ode_report *sum)
 {
@@ -333,17 +351,12 @@ static mor_status solve(block *b, mor_ode *ode, int i, mor_ode_report *sum)
                          .strain_rate = d,
                          .extra = b->extra != NULL ? b->extra + 6 * i : NULL};
     double y[MOR_ODE_MAX];
-    double strain2 = 0.0;
-    for (int a = 0; a < 9; ++a) {
-        strain2 += d[a] * d[a];
-    }
     for (int k = 0; k < own->n_variables; ++k) {
         memcpy(y + own->offsets[k], b->start + BLOCK * own->offsets[k] + own->widths[k] * i,
                (size_t)own->widths[k] * sizeof *y);
     }
-    const double first_step = FIRST_STRAIN / sqrt(strain2);
     mor_ode_report report = {0};
-    mor_ode_set_first_step(ode, first_step < b->time_step ? first_step : b->time_step);
+    mor_ode_set_first_step(ode, find_first_step(b, i));
     const mor_status status =
         mor_ode_solve(ode, find_rate, (void *)(uintptr_t)&it, (const double[]){0.0, b->time_step}, y, &report);
     sum->n_steps += report.n_steps;
