@@ -356,8 +356,8 @@ const char *mor_list_name(int index);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_IO when the stream refuses; MOR_ERROR_MEMORY. */
 mor_status mor_session_print_list(mor_session *session, const char *name);
 
-/** Tries the laws of mechanics on a material and prints a table of them, and what an update costs beside one of the
- *  built-in materials.
+/** Tries the laws of mechanics on a material and prints a table of them, and, where all hold, what an update costs
+ *  beside one of the built-in materials.
  *  @param name     [in]   zero-terminated; of a material, of the file of a plug-in, or of a case, *.cfg, which is
  *                         loaded, and whose soils are tried with their own parameters
  *  @param n_failed [out]  one number; laws that do not hold

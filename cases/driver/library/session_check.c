@@ -38,7 +38,7 @@ static void run_trial(void *job)
 {
     trial *it = job;
     it->status = mor_conformance_run(it->context, it->material, it->parameters, it->density, &it->report);
-    if (it->status == MOR_OK) {
+    if (it->status == MOR_OK && it->report.n_failed == 0) {
         it->status =
             mor_conformance_cost(it->context, it->material, it->parameters, it->density, read_seconds, it->seconds);
     }
@@ -101,7 +101,7 @@ static mor_status try_material(mor_session *session, trial *it, int *n_failed)
               it->material->name, strsignal(signal),
               it->report.n_rows > 0 ? it->report.rows[it->report.n_rows - 1].law : "making an instance");
     *n_failed += it->report.n_failed;
-    return it->status == MOR_OK ? print_costs(session, it) : it->status;
+    return it->status == MOR_OK && it->report.n_failed == 0 ? print_costs(session, it) : it->status;
 }
 
 /* Tries a model on parameters drawn from its schema. */
