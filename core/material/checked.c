@@ -18,7 +18,7 @@ typedef enum operation {
     ADMISSIBLE,
     PRESSURE,
     MAX_STEP,
-    NONLOCAL,
+    DIFFUSIVITY,
     TANGENT,
     N_OPERATIONS
 } operation;
@@ -36,19 +36,14 @@ typedef enum array {
     PIOLA,
     DISSIPATION,
     RESULT,
-    FIELD,
-    CONDUCTIVITY,
-    SOURCE,
-    SOURCE_DERIVATIVE,
     STATE_IN,
     STATE_OUT = STATE_IN + MOR_MATERIAL_STATES_MAX,
     N_ARRAYS = STATE_OUT + MOR_MATERIAL_STATES_MAX
 } array;
 
 static const char *const ARRAY_NAMES[] = {
-    "density",          "velocity_gradient", "extra_stress_rate",     "deformation_gradient", "stress_in",
-    "stress_out",       "first_piola_out",   "dissipation",           "the result",           "the field",
-    "the conductivity", "the source",        "the source derivative", "a state_in",           "a state_out"};
+    "density",         "velocity_gradient", "extra_stress_rate", "deformation_gradient", "stress_in",  "stress_out",
+    "first_piola_out", "dissipation",       "the result",        "a state_in",           "a state_out"};
 
 /* Reads and writes of each operation, as core/material/kit/material.h states them. */
 enum {
@@ -79,13 +74,13 @@ static const profile PROFILES[N_OPERATIONS] = {
     [ADMISSIBLE] = {"admissible", USES_STRESS | USES_STATE, 1},
     [PRESSURE] = {"pressure", USES_DENSITY | USES_STRESS, 1},
     [MAX_STEP] = {"max_step", USES_DENSITY | USES_STRESS | USES_STATE | MAY_BE_INFINITE, 1},
-    [NONLOCAL] = {"nonlocal", USES_STRESS | USES_STATE, 1},
+    [DIFFUSIVITY] = {"diffusivity", USES_STRESS | USES_STATE, 1},
     [TANGENT] = {"tangent", USES_DENSITY | USES_STRESS | USES_STATE | USES_MOTION, 36},
 };
 
 enum {
     MARKS = 4,                                                   /* guard numbers on each side of an array */
-    NUMBERS = 93 + 2 * 9 * MOR_MATERIAL_STATES_MAX,              /* most numbers of one particle in all arrays */
+    NUMBERS = 89 + 2 * 9 * MOR_MATERIAL_STATES_MAX,              /* most numbers of one particle in all arrays */
     ARENA = NUMBERS * MOR_CHECKED_CHUNK + (2 * MARKS) * N_ARRAYS /* in doubles */
 };
 
@@ -101,8 +96,7 @@ typedef struct checked {
 typedef struct call {
     operation operation;
     const mor_batch *batch;
-    double *result;                  /* NULL: none */
-    const mor_nonlocal_terms *terms; /* NULL: none */
+    double *result; /* NULL: none */
 } call;
 
 /* A guarded copy of a part of a call. About 70 KiB; lives on the stack, because an operation may not allocate. */
@@ -202,12 +196,6 @@ static void add_batch_arrays(guard *g, const call *c, int64_t first)
 static void add_results(guard *g, const call *c, int64_t first)
 {
     add_output(g, RESULT, c->result, first, PROFILES[c->operation].n_result);
-    if (c->terms != NULL) {
-        add_input(g, FIELD, c->terms->field, first, 1);
-        add_output(g, CONDUCTIVITY, c->terms->conductivity, first, 1);
-        add_output(g, SOURCE, c->terms->source, first, 1);
-        add_output(g, SOURCE_DERIVATIVE, c->terms->source_derivative, first, 1);
-    }
 }
 
 static void fill_guard(guard *g, const mor_material_instance *inner, const call *c, int64_t first, int64_t n)
@@ -235,11 +223,6 @@ static mor_status run_inner(const mor_material_instance *inner, guard *g, operat
 {
     const mor_material_operations *o = &inner->operations;
     double *result = g->copy[RESULT];
-    const mor_nonlocal_terms terms = {.field = g->copy[FIELD],
-                                      .capacity = result,
-                                      .conductivity = g->copy[CONDUCTIVITY],
-                                      .source = g->copy[SOURCE],
-                                      .source_derivative = g->copy[SOURCE_DERIVATIVE]};
     switch (which) {
     case INIT_STATE:
         return o->init_state(inner, &g->batch);
@@ -257,8 +240,8 @@ static mor_status run_inner(const mor_material_instance *inner, guard *g, operat
         return o->pressure(inner, &g->batch, result);
     case MAX_STEP:
         return o->max_step(inner, &g->batch, result);
-    case NONLOCAL:
-        return o->nonlocal(inner, &g->batch, &terms);
+    case DIFFUSIVITY:
+        return o->diffusivity(inner, &g->batch, result);
     case TANGENT:
         return o->tangent(inner, &g->batch, result);
     case N_OPERATIONS:
@@ -422,11 +405,10 @@ static mor_status checked_max_step(const mor_material_instance *instance, const 
     return run_checked(instance, &(call){.operation = MAX_STEP, .batch = batch, .result = step});
 }
 
-static mor_status checked_nonlocal(const mor_material_instance *instance, const mor_batch *batch,
-                                   const mor_nonlocal_terms *terms)
+static mor_status checked_diffusivity(const mor_material_instance *instance, const mor_batch *batch,
+                                      double *diffusivity)
 {
-    return run_checked(instance,
-                       &(call){.operation = NONLOCAL, .batch = batch, .result = terms->capacity, .terms = terms});
+    return run_checked(instance, &(call){.operation = DIFFUSIVITY, .batch = batch, .result = diffusivity});
 }
 
 static mor_status checked_tangent(const mor_material_instance *instance, const mor_batch *batch, double *tangent)
@@ -464,7 +446,7 @@ static void set_operations(mor_material_operations *mine, const mor_material_ope
         .admissible = checked_admissible,
         .pressure = checked_pressure,
         .max_step = checked_max_step,
-        .nonlocal = inner->nonlocal != NULL ? checked_nonlocal : NULL,
+        .diffusivity = inner->diffusivity != NULL ? checked_diffusivity : NULL,
         .tangent = inner->tangent != NULL ? checked_tangent : NULL,
         .describe = checked_describe,
     };

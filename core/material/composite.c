@@ -257,6 +257,21 @@ MOR_COMPOSITE_NUMBERS(find_distance, admissible)
 MOR_COMPOSITE_NUMBERS(find_pressure, pressure)
 MOR_COMPOSITE_NUMBERS(find_max_step, max_step)
 
+/* A part without a field lets nothing flow. */
+static mor_status find_diffusivity_one(const mor_material_instance *part, const mor_batch *batch, double *numbers)
+{
+    if (part->operations.diffusivity != NULL) {
+        return part->operations.diffusivity(part, batch, numbers);
+    }
+    memset(numbers, 0, (size_t)batch->n * sizeof *numbers);
+    return MOR_OK;
+}
+
+static mor_status find_diffusivity(const mor_material_instance *instance, const mor_batch *batch, double *diffusivity)
+{
+    return run_parts(instance, batch, find_diffusivity_one, diffusivity);
+}
+
 static mor_status init_state(const mor_material_instance *instance, const mor_batch *batch)
 {
     return run_parts(instance, batch, init_one, NULL);
@@ -340,9 +355,11 @@ static void set_operations(const composite *it, mor_material_operations *operati
 {
     bool has_pressure = false;
     bool has_max_step = false;
+    bool has_field = false;
     for (int k = 0; k < it->n_parts; ++k) {
         has_pressure = has_pressure || it->parts[k]->material->operations.pressure != NULL;
         has_max_step = has_max_step || it->parts[k]->material->operations.max_step != NULL;
+        has_field = has_field || it->parts[k]->material->operations.diffusivity != NULL;
     }
     *operations = (mor_material_operations){.create = create,
                                             .destroy = destroy,
@@ -353,6 +370,7 @@ static void set_operations(const composite *it, mor_material_operations *operati
                                             .admissible = find_distance,
                                             .pressure = has_pressure ? find_pressure : NULL,
                                             .max_step = has_max_step ? find_max_step : NULL,
+                                            .diffusivity = has_field ? find_diffusivity : NULL,
                                             .describe = describe};
 }
 
@@ -382,7 +400,7 @@ static mor_status fill_composite(mor_context *context, composite *it, const mor_
                                     .literature = "none",
                                     .form = MOR_MATERIAL_RATE,
                                     .capabilities = (all & (MOR_MATERIAL_DISSIPATION | MOR_MATERIAL_EXACT_SCALING)) |
-                                                    (any & MOR_MATERIAL_PATH_DEPENDENT),
+                                                    (any & (MOR_MATERIAL_PATH_DEPENDENT | MOR_MATERIAL_NONLOCAL)),
                                     .parameters = no_parameters,
                                     .state = it->state};
     set_operations(it, &it->descriptor.operations);
@@ -412,6 +430,15 @@ mor_status mor_composite_create(mor_context *context, const mor_material_instanc
 int mor_composite_is(const mor_material_instance *instance)
 {
     return instance->material->operations.advance_rate == advance_rate;
+}
+
+int mor_composite_field(const mor_material_instance *instance, int part)
+{
+    if (!mor_composite_is(instance)) {
+        return instance->operations.diffusivity != NULL ? 0 : -1;
+    }
+    const composite *it = (const composite *)instance->material;
+    return it->parts[part]->operations.diffusivity != NULL ? it->variables[part][0] : -1;
 }
 
 const mor_material_instance *mor_composite_find_part(const mor_material_instance *instance, const double *state,

@@ -35,6 +35,12 @@ mor_status mor_composite_create(mor_context *context, const mor_material_instanc
 const mor_material_instance *mor_composite_find_part(const mor_material_instance *instance, const double *state,
                                                      double *part_state);
 
+/** Returns which state variable is the field of a nonlocal part, see mor_material_operations.diffusivity; parts that
+ *  share the variable share the field.
+ *  @param part [in]  of a composite; any other instance is its own part 0
+ *  Returns: its index among the state variables of the instance; -1 for a part without a field. */
+int mor_composite_field(const mor_material_instance *instance, int part);
+
 /** Returns whether an instance was made by mor_composite_create. */
 int mor_composite_is(const mor_material_instance *instance);
 

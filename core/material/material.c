@@ -131,8 +131,12 @@ static const char *find_operation_fault(const mor_material *material)
     if (material->form == MOR_MATERIAL_TOTAL && operations->stress_total == NULL) {
         return "the total form requires stress_total";
     }
-    if (((material->capabilities & MOR_MATERIAL_NONLOCAL) != 0) != (operations->nonlocal != NULL)) {
-        return "capability MOR_MATERIAL_NONLOCAL and operation nonlocal go together";
+    if (((material->capabilities & MOR_MATERIAL_NONLOCAL) != 0) != (operations->diffusivity != NULL)) {
+        return "capability MOR_MATERIAL_NONLOCAL and operation diffusivity go together";
+    }
+    if (operations->diffusivity != NULL && (material->form != MOR_MATERIAL_RATE || material->state[0].key == NULL ||
+                                            material->state[0].n_components != 1)) {
+        return "MOR_MATERIAL_NONLOCAL requires the rate form, and a field of one number as first state variable";
     }
     if (((material->capabilities & MOR_MATERIAL_TANGENT) != 0) != (operations->tangent != NULL)) {
         return "capability MOR_MATERIAL_TANGENT and operation tangent go together";

@@ -97,6 +97,8 @@ static const mor_stage soil_stages[] = {
      has_regularization},
     {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
      BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDS), "positions and densities to the end of the step", NULL},
+    {"nonlocal field", mor_soil_diffuse_fields, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS), 0, SHARED(STATE),
+     "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
      BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
     {"energy of stress", mor_soil_audit_stress,
@@ -252,6 +254,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (mor_soil_has_density_sums(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
     }
+    MOR_TRY(context, mor_soil_allocate_fields(context, soil, padded));
     return mor_reduce_room_init(context, &soil->room, n_particles / MOR_SOIL_BATCH + 1, MOR_SOIL_BLOCK_VALUES);
 }
 
@@ -319,6 +322,8 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     mor_tree_clear(context, &soil->tree);
     mor_reduce_room_clear(context, &soil->room);
     MOR_FREE(context, &soil->density_sums);
+    MOR_FREE(context, &soil->diffusion);
+    MOR_FREE(context, &soil->field_records);
     MOR_FREE(context, &soil->moments);
     MOR_FREE(context, &soil->spin_stress);
     MOR_FREE(context, &soil->regularization);
@@ -472,6 +477,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;
+    bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
     bytes += soil->spin_stress != NULL ? padded * 3.0 * sizeof(double) : 0.0;
     bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);
     bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 3 * sizeof(int32_t));

@@ -82,6 +82,9 @@ typedef struct mor_soil {
     mor_soil_kind kinds[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds]; in the order of the composite's parts */
     int n_kinds;
     mor_pair_soil pair_soils[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds] */
+    int kind_fields[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds]; state variable that is the field of a soil, or -1 */
+    int diffusing[MOR_COMPOSITE_PARTS_MAX];   /* shape [n_diffusing]; state variables that are fields */
+    int n_diffusing;
     const mor_pair_table *table;
     mor_pair_constants constants;
     double *records;         /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
@@ -89,6 +92,8 @@ typedef struct mor_soil {
     double *regularization;  /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;         /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
     double *spin_stress;     /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
+    double *field_records;   /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
+    double *diffusion;       /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
     double *density_sums;    /* shape [n_particles]; densities by summation, kg/m3; or NULL */
     mor_reduce_room room;    /* of reductions over particles */
     int32_t *order;          /* shape [n_particles]; scratch of the sort */

@@ -25,6 +25,7 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
 mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_diffuse_fields(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
@@ -43,6 +44,14 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
 
 /** Whether the density is reinitialized by summation at an interval. */
 bool mor_soil_has_density_sums(const void *owner);
+
+/** Whether the soil has a law with a field. */
+bool mor_soil_has_field(const void *owner);
+
+/** Finds which state variables are fields of nonlocal laws, and allocates what their diffusion needs.
+ *  @param padded [in]  particles, padded to whole clusters
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_soil_allocate_fields(mor_context *context, mor_soil *soil, int64_t padded);
 
 /** Looks for particles outside the domain, with a position that is not a number, or without density.
  *  @param soil    [in,out]  has_outflow is set when particles are to be removed

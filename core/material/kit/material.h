@@ -31,7 +31,7 @@ typedef enum mor_material_form {
 /** What a model can do beyond the required operations. */
 enum {
     MOR_MATERIAL_PATH_DEPENDENT = 1, /* the stress depends on the path; energy is not a potential */
-    MOR_MATERIAL_NONLOCAL = 2,       /* declares a scalar field; operation nonlocal is present */
+    MOR_MATERIAL_NONLOCAL = 2,       /* its first state variable is a field; operation diffusivity is present */
     MOR_MATERIAL_TANGENT = 4,        /* operation tangent is present */
     MOR_MATERIAL_DISSIPATION = 8,    /* advance_rate fills batch->dissipation when it is asked for */
     MOR_MATERIAL_EXACT_SCALING = 16, /* results are bit-identical under units changed by powers of two */
@@ -56,15 +56,6 @@ typedef struct mor_services {
 
 /** Records an error through the services record: MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT, "format", ...). */
 #define MOR_SERVICES_FAIL(services, code, ...) (services)->fail((services)->context, (code), MOR_HERE, __VA_ARGS__)
-
-/** The terms of the scalar field of a nonlocal model: capacity * dg/dt = div(conductivity * grad g) + source(g). */
-typedef struct mor_nonlocal_terms {
-    const double *field;       /* [in]  shape [n], g; unit: of the field */
-    double *capacity;          /* [out] shape [n], > 0; unit: conductivity * s / m2 */
-    double *conductivity;      /* [out] shape [n], >= 0; unit: chosen by the model */
-    double *source;            /* [out] shape [n]; unit: capacity * field / s */
-    double *source_derivative; /* [out] shape [n], d source / d g; unit: capacity / s */
-} mor_nonlocal_terms;
 
 /** The operations on an instance. One constant table per model.
  *
@@ -136,10 +127,12 @@ typedef struct mor_material_operations {
     /** Default: INFINITY. Reads density, stress_in, state_in; writes step, shape [n], unit s: the law's own limit. */
     mor_status (*max_step)(const mor_material_instance *instance, const mor_batch *batch, double *step);
 
-    /** Only with MOR_MATERIAL_NONLOCAL. Reads stress_in, state_in and terms->field; writes the other terms (one
-     *  object). */
-    mor_status (*nonlocal)(const mor_material_instance *instance, const mor_batch *batch,
-                           const mor_nonlocal_terms *terms);
+    /** Only with MOR_MATERIAL_NONLOCAL. The first state variable, one number, is then a field g with dg/dt =
+     *  div(D grad g) + r: the host lets it diffuse over the step and hands the result to advance_rate as the start
+     *  value of that variable; the law adds its reaction r, together with the stress. Without a host that knows
+     *  neighbors the field is homogeneous. Reads stress_in, state_in; writes diffusivity D, shape [n], unit m2/s: >= 0
+     *  and finite; where it is zero nothing flows in or out. Between two particles the host takes the harmonic mean. */
+    mor_status (*diffusivity)(const mor_material_instance *instance, const mor_batch *batch, double *diffusivity);
 
     /** Only with MOR_MATERIAL_TANGENT. Reads as advance_rate; writes tangent, shape [n,6,6], unit Pa: derivative of the
      *  stress at the end by the tensor components of the strain increment, an off-diagonal component standing for both

@@ -47,6 +47,20 @@ enum {
     MOR_PAIR_OF_SOIL_SIZE = 2
 };
 
+/** What is read of a particle to diffuse a field. */
+enum {
+    MOR_PAIR_FIELD_VALUE = 0,       /* g, unit: of the field */
+    MOR_PAIR_FIELD_DIFFUSIVITY = 1, /* D, m2/s */
+    MOR_PAIR_FIELD_SIZE = 2
+};
+
+/** What is found of it. */
+enum {
+    MOR_PAIR_DIFFUSION_RATE = 0,     /* sum over j of w_ij (g_j - g_i), unit: of the field / s */
+    MOR_PAIR_DIFFUSION_DIAGONAL = 1, /* sum over j of w_ij, 1/s */
+    MOR_PAIR_DIFFUSION_SIZE = 2
+};
+
 /** Numbers the pair loops share. Plain data; owner: the soil solver. */
 typedef struct mor_pair_constants {
     int dimension;               /* 2 or 3 */
@@ -81,6 +95,8 @@ typedef struct mor_pair_arrays {
     const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
     const double *of_soil;     /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
     const double *strain_rate; /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
+    const double *field;       /* shape [n padded to 8, MOR_PAIR_FIELD_SIZE], units of the enum; of a nonlocal law */
+    double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
 } mor_pair_arrays;
 
 /** A sum over the clusters [first, last); writes its own particles only, and momentum the short lists of its clusters,
@@ -173,6 +189,7 @@ typedef struct mor_pair_table {
     mor_pair_mean_loop mean;       /* velocity of a boundary as particles see it */
     mor_pair_share_loop share;     /* forces on the points of a boundary */
     mor_pair_loop spin;            /* adds the acceleration by spin_stress */
+    mor_pair_loop diffuse;         /* rate of a field by diffusion, docs/theory/nonlocal.md */
 } mor_pair_table;
 
 /** Returns the routines for the best instruction set this processor has, or those asked for.

@@ -192,6 +192,46 @@ static void spin_range(const mor_pair_constants *c, const mor_pair_arrays *array
     }
 }
 
+/* Diffusion of a field: w = 2 D_ij V_j |W'|/r with the harmonic mean of both diffusivities, so that V_i w_ij is the same
+ * seen from both particles, and nothing passes a particle that conducts nothing. */
+INLINE void diffuse_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
+{
+    const double *own = arrays->field + first * MOR_PAIR_FIELD_SIZE;
+    const frame f = frame_of(c, arrays->records + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    const vec value = load(own, MOR_PAIR_FIELD_SIZE, MOR_PAIR_FIELD_VALUE);
+    const vec diffusivity = load(own, MOR_PAIR_FIELD_SIZE, MOR_PAIR_FIELD_DIFFUSIVITY);
+    vec rate = broadcast(0.0);
+    vec diagonal = broadcast(0.0);
+    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
+    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
+    for (int32_t entry = 0; entry < count; ++entry) {
+        const double *target = target_of(arrays, near[entry]);
+        const double *other = arrays->field + (int64_t)near[entry] * MOR_PAIR_FIELD_SIZE;
+        const pair p = pair_of(&f, target, 3);
+        const double there = other[MOR_PAIR_FIELD_DIFFUSIVITY];
+        const vec sum = diffusivity + there;
+        const vec mean = select_lanes(sum > 0.0, diffusivity * there / sum, broadcast(0.0));
+        const vec w = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME] * mean;
+        rate += w * (other[MOR_PAIR_FIELD_VALUE] - value);
+        diagonal += w;
+    }
+    /* The own particle is in its list; where it is the only one with weight, nothing diffuses. */
+    const vec factor = broadcast(4.0 * c->gradient_factor);
+    const vec itself =
+        load(arrays->records + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE, MOR_RECORD_VOLUME) * diffusivity;
+    double *out = arrays->diffusion + first * MOR_PAIR_DIFFUSION_SIZE;
+    const int n_lanes = lanes_of(first, arrays->n_particles);
+    store(out, MOR_PAIR_DIFFUSION_SIZE, MOR_PAIR_DIFFUSION_RATE, n_lanes, factor * rate);
+    store(out, MOR_PAIR_DIFFUSION_SIZE, MOR_PAIR_DIFFUSION_DIAGONAL, n_lanes, factor * (diagonal - 0.5 * itself));
+}
+
+static void diffuse_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
+        diffuse_part(c, arrays, part * LANES);
+    }
+}
+
 /* XSPH velocity, Hu et al. (2021) eq. 13, and the sum of the penetration-based shift, eq. 16. */
 INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
 {
@@ -241,6 +281,7 @@ const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
                                          MOR_ISA_NAME(mor_pair_tangent),
                                          MOR_ISA_NAME(mor_pair_mean),
                                          MOR_ISA_NAME(mor_pair_share),
-                                         spin_range};
+                                         spin_range,
+                                         diffuse_range};
     return &table;
 }

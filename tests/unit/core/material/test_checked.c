@@ -33,7 +33,7 @@ typedef enum misdeed {
     ASKS_FOR_N,
     INFINITE_SPEED,
     NAN_PRESSURE,
-    SKIPS_SOURCE,
+    SKIPS_DIFFUSIVITY,
     SKIPS_TANGENT,
     N_MISDEEDS
 } misdeed;
@@ -104,13 +104,9 @@ static mor_status rogue_tangent(const mor_material_instance *instance, const mor
     return fill_result(batch, does(instance, SKIPS_TANGENT) ? 35 : 36, 4.0, tangent);
 }
 
-static mor_status rogue_nonlocal(const mor_material_instance *instance, const mor_batch *batch,
-                                 const mor_nonlocal_terms *terms)
+static mor_status rogue_diffusivity(const mor_material_instance *instance, const mor_batch *batch, double *diffusivity)
 {
-    fill_result(batch, 1, 1.0, terms->capacity);
-    fill_result(batch, 1, 2.0, terms->conductivity);
-    fill_result(batch, 1, 3.0, terms->source_derivative);
-    return does(instance, SKIPS_SOURCE) ? MOR_OK : fill_result(batch, 1, 5.0, terms->source);
+    return does(instance, SKIPS_DIFFUSIVITY) ? MOR_OK : fill_result(batch, 1, 5.0, diffusivity);
 }
 
 static mor_status rogue_advance(const mor_material_instance *instance, const mor_batch *batch)
@@ -162,7 +158,7 @@ static const mor_material ROGUE = {
                    .wave_speed = rogue_wave_speed,
                    .advance_rate = rogue_advance,
                    .pressure = rogue_pressure,
-                   .nonlocal = rogue_nonlocal,
+                   .diffusivity = rogue_diffusivity,
                    .tangent = rogue_tangent},
 };
 
@@ -208,12 +204,7 @@ static mor_material_instance *wrap(mor_context *context, const mor_material *mat
 
 static mor_status run_all(const mor_material_instance *m, const mor_batch *batch)
 {
-    static double result[36 * N], more[3][N];
-    const mor_nonlocal_terms terms = {.field = batch->density,
-                                      .capacity = result,
-                                      .conductivity = more[0],
-                                      .source = more[1],
-                                      .source_derivative = more[2]};
+    static double result[36 * N];
     const mor_material_operations *o = &m->operations;
     mor_status status = o->init_state(m, batch);
     status = status == MOR_OK ? o->wave_speed(m, batch, result) : status;
@@ -221,8 +212,8 @@ static mor_status run_all(const mor_material_instance *m, const mor_batch *batch
     status = status == MOR_OK ? o->admissible(m, batch, result) : status;
     status = status == MOR_OK ? o->pressure(m, batch, result) : status;
     status = status == MOR_OK ? o->max_step(m, batch, result) : status;
-    if (status == MOR_OK && o->nonlocal != NULL) {
-        status = o->nonlocal(m, batch, &terms);
+    if (status == MOR_OK && o->diffusivity != NULL) {
+        status = o->diffusivity(m, batch, result);
     }
     if (status == MOR_OK && o->tangent != NULL) {
         status = o->tangent(m, batch, result);
@@ -281,7 +272,7 @@ static void every_breach_is_found_and_named(void **state)
         [ASKS_FOR_N] = {"when the range is split", "stress_out"},
         [INFINITE_SPEED] = {"wave_speed", "the result"},
         [NAN_PRESSURE] = {"pressure", "the result"},
-        [SKIPS_SOURCE] = {"nonlocal", "the source"},
+        [SKIPS_DIFFUSIVITY] = {"diffusivity", "the result"},
         [SKIPS_TANGENT] = {"tangent", "the result"},
     };
     for (int what = 0; what < N_MISDEEDS; ++what) {
