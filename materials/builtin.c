@@ -18,7 +18,8 @@
     LAW(mohr_coulomb, isa)                                                                                             \
     LAW(matsuoka_nakai, isa)                                                                                           \
     LAW(tresca, isa)                                                                                                   \
-    LAW(hypoplastic_sand, isa)
+    LAW(hypoplastic_sand, isa)                                                                                         \
+    LAW(nonlocal_fluidity, isa)
 
 #define DECLARE(law, isa) extern const mor_material mor_##law##_##isa;
 #define ADDRESS(law, isa) &mor_##law##_##isa,

@@ -23,6 +23,7 @@ typedef struct mor_rate_point {
     mor_symmetric extra;             /* extra stress rate times the step, Pa */
     mor_gradient gradient;           /* velocity gradient times the step, 1 */
     double density;                  /* kg/m3 */
+    double time_step;                /* s */
     double state[MOR_POINT_NUMBERS]; /* numbers of all state variables in schema order, start, then end; their units */
     double dissipation;              /* J/m3 */
 } mor_rate_point;
@@ -70,6 +71,7 @@ static inline mor_rate_point mor_point_read(const mor_material_instance *instanc
         .stress = mor_symmetric_read(batch->stress_in + 6 * i),
         .gradient = {l[0] * dt, l[1] * dt, l[2] * dt, l[3] * dt, l[4] * dt, l[5] * dt, l[6] * dt, l[7] * dt, l[8] * dt},
         .density = batch->density[i],
+        .time_step = dt,
     };
     if (batch->extra_stress_rate != NULL) {
         p.extra = mor_symmetric_add(p.extra, dt, mor_symmetric_read(batch->extra_stress_rate + 6 * i));
