@@ -136,7 +136,12 @@ typedef struct mor_case_external {
     mor_external_law *made; /* owned */
 } mor_case_external;
 
-typedef enum mor_case_stress { MOR_CASE_STRESS_NONE, MOR_CASE_STRESS_K0, MOR_CASE_STRESS_SETTLED } mor_case_stress;
+typedef enum mor_case_stress {
+    MOR_CASE_STRESS_NONE,
+    MOR_CASE_STRESS_K0,
+    MOR_CASE_STRESS_SETTLED,
+    MOR_CASE_STRESS_UNIFORM
+} mor_case_stress;
 
 /** One soil region. */
 typedef struct mor_case_soil {
@@ -151,6 +156,7 @@ typedef struct mor_case_soil {
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
     double velocity[3];                         /* initial velocity, m/s */
     mor_case_stress initial_stress;
+    double pressure;           /* of a uniform initial stress, Pa */
     double lateral_ratio;      /* K0 of the initial stress; < 0: 1 - sin(friction angle) */
     double surface_level;      /* height against gravity of the free surface, m; NaN: top of the region's particles */
     double settle_time;        /* longest settling, s */

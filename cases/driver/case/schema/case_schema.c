@@ -218,11 +218,14 @@ static const mor_case_part external_parts[] = {
     {NULL, false, NULL, NULL}};
 
 static const mor_case_key stress_keys[] = {
-    {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled",
+    {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled|uniform",
       "none: zero; k0: vertical stress by the weight above, lateral stress by lateral_ratio; settled: as k0, then "
-      "brought to rest under damping before the start"},
+      "brought to rest under damping before the start; uniform: the same pressure everywhere, as in a closed vessel"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_soil, initial_stress)},
+    {{"pressure", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL, "pressure of a uniform initial stress"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_soil, pressure)},
     {{"lateral_ratio", SCALAR, "1", DEFAULT(-1.0), NOT_NEGATIVE, NULL, "lateral stress / vertical stress"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, lateral_ratio),

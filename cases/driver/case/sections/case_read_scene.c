@@ -31,19 +31,20 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
 {
     static const struct {
         const char *key;
-        bool is_used[3]; /* by none, k0, settled */
-    } uses[] = {{"lateral_ratio", {false, true, true}},
-                {"surface_level", {false, true, true}},
-                {"settle_time", {false, false, true}},
-                {"settle_speed_ratio", {false, false, true}}};
+        const char *types;
+        bool is_used[4]; /* by none, k0, settled, uniform */
+    } uses[] = {{"lateral_ratio", "\"k0\" or \"settled\"", {false, true, true, false}},
+                {"surface_level", "\"k0\" or \"settled\"", {false, true, true, false}},
+                {"settle_time", "\"settled\"", {false, false, true, false}},
+                {"settle_speed_ratio", "\"settled\"", {false, false, true, false}},
+                {"pressure", "\"uniform\"", {false, false, false, true}}};
     for (size_t k = 0; k < sizeof uses / sizeof uses[0]; ++k) {
         const mor_case_node *child = mor_case_node_find(node, uses[k].key);
         if (child != NULL && !uses[k].is_used[type]) {
             return MOR_CASE_NODE_FAIL(reader->context, child,
                                       "found '%s', which has no effect with this type of initial "
                                       "stress; allowed: with type = %s; remove it or change the type",
-                                      uses[k].key,
-                                      uses[k].is_used[MOR_CASE_STRESS_K0] ? "\"k0\" or \"settled\"" : "\"settled\"");
+                                      uses[k].key, uses[k].types);
         }
     }
     return MOR_OK;
@@ -53,7 +54,8 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
 static mor_status check_stress_weight(const mor_case_reader *reader, const mor_case_node *node,
                                       const mor_case *the_case, const mor_case_soil *soil)
 {
-    if (soil->initial_stress == MOR_CASE_STRESS_NONE || mor_vector_length(the_case->gravity) > 0.0) {
+    if (soil->initial_stress == MOR_CASE_STRESS_NONE || soil->initial_stress == MOR_CASE_STRESS_UNIFORM ||
+        mor_vector_length(the_case->gravity) > 0.0) {
         return MOR_OK;
     }
     const mor_case_node *type = mor_case_node_find(node, "type");

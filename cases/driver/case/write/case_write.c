@@ -131,6 +131,9 @@ static mor_case_presence presence_of_stress_key(const mor_case_key *key, const v
     if (strcmp(name, "type") == 0) {
         return MOR_CASE_WRITE;
     }
+    if ((strcmp(name, "pressure") == 0) != (soil->initial_stress == MOR_CASE_STRESS_UNIFORM)) {
+        return MOR_CASE_OMIT;
+    }
     const bool is_settling = strncmp(name, "settle", strlen("settle")) == 0;
     if (soil->initial_stress == MOR_CASE_STRESS_NONE || (is_settling && soil->initial_stress == MOR_CASE_STRESS_K0)) {
         return MOR_CASE_OMIT;

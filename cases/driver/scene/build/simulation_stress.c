@@ -244,6 +244,12 @@ static void set_region(mor_simulation *simulation, const surface *s, int region,
         if (it->initial_stress == MOR_CASE_STRESS_NONE) {
             continue;
         }
+        if (it->initial_stress == MOR_CASE_STRESS_UNIFORM) {
+            for (int a = 0; a < 3; ++a) {
+                soil->set.data[MOR_FIELD_STRESS][6 * i + a] = -it->pressure;
+            }
+            continue;
+        }
         const double vertical = -weight * fmax(top - mor_vector_dot(x, up), 0.0) - (isnan(level) ? excess[i] : 0.0);
         double *stress = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
         for (int a = 0; a < 3; ++a) {

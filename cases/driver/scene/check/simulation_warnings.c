@@ -56,7 +56,8 @@ static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s
         const double angle = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_FRICTION_ANGLE, NAN);
         const double cohesion = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_COHESION, 0.0);
         const double vertical = it->density * mor_vector_length(c->gravity) * s->soil_depth;
-        if (it->initial_stress == MOR_CASE_STRESS_NONE || isnan(angle) || !(vertical > 0.0)) {
+        if (it->initial_stress == MOR_CASE_STRESS_NONE || it->initial_stress == MOR_CASE_STRESS_UNIFORM ||
+            isnan(angle) || !(vertical > 0.0)) {
             continue;
         }
         const double passive = (1.0 + sin(angle)) / (1.0 - sin(angle));
