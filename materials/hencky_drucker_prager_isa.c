@@ -29,8 +29,6 @@ typedef struct hencky {
 /* A yield function this far above zero, relative to the stress, is rounding. */
 static const double YIELD_ROUNDING = 16.0 * DBL_EPSILON;
 
-static const double INVERSE_SQRT3 = 0.57735026918962576451;
-
 /* The update of one particle. The stress diffusion, a Cauchy stress, is added to the trial as the elastic strain that
  * makes it. On the cone the flow keeps the volume, so that the pressure is the trial's and the deviator is scaled. */
 static mor_status advance_point(const void *constants, mor_rate_point *p)

@@ -45,8 +45,6 @@ typedef struct fluidity {
     double gas_ratio;         /* of the density below which there is no stress to that without stress at the start, 1 */
 } fluidity;
 
-static const double INVERSE_SQRT3 = 0.57735026918962576451;
-
 /* Fluidity at the end of the step from that at its start (which includes what diffused in), with the friction mu' of
  * the elastic trial, at the pressure p. With s = G dt/p the friction at the end is mu = mu'/(1 + s g), eq. 26, and the
  * implicit step of eq. 24, t0 (g - g0)/dt = (mu - mu_s) g - b sqrt(rho_s d^2/p) mu g^2, becomes
@@ -132,7 +130,7 @@ static mor_status advance_point(const void *constants, mor_rate_point *p)
     const mor_symmetric strain = mor_symmetric_rescale(trial, end / (root > 0.0 ? root : 1.0), opening / 3.0);
     const double slip = (root - end) / m->elastic.shear;
     p->state[STATE_FLUIDITY] = g;
-    p->state[STATE_PLASTIC_STRAIN] += slip * INVERSE_SQRT3;
+    p->state[STATE_PLASTIC_STRAIN] += slip * MOR_INVERSE_SQRT3;
     p->dissipation = fmax(0.5 * (find_start_shear(m, start, trial, root) + end) * slip / volume, 0.0);
     mor_symmetric_write(strain, p->state + STATE_ELASTIC_STRAIN);
     p->stress = mor_symmetric_add((mor_symmetric){0}, 1.0 / volume, mor_log_strain_stress(&m->elastic, strain));

@@ -167,6 +167,7 @@ static void set_constants(mor_soil *soil)
         .smoothing_length = h,
         .gradient_factor =
             mor_kernel_gradient_factor(h, s->dimension) / (s->scheme.lattice_normalization ? moment : 1.0),
+        .laplacian_factor = mor_kernel_gradient_factor(h, s->dimension) / moment,
         .limiter_rate = s->scheme.dissipation_factor / soil->sound_speed,
         .diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->sound_speed,
         .has_limited_diffusion = s->scheme.stress_diffusion_limiter == 1,

@@ -13,6 +13,8 @@
 /* Local indices are 32-bit; 64 stay free for padding. */
 static const int64_t points_limit = INT64_C(2147483648) - 64;
 
+#define PI 3.14159265358979323846
+
 enum { JITTER_PURPOSE = 0x4A495454 }; /* keeps these numbers apart from other uses of the seed */
 
 static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
@@ -120,18 +122,54 @@ static mor_status find_index_box(mor_context *context, const mor_lattice_request
     return MOR_OK;
 }
 
+/* Nodes on a ring of a polar lattice, next to its length over the spacing. */
+static int64_t count_ring(int64_t ring)
+{
+    return (int64_t)floor(2.0 * PI * ((double)ring + 0.5) + 0.5);
+}
+
+/* Rings up to the farthest corner of the box of a cubic lattice, each as wide as the outermost. */
+static void take_rings(const mor_lattice_request *request, mor_lattice_box *box)
+{
+    double reach2 = 0.0;
+    for (int a = 0; a < 2; ++a) {
+        const double low = fabs((double)box->first[a]);
+        const double high = fabs((double)(box->first[a] + box->count[a]));
+        const double reach = fmax(low, high) + 1.0;
+        reach2 += reach * reach;
+    }
+    if (request->is_polar && box->count[0] > 0 && box->count[1] > 0) {
+        box->first[0] = 0;
+        box->first[1] = 0;
+        box->count[1] = (int64_t)sqrt(reach2) + 1;
+        box->count[0] = count_ring(box->count[1]);
+    }
+}
+
 mor_status mor_lattice_find_box(mor_context *context, const mor_lattice_request *request, int margin,
                                 mor_lattice_box *box)
 {
     MOR_TRY(context, check_request(context, request));
     MOR_TRY(context, find_index_box(context, request, margin, box));
+    take_rings(request, box);
     return MOR_OK;
+}
+
+static void place_on_ring(const mor_lattice_request *request, const int64_t *index, double *node)
+{
+    const double radius = ((double)index[1] + 0.5) * request->spacing;
+    const double angle = 2.0 * PI * ((double)index[0] + 0.5) / (double)count_ring(index[1]);
+    node[0] = request->origin[0] + radius * cos(angle);
+    node[1] = request->origin[1] + radius * sin(angle);
 }
 
 void mor_lattice_place_node(const mor_lattice_request *request, const int64_t *index, double *node)
 {
     for (int a = 0; a < 3; ++a) {
         node[a] = request->origin[a] + ((double)index[a] + 0.5) * request->spacing;
+    }
+    if (request->is_polar) {
+        place_on_ring(request, index, node);
     }
     if (request->dimension == 2) {
         node[2] = 0.0;
@@ -187,7 +225,9 @@ static void map_node(const mor_lattice_request *request, const int64_t *index, d
 static int64_t walk_row(const mor_lattice_request *request, const mor_lattice_box *box, int64_t j, int64_t k,
                         double *positions)
 {
-    const int64_t end = box->first[0] + box->count[0];
+    const int64_t end = request->is_polar ? count_ring(j) : box->first[0] + box->count[0];
+    /* Nodes of a ring are at most 1.05 spacings apart: of three where there is room for 3.14. */
+    const double apart = request->is_polar ? 1.05 * request->spacing : request->spacing;
     int64_t n_kept = 0;
     int64_t index[3] = {box->first[0], j, k};
     while (index[0] < end) {
@@ -195,8 +235,7 @@ static int64_t walk_row(const mor_lattice_request *request, const mor_lattice_bo
         double reach = 0.0;
         mor_lattice_place_node(request, index, node);
         const bool is_kept = is_node_kept(request, node, &reach);
-        const double stride =
-            fmin(floor(reach / (MOR_SHAPE_SLOPE_MOST * request->spacing)), (double)(end - index[0] - 1));
+        const double stride = fmin(floor(reach / (MOR_SHAPE_SLOPE_MOST * apart)), (double)(end - index[0] - 1));
         const int64_t stop = index[0] + 1 + (int64_t)stride;
         if (is_kept) {
             for (; positions != NULL && index[0] < stop; ++index[0]) {

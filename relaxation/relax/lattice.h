@@ -5,6 +5,8 @@
 
 #include "core/geometry/shape.h"
 
+#include <stdbool.h>
+
 /** @file
  *  First positions of particles: the nodes of a square or cubic lattice that lie inside a shape, and the check that two
  *  sets of positions do not overlap. It neither relaxes positions nor uses particle sets. */
@@ -16,6 +18,10 @@
  *  filled exactly. In two dimensions there is one layer, at z = 0. A node closer to a surface than 1e-9 spacing counts
  *  as lying on it, and a node on a surface is outside: of the shape, of an excluded shape, of the domain alike.
  *
+ *  A polar lattice has rings about the line through origin along z instead: node i of ring j lies at the radius
+ *  (j + 1/2) * spacing and the angle 2 pi (i + 1/2) / n, n the whole number next to 2 pi (j + 1/2), which fills a disc or
+ *  an annulus of whole spacings exactly; layers along z are those of the cubic lattice.
+ *
  *  Made ready by mor_lattice_request_init. Everything pointed to is borrowed during the call. */
 typedef struct mor_lattice_request {
     const mor_shape *shape;           /* the solid to fill */
@@ -24,6 +30,7 @@ typedef struct mor_lattice_request {
     int dimension;                    /* 2 (in x-y) or 3 */
     double spacing;                   /* lattice spacing, unit m, > 0 */
     double origin[3];                 /* shape [3]; a corner of a lattice cell, unit m; z is not used in 2D */
+    bool is_polar;                    /* rings; not for mor_lattice_fill_cells */
     double depth;                     /* nodes deeper than this under the surface are left out, m; INFINITY: none */
     mor_bounds domain;                /* nodes outside are left out, unit m; infinite: no limit; z is not used in 2D */
     int64_t n_points_most;            /* more are refused; 0: only by what an index of 32 bits can count */
@@ -61,7 +68,7 @@ mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *req
  *  @param points  [out]     owned by the caller; may come out empty
  *  @param shares  [out]     the address of one array [n_points], above 0 to 1, 1; from MOR_NEW; owned by the caller;
  *                           NULL after a failure
- *  Returns: as mor_lattice_fill; MOR_ERROR_ARGUMENT for a request with jitter.
+ *  Returns: as mor_lattice_fill; MOR_ERROR_ARGUMENT for a request with jitter or rings.
  *  Cost: up to 64 distances (16 in the plane) for each cell at the surface. Threads: neither. */
 mor_status mor_lattice_fill_cells(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points,
                                   double **shares);

@@ -162,6 +162,8 @@ mor_status mor_lattice_fill_cells(mor_context *context, const mor_lattice_reques
     memset(points, 0, sizeof *points);
     *shares = NULL;
     mor_lattice_box box = {{0, 0, 0}, {0, 0, 0}};
+    MOR_CHECK(context, !request->is_polar, MOR_ERROR_ARGUMENT,
+              "cells are to be filled on a polar lattice; allowed is a square or cubic one");
     MOR_CHECK(context, request->jitter_ratio == 0.0, MOR_ERROR_ARGUMENT,
               "cells are to be filled with a jitter of %g; allowed is none", request->jitter_ratio);
     MOR_TRY(context, mor_lattice_find_box(context, request, 1, &box));

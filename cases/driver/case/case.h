@@ -407,6 +407,7 @@ typedef struct mor_case {
     int dimension;            /* 2 (plane strain in x, y) or 3 */
     double spacing;           /* m */
     double lattice_origin[3]; /* a lattice node, m */
+    int lattice_pattern;      /* of soil; 0: square or cubic, 1: rings about the line through the origin along z */
     double gravity[3];        /* m/s2 */
     double end;               /* simulated time, s */
     double domain_minimum[3]; /* m */

@@ -86,6 +86,7 @@ typedef struct mor_probe_measure {
 extern const mor_probe_measure mor_probe_body_measures[];
 
 /** Probes of where energy goes. */
+extern const mor_probe_measure mor_probe_local_measures[];
 extern const mor_probe_measure mor_probe_energy_measures[];
 
 /** Makes the scratch of a simulation's probes.

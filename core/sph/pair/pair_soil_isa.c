@@ -216,7 +216,7 @@ INLINE void diffuse_part(const mor_pair_constants *c, const mor_pair_arrays *arr
         diagonal += w;
     }
     /* The own particle is in its list; where it is the only one with weight, nothing diffuses. */
-    const vec factor = broadcast(4.0 * c->gradient_factor);
+    const vec factor = broadcast(4.0 * c->laplacian_factor);
     const vec itself =
         load(arrays->records + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE, MOR_RECORD_VOLUME) * diffusivity;
     double *out = arrays->diffusion + first * MOR_PAIR_DIFFUSION_SIZE;

@@ -67,6 +67,13 @@ static const mor_case_key lattice_keys[] = {{{"origin", VECTOR, "m", DEFAULT(0.0
                                              MOR_CASE_STORE_REALS,
                                              AT(mor_case, lattice_origin),
                                              .needs = MOR_CASE_NEEDS_SOIL},
+                                            {{"pattern", CHOICE, "1", DEFAULT(0.0), ANY, "square|polar",
+                                              "square: nodes of a square or cubic lattice; polar: rings about the line "
+                                              "through origin along z, which fill a disc or annulus of whole spacings "
+                                              "exactly"},
+                                             MOR_CASE_STORE_CHOICE,
+                                             AT(mor_case, lattice_pattern),
+                                             .needs = MOR_CASE_NEEDS_SOIL},
                                             {{"jitter", SCALAR, "1", DEFAULT(0.0), BELOW(0.0, 0.5), NULL,
                                               "largest random displacement of particles along each axis / spacing"},
                                              MOR_CASE_STORE_REALS,

@@ -234,6 +234,7 @@ static mor_status fill_soil(mor_context *context, const mor_case *the_case, int 
     mor_lattice_request request;
     set_request(the_case, it->shape, &request);
     request.jitter_ratio = the_case->jitter_ratio;
+    request.is_polar = the_case->lattice_pattern == 1;
     const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
     const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
                                   ? mor_simulation_fill_release(context, the_case, soil, points)
