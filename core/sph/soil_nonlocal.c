@@ -1,7 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* The field of a nonlocal law diffuses over a step; the law adds its reaction with the stress. Nothing flows through
- * walls, rocks and free surfaces, which no pair crosses, nor into soil that conducts nothing. docs/theory/nonlocal.md. */
+ * walls, rocks and free surfaces, which no pair crosses, nor into soil that conducts nothing: docs/theory/nonlocal.md.
+ */
 #include "core/sph/soil_internal.h"
 
 #include "core/base/memory.h"

@@ -118,9 +118,10 @@ static inline mor_symmetric mor_log_strain_of_stretch(mor_symmetric b_minus_1)
     return sum;
 }
 
-/** Returns the logarithmic strain after a step without plastic flow, unit 1: b becomes f b f^T with the matrix exponential f =
- * exp(L dt). That is the solution of db/dt = L b + b L^T, of which b - I is summed as a series: a rotation then adds
- * nothing but rounding of the strain itself. Without motion the strain is untouched.
+/** Returns the logarithmic strain after a step without plastic flow, unit 1: b becomes f b f^T with the matrix
+ * exponential f = exp(L dt). That is the solution of db/dt = L b + b L^T, of which b - I is summed as a series: a
+ * rotation then adds nothing but rounding of the strain itself. Without motion the strain is untouched.
+ *  @param strain [in]  at the start; unit 1
  *  @param motion [in]  velocity gradient times the step, norm at most 1; unit 1 */
 static inline mor_symmetric mor_log_strain_advance(mor_symmetric strain, mor_gradient motion)
 {

@@ -70,7 +70,7 @@ typedef struct mor_pair_constants {
     bool has_pressure_term;      /* pressure part of U* in the density rate */
     double smoothing_length;     /* h, m */
     double gradient_factor;      /* mor_kernel_gradient_factor, unit 1/m^(d+2) */
-    double laplacian_factor;     /* the same, over the moment of the initial lattice: exact for its quadratic fields */
+    double laplacian_factor;     /* over the moment of the initial lattice, unit 1/m^(d+2) */
     double limiter_rate;         /* eta / c0, s/m: slope of the dissipation limiter */
     double diffusion_rate;       /* 2 zeta h c0, m2/s; 0 without stress diffusion */
     double gravity_direction[3]; /* unit vector, 1; zero without gravity */

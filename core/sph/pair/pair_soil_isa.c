@@ -192,8 +192,8 @@ static void spin_range(const mor_pair_constants *c, const mor_pair_arrays *array
     }
 }
 
-/* Diffusion of a field: w = 2 D_ij V_j |W'|/r with the harmonic mean of both diffusivities, so that V_i w_ij is the same
- * seen from both particles, and nothing passes a particle that conducts nothing. */
+/* Diffusion of a field: w = 2 D_ij V_j |W'|/r with the harmonic mean of both diffusivities, so that V_i w_ij is the
+ * same seen from both particles, and nothing passes a particle that conducts nothing. */
 INLINE void diffuse_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
 {
     const double *own = arrays->field + first * MOR_PAIR_FIELD_SIZE;

@@ -103,6 +103,45 @@ static void box_with_faces_on_cells_is_filled_exactly_in_order(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+/* An annulus in the plane, of whole spacings: rings in the middle of spacings, each divided evenly. */
+static void polar_lattice_fills_an_annulus_with_rings(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    mor_shape *annulus = NULL;
+    mor_shape *parts[2] = {NULL, NULL};
+    const double center[3] = {0.3, -0.2, 0.0};
+    assert_int_equal(mor_shape_new_sphere(&context, center, 0.8, &parts[0]), MOR_OK);
+    assert_int_equal(mor_shape_new_sphere(&context, center, 0.4, &parts[1]), MOR_OK);
+    assert_int_equal(mor_shape_new_difference(&context, &parts[0], &parts[1], &annulus), MOR_OK);
+    mor_lattice_request request = new_request(annulus, 0.1);
+    request.dimension = 2;
+    request.is_polar = true;
+    memcpy(request.origin, center, sizeof center);
+    mor_lattice_points points;
+    assert_int_equal(mor_lattice_fill(&context, &request, &points), MOR_OK);
+    int64_t i = 0;
+    for (int ring = 4; ring < 8; ++ring) {
+        const double radius = 0.1 * (ring + 0.5);
+        const int n = (int)lround(2.0 * M_PI * (ring + 0.5));
+        for (int k = 0; k < n; ++k, ++i) {
+            const double angle = 2.0 * M_PI * (k + 0.5) / n;
+            assert_true(i < points.n_points);
+            assert_true(fabs(points.positions[3 * i] - center[0] - radius * cos(angle)) < 1e-15);
+            assert_true(fabs(points.positions[3 * i + 1] - center[1] - radius * sin(angle)) < 1e-15);
+            assert_true(points.positions[3 * i + 2] == 0.0);
+        }
+    }
+    assert_int_equal(i, points.n_points);
+    mor_lattice_clear(&context, &points);
+    double *shares = NULL;
+    assert_int_equal(mor_lattice_fill_cells(&context, &request, &points, &shares), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(context.message, "polar"));
+    mor_shape_free(&context, &annulus);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void node_on_a_surface_is_outside(void **state)
 {
     (void)state;
@@ -476,6 +515,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(box_with_faces_on_cells_is_filled_exactly_in_order),
+        cmocka_unit_test(polar_lattice_fills_an_annulus_with_rings),
         cmocka_unit_test(node_on_a_surface_is_outside),
         cmocka_unit_test(skipping_finds_the_nodes_that_testing_each_one_finds),
         cmocka_unit_test(wall_gets_as_many_layers_as_its_depth_asks),

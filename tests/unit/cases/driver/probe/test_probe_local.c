@@ -1,0 +1,51 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tests/common/scene.h"
+
+/* A probe of the soil at a place, and soil that starts under the same pressure everywhere. */
+
+static const char block[] =
+    "dimension = 2; spacing = '0.1 m'; end = '1 s'; gravity = (0, 0, 0);"
+    "domain = { min = (-2, -2, -1); max = (4, 3, 1); };"
+    "soil = ( { name = 'block'; shape = { type = 'box'; min = (0, 0); max = (1, 0.6); };"
+    "  initial_stress = { type = 'uniform'; pressure = '3 kPa'; };"
+    "  material = { model = 'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } );"
+    "probes = ( { name = 'inside'; type = 'soil_velocity'; origin = (0.5, 0.3); direction = (0, 2); },"
+    "  { name = 'outside'; type = 'soil_velocity'; origin = (3, 0.3); direction = (0, 1); } );";
+
+static void velocity_is_that_of_the_soil_around(void **state)
+{
+    (void)state;
+    const scene_request request = {.text = block};
+    scene *it = scene_new(&request);
+    const mor_set *set = &it->simulation.soil.set;
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double *x = set->data[MOR_FIELD_POSITION] + 3 * i;
+        set->data[MOR_FIELD_VELOCITY][3 * i + 1] = 4.0 + 3.0 * (x[0] - 0.5) - 7.0 * (x[1] - 0.3);
+    }
+    /* The particles lie evenly around the place, which is a corner of four cells. */
+    scene_expect_near("the velocity inside", scene_probe(it, "inside"), 4.0, 1e-12);
+    assert_true(scene_probe(it, "outside") == 0.0);
+    scene_free(it);
+}
+
+static void uniform_stress_is_a_pressure_without_gravity(void **state)
+{
+    (void)state;
+    const scene_request request = {.text = block};
+    scene *it = scene_new(&request);
+    const mor_set *set = &it->simulation.soil.set;
+    for (int64_t k = 0; k < 6 * set->n_particles; ++k) {
+        assert_true(set->data[MOR_FIELD_STRESS][k] == (k % 6 < 3 ? -3000.0 : 0.0)); /* exact */
+    }
+    scene_free(it);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(velocity_is_that_of_the_soil_around),
+        cmocka_unit_test(uniform_stress_is_a_pressure_without_gravity),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
