@@ -247,6 +247,7 @@ static const mor_schema PARAMETERS[] = {
                                     "law, without a field and without its time scale"),
                             .default_value = 0.48},
     [TIME_SCALE] = {POSITIVE("time_scale", "s", "t0: the fluidity grows and decays at the rate (mu - mu_s)/t0"),
+                    .role = MOR_ROLE_FIELD_TIME_SCALE,
                     .default_value = 1e-4},
     [FLUIDITY_SEED] = {BOUNDED("fluidity_seed", 1.0,
                                "least fluidity of grains that deform, over that of free flow, sqrt(2)|D|/mu_2; flow "
@@ -254,7 +255,8 @@ static const mor_schema PARAMETERS[] = {
                        .default_value = 1e-3},
     [GAS_DENSITY_RATIO] = {BOUNDED("gas_density_ratio", 1.0,
                                    "density below which grains are apart and carry no stress, over that of the first "
-                                   "state without its stress; 0: never")},
+                                   "state without its stress; 0: never"),
+                           .role = MOR_ROLE_GAS_DENSITY_RATIO},
     [N_PARAMETERS] = {.key = NULL},
 };
 

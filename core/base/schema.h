@@ -34,6 +34,7 @@ typedef enum mor_role {
     MOR_ROLE_ABSOLUTE_TOLERANCE, /* of the stress, Pa */
     MOR_ROLE_SUB_STEPS_MAX,      /* a whole number, 1 */
     MOR_ROLE_GAS_DENSITY_RATIO,  /* density below which soil has no stress, over its first one; 0: none; 1 */
+    MOR_ROLE_FIELD_TIME_SCALE,   /* of the field of a nonlocal law, s: soils that share the field share it */
     MOR_ROLE_COUNT
 } mor_role;
 

@@ -61,6 +61,7 @@ static const struct {
     [MOR_ROLE_ABSOLUTE_TOLERANCE] = {"absolute tolerance of the integration", "Pa"},
     [MOR_ROLE_SUB_STEPS_MAX] = {"largest number of sub-steps", "1"},
     [MOR_ROLE_GAS_DENSITY_RATIO] = {"gas density ratio", "1"},
+    [MOR_ROLE_FIELD_TIME_SCALE] = {"time scale of the field", "s"},
 };
 
 const char *mor_role_text(mor_role role)

@@ -160,6 +160,13 @@ static inline double mor_soil_reference_density(const mor_soil *soil, int64_t pa
         .reference_density;
 }
 
+/** Returns the speed of waves that the scheme assumes in a particle's soil, that without stress, unit m/s.
+ *  @param particle [in]  index in the set */
+static inline double mor_soil_sound_speed(const mor_soil *soil, int64_t particle)
+{
+    return soil->kinds[soil->of_soil != NULL ? (int)soil->set.data[soil->state_fields[0]][particle] : 0].sound_speed;
+}
+
 /** Initializes the material's state for the present density and stress (a resume restores it instead).
  *  Returns: MOR_OK; what the material returns. */
 mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);

@@ -62,6 +62,9 @@ typedef struct bad_scene {
     bool has_line;
 } bad_scene;
 
+#define NONLOCAL                                                                                                       \
+    "material={model=\"nonlocal_fluidity\"; density=2000; youngs_modulus=1e6; poissons_ratio=0.3; "                    \
+    "static_friction=0.38; limiting_friction=0.64; grain_diameter=1e-3; "
 static const bad_scene scenes[] = {
     {NULL, NULL, NULL, false},
     {"walls[0].shape.point=(\"0 m\", \"0.25 m\")", "overlapping wall 'floor': 20 of its 100 particles", "move one",
@@ -71,6 +74,9 @@ static const bad_scene scenes[] = {
     {"soil[1].shape.max=(\"0.02 m\", \"1.02 m\")", "soil 'cap' without a single particle", "spacing smaller", true},
     {"walls[0].shape.point=(\"0 m\", \"-9 m\")", "wall 'floor' without a single particle", "thicker or move it", true},
     {"soil[1].material.dilation_angle=40 deg", "dilation", "friction", true},
+    {"soil=({name=\"sand\"; shape={type=\"box\"; min=(0, 0); max=(0.5, 0.5);}; " NONLOCAL "};}, "
+     "{name=\"cap\"; shape={type=\"box\"; min=(0, 0.5); max=(0.5, 1);}; " NONLOCAL "time_scale=1e-3;};})",
+     "time scale of the field of 0.001 s in soil 'cap' and of 0.0001 s in soil 'sand'", "change one of them", false},
     {"soil[0].material.dilation_angle=40 deg", "dilation", "friction", true},
     {"soil[1].initial_stress={type=\"k0\"; surface_level=\"0.5 m\";}",
      "surface_level = 0.5 m of soil 'cap', whose highest point is at 1.5 m: 50 of its 50", "raise the level", true},

@@ -11,6 +11,13 @@
 #define MU_I                                                                                                           \
     "{model=\"mu_i\"; density=2000; youngs_modulus=2e6; poissons_ratio=0.3; static_friction=0.48; "                    \
     "limiting_friction=0.6; grain_diameter=1e-3; "
+#define NONLOCAL                                                                                                       \
+    "{model=\"nonlocal_fluidity\"; density=2000; youngs_modulus=2e6; poissons_ratio=0.3; static_friction=0.48; "       \
+    "limiting_friction=0.6; grain_diameter=1e-3; "
+#define SAND                                                                                                           \
+    "{model=\"hypoplastic_sand\"; density=2000; critical_friction_angle=0.58; granulate_hardness=4e9; exponent=0.27; " \
+    "densest_void_ratio=0.68; critical_void_ratio=1.05; loosest_void_ratio=1.2; alpha=0.14; beta=2.5; "                \
+    "void_ratio=0.8; "
 #define WALL(name, point, normal)                                                                                      \
     "{ name = '" name "'; friction = 'smooth'; shape = { type = 'half_space'; point = " point "; normal = " normal     \
     "; }; }"
@@ -54,6 +61,12 @@ static const scene columns[] = {
     /* A rule for loose soil that a setting of the scheme defeats: piles below a funnel were 30 % too wide. */
     {"soil[0].material=" MU_I "gas_density_ratio=1.0;}", "soil 's' has no stress where it is loose, but density by"},
     {"soil[0].material=" MU_I "}", NULL},
+    {"soil[0].material=" NONLOCAL "gas_density_ratio=1.0;}",
+     "soil 's' has no stress where it is loose, but density by"},
+    {"soil[0].material=" NONLOCAL "}", NULL},
+    /* 6 kPa at the base, with the speed of sound of 10 Pa: (6000 / 10)^((1 - n) / 2). */
+    {"soil[0].material=" SAND "wave_pressure=10;}", "waves in the soil are up to"},
+    {"soil[0].material=" SAND "wave_pressure=1e4;}", NULL},
     {"numerics.courant=1e-8", "end = 0.001 s takes about 1.11e+08 steps"},
     {"probes[0].percentile=0.995",
      "found percentile = 0.995, which is 0.995 %: percentiles are in percent; if 99.5 % is"},

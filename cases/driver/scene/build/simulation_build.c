@@ -296,12 +296,38 @@ static mor_status create_material(mor_context *context, const mor_case_soil *it,
     return place_refusal(context, it, status);
 }
 
+/* What two soils that share a field pass each other depends on their diffusivities alone, so that one time scale must
+ * hold for both: else the steady field would depend on how fast it is reached. */
+static mor_status check_fields(mor_context *context, const mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    int first = -1;
+    double shared = 0.0;
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        const double scale =
+            mor_params_role_value(simulation->laws[k]->parameters, it->parameters, MOR_ROLE_FIELD_TIME_SCALE, NAN);
+        if (isnan(scale)) {
+            continue;
+        }
+        MOR_CHECK(
+            context, first < 0 || scale == shared, MOR_ERROR_CONFIG,
+            "%s:%d: found a time scale of the field of %g s in soil '%s' and of %g s in soil '%s', which share the "
+            "field; allowed is one time scale for both; change one of them",
+            it->place.file, it->place.line, scale, it->name, shared, c->soils[first].name);
+        first = k;
+        shared = scale;
+    }
+    return MOR_OK;
+}
+
 static mor_status create_materials(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
     for (int k = 0; k < c->n_soils; ++k) {
         simulation->laws[k] = c->soils[k].law;
     }
+    MOR_TRY(context, check_fields(context, simulation));
     if (is_one_material(simulation)) {
         MOR_TRY(context, create_material(context, &c->soils[0], simulation->laws[0], &simulation->material));
     } else {

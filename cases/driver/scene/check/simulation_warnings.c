@@ -90,6 +90,54 @@ static void warn_of_gas(mor_context *context, const mor_simulation *s)
     }
 }
 
+/* Largest ratio of the speed of waves in the soil as it begins to the one that step and impedance assume; 1 where the
+ * law does not tell. */
+static double find_stiffening(const mor_soil *soil, int64_t *stiffest)
+{
+    enum { BATCH = 128 };
+    double largest = 1.0;
+    for (int64_t first = 0; first < soil->set.n_particles; first += BATCH) {
+        const int64_t left = soil->set.n_particles - first;
+        const double *state[MOR_MATERIAL_STATES_MAX];
+        double speeds[BATCH];
+        for (int k = 0; k < soil->material->n_state; ++k) {
+            const int field = soil->state_fields[k];
+            state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
+        }
+        const mor_batch batch = {.n = left < BATCH ? left : BATCH,
+                                 .density = soil->set.data[MOR_FIELD_DENSITY] + first,
+                                 .stress_in = soil->set.data[MOR_FIELD_STRESS] + 6 * first,
+                                 .state_in = state};
+        if (soil->material->operations.wave_speed(soil->material, &batch, speeds) != MOR_OK) {
+            return 1.0;
+        }
+        for (int64_t i = 0; i < batch.n; ++i) {
+            const double ratio = speeds[i] / mor_soil_sound_speed(soil, first + i);
+            *stiffest = ratio > largest ? first + i : *stiffest;
+            largest = fmax(largest, ratio);
+        }
+    }
+    return largest;
+}
+
+/* The step follows from the speed of waves in soil without stress; laws whose stiffness grows with the pressure have
+ * more. */
+static void warn_of_stiffening(mor_context *context, const mor_simulation *s)
+{
+    const double slack = 1.05; /* of the Courant number */
+    int64_t stiffest = 0;
+    const double ratio = find_stiffening(&s->soil, &stiffest);
+    if (ratio > slack) {
+        const double *stress = s->soil.set.data[MOR_FIELD_STRESS] + 6 * stiffest;
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g Pa) "
+            "as the time step assumes: set numerics.courant = %.2g or less, or raise the pressure at which "
+            "the law takes its speed of sound, if it has such a parameter",
+            ratio, -(stress[0] + stress[1] + stress[2]) / 3.0, s->the_case->numerics.courant / ratio);
+    }
+}
+
 /* Densities outside those of any soil or rock: a unit is missing. */
 static void warn_of_density(mor_context *context, const char *what, const char *name, double density, double least,
                             double largest)
@@ -272,6 +320,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     if (simulation->has_soil) {
         warn_of_lateral_stress(context, simulation);
         warn_of_gas(context, simulation);
+        warn_of_stiffening(context, simulation);
     }
     warn_of_densities(context, c);
     warn_of_moduli(context, c);
