@@ -85,8 +85,10 @@ typedef struct mor_probe_measure {
 /** Probes of bodies and contact. */
 extern const mor_probe_measure mor_probe_body_measures[];
 
-/** Probes of where energy goes. */
+/** Probes of the soil at a place. */
 extern const mor_probe_measure mor_probe_local_measures[];
+
+/** Probes of where energy goes. */
 extern const mor_probe_measure mor_probe_energy_measures[];
 
 /** Makes the scratch of a simulation's probes.
