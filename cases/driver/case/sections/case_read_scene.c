@@ -50,6 +50,17 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
     return MOR_OK;
 }
 
+static mor_status check_stress_pressure(const mor_case_reader *reader, const mor_case_node *node,
+                                        const mor_case_soil *soil)
+{
+    if (soil->initial_stress != MOR_CASE_STRESS_UNIFORM || mor_case_node_find(node, "pressure") != NULL) {
+        return MOR_OK;
+    }
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found no 'pressure' in an initial stress of type \"uniform\"; allowed: >= 0 Pa; add it, "
+                              "or use \"none\" for soil without stress");
+}
+
 /* Without weight there is no geostatic stress, and no load to settle under. */
 static mor_status check_stress_weight(const mor_case_reader *reader, const mor_case_node *node,
                                       const mor_case *the_case, const mor_case_soil *soil)
@@ -79,6 +90,7 @@ static mor_status read_stress(const mor_case_reader *reader, const mor_case_node
         soil->settle_time = the_case->end;
     }
     MOR_TRY(reader->context, check_stress_keys(reader, node, soil->initial_stress));
+    MOR_TRY(reader->context, check_stress_pressure(reader, node, soil));
     return check_stress_weight(reader, node, the_case, soil);
 }
 
