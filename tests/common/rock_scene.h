@@ -35,6 +35,8 @@ typedef struct rock_scene {
     mor_material_instance *sand;
     mor_soil_settings settings;                  /* to be changed before rock_scene_build */
     double parameters[MOR_DRUCKER_PRAGER_COUNT]; /* likewise */
+    const mor_material *law;                     /* likewise, of the soil; NULL: Drucker-Prager */
+    const double *law_parameters;                /* of that law; borrowed */
     mor_soil soil;
     rock_pile pile; /* rocks are filled in before rock_scene_build */
     mor_schedule schedule;
@@ -124,8 +126,9 @@ static inline void rock_scene_build(rock_scene *it)
     const double dp = it->settings.spacing;
     const double volume = it->settings.dimension == 3 ? dp * dp * dp : dp * dp;
     const double density = it->settings.reference_density;
-    rock_scene_require(
-        it, mor_material_create(&it->context, law_named("drucker_prager"), density, it->parameters, &it->sand));
+    const mor_material *law = it->law != NULL ? it->law : law_named("drucker_prager");
+    const double *parameters = it->law != NULL ? it->law_parameters : it->parameters;
+    rock_scene_require(it, mor_material_create(&it->context, law, density, parameters, &it->sand));
     rock_scene_require(it, mor_checked_wrap(&it->context, &it->sand));
     rock_scene_require(it, mor_soil_init(&it->context, &it->soil, "sand", &it->settings, it->sand, it->n_points));
     double *const *data = it->soil.set.data;
