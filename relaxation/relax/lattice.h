@@ -19,8 +19,10 @@
  *  as lying on it, and a node on a surface is outside: of the shape, of an excluded shape, of the domain alike.
  *
  *  A polar lattice has rings about the line through origin along z instead: node i of ring j lies at the radius
- *  (j + 1/2) * spacing and the angle 2 pi (i + 1/2) / n, n the whole number next to 2 pi (j + 1/2), which fills a disc
- *  or an annulus of whole spacings exactly; layers along z are those of the cubic lattice.
+ *  (j + 1/2) * spacing and the angle 2 pi (i + 1/2) / n, n the whole number next to 2 pi (j + 1/2). The edges of a
+ *  disc or an annulus of whole spacings lie between rings. With spacing^2 for each node the mass of a ring is off by up
+ *  to 4.5 % for j = 0 and 1, and by no more than 1/(4 pi (j + 1/2)) for all: 0.3 % from j = 25 on. Layers along z are
+ *  those of the cubic lattice.
  *
  *  Made ready by mor_lattice_request_init. Everything pointed to is borrowed during the call. */
 typedef struct mor_lattice_request {

@@ -62,24 +62,25 @@ static const mor_case_key domain_keys[] = {
      AT(mor_case, outflow)},
     END};
 
-static const mor_case_key lattice_keys[] = {{{"origin", VECTOR, "m", DEFAULT(0.0), ANY, NULL,
-                                              "a corner of a lattice cell; particles lie at the centers of cells"},
-                                             MOR_CASE_STORE_REALS,
-                                             AT(mor_case, lattice_origin),
-                                             .needs = MOR_CASE_NEEDS_SOIL},
-                                            {{"pattern", CHOICE, "1", DEFAULT(0.0), ANY, "square|polar",
-                                              "square: nodes of a square or cubic lattice; polar: rings about the line "
-                                              "through origin along z, which fill a disc or annulus of whole spacings "
-                                              "exactly"},
-                                             MOR_CASE_STORE_CHOICE,
-                                             AT(mor_case, lattice_pattern),
-                                             .needs = MOR_CASE_NEEDS_SOIL},
-                                            {{"jitter", SCALAR, "1", DEFAULT(0.0), BELOW(0.0, 0.5), NULL,
-                                              "largest random displacement of particles along each axis / spacing"},
-                                             MOR_CASE_STORE_REALS,
-                                             AT(mor_case, jitter_ratio),
-                                             .needs = MOR_CASE_NEEDS_SOIL},
-                                            END};
+static const mor_case_key lattice_keys[] = {
+    {{"origin", VECTOR, "m", DEFAULT(0.0), ANY, NULL,
+      "a corner of a lattice cell; particles lie at the centers of cells"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case, lattice_origin),
+     .needs = MOR_CASE_NEEDS_SOIL},
+    {{"pattern", CHOICE, "1", DEFAULT(0.0), ANY, "square|polar",
+      "square: nodes of a square or cubic lattice; polar: rings about the line through origin along z, the edges of a "
+      "disc or annulus of whole spacings between them; a ring has a whole number of particles, so that its mass is off "
+      "by up to 4.5 % near the line, 0.3 % from 25 spacings on"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_case, lattice_pattern),
+     .needs = MOR_CASE_NEEDS_SOIL},
+    {{"jitter", SCALAR, "1", DEFAULT(0.0), BELOW(0.0, 0.5), NULL,
+      "largest random displacement of particles along each axis / spacing"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case, jitter_ratio),
+     .needs = MOR_CASE_NEEDS_SOIL},
+    END};
 
 static const mor_case_key placement_keys[] = {
     {{"axis", VECTOR, "1", DEFAULT(NAN), ANY, NULL, "axis of the rotation, through the origin"},
