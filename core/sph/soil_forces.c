@@ -8,6 +8,7 @@
 #include "core/material/checked.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 /* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once.
@@ -222,8 +223,35 @@ static mor_status advance_guarded(const mor_soil *soil, const mor_batch *batch)
     return mor_guard_run(soil->settings.guard, call_material, &it) == 0 ? it.status : MOR_ERROR_CRASH;
 }
 
+/* Which update of a batch failed. */
+typedef struct failed_update {
+    int64_t particle; /* in the batch */
+    bool is_silent;   /* the law returned ok, but left numbers that are not finite */
+} failed_update;
+
+/* First particle of a batch that a law left with numbers that are not finite, n when there is none. A product with zero
+ * is zero unless a factor is not finite. */
+static int64_t find_nonfinite(const mor_soil *soil, const mor_batch *batch)
+{
+    double sums[BATCH] = {0.0};
+    for (int k = -1; k < soil->material->n_state; ++k) {
+        const double *values = k < 0 ? batch->stress_out : batch->state_out[k];
+        const int64_t width = k < 0 ? 6 : state_width(soil, k);
+        for (int64_t i = 0; i < batch->n; ++i) {
+            for (int64_t a = 0; a < width; ++a) {
+                sums[i] += 0.0 * values[width * i + a];
+            }
+        }
+    }
+    int64_t i = 0;
+    while (i < batch->n && sums[i] == 0.0) {
+        ++i;
+    }
+    return i;
+}
+
 /* Updates a batch in place over n_steps equal steps. */
-static mor_status advance_equal_steps(const update *it, int64_t first, int64_t n, int n_steps, int64_t *failed)
+static mor_status advance_equal_steps(const update *it, int64_t first, int64_t n, int n_steps, failed_update *failed)
 {
     const mor_soil *soil = it->soil;
     double *state[MOR_MATERIAL_STATES_MAX];
@@ -241,18 +269,24 @@ static mor_status advance_equal_steps(const update *it, int64_t first, int64_t n
                              .stress_out = it->stress + 6 * first,
                              .state_in = state_in,
                              .state_out = state,
-                             .failed = failed};
+                             .failed = &failed->particle};
     mor_status status = MOR_OK;
+    failed->is_silent = false;
     for (int k = 0; k < n_steps && status == MOR_OK; ++k) {
         status = soil->settings.guard != NULL ? advance_guarded(soil, &batch)
                                               : soil->material->operations.advance_rate(soil->material, &batch);
+    }
+    const int64_t nonfinite = status == MOR_OK ? find_nonfinite(soil, &batch) : n;
+    if (nonfinite < n) {
+        *failed = (failed_update){.particle = nonfinite, .is_silent = true};
+        status = MOR_ERROR_NUMERIC;
     }
     return status;
 }
 
 /* A material that asks for a smaller step gets its batch divided in time; the velocity gradient is constant over the
  * step, so nothing but the law's own integration changes. On failure the start values are back in place. */
-static mor_status advance_batch(const update *it, int64_t first, int64_t last, int64_t *failed)
+static mor_status advance_batch(const update *it, int64_t first, int64_t last, failed_update *failed)
 {
     batch_start start;
     copy_start(it, first, last - first, &start, false);
@@ -268,16 +302,17 @@ static mor_status advance_batch(const update *it, int64_t first, int64_t last, i
 
 static mor_status advance_block(void *job, int64_t first, int64_t last)
 {
-    return advance_batch(job, first, last, NULL);
+    failed_update failed = {0};
+    return advance_batch(job, first, last, &failed);
 }
 
 /* A crash tells no particle, so that they are tried one by one; results do not depend on the others in a batch. */
-static mor_status find_crash(const update *it, int64_t first, int64_t n, int64_t *failed)
+static mor_status find_crash(const update *it, int64_t first, int64_t n, failed_update *failed)
 {
     for (int64_t i = 0; i < n; ++i) {
-        const mor_status status = advance_batch(it, first + i, first + i + 1, NULL);
+        const mor_status status = advance_batch(it, first + i, first + i + 1, failed);
         if (status != MOR_OK) {
-            *failed = i;
+            failed->particle = i;
             return status;
         }
     }
@@ -306,31 +341,46 @@ static void keep_failure(const update *it, const mor_step *step, int64_t i, mor_
     }
 }
 
+enum { REASON_BYTES = 192 };
+
+static void describe_reason(mor_status status, bool is_silent, char *reason)
+{
+    if (status > MOR_OK) {
+        snprintf(reason, REASON_BYTES, "%s, after %d halvings of the step; a smaller 'courant' may help",
+                 mor_status_text(status), HALVINGS);
+    } else if (is_silent) {
+        snprintf(reason, REASON_BYTES,
+                 "the law reported success, but left numbers that are not finite; correct the law");
+    } else {
+        snprintf(reason, REASON_BYTES, "%s", mor_status_text(status));
+    }
+}
+
 /* Does the failed batch again to learn which particle it was. */
 static mor_status report_stress(mor_context *context, const update *it, const mor_view *view, const mor_step *step,
                                 int64_t first, mor_soil_failure *failure)
 {
     const mor_soil *soil = it->soil;
     const int64_t left = soil->set.n_particles - first;
-    int64_t failed = 0;
+    failed_update failed = {0};
     MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time + step->length));
     const int64_t n = left < BATCH ? left : BATCH;
     mor_status status = advance_batch(it, first, first + n, &failed);
     if (status == MOR_ERROR_CRASH && soil->settings.guard != NULL) {
         status = find_crash(it, first, n, &failed);
     }
-    const int64_t i = first + failed;
+    const int64_t i = first + failed.particle;
     const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
     const double *s = mor_view_quote(view, MOR_FIELD_STRESS, i);
     keep_failure(it, step, i, failure);
-    const mor_status told =
-        MOR_FAIL(context, status < 0 ? status : MOR_ERROR_NUMERIC,
-                 "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
-                 "t = %.6g s, step %llu (%s, after %d halvings of the step at most); stress (xx, yy, zz, xy, yz, "
-                 "zx) = (%.4g, %.4g, %.4g, %.4g, %.4g, %.4g) Pa. A smaller 'courant' may help",
-                 soil->material->material->name, (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2],
-                 step->time + step->length, (unsigned long long)step->number, mor_status_text(status), HALVINGS, s[0],
-                 s[1], s[2], s[3], s[4], s[5]);
+    char reason[REASON_BYTES];
+    describe_reason(status, failed.is_silent, reason);
+    const mor_status told = MOR_FAIL(
+        context, status < 0 ? status : MOR_ERROR_NUMERIC,
+        "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
+        "t = %.6g s, step %llu; stress (xx, yy, zz, xy, yz, zx) = (%.4g, %.4g, %.4g, %.4g, %.4g, %.4g) Pa: %s",
+        soil->material->material->name, (long long)soil->set.id[i], soil->set.name, x[0], x[1], x[2],
+        step->time + step->length, (unsigned long long)step->number, s[0], s[1], s[2], s[3], s[4], s[5], reason);
     return mor_context_name_particle(context, told, soil->set.name, soil->set.id[i]);
 }
 

@@ -175,6 +175,21 @@ static void plugin_that_crashes_ends_the_run_with_the_particle_named(void **stat
     expect_in_file(folder, "run", MOR_SUMMARY_FILE, "\"set\": \"soil\"");
 }
 
+/* No folder of results holds such a number: what the update started from is kept instead. */
+static void plugin_that_leaves_nan_ends_the_run_with_the_update_kept(void **state)
+{
+    run_folder *folder = *state;
+    write_case(folder, clay_case);
+    compile(folder, "clay.so", "s/!isfinite(sum + slip)/stress[0] += stress[1] < -500.0 ? NAN : 0.0, 0/");
+    program_outcome outcome =
+        program_run(folder, (const char *const[]){"run", "case.cfg", "-t", "2", "-o", "run", NULL}, 1);
+    program_expect_text(outcome.errors, "the stress update of material 'undrained_clay' failed for particle ");
+    program_expect_text(outcome.errors, "the law reported success, but left numbers that are not finite");
+    program_expect_text(outcome.errors, "run/failed-point.cfg, to be repeated alone");
+    program_clear(&outcome);
+    expect_in_file(folder, "run", "failed-point.cfg", "undrained_clay");
+}
+
 static void list_of_plugins_is_checked(void **state)
 {
     run_folder *folder = *state;
@@ -219,6 +234,7 @@ int main(void)
         PLUGIN_TEST(changed_plugin_is_refused_on_resume),
         PLUGIN_TEST(plugin_that_cannot_be_used_is_refused_with_its_place),
         PLUGIN_TEST(plugin_that_crashes_ends_the_run_with_the_particle_named),
+        PLUGIN_TEST(plugin_that_leaves_nan_ends_the_run_with_the_update_kept),
         PLUGIN_TEST(list_of_plugins_is_checked),
         PLUGIN_TEST(list_of_materials_shows_a_plugin),
     };

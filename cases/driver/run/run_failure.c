@@ -91,6 +91,9 @@ mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files, 
     if (write_point(context, files) != MOR_OK) { /* the reason why the run stopped matters more */
         mor_context_log(context, MOR_LOG_WARNING, "the failed stress update could not be written: %s",
                         context->message);
+    } else if (files->simulation->has_soil && files->simulation->soil.failure.is_known) {
+        mor_context_log(context, MOR_LOG_WARNING, "the stress update that failed is in %s/%s, to be repeated alone",
+                        files->options->folder, MOR_ELEMENT_POINT_FILE);
     }
     mor_status status = go_back(context, files, retake);
     const mor_summary_failure failure = {.reason = reason.message,

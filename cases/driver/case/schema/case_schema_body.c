@@ -59,7 +59,7 @@ static const mor_case_key body_keys[] = {
      BODY(soil_friction),
      .needs = MOR_CASE_NEEDS_SOIL},
     {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "Coulomb friction coefficient with soil; required with coulomb, else refused"},
+      "Coulomb friction coefficient with soil; required with coulomb, not allowed otherwise"},
      MOR_CASE_STORE_REALS,
      BODY(soil_friction_coefficient),
      .needs = MOR_CASE_NEEDS_SOIL},

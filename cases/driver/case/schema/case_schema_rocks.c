@@ -57,7 +57,7 @@ static const mor_case_key rocks_keys[] = {
      MOR_CASE_STORE_CHOICE,
      ROCKS(body.soil_friction)},
     {{"friction_coefficient", SCALAR, "1", DEFAULT(0.0), NOT_NEGATIVE, NULL,
-      "Coulomb friction coefficient with soil; required with coulomb, else refused"},
+      "Coulomb friction coefficient with soil; required with coulomb, not allowed otherwise"},
      MOR_CASE_STORE_REALS,
      ROCKS(body.soil_friction_coefficient)},
     {{"contact_modulus", SCALAR, "Pa", DEFAULT(NAN), POSITIVE, NULL, "as of a body"},

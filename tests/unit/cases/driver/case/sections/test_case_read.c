@@ -236,6 +236,7 @@ static void what_belongs_together_is_demanded_together(void **state)
                 {"probes=( { type = \"run_out\"; measure = \"thickness\"; percentile = 50; } )", "\"mass_percentile\""},
                 {"probes=( { type = \"mass\"; percentile = 50; } )", "no effect on a probe of type 'mass'"},
                 {"walls[1].friction=smooth", "'friction_coefficient', which has no effect"},
+                {"walls[0].friction_with=( { soil = \"second\"; } )", "found no 'friction'"},
                 {"walls[1].friction_with[0].soil=sand", "name of a soil"},
                 {"walls[1].friction_with[0].soil=column", "the soil 'column' again"},
                 {"walls[1].friction_with[0].friction=coulomb", "found no 'friction_coefficient'"},
