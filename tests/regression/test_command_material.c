@@ -206,6 +206,10 @@ static const struct {
      "bad.csv:3: found 'wet' in column 2"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--data", "unit.csv", NULL},
      "unit.csv:1: found the column"},
+    {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--data", "comma.csv", NULL},
+     "comma.csv:3: found 3 cells under 2 names of columns"},
+    {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--data", "short.csv", NULL},
+     "short.csv:2: found 1 cells under 2 names of columns"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--data", "other.csv", NULL},
      "found no column of an element test"},
     {{"material", "hypoelastic", "--path", "oedometer", "--case", COLUMN, NULL}, "has 'drucker_prager'"},
@@ -222,6 +226,8 @@ static void wrong_input_is_refused_with_what_is_allowed(void **state)
         const char *name, *text;
     } tables[] = {{"bad.csv", "p [kPa],q [kPa]\n1,2\n3,wet\n"},
                   {"unit.csv", "p [m],q [kPa]\n1,2\n"},
+                  {"comma.csv", "p [kPa],q [kPa]\n1,2\n0,5,2\n"},
+                  {"short.csv", "p [kPa],q [kPa]\n1\n"},
                   {"other.csv", "load,settlement\n1,2\n"}};
     for (size_t k = 0; k < sizeof tables / sizeof *tables; ++k) {
         char path[MOR_PATH_BYTES];

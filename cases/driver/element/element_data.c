@@ -133,6 +133,16 @@ static void complete_row(double *row)
     }
 }
 
+static int count_cells(const char *line)
+{
+    char cell[CELL_BYTES];
+    int n = 0;
+    for (const char *rest = line; rest != NULL; ++n) {
+        rest = take_cell(rest, cell);
+    }
+    return n;
+}
+
 static mor_status read_row(reader *r)
 {
     char cell[CELL_BYTES];
@@ -154,6 +164,11 @@ static mor_status read_row(reader *r)
                   (long long)r->line_number, cell, column + 1);
         row[r->target[column]] = value * r->factor[column];
     }
+    const int n_cells = count_cells(r->line);
+    MOR_CHECK(r->context, n_cells == r->n_columns, MOR_ERROR_CONFIG,
+              "%s:%lld: found %d cells under %d names of columns; allowed: one for each name, empty where nothing was "
+              "measured; numbers have a decimal point, not a comma",
+              r->path, (long long)r->line_number, n_cells, r->n_columns);
     complete_row(row);
     r->record->n_rows += 1;
     return MOR_OK;
