@@ -23,6 +23,16 @@ static inline int mor_parallel_cores(void)
     return omp_get_num_procs();
 }
 
+/** Number of the thread that asks among those that share its loop, 0 to one less than they are; 0 outside of loops. */
+static inline int mor_parallel_thread(void)
+{
+    int number = 0;
+    for (int level = 1; level <= omp_get_level(); ++level) { /* a loop within a loop may have one thread only */
+        number = number * omp_get_team_size(level) + omp_get_ancestor_thread_num(level);
+    }
+    return number;
+}
+
 /** Particles per block of a reduction; fixed so that sums do not depend on the number of threads. */
 enum { MOR_BLOCK = 1024 };
 

@@ -2,14 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/material/rate_integration.h"
 
-#include "core/base/math.h"
 #include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/material/half_rotation.h"
 #include "core/material/params.h"
 #include "core/time/ode/ode.h"
 
 #include <math.h>
-#include <sched.h>
-#include <stdatomic.h>
 #include <string.h>
 
 /* ORDER: of the Runge-Kutta methods. BLOCK: particles worked on at once. */
@@ -31,16 +30,10 @@ static const double RELATIVE_TOLERANCE = 1e-4;
 static const double ABSOLUTE_TOLERANCE = 1.0; /* Pa */
 static const double SUB_STEPS_MAX = 1000.0;
 
-/* What a thread works with, one cache line apart from the next. */
-typedef struct worker {
-    mor_ode *ode;
-    atomic_flag is_taken;
-    char apart[48];
-} worker;
-
 struct mor_material_integration {
-    worker *workers; /* shape [n_workers] */
-    int n_workers;
+    mor_guard guard;   /* around calls of a law whose code may crash; NULL: none */
+    mor_ode **solvers; /* shape [n_solvers], one for each thread */
+    int n_solvers;
     int is_stiff;
     int n;                                          /* numbers of stress and state of a particle */
     int n_variables;                                /* the stress and the state variables */
@@ -50,6 +43,31 @@ struct mor_material_integration {
     double tolerances[1 + MOR_MATERIAL_STATES_MAX]; /* absolute one of each, in its unit */
     int64_t counts[MOR_INTEGRATION_COUNTS];         /* as mor_integration_statistics; added to by all threads */
 };
+
+/* ---- Calls of the law -------------------------------------------------------------------------------------------- */
+
+/* One call of stress_rate, or of limit where there are no rates. */
+typedef struct law_call {
+    const mor_material_instance *instance;
+    const mor_batch *batch;
+    double *rate;              /* shape [n,6], Pa/s; NULL: limit */
+    double *const *state_rate; /* as of stress_rate */
+    mor_status status;
+} law_call;
+
+static void call_law(void *job)
+{
+    law_call *it = job;
+    const mor_material_operations *operations = &it->instance->operations;
+    it->status = it->rate != NULL ? operations->stress_rate(it->instance, it->batch, it->rate, it->state_rate)
+                                  : operations->limit(it->instance, it->batch);
+}
+
+/* The guard is around the law alone: SUNDIALS, left in the midst of a step, could not be used again. */
+static mor_status run_law(law_call it)
+{
+    return mor_guard_run(it.instance->integration->guard, call_law, &it) == 0 ? it.status : MOR_ERROR_CRASH;
+}
 
 /* ---- One particle by SUNDIALS ------------------------------------------------------------------------------------ */
 
@@ -73,7 +91,7 @@ static mor_status find_rate(double t, const double *y, double *y_rate, void *use
     }
     const mor_batch batch = {
         .n = 1, .density = &it->density, .velocity_gradient = it->strain_rate, .stress_in = y, .state_in = state};
-    const mor_status status = it->instance->operations.stress_rate(it->instance, &batch, y_rate, state_rate);
+    const mor_status status = run_law((law_call){it->instance, &batch, y_rate, state_rate, MOR_OK});
     for (int a = 0; a < 6 && it->extra != NULL; ++a) {
         y_rate[a] += it->extra[a];
     }
@@ -99,51 +117,15 @@ typedef struct block {
     double rates[4][BLOCK * MOR_ODE_MAX];
 } block;
 
-/* Turns a symmetric tensor, shape [6], in place. */
-static void turn(const double *rotation, double *tensor)
-{
-    static const int ROW[6] = {0, 1, 2, 0, 1, 2};
-    static const int COLUMN[6] = {0, 1, 2, 1, 2, 0};
-    double product[9]; /* row a: tensor times row a of the rotation */
-    for (int a = 0; a < 3; ++a) {
-        mor_symmetric_apply(tensor, rotation + 3 * a, product + 3 * a);
-    }
-    for (int m = 0; m < 6; ++m) {
-        tensor[m] = mor_vector_dot(product + 3 * ROW[m], rotation + 3 * COLUMN[m]);
-    }
-}
-
 /* Turns all tensors of a particle by half of the rotation of the step. */
 static void turn_half(block *b, int i)
 {
     const mor_material_integration *own = b->instance->integration;
     for (int k = 0; k < own->n_variables && b->is_turning[i]; ++k) {
         if (own->widths[k] == 6) {
-            turn(b->rotation + 9 * i, b->start + BLOCK * own->offsets[k] + 6 * i);
+            mor_half_rotation_turn(b->rotation + 9 * i, b->start + BLOCK * own->offsets[k] + 6 * i);
         }
     }
-}
-
-/* Half of the rotation of the step by Cayley's formula, with q a quarter of its vector: I + 2/(1 + q.q) ([q] + [q][q]).
- * Two halves are the step's angle up to a part of angle^2/48. Returns whether there is any. */
-static int find_half_rotation(const double *l, double length, double *rotation)
-{
-    const double w = 0.125 * length;
-    const double q[3] = {w * (l[7] - l[5]), w * (l[2] - l[6]), w * (l[3] - l[1])};
-    const double square = mor_vector_dot(q, q);
-    const double f = 2.0 / (1.0 + square);
-    for (int a = 0; a < 3; ++a) {
-        for (int c = 0; c < 3; ++c) {
-            rotation[3 * a + c] = f * q[a] * q[c] + (a == c ? 1.0 - f * square : 0.0);
-        }
-    }
-    rotation[1] -= f * q[2];
-    rotation[2] += f * q[1];
-    rotation[3] += f * q[2];
-    rotation[5] -= f * q[0];
-    rotation[6] -= f * q[1];
-    rotation[7] += f * q[0];
-    return square > 0.0;
 }
 
 /* Copies the start of the step and finds its motion. Returns the first status that is not MOR_OK, and whose it is. */
@@ -167,7 +149,7 @@ static mor_status load(block *b, const mor_batch *batch, int64_t first, int *fai
         if (!(increment2 <= INCREMENT_LIMIT * INCREMENT_LIMIT)) {
             return isfinite(increment2) ? MOR_RETRY_SMALLER_STEP : MOR_ERROR_NUMERIC;
         }
-        b->is_turning[i] = find_half_rotation(l, b->time_step, b->rotation + 9 * i);
+        b->is_turning[i] = mor_half_rotation_find(l, b->time_step, b->rotation + 9 * i);
         turn_half(b, i);
     }
     return MOR_OK;
@@ -188,7 +170,7 @@ static mor_status find_rates(const block *b, const double *y, int first, int n, 
                              .velocity_gradient = b->strain_rate + 9 * first,
                              .stress_in = y + 6 * first,
                              .state_in = state};
-    const mor_status status = b->instance->operations.stress_rate(b->instance, &batch, rate + 6 * first, state_rate);
+    const mor_status status = run_law((law_call){b->instance, &batch, rate + 6 * first, state_rate, MOR_OK});
     for (int k = 6 * first; k < 6 * (first + n) && b->extra != NULL; ++k) {
         rate[k] += b->extra[k];
     }
@@ -393,7 +375,7 @@ static mor_status limit(block *b, int *failed)
                              .state_in = state_in,
                              .state_out = state_out,
                              .failed = &which};
-    const mor_status status = b->instance->operations.limit(b->instance, &batch);
+    const mor_status status = run_law((law_call){b->instance, &batch, NULL, NULL, MOR_OK});
     *failed = (int)which;
     return status;
 }
@@ -426,19 +408,6 @@ static mor_status advance_block(block *b, mor_ode *ode, const mor_batch *batch, 
 
 /* ---- The operation ----------------------------------------------------------------------------------------------- */
 
-/* There are as many workers as threads, so that one is free or soon will be. */
-static worker *take_worker(mor_material_integration *own)
-{
-    for (;;) {
-        for (int k = 0; k < own->n_workers; ++k) {
-            if (!atomic_flag_test_and_set_explicit(&own->workers[k].is_taken, memory_order_acquire)) {
-                return &own->workers[k];
-            }
-        }
-        sched_yield();
-    }
-}
-
 static void count(mor_material_integration *own, const mor_ode_report *report, int64_t n_updates, int is_failed)
 {
     const int64_t more[MOR_INTEGRATION_COUNTS] = {n_updates, report->n_steps, report->n_rejected, report->n_rates,
@@ -451,9 +420,9 @@ static void count(mor_material_integration *own, const mor_ode_report *report, i
 static mor_status advance_rate(const mor_material_instance *instance, const mor_batch *batch)
 {
     mor_material_integration *own = instance->integration;
-    worker *mine = take_worker(own);
+    const int thread = mor_parallel_thread();
     mor_ode_report sum = {0};
-    mor_status status = MOR_OK;
+    mor_status status = thread < own->n_solvers ? MOR_OK : MOR_ERROR_INTERNAL;
     int64_t first = 0;
     block b;
     b.instance = instance;
@@ -464,13 +433,12 @@ static mor_status advance_rate(const mor_material_instance *instance, const mor_
         b.n = (int)(left < BLOCK ? left : BLOCK);
         b.density = batch->density + first;
         b.extra = batch->extra_stress_rate != NULL ? batch->extra_stress_rate + 6 * first : NULL;
-        status = advance_block(&b, mine->ode, batch, first, &sum, &failed);
+        status = advance_block(&b, own->solvers[thread], batch, first, &sum, &failed);
         if (status != MOR_OK && batch->failed != NULL) {
             *batch->failed = first + failed;
         }
         first += b.n;
     }
-    atomic_flag_clear_explicit(&mine->is_taken, memory_order_release);
     count(own, &sum, first, status != MOR_OK);
     return status;
 }
@@ -520,7 +488,7 @@ static mor_ode_method find_method(const mor_material_instance *instance)
                                          : (strcmp(word, "bdf") == 0 ? MOR_ODE_STIFF : MOR_ODE_EXPLICIT);
 }
 
-static mor_status make_workers(mor_context *context, const mor_material_instance *instance)
+static mor_status make_solvers(mor_context *context, const mor_material_instance *instance)
 {
     mor_material_integration *own = instance->integration;
     const mor_schema *schema = instance->material->parameters;
@@ -539,11 +507,10 @@ static mor_status make_workers(mor_context *context, const mor_material_instance
     const double stress_tolerance =
         mor_params_role_value(schema, values, MOR_ROLE_ABSOLUTE_TOLERANCE, ABSOLUTE_TOLERANCE);
     MOR_TRY(context, lay_out(context, instance, stress_tolerance, &settings, tolerance, groups, counts));
-    MOR_TRY(context, MOR_NEW(context, &own->workers, context->n_threads, "integrators of a material"));
+    MOR_TRY(context, MOR_NEW(context, &own->solvers, context->n_threads, "integrators of a material"));
     for (int k = 0; k < context->n_threads; ++k) {
-        atomic_flag_clear(&own->workers[k].is_taken);
-        MOR_TRY(context, mor_ode_new(context, &settings, &own->workers[k].ode));
-        own->n_workers += 1;
+        MOR_TRY(context, mor_ode_new(context, &settings, &own->solvers[k]));
+        own->n_solvers += 1;
     }
     return MOR_OK;
 }
@@ -554,7 +521,7 @@ mor_status mor_rate_integration_init(mor_context *context, mor_material_instance
         return MOR_OK;
     }
     MOR_TRY(context, MOR_NEW(context, &instance->integration, 1, "integration of a material"));
-    MOR_TRY(context, make_workers(context, instance));
+    MOR_TRY(context, make_solvers(context, instance));
     instance->operations.advance_rate = advance_rate;
     return MOR_OK;
 }
@@ -565,11 +532,18 @@ void mor_rate_integration_clear(mor_context *context, mor_material_instance *ins
     if (own == NULL) {
         return;
     }
-    for (int k = 0; k < own->n_workers; ++k) {
-        mor_ode_free(context, &own->workers[k].ode);
+    for (int k = 0; k < own->n_solvers; ++k) {
+        mor_ode_free(context, &own->solvers[k]);
     }
-    MOR_FREE(context, &own->workers);
+    MOR_FREE(context, &own->solvers);
     MOR_FREE(context, &instance->integration);
+}
+
+void mor_rate_integration_set_guard(mor_material_instance *instance, mor_guard guard)
+{
+    if (instance != NULL && instance->integration != NULL) {
+        instance->integration->guard = guard;
+    }
 }
 
 int64_t *mor_rate_integration_counts(mor_material_instance *instance)

@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_MATERIAL_RATE_INTEGRATION_H
 #define MOR_CORE_MATERIAL_RATE_INTEGRATION_H
 
+#include "core/base/guard.h"
 #include "core/material/kit/material.h"
 
 /** @file
@@ -28,11 +29,18 @@ typedef struct mor_integration_statistics {
 enum { MOR_INTEGRATION_COUNTS = sizeof(mor_integration_statistics) / sizeof(int64_t) };
 
 /** Gives an instance of a law with stress_rate its integrators, as many as the context has threads, and its
- *  advance_rate; does nothing to other instances.
+ *  advance_rate, to be called from loops of that context; does nothing to other instances.
  *  @param instance [in,out]  made by the model
  *  Returns: MOR_OK; MOR_ERROR_PLUGIN for more than 32 numbers of stress and state; MOR_ERROR_ARGUMENT for settings out
  *  of range; MOR_ERROR_MEMORY. Cost: allocates here, never in an update. */
 mor_status mor_rate_integration_init(mor_context *context, mor_material_instance *instance);
+
+/** Guards each call of the law from now on: one that crashes ends the update with MOR_ERROR_CRASH, and the integrators
+ *  can be used again. Accepts an instance without integrators.
+ *  @param instance [in,out]  NULL: does nothing
+ *  @param guard    [in]      NULL: none, as after mor_rate_integration_init
+ *  Threads: outside of parallel loops. */
+void mor_rate_integration_set_guard(mor_material_instance *instance, mor_guard guard);
 
 /** Frees the integrators; accepts an instance without. */
 void mor_rate_integration_clear(mor_context *context, mor_material_instance *instance);

@@ -7,6 +7,7 @@
 /* Plug-ins that a case names: run, told in the results, guarded on resume, refused with the reason. */
 
 #define TEMPLATE MOR_SOURCE_DIR "/materials/template/undrained_clay.c"
+#define RATE_TEMPLATE MOR_SOURCE_DIR "/materials/template_rates/viscoplastic_soil.c"
 
 enum { COMMAND_BYTES = 4 * MOR_PATH_BYTES };
 
@@ -27,13 +28,18 @@ static void write_case(run_folder *folder, const char *source)
     finished_run_store_text(folder, source, path);
 }
 
-/* Compiles the template of a law, changed by a command of sed, into the scratch folder. */
-static void compile(run_folder *folder, const char *name, const char *change)
+/* Compiles a template of a law, changed by a command of sed, into the scratch folder. */
+static void compile_template(run_folder *folder, const char *source, const char *name, const char *change)
 {
     char command[COMMAND_BYTES];
     snprintf(command, sizeof command, "sed '%s' '%s' | cc -std=c11 -O1 -shared -fPIC -I'%s' -x c - -lm -o '%s/%s'",
-             change, TEMPLATE, MOR_SOURCE_DIR, folder->path, name);
+             change, source, MOR_SOURCE_DIR, folder->path, name);
     assert_int_equal(system(command), 0);
+}
+
+static void compile(run_folder *folder, const char *name, const char *change)
+{
+    compile_template(folder, TEMPLATE, name, change);
 }
 
 static void run(run_folder *folder, const char *run_name, const char *option, const char *value)
@@ -190,6 +196,30 @@ static void plugin_that_leaves_nan_ends_the_run_with_the_update_kept(void **stat
     expect_in_file(folder, "run", "failed-point.cfg", "undrained_clay");
 }
 
+/* Crashes in the particles under the largest stress, when the integrator asks for one of them. */
+static void rates_that_crash_end_the_run_by_every_method(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const methods[] = {"explicit", "implicit", "bdf"};
+    static const char law[] = "viscoplastic_soil'; youngs_modulus = '2 MPa'; poissons_ratio = 0.3; cohesion = '50 Pa';"
+                              "friction_angle = '25 deg'; viscosity = '10 Pa s'; density = '1800 kg/m3'; ";
+    char text[2 * sizeof clay_case];
+    compile_template(folder, RATE_TEMPLATE, "clay.so",
+                     "s/double mean = mor/double mean = batch->n == 1 \\&\\& stress[1] < -500.0"
+                     " ? *(volatile double *)8 : mor/");
+    for (int k = 0; k < 3; ++k) {
+        const char *start = strstr(clay_case, "undrained_clay");
+        snprintf(text, sizeof text, "%.*s%sintegration_method = '%s'; %s", (int)(start - clay_case), clay_case, law,
+                 methods[k], strstr(start, "}; } );"));
+        write_case(folder, text);
+        program_outcome outcome = program_run(
+            folder, (const char *const[]){"run", "case.cfg", "-t", k == 0 ? "2" : "1", "-o", methods[k], NULL}, 1);
+        program_expect_text(outcome.errors, "the stress update of material 'viscoplastic_soil' failed for particle ");
+        program_expect_text(outcome.errors, "the code of the material crashed");
+        program_clear(&outcome);
+    }
+}
+
 static void list_of_plugins_is_checked(void **state)
 {
     run_folder *folder = *state;
@@ -235,6 +265,7 @@ int main(void)
         PLUGIN_TEST(plugin_that_cannot_be_used_is_refused_with_its_place),
         PLUGIN_TEST(plugin_that_crashes_ends_the_run_with_the_particle_named),
         PLUGIN_TEST(plugin_that_leaves_nan_ends_the_run_with_the_update_kept),
+        PLUGIN_TEST(rates_that_crash_end_the_run_by_every_method),
         PLUGIN_TEST(list_of_plugins_is_checked),
         PLUGIN_TEST(list_of_materials_shows_a_plugin),
     };

@@ -13,6 +13,7 @@
 #include "core/geometry/shape_analytic.h"
 #include "core/material/checked.h"
 #include "core/material/params.h"
+#include "core/material/rate_integration.h"
 #include "core/sph/measure/measure.h"
 
 #include <stdlib.h>
@@ -289,10 +290,18 @@ static mor_status place_refusal(mor_context *context, const mor_case_soil *it, m
                : status;
 }
 
-static mor_status create_material(mor_context *context, const mor_case_soil *it, const mor_material *law,
+/* The guard around code of others; NULL where a case has none. */
+static mor_guard find_guard(const mor_context *context, const mor_simulation *simulation)
+{
+    return simulation->the_case->n_plugins > 0 ? context->guard : NULL;
+}
+
+static mor_status create_material(mor_context *context, const mor_simulation *simulation, int k,
                                   mor_material_instance **instance)
 {
-    const mor_status status = mor_material_create(context, law, it->density, it->parameters, instance);
+    const mor_case_soil *it = &simulation->the_case->soils[k];
+    const mor_status status = mor_material_create(context, simulation->laws[k], it->density, it->parameters, instance);
+    mor_rate_integration_set_guard(*instance, find_guard(context, simulation));
     return place_refusal(context, it, status);
 }
 
@@ -329,11 +338,11 @@ static mor_status create_materials(mor_context *context, mor_simulation *simulat
     }
     MOR_TRY(context, check_fields(context, simulation));
     if (is_one_material(simulation)) {
-        MOR_TRY(context, create_material(context, &c->soils[0], simulation->laws[0], &simulation->material));
+        MOR_TRY(context, create_material(context, simulation, 0, &simulation->material));
     } else {
         const mor_material_instance *parts[MOR_CASE_SOILS_MAX];
         for (int k = 0; k < c->n_soils; ++k) {
-            MOR_TRY(context, create_material(context, &c->soils[k], simulation->laws[k], &simulation->parts[k]));
+            MOR_TRY(context, create_material(context, simulation, k, &simulation->parts[k]));
             parts[k] = simulation->parts[k];
         }
         MOR_TRY(context, mor_composite_create(context, parts, c->n_soils, &simulation->material));
@@ -492,7 +501,7 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation)
     }
     if (status == MOR_OK) {
         set_settings(simulation, kinds, &settings);
-        settings.guard = c->n_plugins > 0 ? context->guard : NULL;
+        settings.guard = find_guard(context, simulation);
         status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
         status = place_refusal(context, &c->soils[context->item >= 0 && context->item < c->n_soils ? context->item : 0],
                                status);
