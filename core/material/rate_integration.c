@@ -63,9 +63,24 @@ static void call_law(void *job)
                                   : operations->limit(it->instance, it->batch);
 }
 
+/* What the law leaves unwritten is not a number, which no step survives. */
+static void clear_rates(const law_call *it)
+{
+    const mor_material_integration *own = it->instance->integration;
+    for (int k = 0; k < own->n_variables; ++k) {
+        double *rate = k == 0 ? it->rate : it->state_rate[k - 1];
+        for (int64_t j = 0; j < own->widths[k] * it->batch->n; ++j) {
+            rate[j] = NAN;
+        }
+    }
+}
+
 /* The guard is around the law alone: SUNDIALS, left in the midst of a step, could not be used again. */
 static mor_status run_law(law_call it)
 {
+    if (it.rate != NULL) {
+        clear_rates(&it);
+    }
     return mor_guard_run(it.instance->integration->guard, call_law, &it) == 0 ? it.status : MOR_ERROR_CRASH;
 }
 

@@ -101,16 +101,43 @@ static const mor_material FORGETFUL = {
     .operations = {.create = create, .destroy = destroy, .wave_speed = wave_speed, .stress_rate = stress_rate},
 };
 
-static mor_material_instance *make(mor_context *context, double time, int method, int n_threads)
+static mor_status skip_state_rate(const mor_material_instance *instance, const mor_batch *batch, double *rate,
+                                  double *const *state_rate)
+{
+    (void)state_rate;
+    for (int64_t k = 0; k < 6 * batch->n; ++k) {
+        rate[k] = -batch->stress_in[k] / instance->parameters[TIME];
+    }
+    return MOR_OK;
+}
+
+static mor_status skip_stress_rate(const mor_material_instance *instance, const mor_batch *batch, double *rate,
+                                   double *const *state_rate)
+{
+    (void)instance;
+    for (int64_t k = 0; k < 6 * batch->n; ++k) {
+        rate[k] = k % 6 == 4 ? rate[k] : 0.0; /* all but one component */
+        state_rate[0][k] = 0.0;
+    }
+    return MOR_OK;
+}
+
+static mor_material_instance *make_of(mor_context *context, const mor_material *law, double time, int method,
+                                      int n_threads)
 {
     const double values[N_VALUES] = {1e6, time, method, 1e-6, 1e-3, 500.0};
     mor_material_instance *instance = NULL;
     mor_context_init(context);
     context->n_threads = n_threads;
-    if (mor_material_create(context, &FORGETFUL, 1000.0, values, &instance) != MOR_OK) {
+    if (mor_material_create(context, law, 1000.0, values, &instance) != MOR_OK) {
         fail_msg("%s", context->message);
     }
     return instance;
+}
+
+static mor_material_instance *make(mor_context *context, double time, int method, int n_threads)
+{
+    return make_of(context, &FORGETFUL, time, method, n_threads);
 }
 
 static void discard(mor_context *context, mor_material_instance **instance)
@@ -274,6 +301,30 @@ static void failures_ask_for_a_smaller_step_and_name_the_particle(void **state)
     discard(&context, &instance);
 }
 
+/* By every method; the rates of a good law, which lie where the next one's will, are none of it. */
+static void law_that_leaves_rates_unwritten_is_refused(void **state)
+{
+    (void)state;
+    static arrays a;
+    mor_status (*const skips[])(const mor_material_instance *, const mor_batch *, double *,
+                                double *const *) = {skip_state_rate, skip_stress_rate};
+    for (int k = 0; k < 2; ++k) {
+        for (int method = 0; method < 3; ++method) {
+            mor_context context;
+            mor_material law = FORGETFUL;
+            mor_material_instance *good = make(&context, 2.0, method, 1);
+            fill(&a);
+            assert_int_equal(advance(good, &a, 0, N), MOR_OK);
+            discard(&context, &good);
+            law.operations.stress_rate = skips[k];
+            mor_material_instance *instance = make_of(&context, &law, 2.0, method, 1);
+            assert_int_equal(advance(instance, &a, 0, N), MOR_RETRY_SMALLER_STEP);
+            assert_int_equal(advance(instance, &a, 7, 1), MOR_RETRY_SMALLER_STEP);
+            discard(&context, &instance);
+        }
+    }
+}
+
 static void a_guarded_instance_counts_and_is_freed_once(void **state)
 {
     (void)state;
@@ -314,6 +365,7 @@ int main(void)
         cmocka_unit_test(relaxation_has_its_closed_form_by_every_method),
         cmocka_unit_test(stress_and_tensors_turn_with_a_rigid_rotation),
         cmocka_unit_test(failures_ask_for_a_smaller_step_and_name_the_particle),
+        cmocka_unit_test(law_that_leaves_rates_unwritten_is_refused),
         cmocka_unit_test(a_guarded_instance_counts_and_is_freed_once),
         cmocka_unit_test(wrong_tables_of_operations_are_refused),
     };
