@@ -409,8 +409,10 @@ mor_status mor_ode_new(mor_context *context, const mor_ode_settings *settings, m
             [MOR_ODE_EXPLICIT] = make_explicit, [MOR_ODE_STIFF] = make_stiff, [MOR_ODE_IMPLICIT] = make_implicit};
         is_made = make[settings->method](made, settings);
     }
-    /* SUNDIALS allocates in its first solve; later ones allocate nothing. */
+    /* SUNDIALS allocates in its first solve, here of one step; later ones allocate nothing. */
+    mor_ode_set_first_step(made, 1.0);
     is_made = is_made && mor_ode_solve(made, stand_still, made, (const double[]){0.0, 1.0}, zero, NULL) == MOR_OK;
+    mor_ode_set_first_step(made, 0.0);
     if (!is_made) {
         const mor_status status =
             MOR_FAIL(context, MOR_ERROR_MEMORY, "ode: SUNDIALS cannot make an integrator for %d unknowns: %s",

@@ -208,6 +208,45 @@ static void too_few_steps_is_not_converged(void **state)
     }
 }
 
+static mor_status climb(double t, const double *y, double *y_rate, void *user)
+{
+    (void)t;
+    (void)y;
+    (void)user;
+    y_rate[0] = 1.0;
+    return MOR_OK;
+}
+
+/* The fewest steps that may be allowed are enough for a solution that is a straight line. */
+static void one_step_can_be_all_that_is_allowed(void **state)
+{
+    (void)state;
+    const mor_ode_method methods[] = {MOR_ODE_EXPLICIT, MOR_ODE_STIFF, MOR_ODE_IMPLICIT};
+    for (int k = 0; k < 3; ++k) {
+        for (int64_t n_steps = 1; n_steps <= 4; ++n_steps) {
+            mor_context context;
+            mor_context_init(&context);
+            const mor_ode_settings settings = {.method = methods[k],
+                                               .n = 1,
+                                               .order = k == 1 ? 0 : 3,
+                                               .relative_tolerance = 1e-4,
+                                               .absolute_tolerance = LOOSE,
+                                               .n_steps_max = n_steps};
+            mor_ode *ode = NULL;
+            mor_ode_report report = {0};
+            double y = 2.0;
+            if (mor_ode_new(&context, &settings, &ode) != MOR_OK) {
+                fail_msg("%s", context.message);
+            }
+            mor_ode_set_first_step(ode, 0.5);
+            assert_int_equal(mor_ode_solve(ode, climb, NULL, (const double[]){0.0, 0.5}, &y, &report), MOR_OK);
+            assert_int_equal(report.n_steps, 1);
+            assert_true(fabs(y - 2.5) < 1e-12); /* rounding, and of Newton's method */
+            discard(&context, &ode);
+        }
+    }
+}
+
 static mor_ode_settings ask(mor_ode_method method, int n, double relative, const double *absolute, int64_t n_steps)
 {
     return (mor_ode_settings){.method = method,
@@ -272,6 +311,7 @@ int main(void)
         cmocka_unit_test(result_does_not_depend_on_what_was_solved_before),
         cmocka_unit_test(short_span_late_in_a_run_is_not_lost),
         cmocka_unit_test(failures_are_values_and_leave_the_start),
+        cmocka_unit_test(one_step_can_be_all_that_is_allowed),
         cmocka_unit_test(too_few_steps_is_not_converged),
         cmocka_unit_test(wrong_settings_are_refused_with_their_value),
         cmocka_unit_test(wrong_calls_are_refused),
