@@ -203,7 +203,9 @@ static void compression_without_lateral_strain_forgets_its_start(void **state)
 }
 
 /* Karlsruhe fine sand, parameters of Wichtmann et al. (2019), loose and dense, compressed without lateral strain: void
- * ratios at axial stresses as measured, Wichtmann and Triantafyllidis (2016), tests OE1 and OE6. */
+ * ratios at axial stresses as measured, Wichtmann and Triantafyllidis (2016), tests OE1 and OE6, whose data are named
+ * in docs/validation/hypoplastic-sand.md. Their change from the start is compared: from 55 kPa on within 17 %, as two
+ * specimens alike, OE1 and OE2, differ in it; below, the seating of the specimen is measured as well. */
 static void karlsruhe_fine_sand_compresses_as_measured(void **state)
 {
     (void)state;
@@ -236,7 +238,8 @@ static void karlsruhe_fine_sand_compresses_as_measured(void **state)
             while (-s.stress[2] < stresses[m]) {
                 strain(&s, 0.0, -1e-5, 1);
             }
-            assert_true(fabs(s.void_ratio / measured[k][m] - 1.0) < 0.01); /* a law for sand, not for this specimen */
+            const double change = start[k] - measured[k][m];
+            assert_true(fabs(start[k] - s.void_ratio - change) < (m < 2 ? 0.25 : 0.17) * change);
         }
         discard(&s);
     }
