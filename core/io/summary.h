@@ -98,7 +98,7 @@ typedef struct mor_summary_integration {
     int64_t n_sub_steps; /* accepted ones */
     int64_t n_rejected;  /* sub-steps repeated because the error was too large */
     int64_t n_rates;     /* evaluations of a law */
-    int64_t n_failures;  /* updates repeated with smaller steps */
+    int64_t n_failures;  /* batches of particles repeated with smaller steps */
 } mor_summary_integration;
 
 /** Everything in the file. A view: nothing in it is owned. */

@@ -423,10 +423,10 @@ static mor_status advance_block(block *b, mor_ode *ode, const mor_batch *batch, 
 
 /* ---- The operation ----------------------------------------------------------------------------------------------- */
 
-static void count(mor_material_integration *own, const mor_ode_report *report, int64_t n_updates, int is_failed)
+static void count(mor_material_integration *own, const mor_ode_report *report, int64_t n_updates, int is_repeated)
 {
     const int64_t more[MOR_INTEGRATION_COUNTS] = {n_updates, report->n_steps, report->n_rejected, report->n_rates,
-                                                  is_failed};
+                                                  is_repeated};
     for (int k = 0; k < MOR_INTEGRATION_COUNTS; ++k) {
         __atomic_fetch_add(&own->counts[k], more[k], __ATOMIC_RELAXED);
     }
@@ -454,7 +454,7 @@ static mor_status advance_rate(const mor_material_instance *instance, const mor_
         }
         first += b.n;
     }
-    count(own, &sum, first, status != MOR_OK);
+    count(own, &sum, status == MOR_OK ? batch->n : 0, status > MOR_OK);
     return status;
 }
 

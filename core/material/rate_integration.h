@@ -19,11 +19,11 @@
 
 /** What the integrations of an instance have taken; the same for any number of threads. */
 typedef struct mor_integration_statistics {
-    int64_t n_updates;   /* steps of particles */
+    int64_t n_updates;   /* steps of particles, of calls of advance_rate that succeeded */
     int64_t n_sub_steps; /* accepted steps of the integrator */
     int64_t n_rejected;  /* steps repeated because the error was too large */
     int64_t n_rates;     /* evaluations of the law */
-    int64_t n_failures;  /* calls of advance_rate that asked for a smaller step */
+    int64_t n_failures;  /* calls of advance_rate that asked for a smaller step, each for its batch of particles */
 } mor_integration_statistics;
 
 enum { MOR_INTEGRATION_COUNTS = sizeof(mor_integration_statistics) / sizeof(int64_t) };

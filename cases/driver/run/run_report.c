@@ -138,7 +138,7 @@ static void print_integration(FILE *out, const mor_summary_integration *it)
         const double n = (double)it->n_updates;
         fprintf(out,
                 "\nintegration of the material: %.4g sub-steps and %.4g rates per particle and step, %lld sub-steps "
-                "rejected, %lld updates repeated with smaller steps\n",
+                "rejected, %lld batches of particles repeated with smaller steps\n",
                 (double)it->n_sub_steps / n, (double)it->n_rates / n, (long long)it->n_rejected,
                 (long long)it->n_failures);
     }

@@ -292,10 +292,15 @@ static void failures_ask_for_a_smaller_step_and_name_the_particle(void **state)
     assert_int_equal(failed, 40);
     mor_rate_integration_add(instance, &taken);
     assert_int_equal(taken.n_failures, 1);
+    assert_int_equal(taken.n_updates, 0);
     a.stress[6 * 40 + 2] = 0.0;
     a.gradient[9 * 50] = NAN;
     assert_int_equal(instance->operations.advance_rate(instance, &batch), MOR_ERROR_NUMERIC);
     assert_int_equal(failed, 50);
+    taken = (mor_integration_statistics){0};
+    mor_rate_integration_add(instance, &taken);
+    assert_int_equal(taken.n_failures, 1); /* nothing is repeated after an error that is fatal */
+    assert_int_equal(taken.n_updates, 0);
     a.gradient[9 * 50] = 2.0; /* no small increment */
     assert_int_equal(instance->operations.advance_rate(instance, &batch), MOR_RETRY_SMALLER_STEP);
     discard(&context, &instance);
