@@ -22,6 +22,7 @@ typedef struct trial {
     const double *parameters; /* shape [n_values], units of the schema; NULL: several sets are drawn */
     double density;           /* kg/m3 */
     mor_conformance_report report;
+    bool is_timing;
     double seconds[MOR_COST_STRAINS]; /* of an update of a particle */
     mor_status status;
 } trial;
@@ -39,6 +40,7 @@ static void run_trial(void *job)
     trial *it = job;
     it->status = mor_conformance_run(it->context, it->material, it->parameters, it->density, &it->report);
     if (it->status == MOR_OK && it->report.n_failed == 0) {
+        it->is_timing = true;
         it->status =
             mor_conformance_cost(it->context, it->material, it->parameters, it->density, read_seconds, it->seconds);
     }
@@ -87,19 +89,26 @@ static mor_status print_costs(mor_session *session, const trial *it)
     return MOR_OK;
 }
 
-/* Prints what was found; of a model that crashed the law that was tried last is the one in which it did. */
+/* What was tried when a model crashed: the law that was tried last, or its cost after all of them. */
+static const char *find_crash(const trial *it)
+{
+    const int n = it->report.n_rows;
+    return it->is_timing ? "timing an update" : n > 0 ? it->report.rows[n - 1].law : "making an instance";
+}
+
+/* Prints what was found; the law in which a model crashed has no result. */
 static mor_status try_material(mor_session *session, trial *it, int *n_failed)
 {
     char line[CHECK_LINE];
     const int signal = mor_guard_run(session->context.guard, run_trial, it);
+    const int n_rows = it->report.n_rows - (signal != 0 && !it->is_timing);
     fprintf(session->output, "%s %s\n", it->material->name, it->material->version);
-    for (int k = 0; k < it->report.n_rows - (signal != 0); ++k) {
+    for (int k = 0; k < n_rows; ++k) {
         mor_conformance_format(&it->report.rows[k], line, sizeof line);
         fprintf(session->output, "  %s\n", line);
     }
     MOR_CHECK(&session->context, signal == 0, MOR_ERROR_PLUGIN, "material '%s' crashed (%s) while this was tried: %s",
-              it->material->name, strsignal(signal),
-              it->report.n_rows > 0 ? it->report.rows[it->report.n_rows - 1].law : "making an instance");
+              it->material->name, strsignal(signal), find_crash(it));
     *n_failed += it->report.n_failed;
     return it->status == MOR_OK && it->report.n_failed == 0 ? print_costs(session, it) : it->status;
 }
