@@ -81,6 +81,11 @@ static mor_status stop_at_turn(mor_context *context, const mor_element_settings 
         part[last > 0.0] = next;
         miss[last > 0.0] = last;
     }
+    MOR_CHECK(
+        context, fabs(last) <= allowed, MOR_NOT_CONVERGED,
+        "the stress at a turn is %.6g kPa, not %.6g kPa within %.3g kPa, after %d trials; the law may jump there: "
+        "raise test.tolerance or test.steps",
+        1e-3 * measure_stress(settings, element), 1e-3 * it->stress, 1e-3 * allowed, ITERATIONS);
     return MOR_OK;
 }
 

@@ -178,6 +178,39 @@ static void amplitude_beyond_the_strength_stops_the_specimen(void **state)
     mor_element_record_clear(&context, &record);
 }
 
+/* Elastic, but its axial stress jumps by 4 kPa where it would pass 109 kPa. */
+static mor_status advance_with_jump(const mor_material_instance *instance, const mor_batch *batch)
+{
+    const double before = batch->stress_in[MOR_ZZ];
+    const mor_status status = law_named("hypoelastic")->operations.advance_rate(instance, batch);
+    if (before > -109e3 && batch->stress_out[MOR_ZZ] <= -109e3) {
+        batch->stress_out[MOR_ZZ] -= 4e3;
+    }
+    return status;
+}
+
+static void turn_that_no_part_of_a_step_reaches_stops_the_specimen(void **state)
+{
+    (void)state;
+    static const char *const list[] = {"test.path=cyclic-triaxial", "test.amplitude=10 kPa", "youngs_modulus=10 MPa",
+                                       "poissons_ratio=0.3"};
+    mor_context context;
+    mor_element_settings settings = {.density = 2000.0};
+    mor_element_record record = {0};
+    mor_material law = *law_named("hypoelastic");
+    law.operations.advance_rate = advance_with_jump;
+    mor_context_init(&context);
+    mor_params_defaults(law.parameters, settings.parameters);
+    assert_int_equal(mor_element_settings_read(&context, &law, list, 4, &settings), MOR_OK);
+    assert_int_equal(mor_element_test_run(&context, &law, &settings, &record), MOR_OK);
+    assert_int_equal(record.status, MOR_NOT_CONVERGED);
+    for (int64_t i = 0; i < record.n_rows; ++i) {
+        assert_true(stress_of(&settings, record.values + i * record.n_columns) <= 9e3); /* none beyond the jump */
+    }
+    mor_element_record_clear(&context, &record);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void amplitude_of_a_path_that_does_not_turn_is_refused(void **state)
 {
     (void)state;
@@ -198,6 +231,7 @@ int main(void)
         cmocka_unit_test(elastic_soil_turns_at_the_strains_of_hookes_law),
         cmocka_unit_test(undrained_sand_loses_pressure_between_equal_stresses),
         cmocka_unit_test(amplitude_beyond_the_strength_stops_the_specimen),
+        cmocka_unit_test(turn_that_no_part_of_a_step_reaches_stops_the_specimen),
         cmocka_unit_test(amplitude_of_a_path_that_does_not_turn_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
