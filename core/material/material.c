@@ -122,6 +122,9 @@ static const char *find_operation_fault(const mor_material *material)
         (operations->advance_rate == NULL) == (operations->stress_rate == NULL)) {
         return "the rate form requires one of advance_rate and stress_rate";
     }
+    if (material->form == MOR_MATERIAL_TOTAL && (operations->stress_rate != NULL || operations->limit != NULL)) {
+        return "the total form has neither stress_rate nor limit; remove them, or use the rate form";
+    }
     if (operations->limit != NULL && operations->stress_rate == NULL) {
         return "operation limit goes with stress_rate";
     }

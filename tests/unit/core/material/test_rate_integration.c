@@ -348,6 +348,13 @@ static void a_guarded_instance_counts_and_is_freed_once(void **state)
     discard(&context, &checked);
 }
 
+static mor_status do_nothing(const mor_material_instance *instance, const mor_batch *batch)
+{
+    (void)instance;
+    (void)batch;
+    return MOR_OK;
+}
+
 static void wrong_tables_of_operations_are_refused(void **state)
 {
     (void)state;
@@ -361,6 +368,17 @@ static void wrong_tables_of_operations_are_refused(void **state)
     wrong.capabilities |= MOR_MATERIAL_DISSIPATION;
     assert_int_equal(mor_material_verify(&context, &wrong), MOR_ERROR_PLUGIN);
     assert_non_null(strstr(context.message, "no dissipation"));
+    wrong = FORGETFUL;
+    wrong.form = MOR_MATERIAL_TOTAL;
+    wrong.operations.stress_total = do_nothing;
+    assert_int_equal(mor_material_verify(&context, &wrong), MOR_ERROR_PLUGIN);
+    assert_non_null(strstr(context.message, "neither stress_rate nor limit"));
+    wrong.operations.stress_rate = NULL;
+    wrong.operations.limit = do_nothing;
+    assert_int_equal(mor_material_verify(&context, &wrong), MOR_ERROR_PLUGIN);
+    assert_non_null(strstr(context.message, "neither stress_rate nor limit"));
+    wrong.operations.limit = NULL;
+    assert_int_equal(mor_material_verify(&context, &wrong), MOR_OK);
 }
 
 int main(void)
