@@ -222,7 +222,9 @@ static void print_start(const mor_material_instance *instance, const mor_element
     }
     fprintf(out, "  start      stress (%.6g, %.6g, %.6g, %.6g, %.6g, %.6g) Pa, p %.6g Pa, ", s[0], s[1], s[2], s[3],
             s[4], s[5], -(s[0] + s[1] + s[2]) / 3.0);
-    if (status == MOR_OK) {
+    if (instance->material->operations.admissible == NULL) {
+        fprintf(out, "the law reports no yield surface\n");
+    } else if (status == MOR_OK) {
         fprintf(out, "%.4g Pa %s the yield surface\n", fabs(distance), distance > 0.0 ? "outside of" : "inside");
     } else {
         fprintf(out, "the distance to the yield surface cannot be told: %s\n", mor_status_text(status));
