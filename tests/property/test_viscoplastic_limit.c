@@ -152,7 +152,7 @@ static void update_in_which_flow_begins_ends_on_the_cone(void **state)
         outcome integrated;
         drive(it.material, 0.01, k % 2, 0.0, 20e3 + 100.0 * k, &integrated);
         assert_true(integrated.plastic_strain > 1e-3);
-        assert_true(integrated.outside < 0.5); /* Pa: viscosity times rate, 0.1, and the tolerance of 0.02 a sub-step */
+        assert_true(integrated.outside < 0.5); /* Pa: viscosity times rate, 0.1, and the tolerance */
     }
     template_close(&context, &it);
 }
