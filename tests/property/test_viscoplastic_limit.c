@@ -139,8 +139,8 @@ static void without_viscosity_integrated_rates_are_the_return_mapping(void **sta
     template_close(&context, &it);
 }
 
-/* Wherever in an update flow begins, in its second half, too, the update is not taken for an elastic one: that would end
- * up to 300 Pa outside the cone. */
+/* Wherever in an update flow begins, in its second half, too, the update is not taken for an elastic one: that would
+ * end up to 300 Pa outside the cone. */
 static void update_in_which_flow_begins_ends_on_the_cone(void **state)
 {
     (void)state;
