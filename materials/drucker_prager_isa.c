@@ -363,7 +363,7 @@ static const mor_schema PARAMETERS[] = {
     [MOR_DRUCKER_PRAGER_COUNT] = {.key = NULL},
 };
 
-static const mor_schema STATE[] = {MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA, {.key = NULL}};
+static const mor_schema STATE[] = {MOR_PLASTIC_STRAIN_SCHEMA, {.key = NULL}};
 
 const mor_material MOR_ISA_NAME(mor_drucker_prager) = {
     .abi = MOR_MATERIAL_ABI,

@@ -4,6 +4,7 @@
  * below a critical density (gas): Jiang et al. (2022), eqs. 3 to 8, 10. No objective rate is needed, so a simple shear
  * does not make the stress oscillate. The state is the logarithmic elastic strain e = ln(b)/2 instead of the elastic
  * left Cauchy-Green tensor b = exp(2e) of the paper: b holds strains only to the rounding of 1. docs/theory/flow.md. */
+#include "materials/frame/entries.h"
 #include "materials/frame/hooke.h"
 #include "materials/frame/log_strain.h"
 #include "materials/frame/rate_point.h"
@@ -136,17 +137,10 @@ static const mor_schema PARAMETERS[] = {
                         .maximum = 1.57079632679489662,
                         .excludes_maximum = 1,
                         .text = "friction angle in triaxial compression"},
-    [GAS_DENSITY_RATIO] = {.key = "gas_density_ratio",
-                           .role = MOR_ROLE_GAS_DENSITY_RATIO,
-                           .kind = MOR_SCHEMA_REAL,
-                           .n_components = 1,
-                           .unit = "1",
-                           .default_value = 1.0,
-                           .minimum = 0.0,
-                           .maximum = 1.0,
-                           .text = "density below which grains are apart and carry no stress, over that of the first "
-                                   "state without its stress; "
-                                   "0: never"},
+    [GAS_DENSITY_RATIO] = MOR_GAS_DENSITY_RATIO_SCHEMA(
+        1.0, "density below which grains are apart and carry no stress, over that of the first "
+             "state without its stress; "
+             "0: never"),
     [N_PARAMETERS] = {.key = NULL},
 };
 
@@ -158,13 +152,7 @@ static const mor_schema STATE[] = {
      .minimum = -INFINITY,
      .maximum = INFINITY,
      .text = "logarithmic elastic strain ln(b)/2 in the order xx, yy, zz, xy, yz, zx"},
-    {.key = "plastic_strain",
-     .kind = MOR_SCHEMA_REAL,
-     .n_components = 1,
-     .unit = "1",
-     .minimum = 0.0,
-     .maximum = INFINITY,
-     .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"},
+    MOR_PLASTIC_STRAIN_SCHEMA,
     {.key = "gas_density",
      .kind = MOR_SCHEMA_REAL,
      .n_components = 1,

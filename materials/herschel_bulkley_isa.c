@@ -3,6 +3,7 @@
 /* Mud that stands below a yield stress and flows above it: Herschel and Bulkley (1926), and Bingham (1922) as their
  * case of exponent 1. Elastic below yield, so that it comes to rest; the viscoplastic rate (Perzyna (1966)) is
  * implicit: no limit of the step follows from it. docs/theory/flow.md. */
+#include "materials/frame/entries.h"
 #include "materials/frame/hooke.h"
 #include "materials/frame/rate_lanes.h"
 
@@ -243,13 +244,7 @@ static const mor_schema HERSCHEL_BULKLEY[] = {
 };
 
 static const mor_schema STATE[] = {
-    {.key = "plastic_strain",
-     .kind = MOR_SCHEMA_REAL,
-     .n_components = 1,
-     .unit = "1",
-     .minimum = 0.0,
-     .maximum = INFINITY,
-     .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"},
+    MOR_PLASTIC_STRAIN_SCHEMA,
     {.key = NULL},
 };
 

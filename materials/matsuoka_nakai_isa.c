@@ -252,7 +252,7 @@ static const mor_schema PARAMETERS[] = {
     [DILATION_ANGLE] = MOR_FRICTIONAL_DILATION_ANGLE_SCHEMA,    [PARAMETER_COUNT] = {.key = NULL},
 };
 
-static const mor_schema STATE[] = {MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA, {.key = NULL}};
+static const mor_schema STATE[] = {MOR_PLASTIC_STRAIN_SCHEMA, {.key = NULL}};
 
 const mor_material MOR_ISA_NAME(mor_matsuoka_nakai) = {
     .abi = MOR_MATERIAL_ABI,

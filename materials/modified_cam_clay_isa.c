@@ -6,6 +6,7 @@
  * elasticity has a potential; with a constant Poisson's ratio it would not (Zytynski et al. (1978)).
  * docs/theory/flow.md. */
 #include "core/material/kit/material.h"
+#include "materials/frame/entries.h"
 #include "materials/frame/invariants.h"
 #include "materials/frame/rate_point.h"
 
@@ -357,13 +358,7 @@ static const mor_schema STATE[] = {
                           .minimum = -1.0,
                           .maximum = INFINITY,
                           .text = "void ratio, from the change of volume"},
-    [STATE_PLASTIC_STRAIN] = {.key = "plastic_strain",
-                              .kind = MOR_SCHEMA_REAL,
-                              .n_components = 1,
-                              .unit = "1",
-                              .minimum = 0.0,
-                              .maximum = INFINITY,
-                              .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"},
+    [STATE_PLASTIC_STRAIN] = MOR_PLASTIC_STRAIN_SCHEMA,
     {.key = NULL},
 };
 

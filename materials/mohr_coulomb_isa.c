@@ -175,7 +175,7 @@ static const mor_schema PARAMETERS[] = {
     [PARAMETER_COUNT] = {.key = NULL},
 };
 
-static const mor_schema STATE[] = {MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA, {.key = NULL}};
+static const mor_schema STATE[] = {MOR_PLASTIC_STRAIN_SCHEMA, {.key = NULL}};
 
 const mor_material MOR_ISA_NAME(mor_mohr_coulomb) = {
     .abi = MOR_MATERIAL_ABI,

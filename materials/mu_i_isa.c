@@ -4,6 +4,7 @@
  * et al. (2022), eqs. 6, 7, 9. Deviations from Hu et al.: the bulk modulus is not divided by three; the plastic rate
  * is the plastic part only and is solved for together with mu(I) (Dunatunga and Kamrin (2015)), because mu from the
  * trial rate is but of first order. docs/theory/flow.md. */
+#include "materials/frame/entries.h"
 #include "materials/frame/hooke.h"
 #include "materials/frame/rate_lanes.h"
 
@@ -205,27 +206,14 @@ static const mor_schema PARAMETERS[] = {
                        .maximum = INFINITY,
                        .excludes_minimum = 1,
                        .text = "density of the grains, in the inertial number"},
-    [GAS_DENSITY_RATIO] = {.key = "gas_density_ratio",
-                           .role = MOR_ROLE_GAS_DENSITY_RATIO,
-                           .kind = MOR_SCHEMA_REAL,
-                           .n_components = 1,
-                           .unit = "1",
-                           .minimum = 0.0,
-                           .maximum = 1.0,
-                           .text =
-                               "density below which grains are apart and carry no stress, over the reference density; "
-                               "0: never"},
+    [GAS_DENSITY_RATIO] = MOR_GAS_DENSITY_RATIO_SCHEMA(
+        0.0, "density below which grains are apart and carry no stress, over the reference density; "
+             "0: never"),
     [N_PARAMETERS] = {.key = NULL},
 };
 
 static const mor_schema STATE[] = {
-    {.key = "plastic_strain",
-     .kind = MOR_SCHEMA_REAL,
-     .n_components = 1,
-     .unit = "1",
-     .minimum = 0.0,
-     .maximum = INFINITY,
-     .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"},
+    MOR_PLASTIC_STRAIN_SCHEMA,
     {.key = NULL},
 };
 

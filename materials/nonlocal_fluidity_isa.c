@@ -5,6 +5,7 @@
  * static one, and is used up by flow. Deviations, docs/theory/nonlocal.md: the reaction of the field and the shear
  * stress are solved together, implicitly, which is a quadratic equation; the elastic strain is carried instead of
  * both deformation gradients; grains that deform have a small least fluidity, so that flow can begin from rest. */
+#include "materials/frame/entries.h"
 #include "materials/frame/hooke.h"
 #include "materials/frame/log_strain.h"
 #include "materials/frame/rate_point.h"
@@ -247,16 +248,14 @@ static const mor_schema PARAMETERS[] = {
                                     "law, without a field and without its time scale"),
                             .default_value = 0.48},
     [TIME_SCALE] = {POSITIVE("time_scale", "s", "t0: the fluidity grows and decays at the rate (mu - mu_s)/t0"),
-                    .role = MOR_ROLE_FIELD_TIME_SCALE,
-                    .default_value = 1e-4},
+                    .role = MOR_ROLE_FIELD_TIME_SCALE, .default_value = 1e-4},
     [FLUIDITY_SEED] = {BOUNDED("fluidity_seed", 1.0,
                                "least fluidity of grains that deform, over that of free flow, sqrt(2)|D|/mu_2; flow "
                                "begins from it, and no steady flow is slower"),
                        .default_value = 1e-3},
-    [GAS_DENSITY_RATIO] = {BOUNDED("gas_density_ratio", 1.0,
-                                   "density below which grains are apart and carry no stress, over that of the first "
-                                   "state without its stress; 0: never"),
-                           .role = MOR_ROLE_GAS_DENSITY_RATIO},
+    [GAS_DENSITY_RATIO] = MOR_GAS_DENSITY_RATIO_SCHEMA(
+        0.0, "density below which grains are apart and carry no stress, over that of the first "
+             "state without its stress; 0: never"),
     [N_PARAMETERS] = {.key = NULL},
 };
 
@@ -275,13 +274,7 @@ static const mor_schema STATE[] = {
                         .minimum = -INFINITY,
                         .maximum = INFINITY,
                         .text = "logarithmic elastic strain ln(b)/2 in the order xx, yy, zz, xy, yz, zx"},
-    [PLASTIC_STRAIN] = {.key = "plastic_strain",
-                        .kind = MOR_SCHEMA_REAL,
-                        .n_components = 1,
-                        .unit = "1",
-                        .minimum = 0.0,
-                        .maximum = INFINITY,
-                        .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"},
+    [PLASTIC_STRAIN] = MOR_PLASTIC_STRAIN_SCHEMA,
     [GAS_DENSITY] = {.key = "gas_density",
                      .kind = MOR_SCHEMA_REAL,
                      .n_components = 1,

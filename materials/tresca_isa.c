@@ -183,7 +183,7 @@ static const mor_schema PARAMETERS[] = {
 };
 
 static const mor_schema STATE[] = {
-    [PLASTIC_STRAIN] = MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA,
+    [PLASTIC_STRAIN] = MOR_PLASTIC_STRAIN_SCHEMA,
     [STRENGTH_RATIO] = {.key = "strength_ratio",
                         .kind = MOR_SCHEMA_REAL,
                         .n_components = 1,

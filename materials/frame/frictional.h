@@ -4,11 +4,12 @@
 #define MOR_MATERIALS_FRAME_FRICTIONAL_H
 
 #include "core/base/schema.h"
+#include "materials/frame/entries.h"
 
 #include <math.h>
 
 /** @file
- *  Schema entries that frictional laws share: strength and dilation angle, and the accumulated plastic strain. */
+ *  Schema entries that frictional laws share: strength, dilation angle and limit of tension. */
 
 /** Schema entry of the friction angle; excluded is 1 for a law that needs friction, 0 for one that does not. */
 #define MOR_FRICTIONAL_FRICTION_ANGLE_SCHEMA(excluded)                                                                 \
@@ -45,13 +46,6 @@
     {                                                                                                                  \
         .key = "tension_ratio", .role = MOR_ROLE_TENSION_RATIO, .kind = MOR_SCHEMA_REAL, .n_components = 1,            \
         .unit = "1", .default_value = 1.0, .minimum = 0.0, .maximum = 1.0, .text = (line)                              \
-    }
-
-/** Schema entry of the accumulated deviatoric plastic strain, a state variable. */
-#define MOR_FRICTIONAL_PLASTIC_STRAIN_SCHEMA                                                                           \
-    {                                                                                                                  \
-        .key = "plastic_strain", .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "1", .minimum = 0.0,              \
-        .maximum = INFINITY, .text = "accumulated deviatoric plastic strain, sum of sqrt(2/3 de:de)"                   \
     }
 
 #endif
