@@ -20,6 +20,9 @@ enum { CONFORMANCE_LINE_BYTES = 1024 };
 /** Laws of which one given by its rates says nothing. */
 #define CONFORMANCE_NO_DISSIPATION "dissipation is not negative; work is stored or dissipated"
 
+/** The law that one without a yield surface says nothing of. */
+#define CONFORMANCE_NO_YIELD_SURFACE "the stress ends admissible"
+
 /** The row of a law that has words, zero-terminated, in its statement. */
 static inline const mor_conformance_row *conformance_find(const mor_conformance_report *report, const char *words)
 {

@@ -8,8 +8,9 @@ static void template_plugins_build_as_their_readmes_say_and_obey_all_laws(void *
     (void)state;
     static const struct {
         const char *project, *law, *may_skip;
-    } templates[] = {{"template", "undrained_clay", ""},
-                     {"template_rates", "viscoplastic_soil", CONFORMANCE_NO_DISSIPATION}};
+    } templates[] = {
+        {"template", "undrained_clay", ""},
+        {"template_rates", "viscoplastic_soil", CONFORMANCE_NO_DISSIPATION "; " CONFORMANCE_NO_YIELD_SURFACE}};
     for (size_t k = 0; k < sizeof templates / sizeof *templates; ++k) {
         mor_context context;
         template_law it = {0};
