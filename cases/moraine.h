@@ -162,6 +162,13 @@ mor_session_phase mor_session_find_phase(const mor_session *session);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT beyond 256 of them; MOR_ERROR_MEMORY. */
 mor_status mor_session_override(mor_session *session, const char *setting);
 
+/** Says how the user of a program writes a setting of mor_session_test_material, or loads a plug-in, so that messages
+ *  name what was typed: of the program `moraine`, "test.soil" is written --soil.
+ *  @param key  [in]  zero-terminated; a key, as "test.soil", or "plugins" for mor_session_add_plugin
+ *  @param name [in]  zero-terminated; copied; the key itself takes an earlier name away
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT beyond 16 keys, and for words of 64 bytes and more. */
+mor_status mor_session_name_setting(mor_session *session, const char *key, const char *name);
+
 /** Forgets all overrides, a wrong one among them. A case that is loaded keeps its values. */
 void mor_session_clear_overrides(mor_session *session);
 

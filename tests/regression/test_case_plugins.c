@@ -163,6 +163,8 @@ static void plugin_that_cannot_be_used_is_refused_with_its_place(void **state)
     refuse(folder, "does not serve interface");
     compile(folder, "clay.so", "s/mor_plugin_materials/hidden/");
     refuse(folder, "does not export 'mor_plugin_materials'");
+    write_case(folder, strstr(clay_case, "title"));
+    refuse(folder, "that of a plug-in where the case has plugins = [ \"./FILE.so\" ]");
 }
 
 /* In the particles under the largest stress, by any number of threads. */
@@ -194,6 +196,10 @@ static void plugin_that_leaves_nan_ends_the_run_with_the_update_kept(void **stat
     program_expect_text(outcome.errors, "run/failed-point.cfg, to be repeated alone");
     program_clear(&outcome);
     expect_in_file(folder, "run", "failed-point.cfg", "undrained_clay");
+    outcome = program_run(folder, (const char *const[]){"material", "--replay", "run/failed-point.cfg", NULL}, 2);
+    program_expect_text(outcome.errors, "'undrained_clay' is not known");
+    program_expect_text(outcome.errors, "by --plugin FILE.so");
+    program_clear(&outcome);
 }
 
 /* Crashes in the particles under the largest stress, when the integrator asks for one of them. */

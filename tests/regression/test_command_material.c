@@ -9,6 +9,7 @@
 enum { ARGUMENTS = 24 };
 
 #define COLUMN MOR_SOURCE_DIR "/cases/column-2d/case.cfg"
+#define LAYERS MOR_SOURCE_DIR "/cases/layered-slope/case.cfg"
 
 #define SOIL                                                                                                           \
     "-s", "youngs_modulus=10 MPa", "-s", "poissons_ratio=0.3", "-s", "friction_angle=30 deg", "-s", "cohesion=20 kPa"
@@ -112,8 +113,8 @@ static void every_path_is_followed_and_drawn(void **state)
 static void the_soil_of_a_case_is_tested_beside_measured_values(void **state)
 {
     run_folder *folder = *state;
-    static const char data[] = "# a box\r\nname,axial_strain [%],eps_v [%],q [kPa],p [kPa]\r\na,0,0,0,100\r\n"
-                               "b,0.5,0.2,48,116\r\nc,1,,,";
+    static const char data[] = "# a box\r\nname,axial_strain [%],eps v [%],eps_v [%],q [kPa],p [kPa]\r\n"
+                               "a,0,0,0,0,100\r\nb,0.5,0.2,0.2,48,116\r\nc,1,,,,";
     char path[MOR_PATH_BYTES];
     const char *const words[] = {
         "material", "--case",   COLUMN, "--path", "triaxial-compression", "--stress", "5 kPa", "-o", "out", "--data",
@@ -121,7 +122,28 @@ static void the_soil_of_a_case_is_tested_beside_measured_values(void **state)
     run_folder_store(run_folder_file(folder, path, "data.csv"), data, sizeof data - 1);
     program_outcome outcome = program_run(folder, words, 0);
     program_expect_text(outcome.output, ", triaxial-compression: drained");
+    program_expect_text(outcome.errors, "data.csv:2: passed over 2 columns, which are none of an element test: 'name', "
+                                        "'eps v' (did you mean 'eps_v'?)");
     expect_picture(folder, "out/element.png");
+    program_clear(&outcome);
+}
+
+/* A law that depends on the rate creeps where nothing drives it. */
+static void a_control_without_a_drive_is_left_to_laws_that_move_by_themselves(void **state)
+{
+    run_folder *folder = *state;
+    const char *const words[] = {"material", "bingham",
+                                 "-s",       "test.control=0, 0, 0, 0, 0, 0",
+                                 "--stress", "1 kPa",
+                                 "-s",       "test.steps=5",
+                                 "-s",       "bulk_modulus=1 MPa",
+                                 "-s",       "shear_modulus=0.1 MPa",
+                                 "-s",       "yield_stress=20 Pa",
+                                 "-s",       "viscosity=5 Pa s",
+                                 "-o",       "out",
+                                 NULL};
+    program_outcome outcome = program_run(folder, words, 0);
+    program_expect_text(outcome.output, "specimen of 1 kPa, 5 updates");
     program_clear(&outcome);
 }
 
@@ -192,7 +214,7 @@ static const struct {
      "allowed: plane_strain|compression|extension"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "dilation_angle=40 deg", NULL},
      "more than friction_angle"},
-    {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--stress", "-5 kPa", NULL}, "test.stress = '-5 kPa'"},
+    {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--stress", "-5 kPa", NULL}, "--stress = '-5 kPa'"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "test.steps=2.5", NULL},
      "which is no whole number"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "test.k0=0", NULL},
@@ -211,11 +233,25 @@ static const struct {
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--data", "short.csv", NULL},
      "short.csv:2: found 1 cells under 2 names of columns"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--data", "other.csv", NULL},
-     "found no column of an element test"},
+     "found no column of an element test in the first line, but 'load', 'axial strains' (did you mean "
+     "'axial_strain'?)"},
     {{"material", "hypoelastic", "--path", "oedometer", "--case", COLUMN, NULL}, "has 'drucker_prager'"},
     {{"material", "--path", "oedometer", "--case", COLUMN, "--soil", "peat", NULL}, "found no soil 'peat'"},
     {{"material", "drucker_prager", "--path", "oedometer", "--soil", "peat", SOIL, NULL},
-     "test.soil without test.case"},
+     "found --soil without --case"},
+    {{"material", "drucker_prager", "--path", "oedometer", "-s", "test.soil=peat", SOIL, NULL},
+     "found test.soil without --case"},
+    {{"material", "--path", "oedometer", "--case", LAYERS, NULL}, "choose one by --soil"},
+    {{"material", "my_clay", "--path", "oedometer", NULL},
+     "by --plugin FILE.so or by a case (--case) that has plugins = [ \"./FILE.so\" ]"},
+    {{"material", "umat", "--path", "oedometer", NULL}, "found 'umat', an interface to laws of other programs"},
+    {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--strain", "8", NULL},
+     "found --strain = '8', a strain of more than 100 % without a unit; write '8 %' or '800 %'"},
+    {{"material", "drucker_prager", "--path", "spin", SOIL, "--strain", "90", NULL}, "write '90 deg' or '90 rad'"},
+    {{"material", "drucker_prager", "--path", "oedometer", SOIL, "--strain", "20000 %", NULL}, "in (0, 100]"},
+    {{"material", "drucker_prager", "-s", "test.control=stress, stress, stress, 0, 0, 0", SOIL, NULL},
+     "nothing drives the specimen"},
+    {{"material", "drucker_prager", "-s", "test.control=0, 0, 0, 0, 0, 0", SOIL, NULL}, "nothing drives the specimen"},
     {{"check", COLUMN, "--path", "oedometer", NULL}, "belongs to moraine material"},
 };
 
@@ -228,7 +264,7 @@ static void wrong_input_is_refused_with_what_is_allowed(void **state)
                   {"unit.csv", "p [m],q [kPa]\n1,2\n"},
                   {"comma.csv", "p [kPa],q [kPa]\n1,2\n0,5,2\n"},
                   {"short.csv", "p [kPa],q [kPa]\n1\n"},
-                  {"other.csv", "load,settlement\n1,2\n"}};
+                  {"other.csv", "load,axial strains [%]\n1,2\n"}};
     for (size_t k = 0; k < sizeof tables / sizeof *tables; ++k) {
         char path[MOR_PATH_BYTES];
         run_folder_store(run_folder_file(folder, path, tables[k].name), tables[k].text, strlen(tables[k].text));
@@ -251,6 +287,8 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_control_of_ones_own_compresses_in_plane_strain, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_control_without_a_drive_is_left_to_laws_that_move_by_themselves,
+                                        run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_specimen_beyond_its_strength_keeps_its_table, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(wrong_input_is_refused_with_what_is_allowed, run_folder_setup,

@@ -53,6 +53,40 @@ static mor_status add_setting(mor_command *command, const char *setting)
     return status;
 }
 
+/* The settings of an element test that have an option of their own. */
+static const mor_command_option_kind test_options[] = {MOR_OPTION_PATH,  MOR_OPTION_STRESS, MOR_OPTION_STRAIN,
+                                                       MOR_OPTION_CASE,  MOR_OPTION_SOIL,   MOR_OPTION_DATA,
+                                                       MOR_OPTION_REPLAY};
+
+enum { N_TEST_OPTIONS = sizeof test_options / sizeof *test_options, KEY_BYTES = 64 };
+
+/* Messages call a setting what the user types. */
+static mor_status name_settings(const mor_command *command)
+{
+    MOR_TRY(command->context, mor_session_name_setting(command->session, "plugins", "--plugin FILE.so"));
+    for (int k = 0; k < N_TEST_OPTIONS; ++k) {
+        char key[KEY_BYTES];
+        char name[KEY_BYTES];
+        snprintf(key, sizeof key, "test.%s", mor_command_options[test_options[k]].name);
+        snprintf(name, sizeof name, "--%s", mor_command_options[test_options[k]].name);
+        MOR_TRY(command->context, mor_session_name_setting(command->session, key, name));
+    }
+    return MOR_OK;
+}
+
+/* One of them that was typed by its key. */
+static mor_status name_by_key(const mor_command *command, const char *setting)
+{
+    for (int k = 0; k < N_TEST_OPTIONS; ++k) {
+        char key[KEY_BYTES];
+        snprintf(key, sizeof key, "test.%s", mor_command_options[test_options[k]].name);
+        if (strncmp(setting, key, strlen(key)) == 0 && strchr("= ", setting[strlen(key)]) != NULL) {
+            return mor_session_name_setting(command->session, key, key);
+        }
+    }
+    return MOR_OK;
+}
+
 static mor_status add_plugin(mor_command *command, const char *path)
 {
     const mor_status status = mor_session_add_plugin(command->session, path);
@@ -82,6 +116,7 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
     case MOR_OPTION_THREADS:
         return set_threads(command, value);
     case MOR_OPTION_SET:
+        MOR_TRY(command->context, name_by_key(command, value));
         return add_setting(command, value);
     case MOR_OPTION_RESUME:
         command->is_resume = true;
@@ -257,6 +292,7 @@ static mor_status prepare_session(const mor_command *command)
     mor_session_set_output(session, command->output);
     mor_session_set_command(session, command->line);
     MOR_TRY(command->context, mor_session_set_cache(session, cache));
+    MOR_TRY(command->context, name_settings(command));
     return mor_session_set_threads(session, 0);
 }
 

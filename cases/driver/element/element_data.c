@@ -4,6 +4,7 @@
 #include "cases/driver/element/element_record.h"
 
 #include "core/base/memory.h"
+#include "core/base/nearest.h"
 #include "core/base/number.h"
 #include "core/base/units.h"
 
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_BYTES = 128, FILE_COLUMNS_MAX = 256, ROWS_FIRST = 256 };
+enum { CELL_BYTES = 128, FILE_COLUMNS_MAX = 256, ROWS_FIRST = 256, PASSED_BYTES = 1024 };
 
 /* A file while it is read. */
 typedef struct reader {
@@ -25,6 +26,8 @@ typedef struct reader {
     int n_columns;                   /* of the file */
     int target[FILE_COLUMNS_MAX];    /* shape [n_columns]; column of the record; -1: passed over */
     double factor[FILE_COLUMNS_MAX]; /* shape [n_columns]; unit of the record by that of the file */
+    int n_passed;                    /* columns that are passed over */
+    char passed[PASSED_BYTES];       /* their names, and what they may be meant to be */
     mor_element_record *record;
 } reader;
 
@@ -58,6 +61,25 @@ static bool next_line(reader *r, FILE *stream)
     return false;
 }
 
+/* Keeps the name of a column that is passed over; of many, those that fit. */
+static void note_passed(reader *r, const char *name)
+{
+    const char *known[MOR_ELEMENT_COLUMNS];
+    char text[3 * CELL_BYTES];
+    const size_t used = strlen(r->passed);
+    for (int k = 0; k < MOR_ELEMENT_COLUMNS; ++k) {
+        const char *unit = NULL;
+        known[k] = mor_element_column_name(k, &unit);
+    }
+    const int near = mor_nearest_find(name, known, MOR_ELEMENT_COLUMNS);
+    snprintf(text, sizeof text, "%s'%s'%s%s%s", r->n_passed > 0 ? ", " : "", name, near >= 0 ? " (did you mean '" : "",
+             near >= 0 ? known[near] : "", near >= 0 ? "'?)" : "");
+    if (used + strlen(text) < sizeof r->passed) {
+        memcpy(r->passed + used, text, strlen(text) + 1);
+    }
+    r->n_passed += 1;
+}
+
 /* Which column of the record a heading "name [unit]" names, and the factor of its unit. */
 static mor_status read_heading(reader *r, const char *cell, int column)
 {
@@ -87,6 +109,9 @@ static mor_status read_heading(reader *r, const char *cell, int column)
         MOR_TRY(r->context, status);
         r->target[column] = k;
     }
+    if (r->target[column] < 0 && name[0] != '\0') {
+        note_passed(r, name);
+    }
     return MOR_OK;
 }
 
@@ -103,10 +128,15 @@ static mor_status read_header(reader *r)
         r->n_columns += 1;
     }
     MOR_CHECK(r->context, has_any, MOR_ERROR_CONFIG,
-              "%s:%lld: found no column of an element test in the first line; allowed: names as 'axial_strain [%%]', "
-              "'eps_v [%%]', 'eps_q', 'p [kPa]', 'q [kPa]', 'shear_strain', 'normal_stress', 'shear_stress', "
-              "'void_ratio'; name the columns so",
-              r->path, (long long)r->line_number);
+              "%s:%lld: found no column of an element test in the first line, but %s; allowed: names as "
+              "'axial_strain [%%]', 'eps_v [%%]', 'eps_q', 'p [kPa]', 'q [kPa]', 'shear_strain', 'normal_stress', "
+              "'shear_stress', 'void_ratio'; name the columns so",
+              r->path, (long long)r->line_number, r->n_passed > 0 ? r->passed : "no name");
+    if (r->n_passed > 0) {
+        mor_context_log(r->context, MOR_LOG_WARNING,
+                        "%s:%lld: passed over %d column%s, which are none of an element test: %s", r->path,
+                        (long long)r->line_number, r->n_passed, r->n_passed == 1 ? "" : "s", r->passed);
+    }
     return MOR_OK;
 }
 

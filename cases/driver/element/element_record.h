@@ -63,9 +63,9 @@ void mor_element_record_add(mor_element_record *record, const mor_element *eleme
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_element_record_write(mor_context *context, const mor_element_record *record, const char *path);
 
-/** Reads a table that was measured: comma-separated values, "name [unit]" in the first line; columns of other names are
- *  passed over, lines that begin with # too. Units may be any that convert to those of the results. Where eps_q is
- *  missing it follows from axial_strain and eps_v, as of a cylinder.
+/** Reads a table that was measured: comma-separated values, "name [unit]" in the first line; columns of other names
+ *  are passed over, which is logged as a warning, lines that begin with # too. Units may be any that convert to those
+ *  of the results. Where eps_q is missing it follows from axial_strain and eps_v, as of a cylinder.
  *  @param path   [in]   zero-terminated
  *  @param record [out]  the table
  *  Returns: MOR_OK; MOR_ERROR_CONFIG naming file and line; MOR_ERROR_IO when the tables of units are missing;

@@ -15,6 +15,7 @@
 enum { KEY_BYTES = 128, NAMES_MAX = 128, COMPONENTS_MAX = 9, CYCLES_MAX = 1000, STEPS_MAX = 1000000 };
 
 static const double default_tolerance = 1e-9;
+static const double full_revolution = 2.0 * MOR_PI;
 
 /* ---- Keys of the test -------------------------------------------------------------------------------------------- */
 
@@ -70,8 +71,8 @@ static const struct {
 } word_keys[] = {
     {"path", "how the specimen is deformed: one of the paths"},
     {"stress", "axial stress at the start, >= 0 Pa; several specimens: '100 kPa, 200 kPa'; default 100 kPa"},
-    {"strain", "how far: axial strain, shear strain or angle, > 0; default 0.1, of cyclic paths 0.01, of spin a turn; "
-               "with test.amplitude the strain within which that stress is to be reached"},
+    {"strain", "how far: axial or shear strain, or the angle of spin; default 0.1, of cyclic paths 0.01, of spin a "
+               "turn; with test.amplitude the strain within which that stress is to be reached"},
     {"control", "in place of a path, six parts for xx, yy, zz, xy, yz, zx: a number, the strain rate as a multiple of "
                 "test.rate (tension positive); 'stress', which is kept; 'stress 10 kPa/s', which changes"},
     {"data", "measured values to be drawn as well: a table with columns named as in the results"},
@@ -90,6 +91,24 @@ static const mor_schema stress_schema = {.key = "stress",
                                          .maximum = INFINITY,
                                          .text = "axial stress at the start"};
 
+static const mor_schema strain_schema = {.key = "strain",
+                                         .kind = MOR_SCHEMA_REAL,
+                                         .n_components = 1,
+                                         .unit = "1",
+                                         .minimum = 0.0,
+                                         .maximum = 100.0,
+                                         .excludes_minimum = 1,
+                                         .text = "strain at the end, or amplitude"};
+
+static const mor_schema angle_schema = {.key = "strain",
+                                        .kind = MOR_SCHEMA_REAL,
+                                        .n_components = 1,
+                                        .unit = "rad",
+                                        .minimum = 0.0,
+                                        .maximum = 100.0,
+                                        .excludes_minimum = 1,
+                                        .text = "angle of the rotation"};
+
 static const mor_schema density_schema = {.key = "density",
                                           .kind = MOR_SCHEMA_REAL,
                                           .n_components = 1,
@@ -106,17 +125,24 @@ typedef struct reader {
     mor_context *context;
     mor_units *units;
     const mor_material *material;
+    const mor_element_names *names;
     const char *const *list;
     int n;
 } reader;
+
+/* A key as the user writes it. */
+static const char *name_of(const reader *r, const char *key)
+{
+    return mor_element_names_find(r->names, key);
+}
 
 static mor_status refuse_value(const reader *r, const char *key, const char *text, const mor_schema *schema,
                                const char *why)
 {
     char range[256];
     mor_params_range(schema, range, sizeof range);
-    return MOR_FAIL(r->context, MOR_ERROR_CONFIG, "found %s = '%s'%s%s; allowed: %s (%s); correct the value", key, text,
-                    why[0] != '\0' ? ", " : "", why, range, schema->text);
+    return MOR_FAIL(r->context, MOR_ERROR_CONFIG, "found %s = '%s'%s%s; allowed: %s (%s); correct the value",
+                    name_of(r, key), text, why[0] != '\0' ? ", " : "", why, range, schema->text);
 }
 
 static mor_status read_number(const reader *r, const char *key, const char *text, const mor_schema *schema,
@@ -305,11 +331,12 @@ static mor_status read_stresses(const reader *r, mor_element_settings *settings)
         char part[KEY_BYTES];
         rest = take_part(rest, part, sizeof part);
         MOR_CHECK(r->context, settings->n_specimens < MOR_ELEMENT_SPECIMENS_MAX, MOR_ERROR_CONFIG,
-                  "found more than %d stresses for %s; test some of them at a time", MOR_ELEMENT_SPECIMENS_MAX, key);
+                  "found more than %d stresses for %s; test some of them at a time", MOR_ELEMENT_SPECIMENS_MAX,
+                  name_of(r, key));
         MOR_TRY(r->context, read_number(r, key, part, &stress_schema, &settings->stress[settings->n_specimens++]));
     }
     MOR_CHECK(r->context, settings->n_specimens > 0, MOR_ERROR_CONFIG,
-              "found no stress for %s; allowed: numbers as '100 kPa, 200 kPa'", key);
+              "found no stress for %s; allowed: numbers as '100 kPa, 200 kPa'", name_of(r, key));
     return MOR_OK;
 }
 
@@ -317,26 +344,41 @@ static mor_status read_stresses(const reader *r, mor_element_settings *settings)
 static double find_usual_strain(const mor_element_path *path)
 {
     if (path != NULL && path->measure == MOR_ELEMENT_ROTATION) {
-        return 2.0 * MOR_PI;
+        return full_revolution;
     }
     return path != NULL && path->is_cyclic ? 0.01 : 0.1;
+}
+
+/* A large number without a unit may be meant in percent, or in degrees. */
+static mor_status check_bare_strain(const reader *r, const char *key, const char *text, bool is_angle, double strain)
+{
+    char part[KEY_BYTES];
+    double bare = 0.0;
+    take_part(text, part, sizeof part);
+    const bool is_bare = mor_number_read(part, strlen(part), &bare);
+    MOR_CHECK(r->context, !is_bare || is_angle || strain <= 1.0, MOR_ERROR_CONFIG,
+              "found %s = '%s', a strain of more than 100 %% without a unit; write '%s %%' or '%.6g %%', whichever is "
+              "meant",
+              name_of(r, key), text, part, 100.0 * strain);
+    MOR_CHECK(r->context, !is_bare || !is_angle || strain <= full_revolution * (1.0 + 1e-6), MOR_ERROR_CONFIG,
+              "found %s = '%s', an angle of more than a full revolution without a unit; write '%s deg' or '%s rad', "
+              "whichever is meant",
+              name_of(r, key), text, part, part);
+    return MOR_OK;
 }
 
 static mor_status read_strain(const reader *r, mor_element_settings *settings)
 {
     char key[KEY_BYTES];
     const bool is_angle = settings->path != NULL && settings->path->measure == MOR_ELEMENT_ROTATION;
-    const mor_schema schema = {.key = "strain",
-                               .kind = MOR_SCHEMA_REAL,
-                               .n_components = 1,
-                               .unit = is_angle ? "rad" : "1",
-                               .minimum = 0.0,
-                               .maximum = 100.0,
-                               .excludes_minimum = 1,
-                               .text = is_angle ? "angle of the rotation" : "strain at the end, or amplitude"};
-    const char *text = find_test_value(r, schema.key, key);
+    const mor_schema *schema = is_angle ? &angle_schema : &strain_schema;
+    const char *text = find_test_value(r, schema->key, key);
     settings->strain = find_usual_strain(settings->path);
-    return text != NULL ? read_number(r, key, text, &schema, &settings->strain) : MOR_OK;
+    if (text == NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(r->context, read_number(r, key, text, schema, &settings->strain));
+    return check_bare_strain(r, key, text, is_angle, settings->strain);
 }
 
 static mor_status check_amplitude(const reader *r, const mor_element_settings *settings)
@@ -345,6 +387,23 @@ static mor_status check_amplitude(const reader *r, const mor_element_settings *s
     MOR_CHECK(r->context, isnan(settings->amplitude) || is_cyclic, MOR_ERROR_CONFIG,
               "found test.amplitude for '%s', which does not turn; give it with a cyclic path, or leave it out",
               settings->name);
+    return MOR_OK;
+}
+
+/* Creep and relaxation need no drive. A law of another program, whose constants have no units, does not tell whether
+ * it creeps. */
+static mor_status check_drive(const reader *r, const char *text, const mor_element_control *control)
+{
+    const unsigned moves_by_itself = MOR_MATERIAL_RATE_DEPENDENT | MOR_MATERIAL_FIXED_UNITS;
+    bool is_driven = (r->material->capabilities & moves_by_itself) != 0;
+    for (int k = 0; k < 6; ++k) {
+        is_driven = is_driven || control->stress_rate[k] != 0.0 || control->strain_rate[k] != 0.0;
+    }
+    MOR_CHECK(r->context, is_driven, MOR_ERROR_CONFIG,
+              "found test.control = '%s', in which nothing drives the specimen, and stress and strain of '%s' do not "
+              "change by themselves; allowed: at least one strain rate other than 0, or a 'stress' with a rate, as "
+              "'stress -10 kPa/s'",
+              text, r->material->name);
     return MOR_OK;
 }
 
@@ -380,7 +439,7 @@ static mor_status read_control(const reader *r, const char *text, mor_element_se
     MOR_CHECK(r->context, rest[0] == '\0', MOR_ERROR_CONFIG,
               "found test.control = '%s' with more than six parts; allowed: six, for xx, yy, zz, xy, yz, zx", text);
     snprintf(settings->name, sizeof settings->name, "control");
-    return MOR_OK;
+    return check_drive(r, text, &settings->control);
 }
 
 /* Every path, or the one asked for. */
@@ -392,7 +451,7 @@ static mor_status read_path(const reader *r, mor_element_settings *settings)
     const char *control = find_value(r->list, r->n, "test.control");
     int n = 0;
     MOR_CHECK(r->context, name == NULL || control == NULL, MOR_ERROR_CONFIG,
-              "found test.path and test.control; give one of them");
+              "found %s and test.control; give one of them", name_of(r, "test.path"));
     if (control != NULL) {
         return read_control(r, control, settings);
     }
@@ -404,7 +463,8 @@ static mor_status read_path(const reader *r, mor_element_settings *settings)
             settings->path = mor_element_path_at(n);
         }
     }
-    MOR_CHECK(r->context, name != NULL, MOR_ERROR_CONFIG, "found no path for the test; allowed: %s; choose one", all);
+    MOR_CHECK(r->context, name != NULL, MOR_ERROR_CONFIG, "found no path for the test; allowed: %s; choose one by %s",
+              all, name_of(r, "test.path"));
     const int near = mor_nearest_find(name, names, n);
     MOR_CHECK(r->context, settings->path != NULL, MOR_ERROR_CONFIG, "found the path '%s'%s%s; allowed: %s", name,
               near >= 0 ? "; did you mean " : "", near >= 0 ? names[near] : "", all);
@@ -465,7 +525,7 @@ static mor_status read_all(const reader *r, mor_element_settings *settings)
 mor_status mor_element_settings_read(mor_context *context, const mor_material *material, const char *const *list, int n,
                                      mor_element_settings *settings)
 {
-    reader r = {.context = context, .material = material, .list = list, .n = n};
+    reader r = {.context = context, .material = material, .names = settings->names, .list = list, .n = n};
     MOR_TRY(context, mor_units_new(context, &r.units));
     const mor_status status = read_all(&r, settings);
     mor_units_free(context, &r.units);
@@ -476,7 +536,15 @@ void mor_element_settings_print(FILE *out)
 {
     fprintf(out, "Settings of an element test\n");
     for (int k = 0; k < N_WORDS; ++k) {
-        fprintf(out, "  test.%-12s %s\n", word_keys[k].key, word_keys[k].text);
+        fprintf(out, "  test.%-12s %s", word_keys[k].key, word_keys[k].text);
+        if (strcmp(word_keys[k].key, strain_schema.key) == 0) {
+            char range[2][256];
+            mor_params_range(&strain_schema, range[0], sizeof range[0]);
+            mor_params_range(&angle_schema, range[1], sizeof range[1]);
+            fprintf(out, "; %s, of spin %s; above 1, of spin above a turn, with its unit, as '150 %%'", range[0],
+                    range[1]);
+        }
+        fputc('\n', out);
     }
     for (int k = 0; k < N_NUMBERS; ++k) {
         char range[256];

@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_ELEMENT_ELEMENT_SETTINGS_H
 #define MOR_CASES_DRIVER_ELEMENT_ELEMENT_SETTINGS_H
 
+#include "cases/driver/element/element_names.h"
 #include "core/material/element/element_path.h"
 
 #include <stdio.h>
@@ -24,6 +25,7 @@ typedef struct mor_element_words {
 
 /** An element test. */
 typedef struct mor_element_settings {
+    const mor_element_names *names;           /* of keys in messages; borrowed; NULL: the keys themselves */
     const mor_element_path *path;             /* NULL: control is given */
     mor_element_control control;              /* of a test without a path, at the rate of the test */
     char name[MOR_ELEMENT_NAME_BYTES];        /* of the path, for people */
@@ -54,8 +56,8 @@ void mor_element_words_find(const char *const *list, int n, mor_element_words *w
  *  @param material [in]      the law
  *  @param list     [in]      shape [n] of zero-terminated "key=value"
  *  @param n        [in]      number of settings
- *  @param settings [in,out]  density and parameters as they are without settings (NaN: there is none); the rest is
- *                            filled in
+ *  @param settings [in,out]  names, and density and parameters as they are without settings (NaN: there is none); the
+ *                            rest is filled in
  *  Returns: MOR_OK; MOR_ERROR_CONFIG saying what was found, what is allowed and what to do; MOR_ERROR_IO when the
  *  tables of units are missing; MOR_ERROR_MEMORY. */
 mor_status mor_element_settings_read(mor_context *context, const mor_material *material, const char *const *list, int n,

@@ -110,9 +110,10 @@ static mor_status follow_to_stress(mor_context *context, const mor_element_setti
     }
     return MOR_FAIL(context, MOR_NOT_CONVERGED,
                     "the stress has come to %.6g kPa, not to %.6g kPa, within a strain of %.4g; an amplitude may lie "
-                    "beyond the strength; lower test.amplitude, or raise test.strain",
+                    "beyond the strength; lower test.amplitude, or raise %s",
                     1e-3 * measure_stress(settings, element), 1e-3 * it->stress,
-                    (double)n_steps / settings->n_steps * settings->strain);
+                    (double)n_steps / settings->n_steps * settings->strain,
+                    mor_element_names_find(settings->names, "test.strain"));
 }
 
 /* One phase, a row after each step. */

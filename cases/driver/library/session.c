@@ -216,6 +216,16 @@ mor_status mor_session_override(mor_session *session, const char *setting)
     return MOR_OK;
 }
 
+mor_status mor_session_name_setting(mor_session *session, const char *key, const char *name)
+{
+    MOR_SESSION_WORK(session);
+    const mor_status status = mor_element_names_set(&session->names, key, name);
+    MOR_CHECK(&session->context, status == MOR_OK, MOR_ERROR_ARGUMENT,
+              "found the name '%.80s' for '%.80s'; allowed: fewer than %d bytes each, and up to %d keys", name, key,
+              MOR_ELEMENT_NAMES_BYTES, MOR_ELEMENT_NAMES_MAX);
+    return MOR_OK;
+}
+
 void mor_session_clear_overrides(mor_session *session)
 {
     while (session->n_overrides > 0) {

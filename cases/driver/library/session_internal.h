@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_LIBRARY_SESSION_INTERNAL_H
 #define MOR_CASES_DRIVER_LIBRARY_SESSION_INTERNAL_H
 
+#include "cases/driver/element/element_names.h"
 #include "cases/driver/run/run_files.h"
 #include "cases/moraine.h"
 #include "core/io/durable_file.h"
@@ -32,6 +33,7 @@ struct mor_session {
     int n_plugins;
     char *overrides[MOR_SESSION_OVERRIDES_MAX]; /* shape [n_overrides] of "key=value"; owned */
     int n_overrides;
+    mor_element_names names; /* of settings, as the user of the program writes them */
     char cache_folder[MOR_PATH_BYTES];
     char command[MOR_SESSION_COMMAND_BYTES];
     FILE *output;  /* borrowed, or silence */

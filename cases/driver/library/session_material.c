@@ -29,11 +29,18 @@ typedef struct bench {
     mor_element_record data; /* that was measured; empty: none */
 } bench;
 
+/* A setting as the user of the program writes it. */
+static const char *name_of(const bench *it, const char *key)
+{
+    return mor_element_names_find(&it->session->names, key);
+}
+
 /* ---- The law ----------------------------------------------------------------------------------------------------- */
 
-static mor_status find_soil(mor_context *context, const mor_case *the_case, const char *name,
-                            const mor_case_soil **soil)
+static mor_status find_soil(const bench *it, const char *name, const mor_case_soil **soil)
 {
+    mor_context *context = &it->session->context;
+    const mor_case *the_case = it->the_case;
     char all[1024] = "";
     *soil = NULL;
     for (int k = 0; k < the_case->n_soils; ++k) {
@@ -45,8 +52,8 @@ static mor_status find_soil(mor_context *context, const mor_case *the_case, cons
     MOR_CHECK(context, the_case->n_soils > 0, MOR_ERROR_CONFIG, "'%s' has no soil to be tested", the_case->path);
     MOR_CHECK(context, *soil != NULL || name == NULL, MOR_ERROR_CONFIG, "found no soil '%s' in '%s'; allowed: %s", name,
               the_case->path, all);
-    MOR_CHECK(context, *soil != NULL, MOR_ERROR_CONFIG, "'%s' has several soils; choose one by test.soil: %s",
-              the_case->path, all);
+    MOR_CHECK(context, *soil != NULL, MOR_ERROR_CONFIG, "'%s' has several soils; choose one by %s: %s", the_case->path,
+              name_of(it, "test.soil"), all);
     return MOR_OK;
 }
 
@@ -58,7 +65,7 @@ static mor_status take_soil(bench *it, const mor_element_words *words)
     MOR_TRY(context, MOR_NEW(context, &it->the_case, 1, "a case"));
     MOR_TRY(context,
             mor_case_read(context, words->case_file, NULL, 0, it->session->registry, mor_probe_type_at, it->the_case));
-    MOR_TRY(context, find_soil(context, it->the_case, words->soil, &soil));
+    MOR_TRY(context, find_soil(it, words->soil, &soil));
     MOR_CHECK(context, it->model == NULL || strcmp(it->model, soil->model) == 0, MOR_ERROR_CONFIG,
               "found the model '%s', but soil '%s' of '%s' has '%s'; leave the model out, or the case", it->model,
               soil->name, words->case_file, soil->model);
@@ -69,6 +76,24 @@ static mor_status take_soil(bench *it, const mor_element_words *words)
     return MOR_OK;
 }
 
+/* Says how a model that is not known becomes known; the message that there is tells the rest. */
+static mor_status explain_unknown(const bench *it, const char *name)
+{
+    mor_context *context = &it->session->context;
+    char why[MOR_CONTEXT_MESSAGE_BYTES];
+    const char *loading = name_of(it, "plugins");
+    MOR_CHECK(context, mor_registry_find_interface(it->session->registry, name) == NULL, MOR_ERROR_CONFIG,
+              "found '%s', an interface to laws of other programs, in place of a model; allowed: a soil of a case that "
+              "tells library and constants of such a law; give the case by %s",
+              name, name_of(it, "test.case"));
+    snprintf(why, sizeof why, "%.1500s", context->message);
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "%s; the law of a plug-in is known once that is loaded, by %s or by a case (%s) that has plugins = "
+                    "[ \"./FILE.so\" ]",
+                    why, strcmp(loading, "plugins") == 0 ? "mor_session_add_plugin" : loading,
+                    name_of(it, "test.case"));
+}
+
 static mor_status take_model(bench *it, const mor_element_words *words)
 {
     mor_context *context = &it->session->context;
@@ -76,9 +101,13 @@ static mor_status take_model(bench *it, const mor_element_words *words)
         return take_soil(it, words);
     }
     MOR_CHECK(context, it->model != NULL, MOR_ERROR_CONFIG,
-              "found no model to be tested; give its name, or a case by test.case");
-    MOR_CHECK(context, words->soil == NULL, MOR_ERROR_CONFIG, "found test.soil without test.case; give both");
-    MOR_TRY(context, mor_registry_require(context, it->session->registry, it->model, &it->material));
+              "found no model to be tested; give its name, or a case by %s", name_of(it, "test.case"));
+    MOR_CHECK(context, words->soil == NULL, MOR_ERROR_CONFIG, "found %s without %s; give both",
+              name_of(it, "test.soil"), name_of(it, "test.case"));
+    const mor_status status = mor_registry_require(context, it->session->registry, it->model, &it->material);
+    if (status != MOR_OK) {
+        return explain_unknown(it, it->model);
+    }
     it->settings.density = usual_density;
     mor_params_defaults(it->material->parameters, it->settings.parameters);
     return MOR_OK;
@@ -111,15 +140,21 @@ static mor_status replay_point(bench *it, const mor_element_words *words)
 {
     mor_context *context = &it->session->context;
     const int n_words = 1 + (words->case_file != NULL) + (words->soil != NULL);
-    mor_element_point point;
+    mor_element_point point = {.model = ""};
     MOR_CHECK(
         context, it->n == n_words, MOR_ERROR_CONFIG,
-        "found test.replay with other settings than test.case and test.soil; a failed update is repeated as it was: "
-        "remove them, or change the file");
+        "found %s with other settings than %s and %s; a failed update is repeated as it was: remove them, or change "
+        "the file",
+        name_of(it, "test.replay"), name_of(it, "test.case"), name_of(it, "test.soil"));
     if (words->case_file != NULL) {
         MOR_TRY(context, take_soil(it, words));
     }
-    MOR_TRY(context, mor_element_point_read(context, words->replay, it->session->registry, &it->material, &point));
+    const mor_status status =
+        mor_element_point_read(context, words->replay, it->session->registry, &it->material, &point);
+    if (status == MOR_ERROR_CONFIG && it->material == NULL && point.model[0] != '\0') {
+        return explain_unknown(it, point.model);
+    }
+    MOR_TRY(context, status);
     MOR_CHECK(context, it->model == NULL || strcmp(it->model, point.model) == 0, MOR_ERROR_CONFIG,
               "found the model '%s', but '%s' is of '%s'; leave the model out", it->model, words->replay, point.model);
     return mor_element_point_replay(context, it->material, &point, it->session->output);
@@ -159,6 +194,7 @@ mor_status mor_session_test_material(mor_session *session, const char *model, co
     it->model = model;
     it->list = (const char *const *)session->overrides;
     it->n = session->n_overrides;
+    it->settings.names = &session->names;
     const mor_status status = test_material(it, folder);
     for (int k = 0; k < MOR_ELEMENT_SPECIMENS_MAX; ++k) {
         mor_element_record_clear(context, &it->records[k]);

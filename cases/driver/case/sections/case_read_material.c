@@ -9,7 +9,7 @@
 
 /* What soil, walls and bodies have in common: a material, friction, a name of its own, a plane. */
 
-enum { WORDS_MAX = 64 };
+enum { WORDS_MAX = 64, WHAT_BYTES = 256 };
 
 /* ---- Material ---------------------------------------------------------------------------------------------------- */
 
@@ -63,7 +63,10 @@ static mor_status read_model(const mor_case_reader *reader, const mor_case_node 
     }
     *model = mor_registry_find(reader->registry, name->text);
     if (*model == NULL || (*model)->form != slot->form) {
-        return mor_case_reader_refuse(reader, name, slot->what, words, list_words(reader, slot, words));
+        char what[WHAT_BYTES];
+        snprintf(what, sizeof what, "%s; that of a plug-in where the case has plugins = [ \"./FILE.so\" ]", slot->what);
+        return mor_case_reader_refuse(reader, name, *model == NULL ? what : slot->what, words,
+                                      list_words(reader, slot, words));
     }
     MOR_CHECK(reader->context, mor_params_count((*model)->parameters) <= MOR_CASE_PARAMETERS_MAX, MOR_ERROR_PLUGIN,
               "the model '%s' has %d parameters; at most %d are allowed", name->text,
