@@ -109,7 +109,10 @@ static const bad_scene scenes[] = {
     {"soil[0].initial_stress={type=\"settled\"; settle_time=1e29;}", "settle_time = 1e+29 s, which takes about",
      "shorten settle_time", true},
     {"spacing=3e-5 m", "too large for the memory: 1.11e+09 particles", "larger spacing", true},
-    {"output.color=sped", "output.color = \"sped\"", "use one of these", false},
+    {"output.color=sped", "output.color = \"sped\"", "did you mean 'speed'?", false},
+    {"output.color=soils", "output.color = \"soils\"", "did you mean 'soil'?", false},
+    {"output.color=plasticstrain", "output.color = \"plasticstrain\"", "did you mean 'plastic_strain'?", false},
+    {"output.color=bottom", "output.color = \"bottom\"", "use one of these", false},
     {"output.color=stress", "no number or vector", "use one of these", false},
     {"spacing=1e-9 m", "particles along an axis", "larger spacing", true},
     {"spacing=1.1e-5 m", "lattice nodes", "larger spacing", true},
@@ -186,6 +189,33 @@ static const bad_scene ball_scenes[] = {
     {"end=1e29", "end = 1e+29 s, which takes about", "limited by the contact of a rigid body", true},
 };
 
+/* Two soils, of which the lower one moves. */
+static const char base_layers[] =
+    "title = \"layers\";\n"
+    "dimension = 2;\n"
+    "spacing = \"0.1 m\";\n"
+    "end = \"1 s\";\n"
+    "gravity = (\"0 m/s2\", \"-10 m/s2\");\n"
+    "domain = { min = (\"-1 m\", \"-1 m\"); max = (\"3 m\", \"3 m\"); };\n"
+    "soil = ( { name = \"sand\"; shape = { type = \"box\"; min = (\"0 m\", \"0 m\"); max = (\"1 m\", \"1 m\"); }; "
+    "material = { model = \"drucker_prager\"; density = \"2000 kg/m3\"; youngs_modulus = \"1 MPa\"; "
+    "poissons_ratio = 0.3; friction_angle = \"30 deg\"; }; velocity = (0.0, -0.01); },\n"
+    "{ name = \"cap\"; shape = { type = \"box\"; min = (\"0 m\", \"1 m\"); max = (\"1 m\", \"1.5 m\"); }; "
+    "material = { model = \"drucker_prager\"; density = \"1500 kg/m3\"; youngs_modulus = \"1 MPa\"; "
+    "poissons_ratio = 0.3; friction_angle = \"30 deg\"; }; initial_stress = { type = \"none\"; }; } );\n"
+    "probes = ( { name = \"ratio\"; type = \"stress_ratio\"; } );\n";
+
+static const bad_scene layer_scenes[] = {
+    {NULL, NULL, NULL, false},
+    {"probes[0].type=stress_error",
+     "scene.cfg:9: probe 'ratio': found probe 'ratio', which compares with the weight of one soil, in a case of "
+     "several",
+     "remove it", true},
+    {"soil[1].initial_stress.type=settled",
+     "scene.cfg:7: found soil 'sand' with a velocity of (0, -0.01, 0) m/s and soil 'cap' with a settled initial stress",
+     "remove 'velocity'", true},
+};
+
 /* Reads and builds a scene; message receives what was said. */
 static mor_status build_scene(const char *source, const char *setting, char *message, size_t room)
 {
@@ -250,6 +280,12 @@ static void ball_that_cannot_be_computed_is_refused_with_the_cause(void **state)
     expect_refusals(base_ball, ball_scenes, sizeof ball_scenes / sizeof *ball_scenes);
 }
 
+static void layers_that_cannot_be_computed_are_refused_before_the_run(void **state)
+{
+    (void)state;
+    expect_refusals(base_layers, layer_scenes, sizeof layer_scenes / sizeof *layer_scenes);
+}
+
 /* The program ends with the code of bad input and says where to look. */
 static void program_refuses_a_scene_as_bad_input(void **state)
 {
@@ -297,6 +333,7 @@ int main(void)
         cmocka_unit_test(scene_that_cannot_be_built_is_refused_with_place_and_remedy),
         cmocka_unit_test(rock_that_cannot_be_built_is_refused_with_place_and_remedy),
         cmocka_unit_test(ball_that_cannot_be_computed_is_refused_with_the_cause),
+        cmocka_unit_test(layers_that_cannot_be_computed_are_refused_before_the_run),
         cmocka_unit_test_setup_teardown(program_refuses_a_scene_as_bad_input, run_folder_setup, run_folder_teardown),
         cmocka_unit_test(geostatic_stress_counts_all_soil_straight_above),
     };

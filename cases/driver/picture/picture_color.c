@@ -3,6 +3,7 @@
 #include "cases/driver/picture/picture_color.h"
 
 #include "core/base/math.h"
+#include "core/base/nearest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -75,4 +76,36 @@ void mor_picture_color_names(char *text)
         n +=
             snprintf(text + n, (size_t)(MOR_PICTURE_COLOR_NAMES_BYTES - n), "%s%s", k > 0 ? ", " : "", derived[k].name);
     }
+}
+
+static void add_word(const char *word, mor_picture_color_words *words)
+{
+    if (words->n < MOR_PICTURE_COLOR_WORDS_MAX) {
+        words->of[words->n++] = word;
+    }
+}
+
+void mor_picture_color_offer(const char *field, int n_components, mor_picture_color_words *words)
+{
+    const mor_picture_color plain = {.name = field, .field = field};
+    if (mor_picture_color_fits(&plain, n_components)) {
+        add_word(field, words);
+    }
+    for (int k = 0; k < N_DERIVED; ++k) {
+        if (strcmp(derived[k].field, field) == 0) {
+            add_word(derived[k].name, words);
+        }
+    }
+}
+
+void mor_picture_color_advise(const mor_picture_color_words *words, const char *name, char *text)
+{
+    const int nearest = mor_nearest_find(name, words->of, words->n);
+    const char *found = nearest < 0 ? "" : words->of[nearest];
+    snprintf(text, MOR_PICTURE_COLOR_NAMES_BYTES, nearest < 0 ? "use one of these%s" : "did you mean '%s'?", found);
+}
+
+bool mor_picture_color_is_for(const char *set, bool has_soil)
+{
+    return !has_soil || strcmp(set, MOR_PICTURE_SOIL_SET) == 0;
 }

@@ -30,9 +30,6 @@
 #define TERRAIN_MARGIN 0.3
 /* Its particles are drawn with this radius, in spacings, so that steep slopes have no gaps, and as much lower. */
 #define TERRAIN_RADIUS 0.8
-/* Name of the soil's set; all others are bodies. */
-#define SOIL_SET "soil"
-
 /* Sets of a snapshot that are drawn, at most. */
 enum { LAYERS_MAX = 24, TONES = 4 };
 
@@ -41,36 +38,6 @@ static const double stone_tones[TONES][3] = {
     {0.63, 0.56, 0.48}, {0.45, 0.42, 0.40}, {0.70, 0.64, 0.52}, {0.52, 0.47, 0.50}};
 static const double wall_gray[3] = {0.80, 0.82, 0.84};
 static const double structure_gray[3] = {0.55, 0.58, 0.62};
-
-/* What is colored: soil, or everything where there is none. */
-static bool is_colored(const char *name, bool has_soil)
-{
-    return !has_soil || strcmp(name, SOIL_SET) == 0;
-}
-
-mor_status mor_pictures_check(mor_context *context, const mor_case *the_case, mor_set *const *sets, int n_sets)
-{
-    const mor_picture_color color = mor_picture_color_find(the_case->output.color_field);
-    char names[MOR_PICTURE_COLOR_NAMES_BYTES];
-    bool has_soil = false;
-    bool is_found = false;
-    for (int k = 0; k < n_sets; ++k) {
-        has_soil = has_soil || (strcmp(sets[k]->name, SOIL_SET) == 0 && sets[k]->n_particles > 0);
-    }
-    for (int k = 0; k < n_sets; ++k) {
-        const int field = mor_set_find_field(sets[k], color.field);
-        is_found = is_found || (field >= 0 && sets[k]->data[field] != NULL && is_colored(sets[k]->name, has_soil) &&
-                                (sets[k]->fields[field].flags & MOR_FIELD_OUTPUT) != 0 &&
-                                mor_picture_color_fits(&color, sets[k]->fields[field].n_components));
-    }
-    mor_picture_color_names(names);
-    MOR_CHECK(context, is_found, MOR_ERROR_CONFIG,
-              "%s: found output.color = \"%s\", which is no number or vector of the snapshots of %s; allowed: %s (of "
-              "stress only where there is stress) and the fields of 1 or 3 components that the list of fields shows as "
-              "in snapshots; use one of these",
-              the_case->path, color.name, has_soil ? "the soil" : "the bodies", names);
-    return MOR_OK;
-}
 
 /* One set of the present snapshot. */
 typedef struct layer {
@@ -155,7 +122,7 @@ static mor_status read_layer(mor_context *context, gallery *g, const mor_snapsho
 {
     const mor_snapshot_field *body = mor_snapshot_find_field(l->set, "body");
     MOR_TRY(context, read_field(context, snapshot, l->set, "position", &l->position));
-    if (is_colored(l->set->name, g->has_soil)) {
+    if (mor_picture_color_is_for(l->set->name, g->has_soil)) {
         MOR_TRY(context, read_colors(context, g, snapshot, l));
     }
     if (l->is_soil && l->value != NULL && strcmp(g->color.name, MOR_COMPOSITE_INDEX_KEY) == 0) {
@@ -169,6 +136,23 @@ static mor_status read_layer(mor_context *context, gallery *g, const mor_snapsho
     return MOR_OK;
 }
 
+static mor_status refuse_color(mor_context *context, const gallery *g)
+{
+    char advice[MOR_PICTURE_COLOR_NAMES_BYTES];
+    mor_picture_color_words words = {.n = 0};
+    for (int k = 0; k < g->n_layers; ++k) {
+        const mor_snapshot_set *set = g->layers[k].set;
+        for (int f = 0; f < set->n_fields && mor_picture_color_is_for(set->name, g->has_soil); ++f) {
+            mor_picture_color_offer(set->fields[f].name, set->fields[f].n_components, &words);
+        }
+    }
+    mor_picture_color_advise(&words, g->color.name, advice);
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "the snapshots of %s have no field '%s' of 1 or 3 components to color by; allowed are the output "
+                    "fields of the list of fields; change 'color' in the group 'output'; %s",
+                    g->has_soil ? "the soil" : "the bodies", g->color.field, advice);
+}
+
 static mor_status read_layers(mor_context *context, gallery *g, const mor_snapshot *snapshot)
 {
     g->n_layers = 0;
@@ -178,7 +162,7 @@ static mor_status read_layers(mor_context *context, gallery *g, const mor_snapsh
               "snapshot %lld of '%s' holds %d sets; pictures show up to %d", (long long)snapshot->step, g->folder,
               snapshot->n_sets, LAYERS_MAX);
     for (int k = 0; k < snapshot->n_sets; ++k) {
-        const bool is_soil = strcmp(snapshot->sets[k].name, SOIL_SET) == 0;
+        const bool is_soil = strcmp(snapshot->sets[k].name, MOR_PICTURE_SOIL_SET) == 0;
         if (snapshot->sets[k].n_particles > 0) {
             g->layers[g->n_layers++] = (layer){.set = &snapshot->sets[k], .is_soil = is_soil};
             g->has_soil = g->has_soil || is_soil;
@@ -190,11 +174,7 @@ static mor_status read_layers(mor_context *context, gallery *g, const mor_snapsh
         label_layer(&g->layers[k], g->n_layers - g->has_soil);
         MOR_TRY(context, read_layer(context, g, snapshot, &g->layers[k]));
     }
-    MOR_CHECK(context, g->unit != NULL, MOR_ERROR_CONFIG,
-              "the snapshots of %s have no field '%s' of 1 or 3 components to color by; allowed are the output fields "
-              "of the list of fields; change 'color' in the group 'output'",
-              g->has_soil ? "the soil" : "the bodies", g->color.field);
-    return MOR_OK;
+    return g->unit != NULL ? MOR_OK : refuse_color(context, g);
 }
 
 static void free_layers(mor_context *context, gallery *g)

@@ -139,6 +139,16 @@ static void forget(mor_probe_track *track)
     }
 }
 
+/* Measures each probe once, so that one that does not suit the case is refused before anything runs. */
+static mor_status try_probes(mor_context *context, const mor_simulation *simulation)
+{
+    for (int k = 0; k < simulation->the_case->n_probes; ++k) {
+        double value = 0.0;
+        MOR_TRY(context, mor_probe_evaluate(context, simulation, k, &value));
+    }
+    return MOR_OK;
+}
+
 mor_status mor_probe_track_new(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
@@ -156,7 +166,7 @@ mor_status mor_probe_track_new(mor_context *context, mor_simulation *simulation)
     watch_contact(track);
     MOR_TRY(context, mor_probe_scan_new(context, simulation, &track->scan));
     choose_intervals(track);
-    return MOR_OK;
+    return try_probes(context, simulation);
 }
 
 void mor_probe_track_free(mor_context *context, mor_probe_track **track)

@@ -74,4 +74,13 @@ mor_status mor_simulation_set_frictions(mor_context *context, mor_simulation *si
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
                                     mor_lattice_points *points, double **shares);
 
+/** Fills one soil region of a case with particles, in the placed frame, where no body is.
+ *  @param soil     [in]   index of the region
+ *  @param n_before [in]   particles of earlier regions, for which memory is kept
+ *  @param points   [out]  owned by the caller, also after a failure
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line for a region that is empty, too large for the memory, out of
+ *  the domain or inside a wall or an earlier region; MOR_ERROR_MEMORY. */
+mor_status mor_simulation_fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
+                                    mor_lattice_points *points);
+
 #endif

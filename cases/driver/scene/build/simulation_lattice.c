@@ -1,0 +1,262 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The lattice that soil and walls share, and what it fills. */
+#include "cases/driver/scene/build/simulation_build.h"
+
+#include "cases/driver/scene/build/memory_room.h"
+#include "cases/driver/scene/build/simulation_terrain.h"
+#include "core/base/math.h"
+#include "core/geometry/shape_analytic.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void set_request(const mor_case *the_case, const mor_shape *shape, mor_lattice_request *request)
+{
+    mor_lattice_request_init(request);
+    request->shape = shape;
+    request->dimension = the_case->dimension;
+    request->spacing = the_case->spacing;
+    request->seed = the_case->seed;
+    memcpy(request->origin, the_case->lattice_origin, sizeof request->origin);
+    memcpy(request->domain.minimum, the_case->domain_minimum, sizeof request->domain.minimum);
+    memcpy(request->domain.maximum, the_case->domain_maximum, sizeof request->domain.maximum);
+    memcpy(request->rotation, the_case->rotation, sizeof request->rotation);
+    memcpy(request->translation, the_case->translation, sizeof request->translation);
+}
+
+/* More lattice nodes than this along an axis are taken for a typing error; counting them would take minutes. */
+#define NODES_ALONG 1.0e5
+
+static mor_status refuse_size(mor_context *context, const mor_case_place *place, const char *name, double bytes_each,
+                              const char *why)
+{
+    return MOR_FAIL(
+        context, MOR_ERROR_CONFIG,
+        "%s:%d: found '%s' too large for the memory: %s; allowed is what fits into %.3g GiB that are free, at "
+        "%.0f bytes a particle; use a larger spacing or a smaller shape",
+        place->file, place->line, name, why, mor_memory_room() / 1073741824.0, bytes_each);
+}
+
+/* What a shape is filled for: its place in the case, and the memory that particles take. */
+typedef struct filling {
+    const mor_case_place *place;
+    const char *name;
+    double bytes_each; /* of a particle, 1 */
+    double reserved;   /* bytes that particles found before will take, 1 */
+} filling;
+
+/* Cells with their shares, or nodes where shares is NULL. */
+static mor_status fill_shape(mor_context *context, const filling *it, mor_lattice_request *request,
+                             mor_lattice_points *points, double **shares)
+{
+    char why[MOR_CONTEXT_MESSAGE_BYTES];
+    mor_bounds bounds;
+    double n_rows = 1.0;
+    mor_shape_bounds(request->shape, &bounds);
+    request->n_points_most = mor_memory_room_particles(it->bytes_each, it->reserved);
+    for (int a = 0; a < request->dimension; ++a) {
+        const double extent =
+            fmin(bounds.maximum[a], request->domain.maximum[a]) - fmax(bounds.minimum[a], request->domain.minimum[a]);
+        const bool is_endless = !isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a]);
+        MOR_CHECK(
+            context, !(extent > NODES_ALONG * request->spacing), MOR_ERROR_CONFIG,
+            "%s:%d: found '%s' %g m long along %c at a spacing of %g m; allowed are %g particles along an axis; use "
+            "a larger spacing%s",
+            it->place->file, it->place->line, it->name, extent, "xyz"[a], request -> spacing, NODES_ALONG,
+            is_endless ? " or a smaller 'domain', which ends the shape there" : "");
+        n_rows *= a > 0 ? fmax(1.0, extent / request->spacing) : 1.0;
+    }
+    if (n_rows > (double)request->n_points_most) { /* to count the particles would take minutes */
+        snprintf(why, sizeof why, "it has %.3g rows of particles at a spacing of %g m", n_rows, request->spacing);
+        return refuse_size(context, it->place, it->name, it->bytes_each, why);
+    }
+    const mor_status status = shares != NULL ? mor_lattice_fill_cells(context, request, points, shares)
+                                             : mor_lattice_fill(context, request, points);
+    if (status != MOR_ERROR_MEMORY) {
+        return status;
+    }
+    snprintf(why, sizeof why, "%.1500s", context->message);
+    return refuse_size(context, it->place, it->name, it->bytes_each, why);
+}
+
+/* A shape that cannot be filled is an error of the case, with its place in the file. */
+static mor_status annotate_error(mor_context *context, mor_status status, const mor_case_place *place, const char *name)
+{
+    return status != MOR_ERROR_ARGUMENT ? status
+                                        : MOR_FAIL(context, MOR_ERROR_CONFIG, "%s:%d: '%s': %s", place->file,
+                                                   place->line, name, context->message);
+}
+
+mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
+                                    mor_lattice_points *points, double **shares)
+{
+    const mor_shape *earlier[MOR_CASE_WALLS_MAX];
+    for (int w = 0; w < wall; ++w) {
+        earlier[w] = the_case->walls[w].shape;
+    }
+    const mor_case_wall *it = &the_case->walls[wall];
+    mor_lattice_request request;
+    set_request(the_case, it->shape, &request);
+    const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_WALL, 0.0};
+    *shares = NULL;
+    const double margin = MOR_CASE_WALL_LAYERS * the_case->spacing;
+    request.depth = layers * the_case->spacing;
+    request.excluded = earlier;
+    request.n_excluded = wall;
+    /* Walls carry soil up to the very edge of the domain, so they reach beyond it by their own thickness. */
+    for (int a = 0; a < 3; ++a) {
+        request.domain.minimum[a] -= margin;
+        request.domain.maximum[a] += margin;
+    }
+    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_TERRAIN
+                                  ? mor_simulation_fill_terrain(context, the_case, wall, layers, points)
+                                  : fill_shape(context, &wanted, &request, points, shares);
+    MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
+              "inside the domain and outside earlier walls; make the wall thicker or move it",
+              it->place.file, it->place.line, it->name, the_case->spacing);
+    return MOR_OK;
+}
+
+/* Soil particles inside a wall or inside an earlier soil region are an error of the case. */
+static mor_status check_overlap(mor_context *context, const mor_case *the_case, int soil,
+                                const mor_lattice_points *points)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    for (int other = 0; other < the_case->n_walls + soil; ++other) {
+        const bool is_wall = other < the_case->n_walls;
+        const mor_shape *shape =
+            is_wall ? the_case->walls[other].shape : the_case->soils[other - the_case->n_walls].shape;
+        const char *name = is_wall ? the_case->walls[other].name : the_case->soils[other - the_case->n_walls].name;
+        int64_t n_inside = 0;
+        double first[3] = {0.0, 0.0, 0.0};
+        for (int64_t i = 0; i < points->n_points; ++i) {
+            double point[3];
+            mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
+            if (shape->operations->distance(shape, point) < 0.0 && n_inside++ == 0) {
+                memcpy(first, point, sizeof first);
+            }
+        }
+        MOR_CHECK(context, n_inside == 0, MOR_ERROR_CONFIG,
+                  "%s:%d: found soil '%s' overlapping %s '%s': %lld of its %lld particles lie inside, the first at "
+                  "(%g, %g, %g) m; allowed are none; move one of the shapes or cut it off with a difference",
+                  it->place.file, it->place.line, it->name, is_wall ? "wall" : "soil", name, (long long)n_inside,
+                  (long long)points->n_points, first[0], first[1], first[2]);
+    }
+    return MOR_OK;
+}
+
+/* A bounded region is filled whole; what lies outside the domain is an error, not cut off. */
+static bool release_domain(const mor_shape *shape, int dimension, mor_lattice_request *request)
+{
+    mor_bounds bounds;
+    shape->operations->bounds(shape, &bounds);
+    for (int a = 0; a < dimension; ++a) {
+        if (!isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a])) {
+            return false;
+        }
+    }
+    for (int a = 0; a < dimension; ++a) {
+        request->domain.minimum[a] = -INFINITY;
+        request->domain.maximum[a] = INFINITY;
+    }
+    return true;
+}
+
+static mor_status check_inside(mor_context *context, const mor_case *the_case, const mor_case_soil *it,
+                               const mor_lattice_points *points)
+{
+    int64_t n_outside = 0;
+    double first[3] = {0.0, 0.0, 0.0};
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        double point[3];
+        bool is_outside = false;
+        mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
+        for (int a = 0; a < the_case->dimension; ++a) {
+            is_outside = is_outside || point[a] < the_case->domain_minimum[a] || point[a] > the_case->domain_maximum[a];
+        }
+        if (is_outside && n_outside++ == 0) {
+            memcpy(first, point, sizeof first);
+        }
+    }
+    MOR_CHECK(context, n_outside == 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' reaching out of the domain: %lld of its %lld particles lie outside, the first at "
+              "(%g, %g, %g) m; allowed are none; enlarge 'domain' or make the region smaller",
+              it->place.file, it->place.line, it->name, (long long)n_outside, (long long)points->n_points, first[0],
+              first[1], first[2]);
+    return MOR_OK;
+}
+
+/* Soil fills what rocks leave free. */
+static void leave_out_bodies(mor_context *context, const mor_case *the_case, const char *name,
+                             mor_lattice_points *points)
+{
+    int64_t n_kept = points->n_points;
+    for (int b = 0; b < the_case->n_bodies; ++b) {
+        const mor_shape *shape = the_case->bodies[b].shape;
+        const int64_t n = n_kept;
+        double rotation[9];
+        double translation[3];
+        mor_bounds box;
+        mor_simulation_body_frame(the_case, &the_case->bodies[b], rotation, translation);
+        mor_simulation_body_box(the_case, &the_case->bodies[b], &box);
+        n_kept = 0;
+        for (int64_t i = 0; i < n; ++i) {
+            const double *point = points->positions + 3 * i;
+            if (!mor_simulation_body_may_hold(&box, point) ||
+                mor_simulation_placed_distance(shape, rotation, translation, point) >= 0.0) {
+                memmove(points->positions + 3 * n_kept++, point, 3 * sizeof *point);
+            }
+        }
+    }
+    if (n_kept < points->n_points) {
+        mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles left out where bodies are", name,
+                        (long long)(points->n_points - n_kept), (long long)points->n_points);
+        points->n_points = n_kept;
+    }
+}
+
+/* Settling brings all soil to rest, whichever region asks for it. */
+static mor_status check_rest(mor_context *context, const mor_case *the_case, int soil)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        const mor_case_soil *settled = &the_case->soils[k];
+        MOR_CHECK(
+            context, settled->initial_stress != MOR_CASE_STRESS_SETTLED || mor_vector_length(it->velocity) == 0.0,
+            MOR_ERROR_CONFIG,
+            "%s:%d: found soil '%s' with a velocity of (%g, %g, %g) m/s and soil '%s' with a settled initial stress; "
+            "allowed is one of them, because settling brings all soil to rest; remove 'velocity' or choose type = "
+            "\"k0\"",
+            it->place.file, it->place.line, it->name, it->velocity[0], it->velocity[1], it->velocity[2], settled->name);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_simulation_fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
+                                    mor_lattice_points *points)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_SOIL, MOR_MEMORY_ROOM_SOIL * (double)n_before};
+    mor_lattice_request request;
+    set_request(the_case, it->shape, &request);
+    request.jitter_ratio = the_case->jitter_ratio;
+    request.is_polar = the_case->lattice_pattern == 1;
+    const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
+    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
+                                  ? mor_simulation_fill_release(context, the_case, soil, points)
+                                  : fill_shape(context, &wanted, &request, points, NULL);
+    MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
+    leave_out_bodies(context, the_case, it->name, points);
+    MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
+              "lattice point inside the domain; make the region larger, the spacing smaller, or move the domain",
+              it->place.file, it->place.line, it->name, the_case->spacing);
+    MOR_TRY(context, check_rest(context, the_case, soil));
+    if (is_whole) {
+        MOR_TRY(context, check_inside(context, the_case, it, points));
+    }
+    return check_overlap(context, the_case, soil, points);
+}
