@@ -5,6 +5,7 @@
 #include "core/material/kit/integration.h"
 #include "core/material/kit/lanes.h"
 #include "core/material/kit/material.h"
+#include "materials/frame/entries.h"
 #include "materials/frame/invariants.h"
 #include "materials/frame/lane_math.h"
 
@@ -68,11 +69,6 @@ static const double LEAST_PRESSURE = 0.1;
 /* Void ratio at which a law without any pores is still defined. */
 static const double LEAST_VOID_RATIO = 1e-3;
 
-static MOR_LANES_INLINE double product(mor_symmetric a, mor_symmetric b)
-{
-    return (a.xx * b.xx + a.yy * b.yy + a.zz * b.zz) + 2.0 * (a.xy * b.xy + a.yz * b.yz + a.zx * b.zx);
-}
-
 static MOR_LANES_INLINE mor_symmetric scale(double factor, mor_symmetric a)
 {
     return (mor_symmetric){factor * a.xx, factor * a.yy, factor * a.zz, factor * a.xy, factor * a.yz, factor * a.zx};
@@ -117,7 +113,7 @@ static MOR_LANES_INLINE stiffness find_stiffness(const sand *m, mor_symmetric st
     const double pressure = m->shift - mean > least ? m->shift - mean : least;
     const mor_symmetric free = mor_symmetric_rescale(stress, -1.0 / (3.0 * pressure), 0.0);
     const double largest2 = LARGEST_TANGENT * LARGEST_TANGENT / 3.0;
-    const double free2 = product(free, free);
+    const double free2 = mor_symmetric_product(free, free);
     const int is_beyond = free2 > largest2;
     const double s2 = is_beyond ? largest2 : free2;
     k.deviator = scale(is_beyond ? sqrt(largest2 / free2) : 1.0, free);
@@ -145,14 +141,14 @@ static MOR_LANES_INLINE stiffness find_stiffness(const sand *m, mor_symmetric st
 
 static MOR_LANES_INLINE mor_symmetric apply(const stiffness *k, mor_symmetric d)
 {
-    return mor_symmetric_add(scale(k->scale * k->factor2, d), k->scale * k->cone2 * product(k->direction, d),
-                             k->direction);
+    return mor_symmetric_add(scale(k->scale * k->factor2, d),
+                             k->scale * k->cone2 * mor_symmetric_product(k->direction, d), k->direction);
 }
 
 /* (H12): stress rate without intergranular strain. */
 static MOR_LANES_INLINE mor_symmetric find_plain_rate(const stiffness *k, mor_symmetric d)
 {
-    return mor_symmetric_add(apply(k, d), k->loosening * sqrt(product(d, d)),
+    return mor_symmetric_add(apply(k, d), k->loosening * sqrt(mor_symmetric_product(d, d)),
                              mor_symmetric_add(k->direction, 1.0, k->deviator));
 }
 
@@ -160,13 +156,13 @@ static MOR_LANES_INLINE mor_symmetric find_plain_rate(const stiffness *k, mor_sy
 static MOR_LANES_INLINE mor_symmetric find_rate(const sand *m, const stiffness *k, mor_symmetric d, mor_symmetric h,
                                                 mor_symmetric *h_rate)
 {
-    const double length = sqrt(product(h, h));
+    const double length = sqrt(mor_symmetric_product(h, h));
     const double below = length < 1.0 ? length : 1.0;
     const double logarithm = mor_lane_log(below > 1e-300 ? below : 1e-300);
     const mor_symmetric along = scale(length > 1e-300 ? 1.0 / length : 0.0, h);
     const double weight = mor_lane_exp(m->stiffness * logarithm);
     const double slowing = mor_lane_exp(m->evolution * logarithm);
-    const double advance = product(along, d);
+    const double advance = mor_symmetric_product(along, d);
     const double forward = advance > 0.0 ? advance : 0.0;
     const double elastic = weight * m->turn + (1.0 - weight) * m->reversal;
     const double rest = weight * ((advance > 0.0 ? 1.0 : m->reversal) - m->turn);
@@ -423,56 +419,53 @@ static void sand_destroy(const mor_services *services, mor_material_instance *in
     services->memory_free(services->context, &instance->data);
 }
 
-/* A real parameter; least and most: its range, whose lower end counts only where includes is 1. */
-#define REAL(word, si_unit, least, most, includes, words)                                                              \
-    .key = (word), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = (si_unit), .minimum = (least),                  \
-    .maximum = (most), .excludes_minimum = !(includes), .text = (words)
-
 static const mor_schema PARAMETERS[] = {
-    [FRICTION_ANGLE] = {REAL("critical_friction_angle", "rad", 0.0, 1.57079632679489662, 0,
-                             "critical friction angle phi_c"),
+    [FRICTION_ANGLE] = {MOR_POSITIVE_ENTRY("critical_friction_angle", "rad", 1.57079632679489662,
+                                           "critical friction angle phi_c"),
                         .role = MOR_ROLE_FRICTION_ANGLE, .is_required = 1, .excludes_maximum = 1},
-    [GRANULATE_HARDNESS] = {REAL("granulate_hardness", "Pa", 0.0, INFINITY, 0, "granulate hardness h_s"),
+    [GRANULATE_HARDNESS] = {MOR_POSITIVE_ENTRY("granulate_hardness", "Pa", INFINITY, "granulate hardness h_s"),
                             .is_required = 1},
-    [EXPONENT] = {REAL("exponent", "1", 0.0, 1.0, 0, "exponent n of the compression law"), .is_required = 1},
-    [DENSEST_VOID_RATIO] = {REAL("densest_void_ratio", "1", 0.0, 5.0, 0,
-                                 "void ratio e_d0 of the densest packing at zero pressure"),
+    [EXPONENT] = {MOR_POSITIVE_ENTRY("exponent", "1", 1.0, "exponent n of the compression law"), .is_required = 1},
+    [DENSEST_VOID_RATIO] = {MOR_POSITIVE_ENTRY("densest_void_ratio", "1", 5.0,
+                                               "void ratio e_d0 of the densest packing at zero pressure"),
                             .is_required = 1},
-    [CRITICAL_VOID_RATIO] = {REAL("critical_void_ratio", "1", 0.0, 5.0, 0, "critical void ratio e_c0 at zero pressure"),
+    [CRITICAL_VOID_RATIO] = {MOR_POSITIVE_ENTRY("critical_void_ratio", "1", 5.0,
+                                                "critical void ratio e_c0 at zero pressure"),
                              .is_required = 1},
-    [LOOSEST_VOID_RATIO] = {REAL("loosest_void_ratio", "1", 0.0, 5.0, 0,
-                                 "void ratio e_i0 of the loosest packing at zero pressure"),
+    [LOOSEST_VOID_RATIO] = {MOR_POSITIVE_ENTRY("loosest_void_ratio", "1", 5.0,
+                                               "void ratio e_i0 of the loosest packing at zero pressure"),
                             .is_required = 1},
-    [ALPHA] = {REAL("alpha", "1", 0.0, 1.0, 1, "exponent alpha: peak friction by density"), .is_required = 1},
-    [BETA] = {REAL("beta", "1", 0.0, 5.0, 1, "exponent beta: stiffness by density"), .is_required = 1},
-    [VOID_RATIO] = {REAL("void_ratio", "1", 0.0, 5.0, 0, "void ratio at the start"), .is_required = 1},
-    [ELASTIC_RANGE] = {REAL("elastic_range", "1", 0.0, 0.01, 1,
-                            "size R of the elastic range in strain; 0: no intergranular strain"),
+    [ALPHA] = {MOR_REAL_ENTRY("alpha", "1", 0.0, 1.0, "exponent alpha: peak friction by density"), .is_required = 1},
+    [BETA] = {MOR_REAL_ENTRY("beta", "1", 0.0, 5.0, "exponent beta: stiffness by density"), .is_required = 1},
+    [VOID_RATIO] = {MOR_POSITIVE_ENTRY("void_ratio", "1", 5.0, "void ratio at the start"), .is_required = 1},
+    [ELASTIC_RANGE] = {MOR_REAL_ENTRY("elastic_range", "1", 0.0, 0.01,
+                                      "size R of the elastic range in strain; 0: no intergranular strain"),
                        .default_value = 1e-4},
-    [REVERSAL_FACTOR] = {REAL("reversal_factor", "1", 1.0, 50.0, 1,
-                              "stiffness m_R after a reversal of strain over that of continued strain"),
+    [REVERSAL_FACTOR] = {MOR_REAL_ENTRY("reversal_factor", "1", 1.0, 50.0,
+                                        "stiffness m_R after a reversal of strain over that of continued strain"),
                          .default_value = 5.0},
-    [TURN_FACTOR] = {REAL("turn_factor", "1", 1.0, 50.0, 1, "the same, m_T, after a turn of strain by 90 degrees"),
+    [TURN_FACTOR] = {MOR_REAL_ENTRY("turn_factor", "1", 1.0, 50.0,
+                                    "the same, m_T, after a turn of strain by 90 degrees"),
                      .default_value = 2.0},
-    [EVOLUTION_EXPONENT] = {REAL("evolution_exponent", "1", 0.0, 10.0, 0,
-                                 "exponent beta_r of the evolution of intergranular strain"),
+    [EVOLUTION_EXPONENT] = {MOR_POSITIVE_ENTRY("evolution_exponent", "1", 10.0,
+                                               "exponent beta_r of the evolution of intergranular strain"),
                             .default_value = 0.5},
-    [STIFFNESS_EXPONENT] = {REAL("stiffness_exponent", "1", 0.0, 20.0, 0,
-                                 "exponent chi of the loss of stiffness with intergranular strain"),
+    [STIFFNESS_EXPONENT] = {MOR_POSITIVE_ENTRY("stiffness_exponent", "1", 20.0,
+                                               "exponent chi of the loss of stiffness with intergranular strain"),
                             .default_value = 6.0},
     [MINIMUM_PRESSURE] =
-        {REAL("minimum_pressure", "Pa", 0.0, INFINITY, 0,
-              "pressure p_t that the law adds to that of the soil; it keeps stiffness at a free surface"),
+        {MOR_POSITIVE_ENTRY("minimum_pressure", "Pa", INFINITY,
+                            "pressure p_t that the law adds to that of the soil; it keeps stiffness at a free surface"),
          .default_value = 100.0},
-    [WAVE_PRESSURE] = {REAL("wave_pressure", "Pa", 0.0, INFINITY, 0,
-                            "largest pressure expected: the time step follows from the stiffness there"),
+    [WAVE_PRESSURE] = {MOR_POSITIVE_ENTRY("wave_pressure", "Pa", INFINITY,
+                                          "largest pressure expected: the time step follows from the stiffness there"),
                        .default_value = 1e5},
     [INTEGRATION] = MOR_INTEGRATION_SCHEMAS("explicit|implicit|bdf", 1e-4, 1.0, 10000.0),
     [N_PARAMETERS] = {.key = NULL},
 };
 
 static const mor_schema STATE[] = {
-    [STATE_VOID_RATIO] = {REAL("void_ratio", "1", 0.0, INFINITY, 1, "void ratio e")},
+    [STATE_VOID_RATIO] = {MOR_REAL_ENTRY("void_ratio", "1", 0.0, INFINITY, "void ratio e")},
     [STATE_INTERGRANULAR] = {.key = "intergranular_strain",
                              .kind = MOR_SCHEMA_VECTOR,
                              .n_components = 6,

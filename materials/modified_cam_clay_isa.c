@@ -314,27 +314,25 @@ static void modified_cam_clay_destroy(const mor_services *services, mor_material
     services->memory_free(services->context, &instance->data);
 }
 
-#define POSITIVE(word, dimension, largest, ...)                                                                        \
-    {                                                                                                                  \
-        .key = (word), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = (dimension), .minimum = 0.0,                \
-        .excludes_minimum = 1, .maximum = (largest), __VA_ARGS__                                                       \
-    }
-
 static const mor_schema PARAMETERS[] = {
-    [COMPRESSION_INDEX] = POSITIVE("compression_index", "1", 1.0, .is_required = 1,
-                                   .text = "lambda: slope of the virgin line, void ratio over ln p"),
-    [SWELLING_INDEX] = POSITIVE("swelling_index", "1", 0.5, .is_required = 1,
-                                .text = "kappa: slope of unloading, void ratio over ln p, below lambda"),
+    [COMPRESSION_INDEX] = {MOR_POSITIVE_ENTRY("compression_index", "1", 1.0,
+                                              "lambda: slope of the virgin line, void ratio over ln p"),
+                           .is_required = 1},
+    [SWELLING_INDEX] = {MOR_POSITIVE_ENTRY("swelling_index", "1", 0.5,
+                                           "kappa: slope of unloading, void ratio over ln p, below lambda"),
+                        .is_required = 1},
     [FRICTION_ANGLE] =
-        POSITIVE("friction_angle", "rad", 1.57079632679489662, .excludes_maximum = 1, .is_required = 1,
-                 .role = MOR_ROLE_FRICTION_ANGLE,
-                 .text = "friction angle of the critical state in triaxial compression; M = 6 sin phi/(3 - sin phi)"),
-    [SHEAR_MODULUS] = POSITIVE("shear_modulus", "Pa", INFINITY, .is_required = 1, .role = MOR_ROLE_SHEAR_MODULUS,
-                               .text = "shear modulus G"),
-    [VOID_RATIO] = POSITIVE("void_ratio", "1", 10.0, .is_required = 1, .text = "void ratio e0 at the start"),
-    [PRECONSOLIDATION] =
-        POSITIVE("preconsolidation", "Pa", INFINITY, .is_required = 1,
-                 .text = "least preconsolidation pressure at the start; the wave speed follows from it"),
+        {MOR_POSITIVE_ENTRY(
+             "friction_angle", "rad", 1.57079632679489662,
+             "friction angle of the critical state in triaxial compression; M = 6 sin phi/(3 - sin phi)"),
+         .excludes_maximum = 1, .is_required = 1, .role = MOR_ROLE_FRICTION_ANGLE},
+    [SHEAR_MODULUS] = {MOR_POSITIVE_ENTRY("shear_modulus", "Pa", INFINITY, "shear modulus G"), .is_required = 1,
+                       .role = MOR_ROLE_SHEAR_MODULUS},
+    [VOID_RATIO] = {MOR_POSITIVE_ENTRY("void_ratio", "1", 10.0, "void ratio e0 at the start"), .is_required = 1},
+    [PRECONSOLIDATION] = {MOR_POSITIVE_ENTRY(
+                              "preconsolidation", "Pa", INFINITY,
+                              "least preconsolidation pressure at the start; the wave speed follows from it"),
+                          .is_required = 1},
     [OVERCONSOLIDATION_RATIO] = {.key = "overconsolidation_ratio",
                                  .kind = MOR_SCHEMA_REAL,
                                  .n_components = 1,
@@ -343,14 +341,16 @@ static const mor_schema PARAMETERS[] = {
                                  .minimum = 1.0,
                                  .maximum = INFINITY,
                                  .text = "preconsolidation pressure over that of the ellipse through the first stress"},
-    [LEAST_PRESSURE] = POSITIVE("least_pressure", "Pa", INFINITY, .default_value = 1e3,
-                                .text = "pressure below which the bulk modulus no longer falls"),
+    [LEAST_PRESSURE] = {MOR_POSITIVE_ENTRY("least_pressure", "Pa", INFINITY,
+                                           "pressure below which the bulk modulus no longer falls"),
+                        .default_value = 1e3},
     [N_PARAMETERS] = {.key = NULL},
 };
 
 static const mor_schema STATE[] = {
-    [STATE_PRECONSOLIDATION] = POSITIVE("preconsolidation", "Pa", INFINITY, .default_value = 1e3,
-                                        .text = "preconsolidation pressure p_c, the size of the ellipse"),
+    [STATE_PRECONSOLIDATION] = {MOR_POSITIVE_ENTRY("preconsolidation", "Pa", INFINITY,
+                                                   "preconsolidation pressure p_c, the size of the ellipse"),
+                                .default_value = 1e3},
     [STATE_VOID_RATIO] = {.key = "void_ratio",
                           .kind = MOR_SCHEMA_REAL,
                           .n_components = 1,

@@ -71,7 +71,7 @@ static double find_fluidity(const fluidity *m, double dt, double start, double p
 static double find_start(const fluidity *m, const mor_rate_point *p, int was_free)
 {
     const mor_symmetric strain = mor_gradient_strain(p->gradient);
-    const double rate = sqrt(2.0 * mor_log_strain_norm2(strain)) / p->time_step;
+    const double rate = sqrt(2.0 * mor_symmetric_product(strain, strain)) / p->time_step;
     const double least = (was_free ? 1.0 : m->seed) * (rate / m->limiting_friction);
     return p->state[STATE_FLUIDITY] > least ? p->state[STATE_FLUIDITY] : least;
 }
@@ -91,8 +91,7 @@ static void set_free(const fluidity *m, mor_rate_point *p, mor_symmetric strain,
 static double find_start_shear(const fluidity *m, mor_symmetric start, mor_symmetric trial, double root)
 {
     const mor_symmetric t = mor_symmetric_rescale(trial, 1.0, 0.0);
-    const double product = start.xx * t.xx + start.yy * t.yy + start.zz * t.zz +
-                           2.0 * (start.xy * t.xy + start.yz * t.yz + start.zx * t.zx);
+    const double product = mor_symmetric_product(start, t);
     return root > 0.0 ? 0.5 * m->elastic.two_shear * m->elastic.two_shear * product / root : 0.0;
 }
 
@@ -219,39 +218,35 @@ static mor_status fluidity_create(const mor_services *services, mor_material_ins
     return MOR_OK;
 }
 
-/* A parameter that is one positive number. */
-#define POSITIVE(name, dimension, words)                                                                               \
-    .key = (name), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = (dimension), .minimum = 0.0,                    \
-    .maximum = INFINITY, .excludes_minimum = 1, .text = (words)
-
-/* A parameter that is one number from zero to a largest. */
-#define BOUNDED(name, most, words)                                                                                     \
-    .key = (name), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "1", .minimum = 0.0, .maximum = (most),         \
-    .text = (words)
-
 static const mor_schema PARAMETERS[] = {
     [YOUNGS_MODULUS] = MOR_HOOKE_YOUNGS_MODULUS_SCHEMA,
     [POISSONS_RATIO] = MOR_HOOKE_POISSONS_RATIO_SCHEMA,
-    [STATIC_FRICTION] = {BOUNDED("static_friction", 1.73205080756887729, "mu_s: sqrt(J2)/p above which fluidity grows"),
+    [STATIC_FRICTION] = {MOR_REAL_ENTRY("static_friction", "1", 0.0, 1.73205080756887729,
+                                        "mu_s: sqrt(J2)/p above which fluidity grows"),
                          .is_required = 1},
-    [LIMITING_FRICTION] = {POSITIVE(
-                               "limiting_friction", "1",
+    [LIMITING_FRICTION] = {MOR_POSITIVE_ENTRY(
+                               "limiting_friction", "1", INFINITY,
                                "mu_2: with static friction and inertial number it gives the slope (mu_2 - mu_s)/I0 "
                                "of friction over inertial number; at least the static friction"),
                            .is_required = 1},
-    [INERTIAL_NUMBER] = {POSITIVE("inertial_number", "1", "I0: scale of the inertial number"), .default_value = 0.278},
-    [GRAIN_DIAMETER] = {POSITIVE("grain_diameter", "m", "mean grain diameter d"), .is_required = 1},
-    [GRAIN_DENSITY] = {POSITIVE("grain_density", "kg/m3", "density of the grains, in the inertial number"),
+    [INERTIAL_NUMBER] = {MOR_POSITIVE_ENTRY("inertial_number", "1", INFINITY, "I0: scale of the inertial number"),
+                         .default_value = 0.278},
+    [GRAIN_DIAMETER] = {MOR_POSITIVE_ENTRY("grain_diameter", "m", INFINITY, "mean grain diameter d"), .is_required = 1},
+    [GRAIN_DENSITY] = {MOR_POSITIVE_ENTRY("grain_density", "kg/m3", INFINITY,
+                                          "density of the grains, in the inertial number"),
                        .default_value = 2650.0},
-    [NONLOCAL_AMPLITUDE] = {BOUNDED("nonlocal_amplitude", INFINITY,
-                                    "A: the fluidity reaches A d/sqrt(|mu - mu_s|) into grains at rest; 0: the local "
-                                    "law, without a field and without its time scale"),
+    [NONLOCAL_AMPLITUDE] = {MOR_REAL_ENTRY(
+                                "nonlocal_amplitude", "1", 0.0, INFINITY,
+                                "A: the fluidity reaches A d/sqrt(|mu - mu_s|) into grains at rest; 0: the local "
+                                "law, without a field and without its time scale"),
                             .default_value = 0.48},
-    [TIME_SCALE] = {POSITIVE("time_scale", "s", "t0: the fluidity grows and decays at the rate (mu - mu_s)/t0"),
+    [TIME_SCALE] = {MOR_POSITIVE_ENTRY("time_scale", "s", INFINITY,
+                                       "t0: the fluidity grows and decays at the rate (mu - mu_s)/t0"),
                     .role = MOR_ROLE_FIELD_TIME_SCALE, .default_value = 1e-4},
-    [FLUIDITY_SEED] = {BOUNDED("fluidity_seed", 1.0,
-                               "least fluidity of grains that deform, over that of free flow, sqrt(2)|D|/mu_2; flow "
-                               "begins from it, and no steady flow is slower"),
+    [FLUIDITY_SEED] = {MOR_REAL_ENTRY(
+                           "fluidity_seed", "1", 0.0, 1.0,
+                           "least fluidity of grains that deform, over that of free flow, sqrt(2)|D|/mu_2; flow "
+                           "begins from it, and no steady flow is slower"),
                        .default_value = 1e-3},
     [GAS_DENSITY_RATIO] = MOR_GAS_DENSITY_RATIO_SCHEMA(
         0.0, "density below which grains are apart and carry no stress, over that of the first "

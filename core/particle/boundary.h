@@ -41,11 +41,12 @@ typedef struct mor_boundary_patch {
     bool is_driven;              /* moves as prescribed, whatever the forces on it; for the audit of energy alone */
     mor_wall_friction friction;  /* of the pair soil - patch */
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
-    const mor_boundary_friction *friction_of_soil; /* shape [regions of the soil]; borrowed, outlives the boundary;
-                                                    * NULL: the two above with every soil */
-    double force[3];   /* [written by the soil] of the soil on the patch in the last step, N (N/m) */
-    double impulse[3]; /* [written by the soil] given by the soil since the start, N s (N s/m) */
-    double moment[3];  /* [written by the soil] about the origin of coordinates, N m (N in plane strain) */
+    const mor_boundary_friction
+        *friction_of_soil; /* shape [regions of the soil]; borrowed, outlives the boundary, to be
+                                                    * set before the first step; NULL: the two above with every soil */
+    double force[3];       /* [written by the soil] of the soil on the patch in the last step, N (N/m) */
+    double impulse[3];     /* [written by the soil] given by the soil since the start, N s (N s/m) */
+    double moment[3];      /* [written by the soil] about the origin of coordinates, N m (N in plane strain) */
 } mor_boundary_patch;
 
 /** A moving boundary. Owner: whoever moves it; the soil borrows it. Points of a patch are contiguous and sorted so that

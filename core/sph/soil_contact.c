@@ -113,6 +113,20 @@ static mor_status check_patches(mor_context *context, const mor_boundary *bounda
     return MOR_OK;
 }
 
+mor_status mor_soil_contact_check_frictions(mor_context *context, const mor_soil_contact *contact, int n_regions)
+{
+    for (int p = 0; p < contact->boundary->n_patches; ++p) {
+        const mor_boundary_friction *of_soil = contact->boundary->patches[p].friction_of_soil;
+        for (int k = 0; k < n_regions && of_soil != NULL; ++k) {
+            MOR_CHECK(context, of_soil[k].kind != MOR_WALL_COULOMB || of_soil[k].coefficient >= 0.0, MOR_ERROR_ARGUMENT,
+                      "patch %d of boundary '%s': found a friction coefficient of %g with soil %d; allowed are numbers "
+                      ">= 0; correct entry %d of its friction_of_soil",
+                      p, contact->name, of_soil[k].coefficient, k, k);
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_soil_contact_borrow(mor_context *context, mor_soil_contact *contact, mor_boundary *boundary,
                                    mor_wall_stress stress, int dimension, int64_t n_soil_clusters)
 {

@@ -102,6 +102,11 @@ mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact
 mor_status mor_soil_contact_borrow(mor_context *context, mor_soil_contact *contact, mor_boundary *boundary,
                                    mor_wall_stress stress, int dimension, int64_t n_soil_clusters);
 
+/** Checks the friction of patches with single soils, which may be set up to the first step.
+ *  @param n_regions [in]  regions of the soil, >= 1
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a coefficient of Coulomb friction that is negative or no number. */
+mor_status mor_soil_contact_check_frictions(mor_context *context, const mor_soil_contact *contact, int n_regions);
+
 /** Frees what the contact owns; accepts a zeroed one. */
 void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact);
 

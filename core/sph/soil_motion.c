@@ -89,11 +89,13 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
         MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
     const mor_relation_points points = {&soil->tree, mor_view_read(view, MOR_FIELD_POSITION), 3};
     mor_relation *inner = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
+    const int n_regions = soil->settings.n_regions > 1 ? soil->settings.n_regions : 1;
     mor_tree_fit(&soil->tree, points.records, 3);
     MOR_TRY(context, mor_relation_build(context, inner, &points, &points, reach));
     inner->generation = soil->set.generation;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        MOR_TRY(context, mor_soil_contact_check_frictions(context, contact, n_regions));
         MOR_TRY(context, mor_soil_contact_build(context, contact, &points, reach));
         contact->relation.generation = soil->set.generation;
     }

@@ -10,6 +10,15 @@
 /** @file
  *  Schema entries that several laws have: written once, so that none lacks the role by which others find it. */
 
+/** Members of an entry that is one real number: key; unit; least and most, both allowed; words: what it is. */
+#define MOR_REAL_ENTRY(name, dimension, least, most, words)                                                            \
+    .key = (name), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = (dimension), .minimum = (least),                \
+    .maximum = (most), .text = (words)
+
+/** The same of a number above zero. */
+#define MOR_POSITIVE_ENTRY(name, dimension, most, words)                                                               \
+    MOR_REAL_ENTRY(name, dimension, 0.0, most, words), .excludes_minimum = 1
+
 /** State variable: accumulated plastic strain. */
 #define MOR_PLASTIC_STRAIN_SCHEMA                                                                                      \
     {                                                                                                                  \

@@ -54,6 +54,12 @@ static inline mor_symmetric mor_symmetric_select(int choice, mor_symmetric a, mo
                            choice ? a.xy : b.xy, choice ? a.yz : b.yz, choice ? a.zx : b.zx};
 }
 
+/** Double contraction a : b; unit: of a times that of b. */
+static inline double mor_symmetric_product(mor_symmetric a, mor_symmetric b)
+{
+    return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2.0 * (a.xy * b.xy + a.yz * b.yz + a.zx * b.zx);
+}
+
 /** First invariant, the trace; unit: of a. */
 static inline double mor_invariant_i1(mor_symmetric a)
 {

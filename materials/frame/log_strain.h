@@ -42,12 +42,6 @@ static inline mor_symmetric mor_log_strain_multiply(mor_symmetric a, mor_symmetr
                            a.xy * b.zx + a.yy * b.yz + a.yz * b.zz, a.zx * b.xx + a.yz * b.xy + a.zz * b.zx};
 }
 
-/** Returns a : a, unit 1. */
-static inline double mor_log_strain_norm2(mor_symmetric a)
-{
-    return a.xx * a.xx + a.yy * a.yy + a.zz * a.zz + 2.0 * (a.xy * a.xy + a.yz * a.yz + a.zx * a.zx);
-}
-
 /** Returns function(a) for a symmetric tensor of any size, by its principal values; unit 1. */
 static inline mor_symmetric mor_log_strain_apply(mor_symmetric a, double (*function)(double))
 {
@@ -76,7 +70,7 @@ static inline double mor_log_strain_half_logarithm(double b_minus_1)
 static inline mor_symmetric mor_log_strain_stretch_of(mor_symmetric strain)
 {
     const mor_symmetric x = mor_symmetric_add(strain, 1.0, strain);
-    const double norm2 = mor_log_strain_norm2(x);
+    const double norm2 = mor_symmetric_product(x, x);
     if (!(norm2 <= MOR_LOG_STRAIN_SERIES)) {
         return mor_log_strain_apply(x, expm1);
     }
@@ -95,7 +89,7 @@ static inline mor_symmetric mor_log_strain_stretch_of(mor_symmetric strain)
 /** Returns e = ln(b)/2 = artanh(x), x = (b - I)(b + I)^-1, from b - I, unit 1: likewise. */
 static inline mor_symmetric mor_log_strain_of_stretch(mor_symmetric b_minus_1)
 {
-    const double norm2 = mor_log_strain_norm2(b_minus_1);
+    const double norm2 = mor_symmetric_product(b_minus_1, b_minus_1);
     if (!(norm2 <= MOR_LOG_STRAIN_SERIES)) {
         return mor_log_strain_apply(b_minus_1, mor_log_strain_half_logarithm);
     }
@@ -106,7 +100,7 @@ static inline mor_symmetric mor_log_strain_of_stretch(mor_symmetric b_minus_1)
     const mor_symmetric product = mor_log_strain_multiply(b_minus_1, mor_symmetric_read(cofactors));
     const mor_symmetric x = mor_symmetric_add((mor_symmetric){0}, 1.0 / determinant, product);
     const mor_symmetric x2 = mor_log_strain_multiply(x, x);
-    const double ratio = mor_log_strain_norm2(x);
+    const double ratio = mor_symmetric_product(x, x);
     mor_symmetric power = x;
     mor_symmetric sum = x;
     double bound = ratio; /* of the next power over the first */

@@ -105,12 +105,32 @@ static void friction_with_one_soil_leaves_the_energy_balance_closed(void **state
     scene_free(it);
 }
 
+/* A library user may set the table by hand, up to the first step. */
+static void negative_friction_with_one_soil_is_refused_before_it_acts(void **state)
+{
+    (void)state;
+    char text[TEXT_BYTES];
+    const char *const frames[] = {on_a_wall, on_a_body};
+    for (int k = 0; k < 2; ++k) {
+        snprintf(text, sizeof text, frames[k], UPPER ", " LOWER, WITH_LOWER, ALL_OF_IT);
+        const scene_request request = {.text = text, .n_threads = 1};
+        scene *it = scene_new(&request);
+        mor_schedule *schedule = &it->simulation.schedule;
+        assert_true(it->simulation.frictions[1].coefficient == 0.3); /* exact: as written */
+        it->simulation.frictions[1].coefficient = -0.3;
+        assert_int_equal(mor_schedule_step(&it->context, schedule, schedule->end), MOR_ERROR_ARGUMENT);
+        assert_non_null(strstr(it->context.message, ": found a friction coefficient of -0.3 with soil 1"));
+        scene_free(it);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_soil_slides_with_its_own_friction),
         cmocka_unit_test(soils_of_unlike_materials_have_their_own_friction),
         cmocka_unit_test(friction_with_one_soil_leaves_the_energy_balance_closed),
+        cmocka_unit_test(negative_friction_with_one_soil_is_refused_before_it_acts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

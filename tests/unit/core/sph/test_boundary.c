@@ -421,6 +421,12 @@ static void what_is_no_boundary_is_refused(void **state)
     m->patches[1].friction_coefficient = -0.1;
     assert_int_equal(mor_soil_contact_borrow(context, &other, &m->boundary, MOR_WALL_STRESS_UNIFORM, 2, 8),
                      MOR_ERROR_ARGUMENT);
+    const mor_boundary_friction frictions[2] = {{MOR_WALL_SMOOTH, -1.0}, {MOR_WALL_COULOMB, -0.1}};
+    m->patches[1].friction_of_soil = frictions;
+    assert_int_equal(mor_soil_contact_check_frictions(context, &m->contact, 1), MOR_OK); /* smooth has none */
+    assert_int_equal(mor_soil_contact_check_frictions(context, &m->contact, 2), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(context->message, "patch 1 of boundary 'rocks': found a friction coefficient of -0.1 with "
+                                             "soil 1; allowed are numbers >= 0"));
     const mor_soil_barrier wrong[3] = {{true, 0.0, 0.01}, {true, 1e4, 0.0}, {true, 1e4, 1.01 * support}};
     for (int k = 0; k < 3; ++k) {
         assert_int_equal(mor_soil_contact_set_barrier(context, &m->contact, &wrong[k], support), MOR_ERROR_ARGUMENT);
