@@ -116,8 +116,8 @@ mor_status mor_session_add_material(mor_session *session, const struct mor_mater
 
 /** Adds the laws of a plug-in, which stays loaded as long as the session.
  *  @param path [in]  zero-terminated; of the shared object
- *  Returns: MOR_OK; MOR_ERROR_IO when there is no such file; MOR_ERROR_PLUGIN saying what is wrong with it;
- *  MOR_ERROR_ARGUMENT beyond 16 plug-ins; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_IO when there is no such file; MOR_ERROR_CONFIG when it is no shared library;
+ *  MOR_ERROR_PLUGIN saying what is wrong with it; MOR_ERROR_ARGUMENT beyond 16 plug-ins; MOR_ERROR_MEMORY. */
 mor_status mor_session_add_plugin(mor_session *session, const char *path);
 
 /** Does work(job) and comes back, whatever work does: it returns 0, or the number of the signal that ended work. A
@@ -368,8 +368,8 @@ mor_status mor_session_print_list(mor_session *session, const char *name);
  *  @param name     [in]   zero-terminated; of a material, of the file of a plug-in, or of a case, *.cfg, which is
  *                         loaded, and whose soils are tried with their own parameters
  *  @param n_failed [out]  one number; laws that do not hold
- *  Returns: MOR_OK, whatever the laws say; MOR_ERROR_CONFIG when it is neither; MOR_ERROR_PLUGIN when the file is no
- *  plug-in or its descriptor is wrong; MOR_ERROR_ARGUMENT when no parameters can be found that the law accepts;
+ *  Returns: MOR_OK, whatever the laws say; MOR_ERROR_CONFIG when it is neither; MOR_ERROR_PLUGIN when a shared library
+ *  is no plug-in or its descriptor is wrong; MOR_ERROR_ARGUMENT when no parameters can be found that the law accepts;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_session_check_material(mor_session *session, const char *name, int *n_failed);
 
@@ -381,7 +381,8 @@ mor_status mor_session_check_material(mor_session *session, const char *name, in
  *  the law says; writes nothing then. A case that is loaded stays as it is.
  *  @param model  [in]  zero-terminated name of a material in rate form; NULL: that of a soil, by "test.case=case.cfg"
  *                      and "test.soil=name"
- *  @param folder [in]  zero-terminated; made when missing; one that holds a run is refused
+ *  @param folder [in]  zero-terminated; made when missing; one that holds a run is refused; tables that an earlier
+ *                      test has left there are removed
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for a model, a setting or a file that cannot be used, and for a folder that holds
  *  a run or cannot be made; MOR_NOT_CONVERGED or MOR_RETRY_SMALLER_STEP when a specimen cannot follow its path, and
  *  MOR_ERROR_NUMERIC when the law fails: results up to there are written; MOR_ERROR_IO; MOR_ERROR_MEMORY. */

@@ -118,7 +118,7 @@ mor_status mor_hash_file(mor_context *context, const char *path, uint64_t *value
 {
     *value = 0;
     FILE *file = fopen(path, "rb");
-    MOR_CHECK(context, file != NULL, MOR_ERROR_IO, "cannot open '%s' to hash it: %s", path, strerror(errno));
+    MOR_CHECK(context, file != NULL, MOR_ERROR_IO, "cannot open '%s': %s", path, strerror(errno));
     mor_hash hash;
     mor_hash_init(&hash);
     unsigned char block[FILE_BLOCK_BYTES];
@@ -128,7 +128,7 @@ mor_status mor_hash_file(mor_context *context, const char *path, uint64_t *value
     }
     const int error = ferror(file) != 0 ? errno : 0;
     fclose(file);
-    MOR_CHECK(context, error == 0, MOR_ERROR_IO, "cannot read '%s' to hash it: %s", path, strerror(error));
+    MOR_CHECK(context, error == 0, MOR_ERROR_IO, "cannot read '%s': %s", path, strerror(error));
     *value = mor_hash_value(&hash);
     return MOR_OK;
 }

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { RANGE_BYTES = 256, WORD_BYTES = 64 };
+enum { RANGE_BYTES = 256, WORD_BYTES = 64, FAULT_BYTES = 512 };
 
 int mor_params_entries(const mor_schema *schema)
 {
@@ -45,16 +45,16 @@ int mor_params_offset(const mor_schema *schema, int entry)
 
 /* Text and unit of each role. */
 static const struct {
-    const char *text, *unit;
+    const char *text, *unit, *symbol;
 } ROLES[MOR_ROLE_COUNT] = {
     [MOR_ROLE_NONE] = {"", ""},
-    [MOR_ROLE_YOUNGS_MODULUS] = {"Young's modulus E", "Pa"},
-    [MOR_ROLE_POISSONS_RATIO] = {"Poisson's ratio nu", "1"},
-    [MOR_ROLE_SHEAR_MODULUS] = {"shear modulus G", "Pa"},
-    [MOR_ROLE_BULK_MODULUS] = {"bulk modulus K", "Pa"},
-    [MOR_ROLE_FRICTION_ANGLE] = {"friction angle phi", "rad"},
-    [MOR_ROLE_COHESION] = {"cohesion c", "Pa"},
-    [MOR_ROLE_DILATION_ANGLE] = {"dilation angle psi", "rad"},
+    [MOR_ROLE_YOUNGS_MODULUS] = {"Young's modulus E", "Pa", "E"},
+    [MOR_ROLE_POISSONS_RATIO] = {"Poisson's ratio nu", "1", "nu"},
+    [MOR_ROLE_SHEAR_MODULUS] = {"shear modulus G", "Pa", "G"},
+    [MOR_ROLE_BULK_MODULUS] = {"bulk modulus K", "Pa", "K"},
+    [MOR_ROLE_FRICTION_ANGLE] = {"friction angle phi", "rad", "phi"},
+    [MOR_ROLE_COHESION] = {"cohesion c", "Pa", "c"},
+    [MOR_ROLE_DILATION_ANGLE] = {"dilation angle psi", "rad", "psi"},
     [MOR_ROLE_TENSION_RATIO] = {"tension ratio", "1"},
     [MOR_ROLE_INTEGRATION_METHOD] = {"method of integration", "1"},
     [MOR_ROLE_RELATIVE_TOLERANCE] = {"relative tolerance of the integration", "1"},
@@ -79,6 +79,16 @@ int mor_params_find_role(const mor_schema *schema, mor_role role)
     for (int entry = 0; schema[entry].key != NULL; ++entry) {
         if (schema[entry].role == role) {
             return entry;
+        }
+    }
+    return -1;
+}
+
+int mor_params_find_symbol(const mor_schema *schema, const char *symbol)
+{
+    for (int role = MOR_ROLE_NONE + 1; role < MOR_ROLE_COUNT; ++role) {
+        if (ROLES[role].symbol != NULL && strcmp(ROLES[role].symbol, symbol) == 0) {
+            return mor_params_find_role(schema, (mor_role)role);
         }
     }
     return -1;
@@ -225,8 +235,13 @@ static int is_key_wellformed(const char *key)
     return key[0] >= 'a' && key[0] <= 'z' && key[strspn(key, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0';
 }
 
-/* Returns what is wrong with the role of an entry, NULL when nothing is. */
-static const char *find_role_fault(const mor_schema *schema, const mor_schema *entry)
+static const char *const KIND_WORDS[] = {
+    [MOR_SCHEMA_REAL] = "a real number",    [MOR_SCHEMA_INTEGER] = "a whole number",
+    [MOR_SCHEMA_BOOLEAN] = "true or false", [MOR_SCHEMA_TEXT] = "a text",
+    [MOR_SCHEMA_CHOICE] = "a choice",       [MOR_SCHEMA_VECTOR] = "a vector"};
+
+/* Returns what is wrong with the role of an entry, in text of FAULT_BYTES; NULL when nothing is. */
+static const char *find_role_fault(const mor_schema *schema, const mor_schema *entry, char *text)
 {
     if ((int)entry->role < MOR_ROLE_NONE || entry->role >= MOR_ROLE_COUNT) {
         return "its role must be one of MOR_ROLE_...";
@@ -234,14 +249,23 @@ static const char *find_role_fault(const mor_schema *schema, const mor_schema *e
     if (entry->role == MOR_ROLE_NONE) {
         return NULL;
     }
-    if (mor_params_find_role(schema, entry->role) != (int)(entry - schema)) {
-        return "another entry has the same role";
+    const mor_schema *first = &schema[mor_params_find_role(schema, entry->role)];
+    if (first != entry) {
+        snprintf(text, FAULT_BYTES, "entry '%s' has the same role, %s; give it to one of them", first->key,
+                 mor_role_text(entry->role));
+        return text;
     }
     const mor_schema_kind kind = entry->role == MOR_ROLE_INTEGRATION_METHOD ? MOR_SCHEMA_CHOICE
                                  : entry->role == MOR_ROLE_SUB_STEPS_MAX    ? MOR_SCHEMA_INTEGER
                                                                             : MOR_SCHEMA_REAL;
     if (entry->kind != kind || strcmp(entry->unit, mor_role_unit(entry->role)) != 0) {
-        return "its role needs a value of the kind and unit of the role, mostly a real number (core/base/schema.h)";
+        snprintf(
+            text, FAULT_BYTES,
+            "it is %s in \"%s\", but its role, %s, needs %s in \"%s\", the unit of the role; change that, or leave "
+            "the role out",
+            KIND_WORDS[entry->kind], entry->unit, mor_role_text(entry->role), KIND_WORDS[kind],
+            mor_role_unit(entry->role));
+        return text;
     }
     return NULL;
 }
@@ -251,8 +275,8 @@ static int is_text_present(const char *text)
     return text != NULL && text[0] != '\0';
 }
 
-/* Returns what is wrong with one entry, NULL when nothing is. */
-static const char *find_entry_fault(const mor_schema *schema, const mor_schema *entry)
+/* Returns what is wrong with one entry, perhaps in text of FAULT_BYTES; NULL when nothing is. */
+static const char *find_entry_fault(const mor_schema *schema, const mor_schema *entry, char *text)
 {
     if (!is_key_wellformed(entry->key)) {
         return "its key must be lower-case letters, digits and '_', a letter first";
@@ -271,7 +295,7 @@ static const char *find_entry_fault(const mor_schema *schema, const mor_schema *
         return "n_components must be 1, or 1 to 9 for a vector";
     }
     if (entry->kind == MOR_SCHEMA_CHOICE) {
-        return is_text_present(entry->choices) ? find_role_fault(schema, entry) : "a choice needs its words";
+        return is_text_present(entry->choices) ? find_role_fault(schema, entry, text) : "a choice needs its words";
     }
     if (entry->kind == MOR_SCHEMA_BOOLEAN) {
         return is_value_allowed(entry, entry->default_value) ? NULL : "its default must be 0 or 1";
@@ -282,7 +306,7 @@ static const char *find_entry_fault(const mor_schema *schema, const mor_schema *
     if (!entry->is_required && !is_value_allowed(entry, entry->default_value)) {
         return "its default is out of its own range";
     }
-    return find_role_fault(schema, entry);
+    return find_role_fault(schema, entry, text);
 }
 
 mor_status mor_params_verify_schema(mor_context *context, const mor_schema *schema, const char *owner, int n_max)
@@ -293,7 +317,8 @@ mor_status mor_params_verify_schema(mor_context *context, const mor_schema *sche
     for (int k = 0; schema[k].key != NULL; ++k) {
         MOR_CHECK(context, k < n_max, MOR_ERROR_PLUGIN, "%s: the schema has more than %d entries, or no end (key NULL)",
                   owner, n_max);
-        const char *fault = find_entry_fault(schema, &schema[k]);
+        char text[FAULT_BYTES];
+        const char *fault = find_entry_fault(schema, &schema[k], text);
         MOR_CHECK(context, fault == NULL, MOR_ERROR_PLUGIN, "%s: schema entry %d ('%s') is wrong: %s", owner, k,
                   schema[k].key, fault);
         n_values += schema[k].n_components;

@@ -42,6 +42,11 @@ const char *mor_role_unit(mor_role role);
  *  @param role   [in]  other than MOR_ROLE_NONE */
 int mor_params_find_role(const mor_schema *schema, mor_role role);
 
+/** Place of the entry whose role has a symbol in the literature, as E of Young's modulus; -1 where there is none.
+ *  @param schema [in]  table ended by key NULL
+ *  @param symbol [in]  zero-terminated */
+int mor_params_find_symbol(const mor_schema *schema, const char *symbol);
+
 /** Value of the parameter with a role.
  *  @param schema   [in]  table ended by key NULL
  *  @param values   [in]  shape [mor_params_count]; units of the schema

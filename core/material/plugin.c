@@ -23,16 +23,19 @@ static mor_status open_object(mor_context *context, const char *path, mor_plugin
     MOR_CHECK(context, realpath(path, plugin->path) != NULL, MOR_ERROR_IO, "plug-in '%s' cannot be found: %s", path,
               strerror(errno));
     return mor_shared_object_open(context, "plug-in", plugin->path,
-                                  "a shared object without undefined symbols (what it needs comes in the services "
-                                  "record)",
+                                  "a shared object, as cc -shared -fPIC makes it, without undefined symbols (what it "
+                                  "needs comes in the services record)",
                                   &plugin->handle);
 }
 
 static mor_status fetch_list(mor_context *context, mor_plugin *plugin)
 {
     const mor_plugin_entry entry = (mor_plugin_entry)mor_shared_object_find(plugin->handle, MOR_PLUGIN_SYMBOL);
-    MOR_CHECK(context, entry != NULL, MOR_ERROR_PLUGIN,
-              "plug-in '%s' does not export '%s': define it and do not hide it", plugin->path, MOR_PLUGIN_SYMBOL);
+    MOR_CHECK(
+        context, entry != NULL, MOR_ERROR_PLUGIN,
+        "plug-in '%s' does not export '%s': define it and do not hide it; a law of another interface, as a UMAT, is "
+        "no plug-in, but named by a case",
+        plugin->path, MOR_PLUGIN_SYMBOL);
     const mor_plugin_list *list = entry(MOR_MATERIAL_ABI);
     MOR_CHECK(context, list != NULL, MOR_ERROR_PLUGIN,
               "plug-in '%s' does not serve interface %d of this program: rebuild it with this program's headers",
@@ -85,16 +88,27 @@ mor_status mor_plugin_load(mor_context *context, const char *path, mor_plugin **
     return MOR_OK;
 }
 
-mor_status mor_plugin_register(mor_context *context, const mor_plugin *plugin, mor_registry *registry)
+mor_status mor_plugin_check_names(mor_context *context, const mor_plugin *plugin, const mor_registry *registry)
 {
-    /* Names first, so that a refusal leaves the registry as it was. */
     for (int k = 0; k < plugin->list->n_materials; ++k) {
         const mor_material *material = plugin->list->materials[k];
         const mor_material *known = mor_registry_find(registry, material->name);
         MOR_CHECK(context, known == NULL || known == material, MOR_ERROR_PLUGIN,
                   "plug-in '%s' brings a material '%s', but one of that name (version %s) is there already: rename it",
                   plugin->path, material->name, known->version);
+        MOR_CHECK(
+            context, mor_registry_find_interface(registry, material->name) == NULL, MOR_ERROR_PLUGIN,
+            "plug-in '%s' brings a material '%s', but that is the name of an interface to laws of other programs: "
+            "rename it",
+            plugin->path, material->name);
     }
+    return MOR_OK;
+}
+
+mor_status mor_plugin_register(mor_context *context, const mor_plugin *plugin, mor_registry *registry)
+{
+    /* Names first, so that a refusal leaves the registry as it was. */
+    MOR_TRY(context, mor_plugin_check_names(context, plugin, registry));
     for (int k = 0; k < plugin->list->n_materials; ++k) {
         MOR_TRY(context, mor_registry_add(context, registry, plugin->list->materials[k]));
     }

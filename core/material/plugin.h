@@ -19,10 +19,15 @@ typedef struct mor_plugin mor_plugin;
 /** Loads a shared object and verifies every model in it.
  *  @param path    [in]      zero-terminated; the file, absolute or from the working folder
  *  @param plugin  [out]     one pointer; owned by the caller; NULL on failure
- *  Returns: MOR_OK; MOR_ERROR_IO when there is no such file; MOR_ERROR_PLUGIN saying what is wrong with it;
- *  MOR_ERROR_MEMORY.
+ *  Returns: MOR_OK; MOR_ERROR_IO when there is no such file; MOR_ERROR_CONFIG when it is no shared library;
+ *  MOR_ERROR_PLUGIN saying what is wrong with it; MOR_ERROR_MEMORY.
  *  Cost: allocates. Threads: not concurrently. */
 mor_status mor_plugin_load(mor_context *context, const char *path, mor_plugin **plugin);
+
+/** Refuses a plug-in with a model whose name a registry has for another, or for an interface.
+ *  @param plugin   [in]  a loaded plug-in
+ *  Returns: MOR_OK; MOR_ERROR_PLUGIN. */
+mor_status mor_plugin_check_names(mor_context *context, const mor_plugin *plugin, const mor_registry *registry);
 
 /** Adds all models of a plug-in to a registry, or none of them.
  *  @param plugin   [in]      must outlive the registry

@@ -3,13 +3,30 @@
 #include "core/material/shared_object.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <link.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
+
+/* The loader would say of a source file that its header is invalid. */
+static mor_status check_kind(mor_context *context, const char *what, const char *path, const char *needs)
+{
+    char start[SELFMAG] = "";
+    FILE *file = fopen(path, "rb");
+    MOR_CHECK(context, file != NULL, MOR_ERROR_CONFIG, "%s '%s' cannot be read: %s", what, path, strerror(errno));
+    const size_t n_read = fread(start, 1, sizeof start, file);
+    fclose(file);
+    MOR_CHECK(context, n_read == sizeof start && memcmp(start, ELFMAG, SELFMAG) == 0, MOR_ERROR_CONFIG,
+              "%s '%s' is no shared library, but a file of another kind; it must be %s", what, path, needs);
+    return MOR_OK;
+}
 
 mor_status mor_shared_object_open(mor_context *context, const char *what, const char *path, const char *needs,
                                   void **object)
 {
+    *object = NULL;
+    MOR_TRY(context, check_kind(context, what, path, needs));
     *object = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (*object == NULL) {
         const char *reason = dlerror();

@@ -16,7 +16,8 @@ typedef void (*mor_shared_function)(void);
  *  @param path   [in]      zero-terminated; absolute, so that no folder is searched
  *  @param needs  [in]      zero-terminated; what such an object must be, for the message of a failure
  *  @param object [out]     one pointer; closed with mor_shared_object_close; NULL on failure
- *  Returns: MOR_OK; MOR_ERROR_PLUGIN with the reason of the loader. Threads: not concurrently. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for a file that is no shared library or cannot be read; MOR_ERROR_PLUGIN with the
+ *  reason of the loader. Threads: not concurrently. */
 mor_status mor_shared_object_open(mor_context *context, const char *what, const char *path, const char *needs,
                                   void **object);
 

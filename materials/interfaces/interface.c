@@ -73,11 +73,15 @@ static mor_status add_state(mor_context *context, mor_interface_law *it, const c
 {
     const size_t length = strcspn(word, "[");
     const char *rest = word + length;
+    const size_t n_good = strspn(word, "abcdefghijklmnopqrstuvwxyz0123456789_");
     const bool is_vector = rest[0] == '[' && rest[1] >= '1' && rest[1] <= '9' && rest[2] == ']' && rest[3] == '\0';
     MOR_CHECK(
-        context, length > 0 && length < MOR_EXTERNAL_NAME_BYTES && (rest[0] == '\0' || is_vector), MOR_ERROR_ARGUMENT,
-        "found the state variable '%s'; allowed: a name of lower-case letters, digits and '_', or name[n] for n = "
-        "1 to 9 numbers",
+        context,
+        length > 0 && length < MOR_EXTERNAL_NAME_BYTES && n_good == length && strchr("0123456789_", word[0]) == NULL &&
+            (rest[0] == '\0' || is_vector),
+        MOR_ERROR_ARGUMENT,
+        "found the state variable '%s'; allowed: a name of lower-case letters, digits and '_', a letter first, or "
+        "name[n] for n = 1 to 9 numbers",
         word);
     MOR_CHECK(context, it->n_states < MOR_MATERIAL_STATES_MAX - KEPT, MOR_ERROR_ARGUMENT,
               "found more than %d state variables; allowed: that many; put several numbers into one, as q[9]",
@@ -103,9 +107,11 @@ static mor_status set_state(mor_context *context, mor_interface_law *it, const m
     for (int k = 0; k < request->n_states; ++k) {
         MOR_TRY(context, add_state(context, it, request->states[k]));
     }
-    MOR_CHECK(context, request->n_state_start <= it->n_state_values, MOR_ERROR_ARGUMENT,
-              "found %d initial values of the state variables, which have %d numbers; allowed: at most as many",
-              request->n_state_start, it->n_state_values);
+    MOR_CHECK(
+        context, request->n_state_start <= it->n_state_values, MOR_ERROR_ARGUMENT,
+        "found %d initial values, state_start, for state variables of %d number%s in all; allowed: at most as many; "
+        "shorten state_start, or name the others in state",
+        request->n_state_start, it->n_state_values, it->n_state_values == 1 ? "" : "s");
     for (int k = 0; k < request->n_state_start; ++k) {
         it->state_start[k] = request->state_start[k];
     }
@@ -441,9 +447,10 @@ static mor_status external_create(const mor_services *services, mor_material_ins
     c->wave_speed = wave_speed;
     if (!(wave_speed > 0.0) || !isfinite(wave_speed)) {
         return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
-                                 "%s '%s' tells no stiffness for no strain at no stress (speed of sound %g m/s); "
-                                 "allowed: > 0; give wave_speed, or check the constants",
-                                 law->name, law->law, wave_speed);
+                                 "%s '%s' tells no stiffness for no strain at no stress, from which the speed of sound "
+                                 "follows (found %g m/s); allowed: > 0; check number and order of the %d constants in "
+                                 "props, or give wave_speed",
+                                 law->name, law->law, fabs(wave_speed), law->n_constants);
     }
     return MOR_OK;
 }
@@ -473,7 +480,13 @@ static mor_status open_library(mor_context *context, mor_interface_law *it, cons
 {
     char symbol[2 * MOR_EXTERNAL_NAME_BYTES];
     const char *law = request->law[0] != '\0' ? request->law : it->kind->usual_law;
-    MOR_CHECK(context, law[0] != '\0' && strlen(law) < sizeof it->law, MOR_ERROR_ARGUMENT,
+    /* The name of a law stands in the symbol of some interfaces and not of others. */
+    const char *place = strstr(it->kind->symbol, "%s");
+    MOR_CHECK(context, law[0] != '\0', MOR_ERROR_ARGUMENT,
+              "found no law; allowed: the name of a law in the library, NAME of its function NAME%s; write law = "
+              "\"NAME\"",
+              place != NULL ? place + 2 : "");
+    MOR_CHECK(context, strlen(law) < sizeof it->law, MOR_ERROR_ARGUMENT,
               "found the law '%s'; allowed: the name of a law in the library, of 1 to %d letters", law,
               MOR_EXTERNAL_NAME_BYTES - 1);
     snprintf(it->law, sizeof it->law, "%s", law);
@@ -481,14 +494,12 @@ static mor_status open_library(mor_context *context, mor_interface_law *it, cons
                                             "a shared object with everything that the law calls (a Fortran source: "
                                             "gfortran -shared -fPIC)",
                                             &it->object));
-    /* The name of a law stands in the symbol of some interfaces and not of others. */
-    const char *place = strstr(it->kind->symbol, "%s");
     snprintf(symbol, sizeof symbol, "%.*s%s%s", place != NULL ? (int)(place - it->kind->symbol) : 0, it->kind->symbol,
              place != NULL ? law : "", place != NULL ? place + 2 : it->kind->symbol);
     it->function = mor_shared_object_find(it->object, symbol);
     MOR_CHECK(context, it->function != NULL, MOR_ERROR_PLUGIN,
-              "library '%s' has no function '%s', which %s calls; build it as that interface needs", request->library,
-              symbol, it->name);
+              "library '%s' has no function '%s', which %s calls; %sbuild it as that interface needs", request->library,
+              symbol, it->name, place != NULL ? "correct the name of the law, or " : "");
     snprintf(it->text, sizeof it->text, "law of the library %s", request->library);
     return MOR_OK;
 }

@@ -34,6 +34,7 @@ typedef struct bad_case {
 static const bad_case bad_cases[] = {
     {"unknown_top_level", 3, "unknown name 'spcing'", "did you mean 'spacing'?"},
     {"unknown_in_group", 23, "unknown name 'corant' in numerics", "did you mean 'courant'?"},
+    {"parameter_by_symbol", 13, "unknown name 'E'", "did you mean 'youngs_modulus'?"},
     {"unknown_parameter", 15, "unknown name 'frction_angle'", "did you mean 'friction_angle'?"},
     {"unknown_in_soil", 8, "unknown name 'nam' in soil[0]", "allowed: name, velocity, shape"},
     {"unknown_in_shape", 9, "unknown name 'radius' in soil[0].shape", "allowed: type, min, max"},

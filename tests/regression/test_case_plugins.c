@@ -163,6 +163,7 @@ static void plugin_that_cannot_be_used_is_refused_with_its_place(void **state)
     refuse(folder, "does not serve interface");
     compile(folder, "clay.so", "s/mor_plugin_materials/hidden/");
     refuse(folder, "does not export 'mor_plugin_materials'");
+    refuse(folder, "as a UMAT, is no plug-in, but named by a case");
     write_case(folder, strstr(clay_case, "title"));
     refuse(folder, "that of a plug-in where the case has plugins = [ \"./FILE.so\" ]");
 }

@@ -236,12 +236,15 @@ static void case_that_asks_for_what_there_is_not_is_refused(void **state)
         const char *law, *part;
     } cases[] = {
         {"", "library"},
-        {"library = './none.so';", "a library that cannot be read"},
-        {"library = './case.cfg';", "cannot be loaded"},
+        {"library = './none.so';", "a library that cannot be read: cannot open '"},
+        {"library = './case.cfg';", "is no shared library, but a file of another kind"},
+        {"library = './umat_elastic.so'; state = ('a[2]'); state_start = (1, 2, 3);",
+         "3 initial values, state_start, for state variables of 2 numbers in all"},
         {"library = './umat_elastic.so'; props = (1e6, 'x');", "numbers without a unit"},
         {"library = './umat_elastic.so'; props = 3;", "a list of up to"},
         {"library = './umat_elastic.so'; props = (1e6, 0.3); state = ('A b');", "lower-case"},
-        {"library = './umat_elastic.so'; props = (0, 0.3);", "give wave_speed"},
+        {"library = './umat_elastic.so'; props = (0, 0.3);",
+         "check number and order of the 2 constants in props, or give wave_speed"},
         {"library = './umat_elastic.so'; props = (1e6, 0.3); is_reentrant = 3;", "is_reentrant"},
         {"library = './umat_elastic.so'; prop = (1e6, 0.3);", "did you mean 'props'"},
         {"library = './umat_elastic.so'; props = (1e6, 0.3); }; } ); scale = { length = 4.0;", "with a scale"},

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Options without a letter, by their place in the table. */
-enum { OPTION_FIRST = 256, LETTERS_BYTES = 3 * MOR_OPTION_COUNT + 1 };
+enum { OPTION_FIRST = 256, LETTERS_BYTES = 3 * MOR_OPTION_COUNT + 1, WORDS_BYTES = 256 };
 
 /* Warnings and errors of the library, for the terminal. */
 static void show_log(void *user, mor_log_level level, const char *text)
@@ -259,6 +259,20 @@ static mor_status answer_question(mor_command *command, const char *name)
     return MOR_OK;
 }
 
+/* The words that may stand behind a command, where there is a list of them. */
+static void list_words(const mor_command_info *info, char *words)
+{
+    words[0] = '\0';
+    for (int k = 0; info->list_word != NULL && info->list_word(k) != NULL; ++k) {
+        const size_t n = strlen(words);
+        snprintf(words + n, WORDS_BYTES - n, "%s%s",
+                 k == 0                           ? ": "
+                 : info->list_word(k + 1) != NULL ? ", "
+                                                  : " or ",
+                 info->list_word(k));
+    }
+}
+
 static mor_status run_command(mor_command *command, int argc, char **argv, int *exit_code)
 {
     const mor_command_info *info = NULL;
@@ -276,8 +290,10 @@ static mor_status run_command(mor_command *command, int argc, char **argv, int *
     MOR_CHECK(command->context, optind + 2 >= argc, MOR_ERROR_CONFIG,
               "found '%s' behind '%s'; allowed is one %s; see moraine %s --help", argv[optind + 2], command->subject,
               info->subject, info->name);
+    char words[WORDS_BYTES];
+    list_words(info, words);
     MOR_CHECK(command->context, command->subject != NULL || info->has_default, MOR_ERROR_CONFIG,
-              "moraine %s needs a %s; see moraine %s --help", info->name, info->subject, info->name);
+              "moraine %s needs a %s%s; see moraine %s --help", info->name, info->subject, words, info->name);
     MOR_TRY(command->context, check_options(command, info));
     return info->run(command, exit_code);
 }

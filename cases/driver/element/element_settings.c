@@ -290,9 +290,11 @@ static mor_status check_keys(const reader *r)
             is_known = strcmp(found, keys[a]) == 0;
         }
         const int near = mor_nearest_find(found, names, n_keys);
+        const int entry = mor_params_find_symbol(r->material->parameters, found);
+        const char *meant = entry >= 0 ? r->material->parameters[entry].key : near >= 0 ? names[near] : NULL;
         MOR_CHECK(r->context, is_known, MOR_ERROR_CONFIG,
-                  "found '%s', which is no key of a test of '%s'%s%s; allowed: %s", found, r->material->name,
-                  near >= 0 ? "; did you mean " : "", near >= 0 ? names[near] : "", all);
+                  "found '%s', which is no key of a test of '%s'%s%s%s; allowed: %s", found, r->material->name,
+                  meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "", all);
     }
     return MOR_OK;
 }

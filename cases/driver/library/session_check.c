@@ -147,10 +147,14 @@ static mor_status try_plugin(mor_session *session, const char *path, int *n_fail
     }
     const char *call = status == MOR_OK ? mor_plugin_forbidden_call(plugin) : NULL;
     if (status == MOR_OK) {
+        const bool is_free = mor_plugin_check_names(&session->context, plugin, session->registry) == MOR_OK;
         fprintf(session->output,
                 "%s\n  %s  it takes memory from the services, and leaves printing and ending to the program%s%s\n",
                 path, call == NULL ? "pass" : "FAIL", call == NULL ? "" : ": it calls ", call == NULL ? "" : call);
-        *n_failed += call != NULL;
+        fprintf(session->output, "  %s  a case can load it beside the models that are there%s%s\n",
+                is_free ? "pass" : "FAIL", is_free ? "" : ": ", is_free ? "" : session->context.message);
+        mor_context_clear_error(&session->context);
+        *n_failed += (call != NULL) + !is_free;
     }
     mor_plugin_unload(&session->context, &plugin);
     return status;
@@ -163,6 +167,10 @@ mor_status mor_session_check_material(mor_session *session, const char *name, in
     const mor_material *material = mor_registry_find(session->registry, name);
     const char *near = mor_registry_nearest(session->registry, name);
     *n_failed = 0;
+    MOR_CHECK(context, mor_registry_find_interface(session->registry, name) == NULL, MOR_ERROR_CONFIG,
+              "found '%s', an interface to laws of other programs; allowed: a case (.cfg) whose soil tells library and "
+              "constants of such a law; its soils are then tried",
+              name);
     MOR_CHECK(context, material != NULL || access(name, F_OK) == 0, MOR_ERROR_CONFIG,
               "found '%s', which is neither a material nor a file%s%s; allowed are the names in the list of "
               "materials, paths of plug-ins, and of cases (.cfg), whose soils are then tried",

@@ -3,6 +3,7 @@
 #include "cases/driver/case/reader/case_reader.h"
 
 #include "core/base/nearest.h"
+#include "core/material/params.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -94,6 +95,10 @@ mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_n
         mor_case_node_path(node, path, sizeof path);
         join_words(names, n_names, allowed, sizeof allowed);
         advise_word(child->name, names, n_names, advice, sizeof advice);
+        const int entry = more == NULL ? -1 : mor_params_find_symbol(more, child->name);
+        if (entry >= 0) {
+            snprintf(advice, sizeof advice, "did you mean '%s'?", more[entry].key);
+        }
         return MOR_CASE_NODE_FAIL(reader->context, child, "found the unknown name '%.80s' in %s; allowed: %s; %s",
                                   child->name, path, allowed, advice);
     }

@@ -68,7 +68,9 @@ mor_status mor_case_reader_external(const mor_case_reader *reader, const mor_ext
                                     const mor_case_node *node, mor_case_external *external)
 {
     const char *names[MOR_MATERIAL_STATES_MAX];
-    MOR_TRY(reader->context, mor_case_reader_locate(reader, node, "a library", external->file, &external->file_hash));
+    const mor_case_node *library = mor_case_node_find(node, "library");
+    MOR_TRY(reader->context, mor_case_reader_locate(reader, library != NULL ? library : node, "a library",
+                                                    external->file, &external->file_hash));
     MOR_TRY(reader->context, read_numbers(reader, node, "props", MOR_EXTERNAL_CONSTANTS_MAX, &external->constants,
                                           &external->n_constants));
     MOR_TRY(reader->context, read_states(reader, node, external));

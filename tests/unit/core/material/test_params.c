@@ -169,9 +169,13 @@ static void faulty_schemas_are_refused_with_the_entry(void **state)
     const mor_schema good = SCHEMA[0];
     enum { N_FAULTS = 11 };
     mor_schema table[N_FAULTS][3];
-    const char *const words[N_FAULTS] = {"lower-case",  "unit",    "kind",    "n_components", "words",
-                                         "0 or 1",      "minimum", "default", "same role",    "unit of the role",
-                                         "MOR_ROLE_..."};
+    const char *const words[N_FAULTS] = {
+        "lower-case",  "unit",
+        "kind",        "n_components",
+        "words",       "0 or 1",
+        "minimum",     "default",
+        "same role",   "angle phi, needs a real number in \"rad\", the unit of the role",
+        "MOR_ROLE_..."};
     for (int k = 0; k < N_FAULTS; ++k) {
         table[k][0] = good;
         table[k][1] = (mor_schema){.key = NULL};

@@ -169,8 +169,8 @@ static void files_that_are_no_plugins_are_refused(void **state)
     refuse("libm.so.6", MOR_ERROR_IO, "cannot be found"); /* a bare name is a file here, not one of the system's */
     snprintf(path, sizeof path, "%s/text.so", folder);
     write_text(path, "this is no shared object\n");
-    refuse(path, MOR_ERROR_PLUGIN, "cannot be loaded");
-    refuse(folder, MOR_ERROR_PLUGIN, "cannot be loaded");
+    refuse(path, MOR_ERROR_CONFIG, "is no shared library, but a file of another kind");
+    refuse(folder, MOR_ERROR_CONFIG, "is no shared library, but a file of another kind");
 }
 
 int main(void)

@@ -159,6 +159,7 @@ static void failure_is_a_smaller_step_and_a_write_out_of_bounds_is_refused(void 
     assert_non_null(strstr(folder->context.message, "has no function 'Missing_Tridimensional'"));
     request.law = "";
     assert_int_equal(make_law(folder, &request, &law), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(folder->context.message, "NAME of its function NAME_Tridimensional; write law = \"NAME\""));
     assert_int_equal(folder->context.memory_bytes, 0);
 }
 
