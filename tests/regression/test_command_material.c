@@ -82,6 +82,28 @@ static void several_specimens_fail_at_their_strength(void **state)
     program_clear(&outcome);
 }
 
+/* Of more specimens than now; what a test did not write stays. */
+static void tables_of_an_earlier_test_are_removed(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *words[] = {"material", "drucker_prager",      "--path", "oedometer",
+                           "--stress", "1 kPa, 2 kPa, 3 kPa", "-o",     "out",
+                           "-s",       "test.steps=5",        SOIL,     NULL};
+    program_outcome outcome = program_run(folder, words, 0);
+    program_clear(&outcome);
+    run_folder_store(run_folder_file(folder, path, "out/specimen-4.csv"), "p [kPa],q [kPa]\n1,2\n", 20);
+    words[5] = "1 kPa";
+    outcome = program_run(folder, words, 0);
+    program_expect_text(outcome.output, "removed: out/specimen-2.csv, of an earlier test with more specimens");
+    program_expect_text(outcome.output, "removed: out/specimen-3.csv");
+    program_clear(&outcome);
+    assert_int_equal(access(run_folder_file(folder, path, "out/specimen-1.csv"), F_OK), 0);
+    assert_int_not_equal(access(run_folder_file(folder, path, "out/specimen-2.csv"), F_OK), 0);
+    assert_int_not_equal(access(run_folder_file(folder, path, "out/specimen-3.csv"), F_OK), 0);
+    assert_int_equal(access(run_folder_file(folder, path, "out/specimen-4.csv"), F_OK), 0);
+}
+
 static void every_path_is_followed_and_drawn(void **state)
 {
     run_folder *folder = *state;
@@ -207,7 +229,10 @@ static const struct {
     {{"material", "drucker_prager", "--path", "oedometr", SOIL, NULL}, "did you mean oedometer"},
     {{"material", "drucker_prager", "--path", "oedometer", NULL}, "found no 'youngs_modulus'"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "frictoin_angle=1", NULL},
-     "did you mean friction_angle"},
+     "did you mean friction_angle?"},
+    {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "E=1 MPa", NULL},
+     "did you mean youngs_modulus?"},
+    {{"material", "bingham", "--path", "oedometer", "-s", "c=1 kPa", NULL}, "did you mean yield_stress?"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "cohesion=1 m", NULL}, "cohesion = '1 m'"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "friction_angle=30", NULL}, "out of range"},
     {{"material", "drucker_prager", "--path", "oedometer", SOIL, "-s", "cone=round", NULL},
@@ -282,6 +307,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(several_specimens_fail_at_their_strength, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(tables_of_an_earlier_test_are_removed, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(every_path_is_followed_and_drawn, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(the_soil_of_a_case_is_tested_beside_measured_values, run_folder_setup,
                                         run_folder_teardown),

@@ -8,7 +8,10 @@
 #include "core/material/params.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+enum { START_BYTES = 1024 };
 
 static const struct {
     const char *name, *unit;
@@ -96,11 +99,35 @@ void mor_element_record_add(mor_element_record *record, const mor_element *eleme
     record->n_iterations = element->n_iterations;
 }
 
+/* The names of the columns that all laws have. */
+static void format_start(char *text, size_t text_bytes)
+{
+    size_t used = 0;
+    for (int k = 0; k < MOR_ELEMENT_COLUMNS && used < text_bytes; ++k) {
+        used += (size_t)snprintf(text + used, text_bytes - used, "%s%s [%s]", k == 0 ? "" : ",", columns[k].name,
+                                 columns[k].unit);
+    }
+}
+
+bool mor_element_record_is_table(const char *path)
+{
+    char start[START_BYTES];
+    char found[START_BYTES] = "";
+    format_start(start, sizeof start);
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) {
+        return false;
+    }
+    const size_t n_read = fread(found, 1, strlen(start), file);
+    fclose(file);
+    return n_read == strlen(start) && memcmp(found, start, n_read) == 0;
+}
+
 static void write_header(const mor_element_record *record, FILE *out)
 {
-    for (int k = 0; k < MOR_ELEMENT_COLUMNS; ++k) {
-        fprintf(out, "%s%s [%s]", k == 0 ? "" : ",", columns[k].name, columns[k].unit);
-    }
+    char start[START_BYTES];
+    format_start(start, sizeof start);
+    fputs(start, out);
     for (const mor_schema *state = record->material->state; state->key != NULL; ++state) {
         for (int a = 0; a < state->n_components; ++a) {
             fprintf(out, ",state.%s", state->key);

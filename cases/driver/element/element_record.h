@@ -63,6 +63,10 @@ void mor_element_record_add(mor_element_record *record, const mor_element *eleme
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_element_record_write(mor_context *context, const mor_element_record *record, const char *path);
 
+/** Whether a file begins as the tables of mor_element_record_write do.
+ *  @param path [in]  zero-terminated */
+bool mor_element_record_is_table(const char *path);
+
 /** Reads a table that was measured: comma-separated values, "name [unit]" in the first line; columns of other names
  *  are passed over, which is logged as a warning, lines that begin with # too. Units may be any that convert to those
  *  of the results. Where eps_q is missing it follows from axial_strain and eps_v, as of a cylinder.

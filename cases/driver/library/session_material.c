@@ -11,8 +11,11 @@
 #include "core/base/memory.h"
 #include "core/material/params.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static const double usual_density = 2000.0; /* kg/m3, of a common soil */
 
@@ -115,16 +118,49 @@ static mor_status take_model(bench *it, const mor_element_words *words)
 
 /* ---- Results ----------------------------------------------------------------------------------------------------- */
 
-static mor_status write_results(bench *it, const char *folder)
+static mor_status join_table(mor_context *context, const char *folder, int specimen, char *path)
+{
+    char name[64];
+    snprintf(name, sizeof name, "specimen-%d.csv", specimen + 1);
+    return mor_durable_file_join(context, path, folder, name);
+}
+
+static bool is_same_file(const char *path, const char *other)
+{
+    struct stat of_path;
+    struct stat of_other;
+    return other != NULL && stat(path, &of_path) == 0 && stat(other, &of_other) == 0 &&
+           of_path.st_dev == of_other.st_dev && of_path.st_ino == of_other.st_ino;
+}
+
+/* Tables of an earlier test with more specimens would be taken for those of this one. What was not written by a test,
+ * and the measured values of this one, stay. */
+static mor_status remove_earlier(bench *it, const char *folder, const char *data)
+{
+    mor_context *context = &it->session->context;
+    for (int k = it->settings.n_specimens; k < MOR_ELEMENT_SPECIMENS_MAX; ++k) {
+        char path[MOR_PATH_BYTES];
+        MOR_TRY(context, join_table(context, folder, k, path));
+        if (mor_element_record_is_table(path) && !is_same_file(path, data)) {
+            MOR_CHECK(context, unlink(path) == 0, MOR_ERROR_IO,
+                      "'%s', a table of an earlier test with more specimens, cannot be removed: %s; choose another "
+                      "folder",
+                      path, strerror(errno));
+            fprintf(it->session->output, "removed: %s, of an earlier test with more specimens\n", path);
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status write_results(bench *it, const char *folder, const char *data)
 {
     mor_context *context = &it->session->context;
     char path[MOR_PATH_BYTES];
-    char name[64];
     MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
     MOR_TRY(context, mor_run_folder_make(context, folder));
+    MOR_TRY(context, remove_earlier(it, folder, data));
     for (int k = 0; k < it->settings.n_specimens; ++k) {
-        snprintf(name, sizeof name, "specimen-%d.csv", k + 1);
-        MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
+        MOR_TRY(context, join_table(context, folder, k, path));
         MOR_TRY(context, mor_element_record_write(context, &it->records[k], path));
         fprintf(it->session->output, "table: %s\n", path);
     }
@@ -175,7 +211,7 @@ static mor_status test_material(bench *it, const char *folder)
     }
     MOR_TRY(context, mor_element_test_run(context, it->material, &it->settings, it->records));
     mor_element_test_print(it->material, &it->settings, it->records, it->session->output);
-    MOR_TRY(context, write_results(it, folder));
+    MOR_TRY(context, write_results(it, folder, words.data));
     for (int k = 0; k < it->settings.n_specimens; ++k) {
         MOR_CHECK(context, it->records[k].status == MOR_OK, it->records[k].status,
                   "the specimen of %s did not reach the end of its path; its table ends where it stopped",
