@@ -64,6 +64,7 @@ class Install:
         for name in ("share/man/man1/moraine.1", "share/bash-completion/completions/moraine",
                      "share/doc/moraine/README.md", "share/doc/moraine/docs/index.md",
                      "share/moraine/template/CMakeLists.txt", "share/moraine/template_rates/CMakeLists.txt",
+                     "share/moraine/template_rates/bank.cfg",
                      "bin/moraine"):
             expect(os.path.isfile(os.path.join(self.prefix, name)), f"{name} was not installed")
         stray = [path for path in glob.glob(os.path.join(self.prefix, "**"), recursive=True)
@@ -171,8 +172,9 @@ class Install:
 
     def check_template(self):
         """Each built as a project of its own and checked."""
-        self.build_template("template_rates", "viscoplastic_soil")
-        self.check_template_run(self.build_template("template", "undrained_clay"))
+        for name, law, case in (("template", "undrained_clay", "slump.cfg"),
+                                ("template_rates", "viscoplastic_soil", "bank.cfg")):
+            self.check_template_run(self.build_template(name, law), law, case)
 
     def build_template(self, name, law):
         folder = os.path.join(self.scratch, f"my_{law}")
@@ -185,14 +187,14 @@ class Install:
         expect(law in table and "failed" not in table, table)
         return folder
 
-    def check_template_run(self, folder):
-        """The clay in a case."""
+    def check_template_run(self, folder, law, case):
+        """The law in its case."""
         results = os.path.join(folder, "results")
-        run([self.program, "run", os.path.join(folder, "slump.cfg"), "-o", results, "--set", "end=0.2 s", "--set",
+        run([self.program, "run", os.path.join(folder, case), "-o", results, "--set", "end=0.2 s", "--set",
              "output.pictures=false"], env=self.env)
         with open(os.path.join(results, "summary.json"), encoding="utf-8") as file:
             summary = json.load(file)
-        expect(summary["provenance"]["plugins"][0]["models"] == "undrained_clay 1.0", summary["provenance"])
+        expect(summary["provenance"]["plugins"][0]["models"] == f"{law} 1.0", summary["provenance"])
         value = summary["results"]["run_out"]["value"]
         expect(value > 2.0, f"a bank that cannot stand has not moved: run_out {value}")
 
