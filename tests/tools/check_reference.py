@@ -23,7 +23,8 @@ What a case can measure. Each line: type, [unit; unit in plane strain], meaning.
 [measure_run_out.md](../guide/measure_run_out.md)."""),
     "materials.md": ("materials", "Material models", """
 Each model with its literature and its parameters in SI units, [-] for none. The role of a parameter is what the program
-finds it by, whatever its name. Ranges and defaults are in [case_file.md](case_file.md)."""),
+finds it by, whatever its name. Ranges and defaults are in [case_file.md](case_file.md). Laws of other programs, `umat`
+and `mfront`: [use_a_umat.md](../guide/use_a_umat.md)."""),
     "tests.md": ("tests", "Element tests", """
 What `moraine material` can be told. How to use it is in [test_a_material.md](../guide/test_a_material.md)."""),
 }

@@ -29,19 +29,19 @@ typedef struct panel {
 static const panel axial_panels[PANELS] = {
     {MOR_ELEMENT_EPS_Q, MOR_ELEMENT_Q, "deviatoric strain", "deviatoric stress q", false},
     {MOR_ELEMENT_P, MOR_ELEMENT_Q, "mean stress p", "deviatoric stress q", false},
-    {MOR_ELEMENT_EPS_Q, MOR_ELEMENT_EPS_V, "deviatoric strain", "volumetric strain", false},
+    {MOR_ELEMENT_EPS_Q, MOR_ELEMENT_EPS_V, "deviatoric strain", "volumetric strain (compression > 0)", false},
     {MOR_ELEMENT_P, MOR_ELEMENT_VOID_RATIO, "mean stress p", "void ratio e", true}};
 
 static const panel shear_panels[PANELS] = {
     {MOR_ELEMENT_SHEAR_STRAIN, MOR_ELEMENT_SHEAR_STRESS, "shear strain", "shear stress", false},
-    {MOR_ELEMENT_NORMAL_STRESS, MOR_ELEMENT_SHEAR_STRESS, "normal stress", "shear stress", false},
-    {MOR_ELEMENT_SHEAR_STRAIN, MOR_ELEMENT_EPS_V, "shear strain", "volumetric strain", false},
+    {MOR_ELEMENT_NORMAL_STRESS, MOR_ELEMENT_SHEAR_STRESS, "normal stress (compression > 0)", "shear stress", false},
+    {MOR_ELEMENT_SHEAR_STRAIN, MOR_ELEMENT_EPS_V, "shear strain", "volumetric strain (compression > 0)", false},
     {MOR_ELEMENT_P, MOR_ELEMENT_VOID_RATIO, "mean stress p", "void ratio e", true}};
 
 /* The second one is the circle of Mohr. */
 static const panel spin_panels[PANELS] = {
     {MOR_ELEMENT_TIME, MOR_ELEMENT_SHEAR_STRESS, "time", "shear stress", false},
-    {MOR_ELEMENT_NORMAL_STRESS, MOR_ELEMENT_SHEAR_STRESS, "normal stress", "shear stress", false},
+    {MOR_ELEMENT_NORMAL_STRESS, MOR_ELEMENT_SHEAR_STRESS, "normal stress (compression > 0)", "shear stress", false},
     {MOR_ELEMENT_TIME, MOR_ELEMENT_Q, "time", "deviatoric stress q", false},
     {MOR_ELEMENT_TIME, MOR_ELEMENT_P, "time", "mean stress p", false}};
 
@@ -132,7 +132,7 @@ static mor_status draw_panel(sheet *s, panel p, int place)
     int n = 0;
     if (p.y == MOR_ELEMENT_VOID_RATIO && !has_column(s, p.y)) {
         p.y = MOR_ELEMENT_EPS_V;
-        p.y_name = "volumetric strain";
+        p.y_name = "volumetric strain (compression > 0)";
     }
     for (int t = 0; t < s->n_tables; ++t) {
         double *x = s->room + 2 * t * s->most_rows;
