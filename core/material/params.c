@@ -47,7 +47,7 @@ int mor_params_offset(const mor_schema *schema, int entry)
 static const struct {
     const char *text, *unit, *symbol;
 } ROLES[MOR_ROLE_COUNT] = {
-    [MOR_ROLE_NONE] = {"", ""},
+    [MOR_ROLE_NONE] = {"", "", NULL},
     [MOR_ROLE_YOUNGS_MODULUS] = {"Young's modulus E", "Pa", "E"},
     [MOR_ROLE_POISSONS_RATIO] = {"Poisson's ratio nu", "1", "nu"},
     [MOR_ROLE_SHEAR_MODULUS] = {"shear modulus G", "Pa", "G"},
@@ -55,13 +55,13 @@ static const struct {
     [MOR_ROLE_FRICTION_ANGLE] = {"friction angle phi", "rad", "phi"},
     [MOR_ROLE_COHESION] = {"cohesion c", "Pa", "c"},
     [MOR_ROLE_DILATION_ANGLE] = {"dilation angle psi", "rad", "psi"},
-    [MOR_ROLE_TENSION_RATIO] = {"tension ratio", "1"},
-    [MOR_ROLE_INTEGRATION_METHOD] = {"method of integration", "1"},
-    [MOR_ROLE_RELATIVE_TOLERANCE] = {"relative tolerance of the integration", "1"},
-    [MOR_ROLE_ABSOLUTE_TOLERANCE] = {"absolute tolerance of the integration", "Pa"},
-    [MOR_ROLE_SUB_STEPS_MAX] = {"largest number of sub-steps", "1"},
-    [MOR_ROLE_GAS_DENSITY_RATIO] = {"gas density ratio", "1"},
-    [MOR_ROLE_FIELD_TIME_SCALE] = {"time scale of the field", "s"},
+    [MOR_ROLE_TENSION_RATIO] = {"tension ratio", "1", NULL},
+    [MOR_ROLE_INTEGRATION_METHOD] = {"method of integration", "1", NULL},
+    [MOR_ROLE_RELATIVE_TOLERANCE] = {"relative tolerance of the integration", "1", NULL},
+    [MOR_ROLE_ABSOLUTE_TOLERANCE] = {"absolute tolerance of the integration", "Pa", NULL},
+    [MOR_ROLE_SUB_STEPS_MAX] = {"largest number of sub-steps", "1", NULL},
+    [MOR_ROLE_GAS_DENSITY_RATIO] = {"gas density ratio", "1", NULL},
+    [MOR_ROLE_FIELD_TIME_SCALE] = {"time scale of the field", "s", NULL},
 };
 
 const char *mor_role_text(mor_role role)

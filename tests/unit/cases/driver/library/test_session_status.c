@@ -74,7 +74,7 @@ static void laws_that_cannot_be_added_are_refused(void **state)
     law.abi += 1;
     session_expect(session, mor_session_add_material(session, &law), MOR_ERROR_PLUGIN, "was built for interface");
     run_folder_store(run_folder_file(folder, path, "text.so"), "text", 4);
-    session_expect(session, mor_session_add_plugin(session, path), MOR_ERROR_PLUGIN, "text.so");
+    session_expect(session, mor_session_add_plugin(session, path), MOR_ERROR_CONFIG, "text.so");
     session->n_plugins = MOR_SESSION_PLUGINS_MAX;
     session_expect(session, mor_session_add_plugin(session, path), MOR_ERROR_ARGUMENT, "more than 16 plug-ins");
     session->n_plugins = 0;
@@ -435,6 +435,34 @@ static void a_case_without_a_first_step_is_explained(void **state)
     mor_session_free(&session);
 }
 
+static void messages_name_settings_as_the_program_does(void **state)
+{
+    run_folder *folder = *state;
+    char name[MOR_PATH_BYTES] = "";
+    mor_session *session = session_load(folder);
+    session_expect(session, mor_session_override(session, "test.soil=sand"), MOR_OK, "");
+    session_expect(session, mor_session_test_material(session, "drucker_prager", "out"), MOR_ERROR_CONFIG,
+                   "found test.soil without test.case");
+    session_expect(session, mor_session_name_setting(session, "test.soil", "the soil"), MOR_OK, "");
+    session_expect(session, mor_session_test_material(session, "drucker_prager", "out"), MOR_ERROR_CONFIG,
+                   "found the soil without test.case");
+    session_expect(session, mor_session_name_setting(session, "test.soil", "test.soil"), MOR_OK, "");
+    session_expect(session, mor_session_test_material(session, "drucker_prager", "out"), MOR_ERROR_CONFIG,
+                   "found test.soil without test.case");
+    mor_session_clear_overrides(session);
+    session_expect(session, mor_session_test_material(session, "my_law", "out"), MOR_ERROR_CONFIG,
+                   "by mor_session_add_plugin");
+    memset(name, 'x', sizeof name - 1);
+    session_expect(session, mor_session_name_setting(session, "test.soil", name), MOR_ERROR_ARGUMENT,
+                   "fewer than 64 bytes each, and up to 16 keys");
+    for (int k = 0; k < 17; ++k) { /* one of them is there */
+        snprintf(name, sizeof name, "key%d", k);
+        session_expect(session, mor_session_name_setting(session, name, "a key"), k < 15 ? MOR_OK : MOR_ERROR_ARGUMENT,
+                       k < 15 ? "" : "up to 16 keys");
+    }
+    mor_session_free(&session);
+}
+
 static void what_is_no_law_is_not_tried(void **state)
 {
     run_folder *folder = *state;
@@ -444,7 +472,7 @@ static void what_is_no_law_is_not_tried(void **state)
     session_expect(session, mor_session_check_material(session, "druker_prager", &n_failed), MOR_ERROR_CONFIG,
                    "did you mean drucker_prager");
     run_folder_store(run_folder_file(folder, path, "text.so"), "text", 4);
-    session_expect(session, mor_session_check_material(session, path, &n_failed), MOR_ERROR_PLUGIN, "text.so");
+    session_expect(session, mor_session_check_material(session, path, &n_failed), MOR_ERROR_CONFIG, "text.so");
     const mor_material law = make_broken_law();
     session_expect(session, mor_session_add_material(session, &law), MOR_OK, "");
     session_expect(session, mor_session_check_material(session, "my_law", &n_failed), MOR_OK, "");
@@ -472,6 +500,7 @@ int main(void)
                                        TEST(a_list_that_cannot_be_printed_is_told),
                                        TEST(a_law_that_refuses_a_body_is_told_with_its_place),
                                        TEST(a_case_without_a_first_step_is_explained),
+                                       TEST(messages_name_settings_as_the_program_does),
                                        TEST(what_is_no_law_is_not_tried)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
