@@ -17,7 +17,6 @@ static const struct {
     const char *part;
 } variants[] = {
     {"s/x/x/", 0, "pass  it takes memory from the services"},
-    {"s/x/x/", 0, "pass  a case can load it beside the models that are there"},
     {"s/\"undrained_clay\"/\"tresca\"/", 1, "FAIL  a case can load it beside the models that are there: plug-in '"},
     {"s/\"undrained_clay\"/\"umat\"/", 1, "the name of an interface to laws of other programs: rename it"},
     {"s/host_abi == MOR_MATERIAL_ABI/host_abi == 77/", 1, "does not serve interface"},
