@@ -52,7 +52,7 @@ static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
      BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDARIES) | SHARED(BOUNDS),
      "positions and densities to the middle of the step", NULL},
-    {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES), SHARED(LISTS),
+    {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES) | SHARED(STATE), SHARED(LISTS),
      SHARED(ORDER) | SHARED(BOUNDS),
      "sorts particles at an interval; rebuilds neighbor lists when particles have moved by the skin", NULL},
     {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | SHARED(STATE),
@@ -122,7 +122,7 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
     mor_soil *soil = owner;
     const int64_t n = soil->set.n_particles;
     visit(job, MOR_RESOURCE_RECORDS, soil->records, n * MOR_RECORD_SIZE);
-    visit(job, MOR_RESOURCE_RECORDS, soil->of_soil, n * MOR_PAIR_OF_SOIL_SIZE);
+    visit(job, MOR_RESOURCE_LISTS, soil->of_soil, n * MOR_PAIR_OF_SOIL_SIZE);
     visit(job, MOR_RESOURCE_MOMENTS, soil->moments, 6 * n);
     visit(job, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress, 3 * n);
     visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
@@ -177,6 +177,7 @@ static void set_constants(mor_soil *soil)
         .kernel_normalization = mor_kernel_normalization(h, s->dimension),
     };
     for (int k = 0; k < soil->n_kinds && soil->of_soil != NULL; ++k) {
+        soil->pair_soils[k].limiter_rate = s->scheme.dissipation_factor / soil->kinds[k].sound_speed;
         soil->pair_soils[k].diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->kinds[k].sound_speed;
         soil->constants.soils = soil->pair_soils;
     }
@@ -242,6 +243,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
     if (mor_composite_is(soil->material)) {
         MOR_TRY(context, MOR_NEW(context, &soil->of_soil, padded * MOR_PAIR_OF_SOIL_SIZE, "soils of the particles"));
+        MOR_TRY(context, MOR_NEW(context, &soil->one_soil, soil->tree.n_clusters, "soils of the clusters"));
     }
     if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
@@ -329,6 +331,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->spin_stress);
     MOR_FREE(context, &soil->regularization);
     MOR_FREE(context, &soil->order);
+    MOR_FREE(context, &soil->one_soil);
     MOR_FREE(context, &soil->of_soil);
     MOR_FREE(context, &soil->records);
     mor_set_clear(context, &soil->set);
@@ -474,7 +477,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
         bytes +=
             soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
     }
-    bytes += soil->of_soil != NULL ? padded * MOR_PAIR_OF_SOIL_SIZE * sizeof(double) : 0.0;
+    bytes += soil->of_soil != NULL ? padded * (MOR_PAIR_OF_SOIL_SIZE * sizeof(double) + 1.0 / MOR_CLUSTER) : 0.0;
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;

@@ -89,6 +89,7 @@ typedef struct mor_soil {
     mor_pair_constants constants;
     double *records;         /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
     double *of_soil;         /* shape [n_particles padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; or NULL */
+    int8_t *one_soil;        /* shape [clusters]; the one soil that a cluster sees, or -1; NULL: one soil */
     double *regularization;  /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;         /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
     double *spin_stress;     /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */

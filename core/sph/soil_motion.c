@@ -19,6 +19,7 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int l
     return (mor_pair_arrays){.n_particles = soil->set.n_particles,
                              .records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
                              .of_soil = soil->of_soil,
+                             .one_soil = soil->one_soil,
                              .inner = mor_view_read_shared(view, lists, &soil->inner)};
 }
 
@@ -83,6 +84,22 @@ void mor_soil_sort(mor_soil *soil)
     sort_particles(soil, &view);
 }
 
+/* What pair loops read of a particle among several soils; it changes with the order of the particles only. */
+static void pack_soils(mor_context *context, const mor_soil *soil, const double *part)
+{
+    const int64_t n = soil->set.n_particles;
+    for (int64_t i = 0; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
+        const int index = soil->kinds[(int)part[i < n ? i : n - 1]].same_as;
+        double *of_soil = soil->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
+        of_soil[MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * soil->pair_soils[index].limiter_rate;
+        of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
+    }
+    MOR_PARALLEL_FOR (context, block, mor_block_count(soil->tree.n_clusters), 1) {
+        mor_pair_find_one_soil(&soil->inner, soil->of_soil, block * MOR_BLOCK,
+                               mor_block_end(block, soil->tree.n_clusters), soil->one_soil);
+    }
+}
+
 static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view)
 {
     const double reach =
@@ -93,6 +110,11 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
     mor_tree_fit(&soil->tree, points.records, 3);
     MOR_TRY(context, mor_relation_build(context, inner, &points, &points, reach));
     inner->generation = soil->set.generation;
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    mor_view_read_state(view, soil->state_fields, soil->material->n_state, state);
+    if (soil->of_soil != NULL) {
+        pack_soils(context, soil, state[0]);
+    }
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
         MOR_TRY(context, mor_soil_contact_check_frictions(context, contact, n_regions));
@@ -127,18 +149,8 @@ typedef struct packing {
     const mor_soil *soil;
     const double *position, *velocity, *density, *stress, *mass;
     const double *state[MOR_MATERIAL_STATES_MAX];
-    double *records, *of_soil;
+    double *records;
 } packing;
-
-/* What pair loops read of a particle among several soils. */
-static void pack_soil(const packing *p, int64_t i)
-{
-    const int index = p->soil->kinds[(int)p->state[0][i]].same_as;
-    double *of_soil = p->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
-    of_soil[MOR_PAIR_OF_SOIL_LIMITER] =
-        0.5 * (p->soil->settings.scheme.dissipation_factor / p->soil->kinds[index].sound_speed);
-    of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
-}
 
 static mor_status pack_range(void *job, int64_t first, int64_t last)
 {
@@ -155,9 +167,6 @@ static mor_status pack_range(void *job, int64_t first, int64_t last)
     for (int64_t i = first; i < last; ++i) {
         double *record = p->records + i * MOR_RECORD_SIZE;
         const double density = p->density[i];
-        if (p->of_soil != NULL) {
-            pack_soil(p, i);
-        }
         memcpy(record + MOR_RECORD_POSITION, p->position + 3 * i, 3 * sizeof *record);
         record[MOR_RECORD_VOLUME] = p->mass[i] / density;
         memcpy(record + MOR_RECORD_VELOCITY, p->velocity + 3 * i, 3 * sizeof *record);
@@ -179,8 +188,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
                    .density = mor_view_read(view, MOR_FIELD_DENSITY),
                    .stress = mor_view_read(view, MOR_FIELD_STRESS),
                    .mass = mor_view_read(view, MOR_FIELD_MASS),
-                   .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
-                   .of_soil = soil->of_soil};
+                   .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
     const mor_blocks blocks = mor_soil_blocks(soil, GRAIN, 4);
     const int64_t chunk = mor_reduce_status(&blocks, context->n_threads, pack_range, &job, soil->room.statuses);
@@ -196,10 +204,6 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
     for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
         memcpy(job.records + i * MOR_RECORD_SIZE, job.records + (n - 1) * MOR_RECORD_SIZE,
                MOR_RECORD_SIZE * sizeof(double));
-        if (job.of_soil != NULL) {
-            memcpy(job.of_soil + i * MOR_PAIR_OF_SOIL_SIZE, job.of_soil + (n - 1) * MOR_PAIR_OF_SOIL_SIZE,
-                   MOR_PAIR_OF_SOIL_SIZE * sizeof(double));
-        }
     }
     return MOR_OK;
 }

@@ -146,6 +146,41 @@ static void momentum_is_exact_where_soils_meet(void **state)
     scene_free(it);
 }
 
+/* The scene after two steps; where general, every cluster is summed by the loop for several soils in the second. */
+static uint64_t hash_of_random_motion(int general, int *n_one, int *n_several)
+{
+    scene *it =
+        make(LOWER ", " UPPER, "stress_diffusion = 0.1; reconstruction = 'linear'; density_pressure_term = true;");
+    mor_soil *soil = &it->simulation.soil;
+    for (int64_t k = 0; k < soil->set.n_particles; ++k) {
+        for (int a = 0; a < 2; ++a) {
+            field(it, MOR_FIELD_VELOCITY)[3 * k + a] = mor_random_uniform(1, (uint64_t)k, (uint64_t)a) - 0.5;
+        }
+    }
+    scene_step(it, 1);
+    for (int64_t cluster = 0; cluster < soil->inner.n_clusters; ++cluster) {
+        *n_one += soil->one_soil[cluster] >= 0;
+        *n_several += soil->one_soil[cluster] < 0;
+        soil->one_soil[cluster] = general ? -1 : soil->one_soil[cluster];
+    }
+    const uint64_t n_builds = soil->inner.n_builds;
+    scene_step(it, 1);
+    assert_true(soil->inner.n_builds == n_builds);
+    const uint64_t hash = mor_set_checksum(&soil->set);
+    scene_free(it);
+    return hash;
+}
+
+static void loop_of_one_soil_has_the_bits_of_the_loop_of_several(void **state)
+{
+    (void)state;
+    int n_one = 0;
+    int n_several = 0;
+    const uint64_t hash = hash_of_random_motion(0, &n_one, &n_several);
+    assert_true(n_one > 50 && n_several > 10);
+    assert_true(hash_of_random_motion(1, &n_one, &n_several) == hash);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -153,6 +188,7 @@ int main(void)
         cmocka_unit_test(even_compression_is_even_across_an_interface),
         cmocka_unit_test(summed_density_is_of_the_particles_own_soil),
         cmocka_unit_test(momentum_is_exact_where_soils_meet),
+        cmocka_unit_test(loop_of_one_soil_has_the_bits_of_the_loop_of_several),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,3 +12,25 @@ const mor_pair_table *mor_pair_select(const char *name)
     const int isa = mor_isa_select(name);
     return isa < 0 ? NULL : tables[isa]();
 }
+
+static int find_soil_of_list(const int32_t *list, int32_t count, const double *of_soil)
+{
+    const double *index = of_soil + MOR_PAIR_OF_SOIL_INDEX;
+    const double first = index[(int64_t)list[0] * MOR_PAIR_OF_SOIL_SIZE];
+    for (int32_t k = 1; k < count; ++k) {
+        if (index[(int64_t)list[k] * MOR_PAIR_OF_SOIL_SIZE] != first) {
+            return -1;
+        }
+    }
+    return (int)first;
+}
+
+void mor_pair_find_one_soil(const mor_relation *relation, const double *of_soil, int64_t first, int64_t last,
+                            int8_t *one_soil)
+{
+    for (int64_t cluster = first; cluster < last; ++cluster) {
+        /* The list holds the particles of the cluster, too. */
+        const int32_t count = relation->counts[cluster];
+        one_soil[cluster] = (int8_t)(count > 0 ? find_soil_of_list(relation->lists[cluster], count, of_soil) : -1);
+    }
+}

@@ -36,6 +36,7 @@ typedef enum mor_dissipation {
 
 /** What the pair loops take of one soil where a set has several; of the others they use mor_pair_constants. */
 typedef struct mor_pair_soil {
+    double limiter_rate;     /* eta / c0, s/m */
     double diffusion_rate;   /* 2 zeta h c0, m2/s */
     double rest_gradient[6]; /* d stress / d height at rest, symmetric tensor, Pa/m */
 } mor_pair_soil;
@@ -95,6 +96,7 @@ typedef struct mor_pair_arrays {
     double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
     const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
     const double *of_soil;     /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
+    const int8_t *one_soil;    /* shape [n_clusters], 1; see mor_pair_find_one_soil; NULL: one soil */
     const double *strain_rate; /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
     const double *field;       /* shape [n padded to 8, MOR_PAIR_FIELD_SIZE], units of the enum; of a nonlocal law */
     double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
@@ -197,5 +199,15 @@ typedef struct mor_pair_table {
  *  @param name [in]  zero-terminated: "avx512", "avx2", "baseline"; nullable: the best
  *  Returns: a static table; NULL when the set asked for is unknown or not on this processor. */
 const mor_pair_table *mor_pair_select(const char *name);
+
+/** Finds the clusters of a range that see one soil only: their sums need no comparison of soils.
+ *  @param relation [in]   built, of the particles with themselves
+ *  @param of_soil  [in]   shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum
+ *  @param first    [in]   first cluster
+ *  @param last     [in]   one past the last cluster
+ *  @param one_soil [out]  shape [n_clusters]; the soil of a cluster and of all in its list, or -1; only the range is
+ *                         written */
+void mor_pair_find_one_soil(const mor_relation *relation, const double *of_soil, int64_t first, int64_t last,
+                            int8_t *one_soil);
 
 #endif

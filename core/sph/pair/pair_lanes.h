@@ -207,6 +207,32 @@ INLINE const double *of_soil_of(const mor_pair_arrays *arrays, int32_t j, const 
     return several ? arrays->of_soil + (int64_t)j * MOR_PAIR_OF_SOIL_SIZE : NULL;
 }
 
+/** Returns one past the last cluster, 1, of a run that is summed in one way, and finds the constants of that run.
+ *  @param arrays   [in]   one_soil is read
+ *  @param c        [in]   of the set
+ *  @param first    [in]   first cluster of the run
+ *  @param last     [in]   one past the last cluster that may be in it
+ *  @param of_run   [out]  one object; where the run sees one soil among several, a copy of c with the constants of that soil
+ *  @param several  [out]  one number; 1 where the run sees several soils, else 0 */
+INLINE int64_t find_run(const mor_pair_arrays *arrays, const mor_pair_constants *c, int64_t first, int64_t last,
+                        mor_pair_constants *of_run, int *several)
+{
+    const int8_t *one_soil = arrays->one_soil;
+    const int8_t soil = one_soil[first];
+    int64_t end = first + 1;
+    while (end < last && one_soil[end] == soil) {
+        ++end;
+    }
+    *of_run = *c;
+    *several = soil < 0;
+    if (soil >= 0) {
+        of_run->limiter_rate = c->soils[soil].limiter_rate;
+        of_run->diffusion_rate = c->soils[soil].diffusion_rate;
+        memcpy(of_run->rest_gradient, c->soils[soil].rest_gradient, sizeof of_run->rest_gradient);
+    }
+    return end;
+}
+
 /** Prefetches memory, shape [size_bytes], to be read (0) or written (1). */
 INLINE void ask_for(const void *memory, int64_t size_bytes, const int writes)
 {

@@ -369,13 +369,11 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 }
 
 /* The choices are hoisted out of the loops: each combination is its own copy of the inlined body. */
-INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
-                           const int dimension)
+INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                         const int dimension, int diffuses, int several)
 {
-    const int diffuses = c->diffusion_rate > 0.0 ? (c->has_limited_diffusion ? 2 : 1) : 0;
     const int artificial = c->has_artificial_stress;
     const int linear = arrays->strain_rate != NULL;
-    const int several = c->soils != NULL;
 #define MOR_MOMENTUM_CASE(d, a, l, s)                                                                                  \
     if (diffuses == (d) && artificial == (a) && linear == (l) && several == (s)) {                                     \
         for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \
@@ -393,6 +391,23 @@ INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *a
     MOR_MOMENTUM_CASES(0, 1)
     MOR_MOMENTUM_CASES(1, 1)
     MOR_MOMENTUM_CASES(2, 1)
+}
+
+INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                           const int dimension)
+{
+    const int diffuses = c->diffusion_rate > 0.0 ? (c->has_limited_diffusion ? 2 : 1) : 0;
+    mor_pair_constants of_run;
+    const mor_pair_constants *constants = c;
+    int64_t end = last;
+    int several = 0;
+    for (; first < last; first = end) {
+        if (c->soils != NULL) {
+            end = find_run(arrays, c, first, last, &of_run, &several);
+            constants = &of_run;
+        }
+        momentum_run(constants, arrays, first, end, dimension, diffuses, several);
+    }
 }
 
 void MOR_ISA_NAME(mor_pair_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,

@@ -125,11 +125,10 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
 }
 
-INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
-                           const int dimension)
+INLINE void gradient_run(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                         const int dimension, int several)
 {
     const int pressure = c->has_pressure_term;
-    const int several = c->soils != NULL;
 #define MOR_GRADIENT_CASE(p, s)                                                                                        \
     if (pressure == (p) && several == (s)) {                                                                           \
         for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
@@ -140,6 +139,20 @@ INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *a
     MOR_GRADIENT_CASE(0, 1)
     MOR_GRADIENT_CASE(1, 0)
     MOR_GRADIENT_CASE(1, 1)
+}
+
+INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
+                           const int dimension)
+{
+    mor_pair_constants of_run;
+    int64_t end = last;
+    int several = 0;
+    for (; first < last; first = end) {
+        if (c->soils != NULL) {
+            end = find_run(arrays, c, first, last, &of_run, &several);
+        }
+        gradient_run(c, arrays, first, end, dimension, several);
+    }
 }
 
 static void gradient_2d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
