@@ -212,7 +212,8 @@ INLINE const double *of_soil_of(const mor_pair_arrays *arrays, int32_t j, const 
  *  @param c        [in]   of the set
  *  @param first    [in]   first cluster of the run
  *  @param last     [in]   one past the last cluster that may be in it
- *  @param of_run   [out]  one object; where the run sees one soil among several, a copy of c with the constants of that soil
+ *  @param of_run   [out]  one object; where the run sees one soil among several, a copy of c with the constants of
+ *                         that soil
  *  @param several  [out]  one number; 1 where the run sees several soils, else 0 */
 INLINE int64_t find_run(const mor_pair_arrays *arrays, const mor_pair_constants *c, int64_t first, int64_t last,
                         mor_pair_constants *of_run, int *several)
