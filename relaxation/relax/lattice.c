@@ -74,6 +74,10 @@ static mor_status check_request(mor_context *context, const mor_lattice_request 
         MOR_CHECK(context, request->excluded[i] != NULL, MOR_ERROR_ARGUMENT,
                   "excluded shape %d of %d is missing: give a shape", i + 1, request->n_excluded);
     }
+    for (int i = 0; i < request->n_siblings; ++i) {
+        MOR_CHECK(context, request->siblings[i] != NULL, MOR_ERROR_ARGUMENT,
+                  "sibling %d of %d is missing: give a shape", i + 1, request->n_siblings);
+    }
     for (int a = 0; a < request->dimension; ++a) {
         MOR_CHECK(context, request->domain.minimum[a] < request->domain.maximum[a], MOR_ERROR_ARGUMENT,
                   "the domain is empty along %c: from %g m to %g m; give a minimum below the maximum", 'x' + a,
@@ -181,14 +185,21 @@ static bool is_node_kept(const mor_lattice_request *request, const double *node,
 {
     const double tolerance = MOR_LATTICE_TOLERANCE * request->spacing;
     const double distance = mor_shape_distance(request->shape, node);
-    double in = fmin(-tolerance - distance, distance + request->depth - tolerance);
+    const bool is_on_face = request->n_siblings > 0 && fabs(distance) <= tolerance;
+    double in = is_on_face ? INFINITY : -tolerance - distance;
+    in = fmin(in, distance + request->depth - tolerance);
     for (int a = 0; a < request->dimension; ++a) {
         in = fmin(in, fmin(node[a] - request->domain.minimum[a], request->domain.maximum[a] - node[a]) - tolerance);
     }
     for (int i = 0; i < request->n_excluded && in > 0.0; ++i) {
         in = fmin(in, mor_shape_distance(request->excluded[i], node) + tolerance);
     }
-    *reach = fabs(in);
+    if (is_on_face) {
+        *reach = 0.0;
+        return in > 0.0 && mor_lattice_is_shared(request, node);
+    }
+    /* The faces themselves are looked at. */
+    *reach = request->n_siblings > 0 ? fmax(fabs(in) - 2.0 * tolerance, 0.0) : fabs(in);
     return in > 0.0;
 }
 

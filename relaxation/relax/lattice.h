@@ -24,11 +24,17 @@
  *  to 4.5 % for j = 0 and 1, and by no more than 1/(4 pi (j + 1/2)) for all: 0.3 % from j = 25 on. Layers along z are
  *  those of the cubic lattice.
  *
+ *  Shapes that adjoin one another and are filled one by one name each other as siblings. A node on faces between them,
+ *  with these shapes all around it, belongs to the shape that holds the place beside it in the direction (-1, -0.618,
+ *  -0.382): together they are filled as their union is, and in any order alike.
+ *
  *  Made ready by mor_lattice_request_init. Everything pointed to is borrowed during the call. */
 typedef struct mor_lattice_request {
     const mor_shape *shape;           /* the solid to fill */
     const mor_shape *const *excluded; /* shape [n_excluded]; nodes inside any of these are left out; NULL for none */
     int n_excluded;                   /* number of excluded shapes, >= 0 */
+    const mor_shape *const *siblings; /* shape [n_siblings]; filled by requests of their own; NULL for none */
+    int n_siblings;                   /* number of siblings, >= 0; not for mor_lattice_fill_cells */
     int dimension;                    /* 2 (in x-y) or 3 */
     double spacing;                   /* lattice spacing, unit m, > 0 */
     double origin[3];                 /* shape [3]; a corner of a lattice cell, unit m; z is not used in 2D */

@@ -31,6 +31,11 @@ mor_status mor_lattice_find_box(mor_context *context, const mor_lattice_request 
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_lattice_check_room(mor_context *context, const mor_lattice_request *request, int64_t count);
 
+/** Whether a node on the surface of the shape lies inside of the shape and its siblings together, on the side of the
+ *  shape.
+ *  @param node    [in]   shape [3], unit m */
+bool mor_lattice_is_shared(const mor_lattice_request *request, const double *node);
+
 /** Finds the place of a node in the scene frame.
  *  @param index   [in]   shape [3]
  *  @param node    [out]  shape [3], unit m */

@@ -96,6 +96,40 @@ static void regions_of_one_material_have_the_bits_of_one_region(void **state)
                      REGION("left", "0 m", "0.07 m", SAND) "," REGION("right", "0.07 m", "0.3 m", SAND), 1);
 }
 
+#define POLYGON(name, points, law)                                                                                     \
+    "{ name = '" name "'; shape = { type = 'polygon'; points = (" points "); };"                                       \
+    "  initial_stress = { type = 'k0'; }; material = " law "; }"
+
+/* Faces at odd halves of the spacing, a slope of 1:1 from a corner of the lattice: no row is missing between regions. */
+static void face_through_nodes_has_the_bits_of_no_face(void **state)
+{
+    (void)state;
+    expect_same_heap(REGION("all", "0 m", "0.3 m", SAND),
+                     POLYGON("right", "(0.1, 0), (0.3, 0), (0.3, 0.12), (0.22, 0.12)",
+                             SAND) "," POLYGON("left", "(0, 0), (0.1, 0), (0.22, 0.12), (0, 0.12)", SAND),
+                     1);
+    expect_same_heap(REGION("sand", "0 m", "0.155 m", SAND) "," REGION("clay", "0.155 m", "0.3 m", CLAY),
+                     REGION("clay", "0.155 m", "0.3 m", CLAY) "," REGION("sand", "0 m", "0.155 m", SAND), 1);
+}
+
+/* Jitter moves nodes of a face into the other region, which is no overlap. */
+static void jitter_keeps_the_nodes_of_a_face(void **state)
+{
+    (void)state;
+    char text[TEXT_BYTES];
+    snprintf(text, sizeof text, heap,
+             REGION("left", "0 m", "0.075 m", SAND) "," REGION("right", "0.075 m", "0.3 m", CLAY));
+    static const char *const settings[] = {"lattice={jitter=0.2;}", NULL};
+    static const char *const *const lists[] = {settings};
+    const scene_request request = {.text = text, .settings = lists, .n_lists = 1};
+    scene *it = scene_new(&request);
+    assert_true(it->the_case.jitter_ratio == 0.2); /* exact: as written */
+    assert_int_equal(it->simulation.soil.set.n_particles, 30 * 12);
+    /* Of the eighth column, which the face goes through, the region on the left has all. */
+    assert_int_equal(it->simulation.region_particles[0], 8 * 12);
+    scene_free(it);
+}
+
 static void the_order_of_the_regions_makes_no_difference(void **state)
 {
     (void)state;
@@ -258,6 +292,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_soil_in_two_regions_has_the_same_bits),
         cmocka_unit_test(regions_of_one_material_have_the_bits_of_one_region),
+        cmocka_unit_test(face_through_nodes_has_the_bits_of_no_face),
+        cmocka_unit_test(jitter_keeps_the_nodes_of_a_face),
         cmocka_unit_test(the_order_of_the_regions_makes_no_difference),
         cmocka_unit_test(several_soils_have_the_same_bits_for_any_number_of_threads),
         cmocka_unit_test(a_light_soft_layer_rests_on_a_heavy_stiff_one),

@@ -27,6 +27,21 @@ static const char ball[] = SAND "bodies = ( { name = 'ball'; position = ('0.5 m'
                                 "  shape = { type = 'sphere'; center = ('0 m', '0 m'); radius = '0.3 m'; };"
                                 "  material = { model = 'rigid'; density = '2400 kg/m3'; }; } );";
 
+/* Two layers that meet in a row of nodes. */
+#define SOIL(name, low, high)                                                                                          \
+    "{ name = '" name "'; shape = { type = 'box'; min = ('0 m', '" low "'); max = ('1 m', '" high "'); };"             \
+    "  material = { model = 'drucker_prager'; density = '2000 kg/m3'; youngs_modulus = '10 MPa';"                      \
+    "    poissons_ratio = 0.3; friction_angle = '30 deg'; }; }"
+static const char layers[] =
+    "title = 'layers'; dimension = 2; spacing = '0.1 m'; end = '5 ms'; gravity = ('0 m/s2', '-9.81 m/s2');"
+    "domain = { min = ('-1 m', '-1 m'); max = ('3 m', '4 m'); };"
+    "soil = ( " SOIL("lower", "0 m", "0.75 m") ", " SOIL(
+        "upper", "0.75 m",
+        "1.5 m") " );"
+                 "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); "
+                 "}; } );"
+                 "probes = ( { type = 'run_out'; } ); output = { pictures = false; snapshots = 1; };";
+
 /* The volume of the sand as a run sees it. */
 static double find_volume(run_folder *folder, const char *source, const char *setting)
 {
@@ -85,6 +100,15 @@ static const warned_row rows[] = {
      "soil 'sand' has 1400 kg/m of particles where its shape holds 1500 kg/m, -6.7 %; along y it is 0.75 m, 7.5 "
      "spacings, and has 7 layers: 0.7 m or 0.8 m would fit, or a spacing of 0.0833333 m"},
     {sand, {"soil[0].shape.max=(\"1 m\", \"0.75 m\")", "spacing=1 m / 12"}, NULL},
+    /* Between soils the row on the face is one's: 8 - 7.5 more, and 7.5 - 7 less. */
+    {layers,
+     {NULL},
+     "soil 'lower' has 1600 kg/m of particles where its shape holds 1500 kg/m, +6.7 %; along y it is 0.75 m, 7.5 "
+     "spacings, and has 8 layers: 0.7 m or 0.8 m would fit, or a spacing of 0.0833333 m"},
+    {layers, {NULL}, "soil 'upper' has 1400 kg/m of particles where its shape holds 1500 kg/m, -6.7 %; along y"},
+    {layers,
+     {"soil[0].shape.max=(\"1 m\", \"0.8 m\")", "soil[1].shape={type=\"box\"; min=(0, 0.8); max=(1, 1.5);}"},
+     NULL},
     {sand,
      {"lattice.origin=(\"50 mm\", \"0 m\")", NULL},
      "-10 %; along x it is 1 m, 10 spacings, and has 9 layers: put its faces a whole number of spacings from "

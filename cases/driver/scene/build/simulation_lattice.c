@@ -38,6 +38,10 @@ static mor_status refuse_size(mor_context *context, const mor_case_place *place,
         place->file, place->line, name, why, mor_memory_room() / 1073741824.0, bytes_each);
 }
 
+/* Distance from the surface of another region, in spacings, within which a node counts as lying on it: far above
+ * rounding. */
+#define ON_FACE 1.0e-6
+
 /* What a shape is filled for: its place in the case, and the memory that particles take. */
 typedef struct filling {
     const mor_case_place *place;
@@ -120,9 +124,11 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
     return MOR_OK;
 }
 
-/* Soil particles inside a wall or inside an earlier soil region are an error of the case. */
+/* Soil particles inside a wall, or nodes inside an earlier soil region, are an error of the case. Nodes that two
+ * regions share lie on the surface of both.
+ *  @param nodes [in]  shape [points->n_points, 3]; where the points are without jitter, m */
 static mor_status check_overlap(mor_context *context, const mor_case *the_case, int soil,
-                                const mor_lattice_points *points)
+                                const mor_lattice_points *points, const double *nodes)
 {
     const mor_case_soil *it = &the_case->soils[soil];
     for (int other = 0; other < the_case->n_walls + soil; ++other) {
@@ -130,12 +136,13 @@ static mor_status check_overlap(mor_context *context, const mor_case *the_case, 
         const mor_shape *shape =
             is_wall ? the_case->walls[other].shape : the_case->soils[other - the_case->n_walls].shape;
         const char *name = is_wall ? the_case->walls[other].name : the_case->soils[other - the_case->n_walls].name;
+        const double allowed = is_wall ? 0.0 : -ON_FACE * the_case->spacing;
         int64_t n_inside = 0;
         double first[3] = {0.0, 0.0, 0.0};
         for (int64_t i = 0; i < points->n_points; ++i) {
             double point[3];
-            mor_simulation_take_point_back(the_case, points->positions + 3 * i, point);
-            if (shape->operations->distance(shape, point) < 0.0 && n_inside++ == 0) {
+            mor_simulation_take_point_back(the_case, (is_wall ? points->positions : nodes) + 3 * i, point);
+            if (shape->operations->distance(shape, point) < allowed && n_inside++ == 0) {
                 memcpy(first, point, sizeof first);
             }
         }
@@ -148,21 +155,15 @@ static mor_status check_overlap(mor_context *context, const mor_case *the_case, 
     return MOR_OK;
 }
 
-/* A bounded region is filled whole; what lies outside the domain is an error, not cut off. */
-static bool release_domain(const mor_shape *shape, int dimension, mor_lattice_request *request)
+static bool is_bounded(const mor_shape *shape, int dimension)
 {
     mor_bounds bounds;
+    bool is_finite = true;
     shape->operations->bounds(shape, &bounds);
     for (int a = 0; a < dimension; ++a) {
-        if (!isfinite(bounds.minimum[a]) || !isfinite(bounds.maximum[a])) {
-            return false;
-        }
+        is_finite = is_finite && isfinite(bounds.minimum[a]) && isfinite(bounds.maximum[a]);
     }
-    for (int a = 0; a < dimension; ++a) {
-        request->domain.minimum[a] = -INFINITY;
-        request->domain.maximum[a] = INFINITY;
-    }
-    return true;
+    return is_finite;
 }
 
 static mor_status check_inside(mor_context *context, const mor_case *the_case, const mor_case_soil *it,
@@ -189,9 +190,10 @@ static mor_status check_inside(mor_context *context, const mor_case *the_case, c
     return MOR_OK;
 }
 
-/* Soil fills what rocks leave free. */
+/* Soil fills what rocks leave free.
+ *  @param nodes [in,out]  shape [points->n_points, 3]; thinned out with the points; NULL: none */
 static void leave_out_bodies(mor_context *context, const mor_case *the_case, const char *name,
-                             mor_lattice_points *points)
+                             mor_lattice_points *points, double *nodes)
 {
     int64_t n_kept = points->n_points;
     for (int b = 0; b < the_case->n_bodies; ++b) {
@@ -207,6 +209,9 @@ static void leave_out_bodies(mor_context *context, const mor_case *the_case, con
             const double *point = points->positions + 3 * i;
             if (!mor_simulation_body_may_hold(&box, point) ||
                 mor_simulation_placed_distance(shape, rotation, translation, point) >= 0.0) {
+                if (nodes != NULL) {
+                    memmove(nodes + 3 * n_kept, nodes + 3 * i, 3 * sizeof *nodes);
+                }
                 memmove(points->positions + 3 * n_kept++, point, 3 * sizeof *point);
             }
         }
@@ -235,28 +240,71 @@ static mor_status check_rest(mor_context *context, const mor_case *the_case, int
     return MOR_OK;
 }
 
-mor_status mor_simulation_fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
-                                    mor_lattice_points *points)
+/* The regions that are filled on the same lattice. */
+static int list_siblings(const mor_case *the_case, int soil, const mor_shape **siblings)
+{
+    int n = 0;
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        const bool is_on_lattice = the_case->soils[k].outline.kind != MOR_CASE_SHAPE_RELEASE;
+        if (k != soil && is_on_lattice) {
+            siblings[n++] = the_case->soils[k].shape;
+        }
+    }
+    return n;
+}
+
+/* Fills a region; nodes receive the points without jitter, and stay empty where there is none. */
+static mor_status fill_region(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
+                              mor_lattice_points *points, mor_lattice_points *nodes)
 {
     const mor_case_soil *it = &the_case->soils[soil];
     const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_SOIL, MOR_MEMORY_ROOM_SOIL * (double)n_before};
+    const mor_shape *siblings[MOR_CASE_SOILS_MAX];
     mor_lattice_request request;
+    if (it->outline.kind == MOR_CASE_SHAPE_RELEASE) {
+        return mor_simulation_fill_release(context, the_case, soil, points);
+    }
     set_request(the_case, it->shape, &request);
     request.jitter_ratio = the_case->jitter_ratio;
     request.is_polar = the_case->lattice_pattern == 1;
-    const bool is_whole = release_domain(it->shape, the_case->dimension, &request);
-    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_RELEASE
-                                  ? mor_simulation_fill_release(context, the_case, soil, points)
-                                  : fill_shape(context, &wanted, &request, points, NULL);
-    MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
-    leave_out_bodies(context, the_case, it->name, points);
+    request.siblings = siblings;
+    request.n_siblings = list_siblings(the_case, soil, siblings);
+    for (int a = 0; a < the_case->dimension && is_bounded(it->shape, the_case->dimension); ++a) {
+        request.domain.minimum[a] = -INFINITY; /* it is filled whole: what lies outside is an error, not cut off */
+        request.domain.maximum[a] = INFINITY;
+    }
+    MOR_TRY(context, fill_shape(context, &wanted, &request, points, NULL));
+    request.jitter_ratio = 0.0;
+    return the_case->jitter_ratio > 0.0 && soil > 0 ? fill_shape(context, &wanted, &request, nodes, NULL) : MOR_OK;
+}
+
+/* What a region may not do, once it is filled. */
+static mor_status check_region(mor_context *context, const mor_case *the_case, int soil,
+                               const mor_lattice_points *points, const double *nodes)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
               "lattice point inside the domain; make the region larger, the spacing smaller, or move the domain",
               it->place.file, it->place.line, it->name, the_case->spacing);
     MOR_TRY(context, check_rest(context, the_case, soil));
-    if (is_whole) {
+    if (is_bounded(it->shape, the_case->dimension)) {
         MOR_TRY(context, check_inside(context, the_case, it, points));
     }
-    return check_overlap(context, the_case, soil, points);
+    return check_overlap(context, the_case, soil, points, nodes != NULL ? nodes : points->positions);
+}
+
+mor_status mor_simulation_fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
+                                    mor_lattice_points *points)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    mor_lattice_points nodes = {NULL, 0};
+    mor_status status = fill_region(context, the_case, soil, n_before, points, &nodes);
+    status = annotate_error(context, status, &it->place, it->name);
+    if (status == MOR_OK) {
+        leave_out_bodies(context, the_case, it->name, points, nodes.positions);
+        status = check_region(context, the_case, soil, points, nodes.positions);
+    }
+    mor_lattice_clear(context, &nodes);
+    return status;
 }

@@ -141,6 +141,21 @@ static double count_layers(const mor_case *c, const mor_bounds *bounds, int axis
     return fmax(0.0, ceil(last - 0.5 - tolerance) - floor(first + 0.5 + tolerance));
 }
 
+/* Layers of a region among others, which share those on faces between them: as many as the error of its mass tells. */
+static double find_layers(const mor_case *c, const mor_bounds *bounds, int axis, double error)
+{
+    const double tolerance = 1.0e-9;
+    const double first = (bounds->minimum[axis] - c->lattice_origin[axis]) / c->spacing;
+    const double last = (bounds->maximum[axis] - c->lattice_origin[axis]) / c->spacing;
+    const double most = c->n_soils > 1 ? floor(last + 0.5 + tolerance) - ceil(first - 0.5 - tolerance) : 0.0;
+    const double wanted = (1.0 + error) * (last - first);
+    double n = count_layers(c, bounds, axis, c->spacing);
+    while (n + 1.0 <= most && fabs(n + 1.0 - wanted) < fabs(n - wanted)) {
+        n += 1.0;
+    }
+    return n;
+}
+
 static double side_error(const mor_case *c, const mor_bounds *bounds, int axis, double spacing)
 {
     const double side = bounds->maximum[axis] - bounds->minimum[axis];
@@ -177,7 +192,7 @@ static void advise_mass(const mor_case *c, const mor_bounds *bounds, double erro
 {
     const int axis = find_worst_axis(c, bounds, c->spacing);
     const double side = bounds->maximum[axis] - bounds->minimum[axis];
-    const double n = count_layers(c, bounds, axis, c->spacing);
+    const double n = find_layers(c, bounds, axis, error);
     const double n_near = floor(side / c->spacing + 0.5);
     const double spacing = find_spacing(c, bounds, axis);
     const double of_side = n * c->spacing / side - 1.0;
