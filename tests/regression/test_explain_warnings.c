@@ -170,6 +170,34 @@ static void ground_and_the_clocks_of_touching_bodies_are_told(void **state)
     program_clear(&outcome);
 }
 
+/* Each soil in a row, also where there is one; surfaces that are alike share a row. */
+static void soils_and_their_friction_are_listed(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const layers[] = {
+        "explain", MOR_SOURCE_DIR "/cases/layered-slope/case.cfg",        "-t", "1", "-s", "spacing=\"0.25 m\"",
+        "-s",      "bodies[2].friction_with[0].friction_coefficient=0.2", NULL};
+    static const char *const column[] = {"explain", COLUMN, "-t", "1", "-s", "spacing=20 mm", NULL};
+    program_outcome outcome = program_run(folder, layers, 0);
+    program_expect_text(
+        outcome.output,
+        "  soils                   model                  density [kg/m3]  wave speed [m/s]    particles\n"
+        "    sand                  drucker_prager                    1900             93.66 ");
+    /* c0 of Young's modulus 8 MPa and Poisson's ratio 0.4: sqrt(K/rho), K = 8 MPa/0.6 */
+    program_expect_text(outcome.output,
+                        "    clay                  drucker_prager                    1700             88.56 ");
+    program_expect_text(outcome.output, "  friction with           sand           clay\n"
+                                        "    wall base             rough          rough\n"
+                                        "    wall front and 1 more smooth         smooth\n"
+                                        "    body upper and 1 more coulomb 0.4    coulomb 0.1\n"
+                                        "    body lower            coulomb 0.4    coulomb 0.2\n");
+    program_clear(&outcome);
+    outcome = program_run(folder, column, 0);
+    program_expect_text(outcome.output, "\n    soil                  drucker_prager ");
+    program_expect_text(outcome.output, "\n  friction with           soil\n    wall floor ");
+    program_clear(&outcome);
+}
+
 /* One body, so one word for it. */
 static void one_body_is_counted_in_the_singular(void **state)
 {
@@ -193,6 +221,7 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(ground_and_the_clocks_of_touching_bodies_are_told, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(soils_and_their_friction_are_listed, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(one_body_is_counted_in_the_singular, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -78,6 +78,10 @@ void mor_session_clear_simulation(mor_session *session);
 /** Frees case and simulation and stops listening. */
 void mor_session_clear_case(mor_session *session);
 
+/** Prints the soils of a case as a table, and the friction of its walls and bodies with each; nothing without soil.
+ *  @param out [in,out]  one open stream */
+void mor_session_print_soils(FILE *out, const mor_simulation *simulation);
+
 /** Sets what a folder of results is made with.
  *  @param folder [in]  zero-terminated; borrowed */
 void mor_session_set_folder(mor_session *session, const char *folder, bool is_resume);

@@ -127,11 +127,6 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     if (s->has_soil) {
         fprintf(out, "  soil                    %lld particles, smoothing length %g m, sound speed %.4g m/s\n",
                 (long long)s->soil.set.n_particles, s->soil.smoothing_length, s->soil.sound_speed);
-        for (int k = 0; k < s->soil.n_kinds && s->soil.n_kinds > 1; ++k) {
-            fprintf(out, "  soil %-18s %lld particles of '%s', %.4g kg/m3, sound speed %.4g m/s\n",
-                    s->the_case->soils[k].name, (long long)s->region_particles[k], s->the_case->soils[k].model,
-                    s->the_case->soils[k].density, s->soil.kinds[k].sound_speed);
-        }
     }
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];
@@ -154,6 +149,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     }
     mor_contact_report_print(c, out);
     mor_rocks_report_print(c, out);
+    mor_session_print_soils(out, s);
 }
 
 /* Length and cost of a common step: at the start, or once bodies touch. */
