@@ -349,9 +349,38 @@ static void long_texts_never_leave_their_place(void **state)
     mor_canvas_free(&folder->context, &canvas);
 }
 
+/* Of a line that others may lie over there is less: two thirds of the width, two fifths of the color. */
+static void pale_line_has_less_ink_than_a_line(void **state)
+{
+    (void)state;
+    static const double x[2] = {0.0, 1.0};
+    static const double y[2] = {0.13, 0.87}; /* across the lines of the grid */
+    static const mor_chart_style styles[2] = {MOR_CHART_LINE, MOR_CHART_PALE};
+    mor_context context;
+    double ink[2] = {0.0, 0.0};
+    mor_context_init(&context);
+    for (int k = 0; k < 2; ++k) {
+        const mor_chart_series series = {.x = x, .y = y, .n_points = 2, .style = styles[k]};
+        const mor_chart chart = {.series = &series, .n_series = 1, .width = 640, .height = 400};
+        mor_canvas *canvas = NULL;
+        assert_int_equal(mor_chart_draw(&context, &chart, &canvas), MOR_OK);
+        for (int row = 60; row < 300; ++row) {
+            for (int column = 120; column < 600; ++column) {
+                uint8_t rgb[3];
+                mor_canvas_pixel(canvas, column, row, rgb);
+                ink[k] += abs(rgb[0] - rgb[2]); /* the grid is gray, the line blue */
+            }
+        }
+        mor_canvas_free(&context, &canvas);
+    }
+    const double share = 0.4 * 2.0 / 3.2;
+    assert_true(ink[1] > 0.0 && fabs(ink[1] / ink[0] - share) < 0.2 * share); /* edges are blended in sRGB */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pale_line_has_less_ink_than_a_line),
         cmocka_unit_test_setup_teardown(scale_bar_in_the_picture_measures_the_scene, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(pictures_do_not_depend_on_run_or_number_of_threads, run_folder_setup,

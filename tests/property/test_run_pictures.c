@@ -1,8 +1,11 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/picture/charts.h"
 #include "cases/driver/picture/pictures.h"
+#include "cases/driver/picture/view/picture.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/io/snapshot.h"
+#include "core/io/summary.h"
 #include "tests/common/run_folder.h"
 
 #include <math.h>
@@ -177,6 +180,54 @@ static void charts_hold_as_many_curves_as_colors_tell_apart(void **state)
     mor_set_clear(&folder->context, &rocks);
 }
 
+/* Two probes of one quantity, each with a window of its own: neither hides the other. */
+static void curves_of_probes_are_drawn_over_each_other_in_their_windows_alone(void **state)
+{
+    enum { TIMES = 5 };
+    static const double times[TIMES] = {0.0, 1.0, 2.0, 3.0, 4.0};
+    static const double depths[TIMES] = {0.5, 0.5, 0.5, 0.5, 0.5};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes[2] = {0, 0};
+    mor_summary_statistics statistics[2];
+    for (int k = 0; k < 2; ++k) { /* all the same, so that there is no mark */
+        statistics[k] = (mor_summary_statistics){.maximum = 0.5, .minimum = 0.5, .mean = 0.5, .interval = 1};
+        statistics[k].n_measured = 2.0;
+        statistics[k].window[0] = k == 0 ? 0.0 : 2.0;
+        statistics[k].window[1] = k == 0 ? 1.0 : 3.0;
+    }
+    const mor_summary_result results[2] = {{"early", 0.5, "m", &statistics[0], NULL},
+                                           {"late", 0.5, "m", &statistics[1], NULL}};
+    const mor_summary summary = {
+        .results = results, .n_results = 2, .version = "1", .commit = "", .command = "", .n_threads = 1};
+    FILE *file = fopen(run_folder_file(folder, path, "series.csv"), "w");
+    assert_non_null(file);
+    fprintf(file, "time [s],step [1],step_length [s],rate_ratio [1],early [m],late [m]\n");
+    for (int row = 0; row < TIMES; ++row) {
+        fprintf(file, "%g,%d,1,1,%g,%g\n", times[row], row, depths[row], depths[row]);
+    }
+    assert_int_equal(fclose(file), 0);
+    make_part(folder, "images");
+    assert_int_equal(mor_summary_write(&folder->context, run_folder_file(folder, path, MOR_SUMMARY_FILE), &summary),
+                     MOR_OK);
+    assert_int_equal(mor_charts_render(&folder->context, folder->path, stdout), MOR_OK);
+    uint8_t *drawn = run_folder_load(run_folder_file(folder, path, "images/chart_early.png"), &n_bytes[0]);
+    const mor_chart_series series[4] = {
+        {.x = times, .y = depths, .n_points = TIMES, .style = MOR_CHART_PALE},
+        {.x = times, .y = depths, .n_points = TIMES, .style = MOR_CHART_PALE},
+        {.name = "early", .x = times, .y = depths, .n_points = 2, .style = MOR_CHART_LINE, .color_of = 1},
+        {.name = "late", .x = times + 2, .y = depths + 2, .n_points = 2, .style = MOR_CHART_LINE, .color_of = 2}};
+    const char *const notes[] = {"Pale: outside of a probe's window."};
+    const mor_chart wanted = {
+        .x_name = "time", .x_unit = "s", .y_unit = "m", .series = series, .n_series = 4, .notes = notes, .n_notes = 1};
+    assert_int_equal(mor_picture_chart(&folder->context, &wanted, run_folder_file(folder, path, "wanted.png")), MOR_OK);
+    uint8_t *expected = run_folder_load(path, &n_bytes[1]);
+    assert_int_equal(n_bytes[0], n_bytes[1]);
+    assert_memory_equal(drawn, expected, n_bytes[0]); /* exact: the same chart */
+    free(drawn);
+    free(expected);
+}
+
 /* Draws a block of soil, 0.24 m long, with one wall in the shape of a box; returns the bytes of the picture. */
 static uint8_t *draw_box(run_folder *folder, const double *low, const double *high, size_t *n_bytes)
 {
@@ -244,6 +295,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_house_far_from_the_soil_is_seen_to_its_top, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(how_far_a_floor_reaches_does_not_matter, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(curves_of_probes_are_drawn_over_each_other_in_their_windows_alone,
+                                        run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(charts_hold_as_many_curves_as_colors_tell_apart, run_folder_setup,
                                         run_folder_teardown),
     };

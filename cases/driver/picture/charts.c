@@ -69,6 +69,8 @@ typedef struct sheet {
 typedef struct plate {
     mor_chart_series series[MOR_CHART_SERIES_MAX];
     int columns[CURVES_MAX]; /* of the curves */
+    mor_summary_statistics statistics[CURVES_MAX];
+    bool has_statistics[CURVES_MAX];
     int n_curves, n_series;
     char names[MOR_CHART_SERIES_MAX][TEXT_BYTES];
     double places[MOR_CHART_SERIES_MAX][2]; /* of marks: s, unit of the column */
@@ -105,9 +107,49 @@ static bool is_of_series(const mor_chart_series *curve, const mor_summary_statis
     return is_known;
 }
 
-/* Marks the largest value, or the smallest where that is the larger one in size, with its number and time. */
-static void add_mark(plate *p, int curve, const mor_summary_statistics *it, const char *name, const char *unit)
+/* Whether statistics are of a part of a curve; the time of the last row may exceed the window by rounding. */
+static bool is_windowed(const mor_chart_series *curve, const mor_summary_statistics *it)
 {
+    const double last = curve->n_points > 0 ? curve->x[curve->n_points - 1] : 0.0;
+    return curve->n_points > 0 && (it->window[0] > curve->x[0] || it->window[1] < last * (1.0 - 1.0e-9));
+}
+
+/* Probes of one quantity with several windows have one curve: each is drawn over it in its own window alone. */
+static void add_windows(plate *p)
+{
+    for (int curve = 0; curve < p->n_curves; ++curve) {
+        mor_chart_series *whole = &p->series[curve];
+        const double *window = p->statistics[curve].window;
+        int64_t first = 0;
+        if (!p->has_statistics[curve] || !is_windowed(whole, &p->statistics[curve])) {
+            continue;
+        }
+        while (first < whole->n_points && whole->x[first] < window[0]) {
+            ++first;
+        }
+        int64_t end = first;
+        while (end < whole->n_points && whole->x[end] <= window[1]) {
+            ++end;
+        }
+        whole->style = MOR_CHART_PALE;
+        add_note(p, "Pale: outside of a probe's window.");
+        if (end > first) {
+            mor_chart_series *part = &p->series[p->n_series++];
+            *part = (mor_chart_series){.name = whole->name,
+                                       .x = whole->x + first,
+                                       .y = whole->y + first,
+                                       .n_points = end - first,
+                                       .style = MOR_CHART_LINE,
+                                       .color_of = 1 + curve};
+            whole->name = NULL;
+        }
+    }
+}
+
+/* Marks the largest value, or the smallest where that is the larger one in size, with its number and time. */
+static void add_mark(plate *p, int curve, const char *name, const char *unit)
+{
+    const mor_summary_statistics *it = &p->statistics[curve];
     const bool is_least = fabs(it->minimum) > fabs(it->maximum);
     const double value = is_least ? it->minimum : it->maximum;
     const double time = is_least ? it->time_of_minimum : it->time_of_maximum;
@@ -116,18 +158,14 @@ static void add_mark(plate *p, int curve, const mor_summary_statistics *it, cons
     const double factor = mor_ticks_prefix(unit, fabs(value), shown);
     const double time_factor = mor_ticks_prefix("s", fabs(time), clock);
     const int k = p->n_series;
-    const mor_chart_series *line = &p->series[curve];
-    const double last = line->n_points > 0 ? line->x[line->n_points - 1] : 0.0;
-    /* The time may exceed the window by rounding. */
-    const bool is_windowed =
-        line->n_points > 0 && (it->window[0] > line->x[0] || it->window[1] < last * (1.0 - 1.0e-9));
+    const bool is_part = is_windowed(&p->series[curve], it);
     if (!isfinite(value) || !isfinite(time) || it->maximum == it->minimum || k >= MOR_CHART_SERIES_MAX) {
         return;
     }
     p->places[k][0] = time;
     p->places[k][1] = value;
     snprintf(p->names[k], TEXT_BYTES, "%s%s%s%s %.4g%s%s at %.4g %s", p->n_curves > 1 ? name : "",
-             p->n_curves > 1 ? ": " : "", is_least ? "minimum" : "maximum", is_windowed ? " of its window" : "",
+             p->n_curves > 1 ? ": " : "", is_least ? "minimum" : "maximum", is_part ? " of its window" : "",
              factor * value, strcmp(unit, "1") == 0 ? "" : " ", strcmp(unit, "1") == 0 ? "" : shown, time_factor * time,
              clock);
     p->series[k] = (mor_chart_series){.name = p->names[k],
@@ -139,30 +177,51 @@ static void add_mark(plate *p, int curve, const mor_summary_statistics *it, cons
     p->n_series += 1;
 }
 
+/* How often probes were measured, once where it is the same for all. */
+static void add_interval(plate *p, int curve, const char *name)
+{
+    const int interval = p->statistics[curve].interval;
+    char text[TEXT_BYTES];
+    bool is_same = true;
+    for (int k = 0; k < p->n_curves; ++k) {
+        is_same = is_same && (!p->has_statistics[k] || p->statistics[k].interval == interval);
+    }
+    if (interval > 1) {
+        snprintf(text, sizeof text, "%s%seasured every %d steps.", is_same ? "" : name, is_same ? "M" : ": m",
+                 interval);
+        add_note(p, text);
+    }
+}
+
 /* Statistics of the curves from summary.json; without one there are no marks. */
 static void add_marks(const sheet *s, plate *p)
 {
     mor_context quiet; /* of its own: a summary that is missing or of another time is no error */
+    char remarks[CURVES_MAX][TEXT_BYTES - NAME_BYTES];
+    char text[TEXT_BYTES];
+    int n_marks = 0;
     for (int curve = 0; curve < p->n_curves && s->path[0] != '\0'; ++curve) {
-        const heading *it = &s->headings[p->columns[curve]];
-        mor_summary_statistics statistics;
-        char remark[TEXT_BYTES - NAME_BYTES];
-        char text[TEXT_BYTES];
+        const char *name = s->headings[p->columns[curve]].name;
         mor_context_init(&quiet);
-        if (mor_summary_read_statistics(&quiet, s->path, it->name, &statistics, remark, sizeof remark) == MOR_OK &&
-            is_of_series(&p->series[curve], &statistics)) {
-            add_mark(p, curve, &statistics, it->name, it->unit);
-            if (statistics.interval > 1) {
-                snprintf(text, sizeof text, "%s: measured every %d steps.", it->name, statistics.interval);
-                add_note(p, text);
-            }
-            if (remark[0] != '\0') {
-                snprintf(text, sizeof text, "%s: %s", it->name, remark);
+        p->has_statistics[curve] = mor_summary_read_statistics(&quiet, s->path, name, &p->statistics[curve],
+                                                               remarks[curve], sizeof remarks[curve]) == MOR_OK &&
+                                   is_of_series(&p->series[curve], &p->statistics[curve]);
+    }
+    add_windows(p);
+    for (int curve = 0; curve < p->n_curves; ++curve) {
+        const heading *it = &s->headings[p->columns[curve]];
+        if (p->has_statistics[curve]) {
+            const int n_before = p->n_series;
+            add_mark(p, curve, it->name, it->unit);
+            n_marks += p->n_series - n_before;
+            add_interval(p, curve, it->name);
+            if (remarks[curve][0] != '\0') {
+                snprintf(text, sizeof text, "%s: %s", it->name, remarks[curve]);
                 add_note(p, text);
             }
         }
     }
-    if (p->n_series > p->n_curves) {
+    if (n_marks > 0) {
         add_note(p, "Dots: of every step unless said otherwise. Lines: from row to row of series.csv, which "
                     "may miss a peak.");
     }
@@ -196,10 +255,10 @@ static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *out
     if (p.n_curves == 0) {
         return MOR_OK;
     }
-    add_marks(s, &p);
     const char *name = p.series[0].name;
     const bool is_single = p.n_curves == 1;
     p.series[0].name = is_single ? NULL : name; /* it is in the title */
+    add_marks(s, &p);
     const mor_chart chart = {.title = is_single ? name : NULL,
                              .x_name = "time",
                              .x_unit = "s",

@@ -130,11 +130,11 @@ static mor_canvas_pen choose_pen(const sheet *s, int index, mor_chart_style styl
 {
     double linear[3];
     mor_colormap_category(find_color(s, index), linear);
-    mor_canvas_pen pen = {.opacity = 1.0};
+    mor_canvas_pen pen = {.opacity = style == MOR_CHART_PALE ? 0.4 : 1.0};
     for (int c = 0; c < 3; ++c) {
         pen.color[c] = mor_colormap_encode(linear[c]);
     }
-    pen.width = style == MOR_CHART_POINTS ? 0.0 : 3.2 * s->unit;
+    pen.width = style == MOR_CHART_POINTS ? 0.0 : (style == MOR_CHART_PALE ? 2.0 : 3.2) * s->unit;
     pen.dash = style == MOR_CHART_DASHED ? 11.0 * s->unit : 0.0;
     return pen;
 }

@@ -12,7 +12,12 @@
 enum { MOR_CHART_SERIES_MAX = 32, MOR_CHART_NOTES_MAX = 8 };
 
 /** How a series is drawn. */
-typedef enum mor_chart_style { MOR_CHART_LINE, MOR_CHART_DASHED, MOR_CHART_POINTS } mor_chart_style;
+typedef enum mor_chart_style {
+    MOR_CHART_LINE,
+    MOR_CHART_DASHED,
+    MOR_CHART_POINTS,
+    MOR_CHART_PALE /* a thin line that others may lie over */
+} mor_chart_style;
 
 /** One curve. The arrays are borrowed for the call. */
 typedef struct mor_chart_series {
