@@ -152,6 +152,19 @@ static mor_status verify_state_schema(mor_context *context, const mor_material *
     for (const mor_schema *entry = material->state; entry->key != NULL; ++entry) {
         MOR_CHECK(context, entry->kind == MOR_SCHEMA_REAL || entry->kind == MOR_SCHEMA_VECTOR, MOR_ERROR_PLUGIN,
                   "material '%s': state variable '%s' must be real or a vector", material->name, entry->key);
+        MOR_CHECK(context, strcmp(entry->key, "id") != 0, MOR_ERROR_PLUGIN,
+                  "material '%s': found a state variable named 'id', which is the name of the numbers of particles in "
+                  "snapshots; allowed is any other; rename it",
+                  material->name);
+        MOR_CHECK(
+            context,
+            strlen(entry->key) < MOR_MATERIAL_STATE_KEY_BYTES && strlen(entry->unit) < MOR_MATERIAL_STATE_UNIT_BYTES &&
+                strlen(entry->text) < MOR_MATERIAL_STATE_TEXT_BYTES,
+            MOR_ERROR_PLUGIN,
+            "material '%s': found a state variable '%s' with a key of %zu, a unit of %zu and a text of %zu bytes; "
+            "allowed in snapshots are %d, %d and %d; shorten it",
+            material->name, entry->key, strlen(entry->key), strlen(entry->unit), strlen(entry->text),
+            MOR_MATERIAL_STATE_KEY_BYTES - 1, MOR_MATERIAL_STATE_UNIT_BYTES - 1, MOR_MATERIAL_STATE_TEXT_BYTES - 1);
         MOR_CHECK(context, entry->role == MOR_ROLE_NONE, MOR_ERROR_PLUGIN,
                   "material '%s': state variable '%s' has a role; roles belong to parameters", material->name,
                   entry->key);

@@ -18,6 +18,11 @@
 
 #define IMAGES_FOLDER "images"
 
+_Static_assert((int)MOR_MATERIAL_STATE_KEY_BYTES == (int)MOR_FIELD_NAME_BYTES &&
+                   (int)MOR_MATERIAL_STATE_UNIT_BYTES == (int)MOR_SNAPSHOT_UNIT_BYTES &&
+                   (int)MOR_MATERIAL_STATE_TEXT_BYTES == (int)MOR_SNAPSHOT_TEXT_BYTES,
+               "snapshots take each state variable that a law may have");
+
 /* Everything goes into log.txt, and to the sink that was there before. */
 static void log_line(void *user, mor_log_level level, const char *text)
 {

@@ -18,6 +18,9 @@ enum { MOR_MATERIAL_ABI = 3 };
 /** Bounds that let the host keep fixed tables. */
 enum { MOR_MATERIAL_PARAMETERS_MAX = 32, MOR_MATERIAL_STATES_MAX = 16, MOR_MATERIAL_TEXT_BYTES = 4096 };
 
+/** Room that snapshots have for the words of a state variable, with the zero at their ends, bytes. */
+enum { MOR_MATERIAL_STATE_KEY_BYTES = 48, MOR_MATERIAL_STATE_UNIT_BYTES = 32, MOR_MATERIAL_STATE_TEXT_BYTES = 192 };
+
 typedef struct mor_material mor_material;
 typedef struct mor_material_instance mor_material_instance;
 typedef struct mor_material_integration mor_material_integration;

@@ -381,6 +381,38 @@ static void wrong_tables_of_operations_are_refused(void **state)
     assert_int_equal(mor_material_verify(&context, &wrong), MOR_OK);
 }
 
+/* A run would stop at its first snapshot, after all that comes before. */
+static void state_that_no_snapshot_can_name_is_refused(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    char text[MOR_MATERIAL_STATE_TEXT_BYTES + 1];
+    memset(text, 'a', sizeof text);
+    text[MOR_MATERIAL_STATE_TEXT_BYTES] = '\0';
+    mor_schema table[2] = {FORGETFUL.state[0], {.key = NULL}};
+    mor_material law = FORGETFUL;
+    law.state = table;
+    table[0].text = text + 1; /* as long as may be */
+    assert_int_equal(mor_material_verify(&context, &law), MOR_OK);
+    table[0].text = text;
+    assert_int_equal(mor_material_verify(&context, &law), MOR_ERROR_PLUGIN);
+    assert_non_null(
+        strstr(context.message, "a text of 192 bytes; allowed in snapshots are 47, 31 and 191; shorten it"));
+    table[0] = FORGETFUL.state[0];
+    table[0].key = text + MOR_MATERIAL_STATE_TEXT_BYTES - MOR_MATERIAL_STATE_KEY_BYTES;
+    assert_int_equal(mor_material_verify(&context, &law), MOR_ERROR_PLUGIN);
+    assert_non_null(strstr(context.message, "with a key of 48,"));
+    table[0] = FORGETFUL.state[0];
+    table[0].unit = text + MOR_MATERIAL_STATE_TEXT_BYTES - MOR_MATERIAL_STATE_UNIT_BYTES;
+    assert_int_equal(mor_material_verify(&context, &law), MOR_ERROR_PLUGIN);
+    assert_non_null(strstr(context.message, "a unit of 32 "));
+    table[0] = FORGETFUL.state[0];
+    table[0].key = "id";
+    assert_int_equal(mor_material_verify(&context, &law), MOR_ERROR_PLUGIN);
+    assert_non_null(strstr(context.message, "named 'id', which is the name of the numbers of particles"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -391,6 +423,7 @@ int main(void)
         cmocka_unit_test(law_that_leaves_rates_unwritten_is_refused),
         cmocka_unit_test(a_guarded_instance_counts_and_is_freed_once),
         cmocka_unit_test(wrong_tables_of_operations_are_refused),
+        cmocka_unit_test(state_that_no_snapshot_can_name_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
