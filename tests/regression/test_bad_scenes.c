@@ -208,9 +208,8 @@ static const char base_layers[] =
 static const bad_scene layer_scenes[] = {
     {NULL, NULL, NULL, false},
     {"probes[0].type=stress_error",
-     "scene.cfg:9: probe 'ratio': found probe 'ratio', which compares with the weight of one soil, in a case of "
-     "several",
-     "remove it", true},
+     "scene.cfg:9: probe 'ratio': found 2 soils, but it compares with the weight of one; allowed is one soil",
+     "remove the probe", true},
     {"soil[1].initial_stress.type=settled",
      "scene.cfg:7: found soil 'sand' with a velocity of (0, -0.01, 0) m/s and soil 'cap' with a settled initial stress",
      "remove 'velocity'", true},

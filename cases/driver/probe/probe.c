@@ -399,10 +399,11 @@ static mor_status measure_column(mor_context *context, const view *v, mor_measur
 static mor_status stress_error(mor_context *context, const view *v, double *value)
 {
     mor_measure_stress stress;
-    MOR_CHECK(context, v->simulation->soil.n_kinds == 1, MOR_ERROR_CONFIG,
-              "found probe '%s', which compares with the weight of one soil, in a case of several; remove it, and see "
-              "the stress itself in a picture or a snapshot",
-              v->probe->name);
+    MOR_CHECK(
+        context, v->simulation->soil.n_kinds == 1, MOR_ERROR_CONFIG,
+        "found %d soils, but it compares with the weight of one; allowed is one soil; remove the probe, and see the "
+        "stress itself in a picture or a snapshot",
+        v->simulation->soil.n_kinds);
     MOR_TRY(context, measure_column(context, v, &stress));
     *value = stress.error_l2;
     return MOR_OK;
