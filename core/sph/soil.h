@@ -9,7 +9,7 @@
 #include "core/material/kit/material.h"
 #include "core/particle/set.h"
 #include "core/scheme/scheme.h"
-#include "core/sph/soil_contact.h"
+#include "core/sph/boundary/soil_contact.h"
 #include "core/sph/soil_energy.h"
 #include "core/time/stepper.h"
 

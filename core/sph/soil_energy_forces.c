@@ -4,7 +4,7 @@
  * damping. */
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/sph/soil_contact_internal.h"
+#include "core/sph/boundary/soil_contact_internal.h"
 #include "core/sph/soil_internal.h"
 
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef MOR_TESTS_COMMON_FLOOR_H
 #define MOR_TESTS_COMMON_FLOOR_H
 
-#include "core/sph/soil_contact.h"
+#include "core/sph/boundary/soil_contact.h"
 #include "tests/common/assembly.h"
 
 #include <float.h>

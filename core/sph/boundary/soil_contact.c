@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Boundaries of the soil: how they are made, moved and listed. What they do to the soil: soil_contact_forces.c; what
  * the soil does to them: soil_contact_share.c. */
-#include "core/sph/soil_contact_internal.h"
+#include "core/sph/boundary/soil_contact_internal.h"
 
 #include "core/base/math.h"
 #include "core/base/memory.h"

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* What the soil does to a boundary: the reaction to the boundary forces is distributed to the points so that force and
  * moment of each patch are kept. One thread works on a patch, slot by slot in fixed order. */
-#include "core/sph/soil_contact_internal.h"
+#include "core/sph/boundary/soil_contact_internal.h"
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* What a boundary does to the soil, slot by slot: kernel sums, boundary forces and its part of the velocity
  * gradient. */
-#include "core/sph/soil_contact_internal.h"
+#include "core/sph/boundary/soil_contact_internal.h"
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Soil against boundaries of several patches, in one step, against plain loops over all pairs. */
 #include "core/base/memory.h"
-#include "core/sph/soil_contact.h"
+#include "core/sph/boundary/soil_contact.h"
 #include "tests/common/assembly.h"
 
 #include <float.h>

@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_SPH_SOIL_CONTACT_INTERNAL_H
-#define MOR_CORE_SPH_SOIL_CONTACT_INTERNAL_H
+#ifndef MOR_CORE_SPH_BOUNDARY_SOIL_CONTACT_INTERNAL_H
+#define MOR_CORE_SPH_BOUNDARY_SOIL_CONTACT_INTERNAL_H
 
-#include "core/sph/soil_contact.h"
+#include "core/sph/boundary/soil_contact.h"
 
 /** @file
  *  What the files of the soil's contact share among themselves. Not for others. */

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_SPH_SOIL_CONTACT_H
-#define MOR_CORE_SPH_SOIL_CONTACT_H
+#ifndef MOR_CORE_SPH_BOUNDARY_SOIL_CONTACT_H
+#define MOR_CORE_SPH_BOUNDARY_SOIL_CONTACT_H
 
 #include "core/particle/boundary.h"
 #include "core/sph/pair/pair.h"

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Barrier between soil particles and points of a boundary, Jiang et al. (2022) section 3.2. Few pairs are so close. */
-#include "core/sph/soil_contact_internal.h"
+#include "core/sph/boundary/soil_contact_internal.h"
 
 #include "core/base/math.h"
 #include "core/base/reduce.h"
