@@ -382,7 +382,8 @@ mor_status mor_session_check_material(mor_session *session, const char *name, in
  *  @param model  [in]  zero-terminated name of a material in rate form; NULL: that of a soil, by "test.case=case.cfg"
  *                      and "test.soil=name"
  *  @param folder [in]  zero-terminated; made when missing; one that holds a run is refused; tables that an earlier
- *                      test has left there are removed
+ *                      test has left there are removed; NULL: runs/material-NAME, NAME that of the soil of a case,
+ *                      else of the model
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for a model, a setting or a file that cannot be used, and for a folder that holds
  *  a run or cannot be made; MOR_NOT_CONVERGED or MOR_RETRY_SMALLER_STEP when a specimen cannot follow its path, and
  *  MOR_ERROR_NUMERIC when the law fails: results up to there are written; MOR_ERROR_IO; MOR_ERROR_MEMORY. */

@@ -325,6 +325,33 @@ static void a_logarithmic_axis_gives_decades_equal_room(void **state)
     assert_non_null(strstr(folder->context.message, "on a logarithmic axis x must be > 0"));
 }
 
+/* Lines across a chart, at both ends of its range: on the frame, or off it by 3 % of the range. */
+static void a_margin_keeps_curves_off_the_frame(void **state)
+{
+    run_folder *folder = *state;
+    static const double x[2][2] = {{1.0, 1.0}, {2.0, 2.0}};
+    static const double y[2] = {0.0, 1.0};
+    double place[2][2];
+    mor_chart_series series[2] = {{.x = x[0], .y = y, .n_points = 2}, {.x = x[1], .y = y, .n_points = 2}};
+    for (int k = 0; k < 2; ++k) {
+        const mor_chart chart = {.x_unit = "Pa",
+                                 .y_unit = "Pa",
+                                 .series = series,
+                                 .n_series = 2,
+                                 .has_margin = k == 1,
+                                 .width = 1000,
+                                 .height = 625};
+        mor_canvas *canvas = NULL;
+        assert_int_equal(mor_chart_draw(&folder->context, &chart, &canvas), MOR_OK);
+        place[k][0] = find_dots(canvas, 0, 0, 500);
+        place[k][1] = find_dots(canvas, 1, 500, 1000);
+        mor_canvas_free(&folder->context, &canvas);
+    }
+    const double width = (place[1][1] - place[1][0]) * 1.06;
+    assert_near(place[1][0] - place[0][0], 0.03 * width, 0.03 * width); /* without it, between none and half of it */
+    assert_true(place[1][0] - place[0][0] > 8.0 && place[0][1] - place[1][1] > 8.0);
+}
+
 static void long_texts_never_leave_their_place(void **state)
 {
     run_folder *folder = *state;
@@ -390,6 +417,7 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(light_falls_from_above, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(charts_show_each_curve_and_refuse_gaps, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_margin_keeps_curves_off_the_frame, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_logarithmic_axis_gives_decades_equal_room, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(long_texts_never_leave_their_place, run_folder_setup, run_folder_teardown),

@@ -4,12 +4,8 @@
 
 static mor_status material(mor_command *command, int *exit_code)
 {
-    char folder[MOR_COMMAND_PATH_BYTES];
     (void)exit_code;
-    snprintf(folder, sizeof folder, "runs/material%s%.200s", command->subject != NULL ? "-" : "",
-             command->subject != NULL ? command->subject : "");
-    return mor_session_test_material(command->session, command->subject,
-                                     command->folder != NULL ? command->folder : folder);
+    return mor_session_test_material(command->session, command->subject, command->folder);
 }
 
 const mor_command_info mor_command_material = {

@@ -6,7 +6,7 @@
 const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_OUTPUT] = {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
                            "run: runs/NAME; preview: runs/NAME-preview; relax: runs/relax-NAME; material: "
-                           "runs/material-NAME"},
+                           "runs/material-NAME, of the soil or the model"},
     [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE, "threads; results do not depend on their number",
                             "as many as the machine has cores"},
     [MOR_OPTION_SET] =

@@ -26,8 +26,10 @@ typedef struct reader {
     int n_columns;                   /* of the file */
     int target[FILE_COLUMNS_MAX];    /* shape [n_columns]; column of the record; -1: passed over */
     double factor[FILE_COLUMNS_MAX]; /* shape [n_columns]; unit of the record by that of the file */
+    bool is_bare[FILE_COLUMNS_MAX];  /* shape [n_columns]; a number with a unit, but the heading has none */
     int n_passed;                    /* columns that are passed over */
     char passed[PASSED_BYTES];       /* their names, and what they may be meant to be */
+    char bare[PASSED_BYTES];         /* columns without a unit, with that which is assumed */
     mor_element_record *record;
 } reader;
 
@@ -80,11 +82,35 @@ static void note_passed(reader *r, const char *name)
     r->n_passed += 1;
 }
 
+/* Strains are what is most often written in percent. */
+static bool is_strain(int column)
+{
+    return column == MOR_ELEMENT_AXIAL_STRAIN || column == MOR_ELEMENT_SHEAR_STRAIN || column == MOR_ELEMENT_EPS_V ||
+           column == MOR_ELEMENT_EPS_Q || column >= MOR_ELEMENT_STRAIN;
+}
+
+/* Keeps the name of a column whose heading leaves the unit open; of many, those that fit. "[1]" says that it is a plain
+ * number; a void ratio is nothing else. */
+static void note_bare(reader *r, const char *name, const char *unit, const char *wanted, int column)
+{
+    char text[2 * CELL_BYTES];
+    const bool is_number = strcmp(wanted, "1") == 0;
+    const size_t used = strlen(r->bare);
+    r->is_bare[column] = unit[0] == '\0' || (!is_number && (strcmp(unit, "1") == 0 || strcmp(unit, "-") == 0));
+    if (!r->is_bare[column] || r->target[column] == MOR_ELEMENT_VOID_RATIO) {
+        return;
+    }
+    snprintf(text, sizeof text, "%s'%s [%s]'", used > 0 ? ", " : "", name, wanted);
+    if (used + strlen(text) < sizeof r->bare) {
+        memcpy(r->bare + used, text, strlen(text) + 1);
+    }
+}
+
 /* Which column of the record a heading "name [unit]" names, and the factor of its unit. */
 static mor_status read_heading(reader *r, const char *cell, int column)
 {
     char name[CELL_BYTES];
-    char unit[CELL_BYTES] = "1";
+    char unit[CELL_BYTES] = "";
     const size_t length = strcspn(cell, "[");
     snprintf(name, sizeof name, "%.*s", (int)(length - (length > 0 && cell[length - 1] == ' ')), cell);
     if (cell[length] == '[') {
@@ -108,6 +134,7 @@ static mor_status read_heading(reader *r, const char *cell, int column)
         }
         MOR_TRY(r->context, status);
         r->target[column] = k;
+        note_bare(r, name, unit, wanted, column);
     }
     if (r->target[column] < 0 && name[0] != '\0') {
         note_passed(r, name);
@@ -137,6 +164,12 @@ static mor_status read_header(reader *r)
                         "%s:%lld: passed over %d column%s, which are none of an element test: %s", r->path,
                         (long long)r->line_number, r->n_passed, r->n_passed == 1 ? "" : "s", r->passed);
     }
+    if (r->bare[0] != '\0') {
+        mor_context_log(r->context, MOR_LOG_WARNING,
+                        "%s:%lld: found columns without a unit, read as %s; write the unit behind the name, as "
+                        "'axial_strain [%%]' or 'p [kPa]'",
+                        r->path, (long long)r->line_number, r->bare);
+    }
     return MOR_OK;
 }
 
@@ -155,14 +188,6 @@ static mor_status grow_record(reader *r)
     return MOR_OK;
 }
 
-/* Of a cylinder: eps_q = 2/3 (axial - radial) = axial - eps_v / 3. */
-static void complete_row(double *row)
-{
-    if (isnan(row[MOR_ELEMENT_EPS_Q])) {
-        row[MOR_ELEMENT_EPS_Q] = row[MOR_ELEMENT_AXIAL_STRAIN] - row[MOR_ELEMENT_EPS_V] / 3.0;
-    }
-}
-
 static int count_cells(const char *line)
 {
     char cell[CELL_BYTES];
@@ -176,6 +201,7 @@ static int count_cells(const char *line)
 static mor_status read_row(reader *r)
 {
     char cell[CELL_BYTES];
+    const char *unit = NULL;
     MOR_TRY(r->context, grow_record(r));
     double *row = r->record->values + r->record->n_rows * r->record->n_columns;
     for (int k = 0; k < r->record->n_columns; ++k) {
@@ -192,6 +218,12 @@ static mor_status read_row(reader *r)
         MOR_CHECK(r->context, mor_number_read(cell, strlen(cell), &value) && isfinite(value), MOR_ERROR_CONFIG,
                   "%s:%lld: found '%s' in column %d; allowed: a number with a decimal point, or nothing", r->path,
                   (long long)r->line_number, cell, column + 1);
+        MOR_CHECK(
+            r->context, !r->is_bare[column] || !is_strain(r->target[column]) || fabs(value) <= 1.0, MOR_ERROR_CONFIG,
+            "%s:%lld: found %s in column %d, '%s' without a unit: a strain of more than 100 %%; write '%s [%%]' "
+            "or '%s [1]' in the first line, whichever is meant",
+            r->path, (long long)r->line_number, cell, column + 1, mor_element_column_name(r->target[column], &unit),
+            mor_element_column_name(r->target[column], &unit), mor_element_column_name(r->target[column], &unit));
         row[r->target[column]] = value * r->factor[column];
     }
     const int n_cells = count_cells(r->line);
@@ -199,7 +231,6 @@ static mor_status read_row(reader *r)
               "%s:%lld: found %d cells under %d names of columns; allowed: one for each name, empty where nothing was "
               "measured; numbers have a decimal point, not a comma",
               r->path, (long long)r->line_number, n_cells, r->n_columns);
-    complete_row(row);
     r->record->n_rows += 1;
     return MOR_OK;
 }
@@ -235,4 +266,33 @@ mor_status mor_element_record_read(mor_context *context, const char *path, mor_e
     free(r.line);
     fclose(stream);
     return status;
+}
+
+/* Of a cylinder, from p and q, which is negative where the axial stress is the smaller compression. */
+static double find_friction(const double *row)
+{
+    const double q = fabs(row[MOR_ELEMENT_Q]);
+    const double minor = row[MOR_ELEMENT_P] - (row[MOR_ELEMENT_Q] < 0.0 ? 2.0 : 1.0) * q / 3.0;
+    return minor >= 0.0 && minor + q > 0.0 ? asin(q / (2.0 * minor + q)) : NAN;
+}
+
+/* eps_q of a cylinder: 2/3 (axial - radial) = axial - eps_v / 3. */
+void mor_element_record_complete(const mor_element_path *path, double start_void_ratio, mor_element_record *record)
+{
+    const bool is_cylinder = path != NULL && path->measure == MOR_ELEMENT_AXIAL && !path->has_b;
+    for (int64_t i = 0; i < record->n_rows; ++i) {
+        double *row = record->values + i * record->n_columns;
+        if (path != NULL && mor_element_path_keeps_volume(path) && isnan(row[MOR_ELEMENT_EPS_V])) {
+            row[MOR_ELEMENT_EPS_V] = 0.0;
+        }
+        if (isnan(row[MOR_ELEMENT_EPS_Q])) {
+            row[MOR_ELEMENT_EPS_Q] = row[MOR_ELEMENT_AXIAL_STRAIN] - row[MOR_ELEMENT_EPS_V] / 3.0;
+        }
+        if (isnan(row[MOR_ELEMENT_VOID_RATIO])) {
+            row[MOR_ELEMENT_VOID_RATIO] = (1.0 + start_void_ratio) * exp(-row[MOR_ELEMENT_EPS_V]) - 1.0;
+        }
+        if (is_cylinder && isnan(row[MOR_ELEMENT_FRICTION_ANGLE])) {
+            row[MOR_ELEMENT_FRICTION_ANGLE] = find_friction(row);
+        }
+    }
 }

@@ -4,6 +4,7 @@
 
 #include "cases/driver/picture/draw/canvas.h"
 #include "cases/driver/picture/draw/chart.h"
+#include "core/base/math.h"
 #include "core/base/memory.h"
 
 #include <math.h>
@@ -54,8 +55,10 @@ typedef struct sheet {
     const mor_element_settings *settings;
     const mor_element_record *tables[SERIES_MAX]; /* shape [n_tables] */
     int n_tables;
-    bool has_data; /* the last table is drawn as points */
-    double *room;  /* shape [n_tables, 2, most rows] */
+    bool has_data;                        /* the last table is drawn as points */
+    int n_without;                        /* charts without a point of it */
+    bool is_missing[MOR_ELEMENT_COLUMNS]; /* columns that it would need there */
+    double *room;                         /* shape [n_tables, 2, most rows] */
     int64_t most_rows;
     uint8_t *pixels; /* shape [HEIGHT, WIDTH, 3] */
     mor_canvas *canvas;
@@ -87,15 +90,16 @@ static double round_value(double value, double largest, int column)
 /* The points of a table that can be drawn; returns how many there are. What stays in its place is one point. */
 static int64_t list_points(const sheet *s, const panel *p, const mor_element_record *table, double *x, double *y)
 {
+    const double y_factor = p->y == MOR_ELEMENT_FRICTION_ANGLE ? 180.0 / MOR_PI : 1.0; /* drawn in degrees */
     const double largest[2] = {find_largest(s, p->x), find_largest(s, p->y)};
     int64_t n = 0;
     for (int64_t i = 0; i < table->n_rows; ++i) {
         const double *row = table->values + i * table->n_columns;
         const double found[2] = {round_value(row[p->x], largest[0], p->x), round_value(row[p->y], largest[1], p->y)};
-        const bool is_repeated = n > 0 && found[0] == x[n - 1] && found[1] == y[n - 1];
+        const bool is_repeated = n > 0 && found[0] == x[n - 1] && y_factor * found[1] == y[n - 1];
         if (isfinite(found[0]) && isfinite(found[1]) && (!p->is_log || found[0] > 0.0) && !is_repeated) {
             x[n] = found[0];
-            y[n++] = found[1];
+            y[n++] = y_factor * found[1];
         }
     }
     return n;
@@ -109,6 +113,74 @@ static bool has_column(const sheet *s, int column)
         is_known = is_known && table->n_rows > 0 && isfinite(table->values[column]);
     }
     return is_known;
+}
+
+/* Whether the measured values have a number in a column. */
+static bool is_measured(const sheet *s, int column)
+{
+    const mor_element_record *data = s->tables[s->n_tables - 1];
+    bool is_found = false;
+    for (int64_t i = 0; i < data->n_rows && !is_found; ++i) {
+        is_found = isfinite(data->values[i * data->n_columns + column]);
+    }
+    return is_found;
+}
+
+/* The columns that a chart has for these tables. Where the volume stays, what happens with it is seen in the stress. */
+static void choose_columns(const sheet *s, panel *p)
+{
+    if (s->settings->path != NULL && mor_element_path_keeps_volume(s->settings->path)) {
+        const bool is_axial = s->settings->path->measure == MOR_ELEMENT_AXIAL;
+        if (p->y == MOR_ELEMENT_EPS_V) {
+            p->y = MOR_ELEMENT_P;
+            p->y_name = "mean stress p";
+        } else if (p->y == MOR_ELEMENT_VOID_RATIO) {
+            *p = (panel){is_axial ? MOR_ELEMENT_EPS_Q : MOR_ELEMENT_SHEAR_STRAIN, MOR_ELEMENT_FRICTION_ANGLE,
+                         is_axial ? "deviatoric strain" : "shear strain", "mobilized friction", false};
+        }
+    }
+    if (p->y == MOR_ELEMENT_VOID_RATIO && !has_column(s, p->y)) {
+        p->y = MOR_ELEMENT_EPS_V;
+        p->y_name = "volumetric strain (compression > 0)";
+    }
+    /* Without the change of volume the axial strain alone is known of a drained specimen. */
+    if (p->x == MOR_ELEMENT_EPS_Q && s->has_data && !is_measured(s, p->x) && is_measured(s, MOR_ELEMENT_AXIAL_STRAIN)) {
+        p->x = MOR_ELEMENT_AXIAL_STRAIN;
+        p->x_name = "axial strain";
+    }
+}
+
+static void note_without(sheet *s, const panel *p)
+{
+    const int columns[2] = {p->x, p->y};
+    s->n_without += 1;
+    for (int k = 0; k < 2; ++k) {
+        s->is_missing[columns[k]] = s->is_missing[columns[k]] || !is_measured(s, columns[k]);
+    }
+}
+
+/* Points that are nowhere to be seen would be taken for points under a curve. */
+static void warn_without(const sheet *s)
+{
+    char all[512] = "";
+    for (int k = 0; k < MOR_ELEMENT_COLUMNS && s->n_without > 0; ++k) {
+        const char *unit = NULL;
+        const char *name = mor_element_column_name(k, &unit);
+        const size_t used = strlen(all);
+        if (s->is_missing[k]) {
+            snprintf(all + used, sizeof all - used, "%s'%s%s'", used > 0 ? ", " : "", name,
+                     strcmp(unit, "Pa") == 0       ? " [kPa]"
+                     : k == MOR_ELEMENT_VOID_RATIO ? ""
+                     : strcmp(unit, "s") == 0      ? " [s]"
+                                                   : " [%]");
+        }
+    }
+    if (all[0] != '\0') {
+        mor_context_log(s->context, MOR_LOG_WARNING,
+                        "%s: its points are missing in %d of the %d charts, which need %s; give these columns to see "
+                        "the points there",
+                        s->tables[s->n_tables - 1]->name, s->n_without, PANELS, all);
+    }
 }
 
 static void paste_chart(sheet *s, const mor_canvas *chart, int place)
@@ -130,10 +202,7 @@ static mor_status draw_panel(sheet *s, panel p, int place)
     const char *y_unit = NULL;
     char title[2 * MOR_ELEMENT_NAME_BYTES];
     int n = 0;
-    if (p.y == MOR_ELEMENT_VOID_RATIO && !has_column(s, p.y)) {
-        p.y = MOR_ELEMENT_EPS_V;
-        p.y_name = "volumetric strain (compression > 0)";
-    }
+    choose_columns(s, &p);
     for (int t = 0; t < s->n_tables; ++t) {
         double *x = s->room + 2 * t * s->most_rows;
         double *y = x + s->most_rows;
@@ -145,6 +214,8 @@ static mor_status draw_panel(sheet *s, panel p, int place)
                                              .y = y,
                                              .n_points = n_points,
                                              .style = is_data ? MOR_CHART_POINTS : MOR_CHART_LINE};
+        } else if (is_data) {
+            note_without(s, &p);
         }
     }
     if (n == 0) { /* a mean stress that is a tension throughout */
@@ -157,8 +228,9 @@ static mor_status draw_panel(sheet *s, panel p, int place)
                              .x_name = p.x_name,
                              .x_unit = x_unit,
                              .y_name = p.y_name,
-                             .y_unit = y_unit,
+                             .y_unit = p.y == MOR_ELEMENT_FRICTION_ANGLE ? "deg" : y_unit,
                              .has_log_x = p.is_log,
+                             .has_margin = true,
                              .series = series,
                              .n_series = n,
                              .width = WIDTH,
@@ -178,6 +250,7 @@ static mor_status draw_figure(sheet *s, const char *path)
     for (int k = 0; k < PANELS; ++k) {
         MOR_TRY(s->context, draw_panel(s, panels_of[measure][k], k));
     }
+    warn_without(s);
     return mor_canvas_write(s->context, s->canvas, path);
 }
 

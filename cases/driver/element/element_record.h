@@ -69,12 +69,21 @@ bool mor_element_record_is_table(const char *path);
 
 /** Reads a table that was measured: comma-separated values, "name [unit]" in the first line; columns of other names
  *  are passed over, which is logged as a warning, lines that begin with # too. Units may be any that convert to those
- *  of the results. Where eps_q is missing it follows from axial_strain and eps_v, as of a cylinder.
+ *  of the results; a column without one is read in that of the results, which is logged as a warning, but for a void
+ *  ratio, and a strain above 1 without a unit is refused.
  *  @param path   [in]   zero-terminated
  *  @param record [out]  the table
  *  Returns: MOR_OK; MOR_ERROR_CONFIG naming file and line; MOR_ERROR_IO when the tables of units are missing;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_element_record_read(mor_context *context, const char *path, mor_element_record *record);
+
+/** Fills in what follows from what was measured: eps_v of a path that keeps the volume, 0; eps_q from axial_strain and
+ *  eps_v, as of a cylinder; the void ratio from eps_v; the mobilized friction of
+ *  a cylinder from p and q.
+ *  @param path             [in]      that the specimen was taken along; NULL: not known
+ *  @param start_void_ratio [in]      1; NaN: not known
+ *  @param record           [in,out]  the table */
+void mor_element_record_complete(const mor_element_path *path, double start_void_ratio, mor_element_record *record);
 
 /** Frees what a table owns; accepts a zeroed one. */
 void mor_element_record_clear(mor_context *context, mor_element_record *record);

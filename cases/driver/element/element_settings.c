@@ -59,7 +59,7 @@ static const number_key numbers[] = {
     REAL(b, "b", "1", 0.5, 0.0, 0, 1.0, "intermediate stress of true-triaxial, (yy - xx) / (zz - xx)"),
     REAL(amplitude, "amplitude", "Pa", NAN, 0.0, 1, INFINITY,
          "of a cyclic path, in place of a strain: it turns where deviator or shear stress are off the start by this"),
-    REAL(void_ratio, "void_ratio", "1", NAN, 0.0, 1, 100.0, "void ratio at the start, for the table and the chart"),
+    REAL(void_ratio, "void_ratio", "1", NAN, 0.0, 1, 30.0, "void ratio at the start, for the table and the chart"),
     REAL(tolerance, "tolerance", "1", default_tolerance, 1e-12, 0, 1e-2, "error of a stress that is held, relative"),
 };
 
@@ -383,12 +383,26 @@ static mor_status read_strain(const reader *r, mor_element_settings *settings)
     return check_bare_strain(r, key, text, is_angle, settings->strain);
 }
 
-static mor_status check_amplitude(const reader *r, const mor_element_settings *settings)
+/* A setting that the path or the law has no use for is a mistake. */
+static mor_status check_unused(const reader *r, const mor_element_settings *settings)
 {
     const bool is_cyclic = settings->path != NULL && settings->path->is_cyclic;
-    MOR_CHECK(r->context, isnan(settings->amplitude) || is_cyclic, MOR_ERROR_CONFIG,
-              "found test.amplitude for '%s', which does not turn; give it with a cyclic path, or leave it out",
-              settings->name);
+    const struct {
+        const char *key, *why;
+        bool is_used;
+    } uses[] = {
+        {"amplitude", "which does not turn; give it with a cyclic path", is_cyclic},
+        {"cycles", "which does not turn; give it with a cyclic path", is_cyclic},
+        {"b", "which has no stress between two others; give it with true-triaxial",
+         settings->path != NULL && settings->path->has_b},
+        {"void_ratio", "but the state of the law has one of its own; give state.void_ratio",
+         mor_params_find(r->material->state, "void_ratio") < 0},
+    };
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; ++k) {
+        char key[KEY_BYTES];
+        MOR_CHECK(r->context, uses[k].is_used || find_test_value(r, uses[k].key, key) == NULL, MOR_ERROR_CONFIG,
+                  "found test.%s for '%s', %s, or leave it out", uses[k].key, settings->name, uses[k].why);
+    }
     return MOR_OK;
 }
 
@@ -518,7 +532,7 @@ static mor_status read_all(const reader *r, mor_element_settings *settings)
     MOR_TRY(r->context, check_keys(r));
     MOR_TRY(r->context, read_numbers(r, settings));
     MOR_TRY(r->context, read_path(r, settings));
-    MOR_TRY(r->context, check_amplitude(r, settings));
+    MOR_TRY(r->context, check_unused(r, settings));
     MOR_TRY(r->context, read_stresses(r, settings));
     MOR_TRY(r->context, read_strain(r, settings));
     return read_material(r, settings);

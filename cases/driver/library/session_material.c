@@ -27,6 +27,7 @@ typedef struct bench {
     int n;                        /* number of settings */
     mor_case *the_case;           /* whose soil is taken; NULL: none; owned */
     const mor_material *material; /* borrowed */
+    const char *soil_name;        /* of the case; NULL: none; borrowed */
     mor_element_settings settings;
     mor_element_record records[MOR_ELEMENT_SPECIMENS_MAX];
     mor_element_record data; /* that was measured; empty: none */
@@ -73,6 +74,7 @@ static mor_status take_soil(bench *it, const mor_element_words *words)
               "found the model '%s', but soil '%s' of '%s' has '%s'; leave the model out, or the case", it->model,
               soil->name, words->case_file, soil->model);
     it->material = soil->law;
+    it->soil_name = soil->name;
     it->settings.density = soil->density;
     memcpy(it->settings.parameters, soil->parameters,
            (size_t)mor_params_count(it->material->parameters) * sizeof *soil->parameters);
@@ -152,10 +154,28 @@ static mor_status remove_earlier(bench *it, const char *folder, const char *data
     return MOR_OK;
 }
 
+/* The folder where none is given: that of the soil, else of the model. What does not belong into the name of a folder
+ * becomes '_'. */
+static const char *name_folder(const bench *it, const char *folder, char *usual, size_t usual_bytes)
+{
+    static const char start[] = "runs/material-";
+    if (folder != NULL) {
+        return folder;
+    }
+    snprintf(usual, usual_bytes, "%s%.200s", start, it->soil_name != NULL ? it->soil_name : it->material->name);
+    for (char *letter = usual + strlen(start); *letter != '\0'; ++letter) {
+        const bool is_fit = (unsigned char)*letter > ' ' && strchr("/\\:*?\"<>|", *letter) == NULL;
+        *letter = is_fit ? *letter : '_';
+    }
+    return usual;
+}
+
 static mor_status write_results(bench *it, const char *folder, const char *data)
 {
     mor_context *context = &it->session->context;
     char path[MOR_PATH_BYTES];
+    char usual[MOR_PATH_BYTES];
+    folder = name_folder(it, folder, usual, sizeof usual);
     MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
     MOR_TRY(context, mor_run_folder_make(context, folder));
     MOR_TRY(context, remove_earlier(it, folder, data));
@@ -196,6 +216,17 @@ static mor_status replay_point(bench *it, const mor_element_words *words)
     return mor_element_point_replay(context, it->material, &point, it->session->output);
 }
 
+/* The void ratio that all specimens start from; NaN: they have none, or not the same. */
+static double find_start_void_ratio(const bench *it)
+{
+    const double first = it->records[0].values[MOR_ELEMENT_VOID_RATIO];
+    bool is_common = true;
+    for (int k = 0; k < it->settings.n_specimens; ++k) {
+        is_common = is_common && it->records[k].values[MOR_ELEMENT_VOID_RATIO] == first;
+    }
+    return is_common ? first : NAN;
+}
+
 static mor_status test_material(bench *it, const char *folder)
 {
     mor_context *context = &it->session->context;
@@ -211,6 +242,7 @@ static mor_status test_material(bench *it, const char *folder)
     }
     MOR_TRY(context, mor_element_test_run(context, it->material, &it->settings, it->records));
     mor_element_test_print(it->material, &it->settings, it->records, it->session->output);
+    mor_element_record_complete(it->settings.path, find_start_void_ratio(it), &it->data);
     MOR_TRY(context, write_results(it, folder, words.data));
     for (int k = 0; k < it->settings.n_specimens; ++k) {
         MOR_CHECK(context, it->records[k].status == MOR_OK, it->records[k].status,

@@ -92,6 +92,12 @@ void mor_element_path_control(const mor_element_path *path, double rate, double 
     }
 }
 
+int mor_element_path_keeps_volume(const mor_element_path *path)
+{
+    return path->stress == 0 && path->measure != MOR_ELEMENT_ROTATION &&
+           path->strain[0] + path->strain[1] + path->strain[2] == 0.0;
+}
+
 /* sum of squares of a tensor, shape [6] */
 static double square_tensor(const double *t)
 {

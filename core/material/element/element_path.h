@@ -41,6 +41,9 @@ const mor_element_path *mor_element_path_at(int index);
  *  @param control [out]  what is imposed */
 void mor_element_path_control(const mor_element_path *path, double rate, double b, mor_element_control *control);
 
+/** Whether the volume of a specimen stays along a path that strains it. */
+int mor_element_path_keeps_volume(const mor_element_path *path);
+
 /** What is measured on a specimen. */
 typedef struct mor_element_measures {
     double axial_strain; /* positive in compression, 1 */

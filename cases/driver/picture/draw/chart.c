@@ -14,6 +14,7 @@ enum { AXIS_TICKS = 8, POINTS_PER_STROKE = 4096 };
 
 static const double text_gray = 0.13;
 static const double note_gray = 0.35;
+static const double margin = 0.03;        /* part of the range */
 static const double smallest_move = 0.35; /* px; nearer points of a curve are merged */
 
 /* One chart while it is drawn. */
@@ -70,7 +71,8 @@ static void find_log_ends(double first, double last, sheet *s)
     s->axes.high[0] = last + room;
 }
 
-/* Range of x (side 0) or y (side 1) over all series; y gets round ends, x ends with the data. */
+/* Range of x (side 0) or y (side 1) over all series; y gets round ends, x ends with the data; with a margin both end
+ * beyond the data. */
 static void find_side(sheet *s, int side)
 {
     const mor_chart *chart = s->chart;
@@ -98,7 +100,11 @@ static void find_side(sheet *s, int side)
     const double first = low;
     const double last = high;
     mor_ticks_round_out(&low, &high, AXIS_TICKS);
-    if (side == 0 && last > first) {
+    if (chart->has_margin) {
+        const double range = last > first ? last - first : high - low;
+        low = (last > first ? first : low) - margin * range;
+        high = (last > first ? last : high) + margin * range;
+    } else if (side == 0 && last > first) {
         low = fmax(low, first - 0.02 * (last - first));
         low = first >= 0.0 && low < 0.0 ? 0.0 : low;
         high = fmin(high, last + 0.02 * (last - first));

@@ -39,6 +39,7 @@ typedef struct mor_chart {
     const mor_chart_series *series; /* shape [n_series] */
     int n_series;                   /* 1 to MOR_CHART_SERIES_MAX */
     bool has_log_x;                 /* x on a logarithmic axis: all x are > 0 */
+    bool has_margin;                /* between frame and curves, so that none lies on the frame or is cut by it */
     const char *const *notes;       /* shape [n_notes]; each a line under the legend, cut off where it is too long */
     int n_notes;                    /* 0 to MOR_CHART_NOTES_MAX */
     int width;                      /* pixels; 0: from the height, or MOR_CANVAS_WIDTH */
