@@ -18,6 +18,7 @@
     "{model=\"hypoplastic_sand\"; density=2000; critical_friction_angle=0.58; granulate_hardness=4e9; exponent=0.27; " \
     "densest_void_ratio=0.68; critical_void_ratio=1.05; loosest_void_ratio=1.2; alpha=0.14; beta=2.5; "                \
     "void_ratio=0.8; "
+#define CLAY "{model=\"tresca\"; density=2000; youngs_modulus=2e6; poissons_ratio=0.3; "
 #define WALL(name, point, normal)                                                                                      \
     "{ name = '" name "'; friction = 'smooth'; shape = { type = 'half_space'; point = " point "; normal = " normal     \
     "; }; }"
@@ -35,6 +36,23 @@ static const char column[] =
                                         "probes = ( { type = 'height'; }, { type = 'energy_balance'; } );"
                                         "expect = ( { probe = 'height'; value = 0.4; tolerance = 0.05; } );"
                                         "output = { snapshots = 1; pictures = false; };";
+
+/* Two soils of which one lies 0.08 m above the other. */
+#define RELEASE(upper_stress, walls)                                                                                   \
+    "dimension = 2; spacing = 0.02; end = 0.001; gravity = (0.0, -9.81);"                                              \
+    "domain = { min = (-0.5, -0.2); max = (1.5, 1.0); };"                                                              \
+    "soil = ( { name = 's'; shape = { type = 'box'; min = (0, 0); max = (0.2, 0.2); }; " MATERIAL                      \
+    "  initial_stress = { type = 'k0'; lateral_ratio = 0.6; surface_level = 0.2; }; },"                                \
+    "  { name = 't'; shape = { type = 'box'; min = (0, 0.28); max = (0.2, 0.46); }; " MATERIAL upper_stress " } );"    \
+    "walls = ( " WALL("floor", "(0, 0)", "(0, 1)") walls " );"                                                         \
+                                                         "probes = ( { type = 'height'; } );"                          \
+                                                         "output = { snapshots = 1; pictures = false; };"
+
+/* The upper one is let go; or rests on a shelf. */
+static const char release[] = RELEASE("", "");
+static const char shelf[] = RELEASE("initial_stress = { type = 'k0'; lateral_ratio = 0.6; };",
+                                    ", { name = 'shelf'; friction = 'smooth'; shape = { type = 'box'; "
+                                    "min = (-0.1, 0.22); max = (0.3, 0.28); }; }");
 
 /* A ball in the air. */
 static const char ball[] = "dimension = 2; spacing = 0.1; end = 0.01; gravity = (0.0, -9.81);"
@@ -67,6 +85,19 @@ static const scene columns[] = {
     /* 6 kPa at the base, with the speed of sound of 10 Pa: (6000 / 10)^((1 - n) / 2). */
     {"soil[0].material=" SAND "wave_pressure=10;}", "waves in the soil are up to"},
     {"soil[0].material=" SAND "wave_pressure=1e4;}", NULL},
+    {"soil[1].initial_stress={type=\"none\";}",
+     "soil 't' starts without stress beside soil 's', which starts with k0: the stress jumps where they meet"},
+    /* One row of particles is missing, then four. */
+    {"soil[1].shape.min=(0, 0.22)",
+     "soil 't' does not touch soil 's' below it: there is a gap of 0.02 m (1.00 spacings), so that it falls"},
+    {"soil[1].shape={type=\"box\"; min=(0, 0.28); max=(0.2, 0.46);}", "there is a gap of 0.08 m (4.00 spacings)"},
+    /* Gravity along the diagonal of the lattice, so that particles of a column are farther apart than a spacing. */
+    {"gravity=(-6.94, -6.94)", NULL},
+    /* 60 kPa were meant: the lowest particle bears 0.39 m, 7652 Pa, of which 1 - 120 / 7652 = 0.984 is allowed. */
+    {"soil[0].material=" CLAY "undrained_strength=60;}",
+     "soil 's' begins with a lateral stress of 0.6 of the vertical one, but at its base its strength allows 0.984 to "
+     "1.02: it yields at once; correct lateral_ratio, or the strength"},
+    {"soil[0].material=" CLAY "undrained_strength=6e3;}", NULL},
     {"numerics.courant=1e-8", "end = 0.001 s takes about 1.11e+08 steps"},
     {"probes[0].percentile=0.995",
      "found percentile = 0.995, which is 0.995 %: percentiles are in percent; if 99.5 % is"},
@@ -78,6 +109,22 @@ static const scene columns[] = {
     {"expect[0].tolerance_low=1", "found tolerance_low = 1, a share of the value"},
     {"expect[0].tolerance=\"150 %\"", NULL},
     {"expect[0]={probe=\"height\"; value=\"40 cm\"; tolerance=\"2 m\"; absolute=true;}", NULL},
+};
+
+static const scene releases[] = {
+    {NULL, NULL},
+    /* Too near to be meant to fall. */
+    {"soil[1].shape.min=(0, 0.22)", "soil 't' does not touch soil 's' below it: there is a gap of 0.02 m"},
+    {"soil[0].initial_stress={type=\"k0\"; lateral_ratio=0.6;}",
+     "the initial stress of soil 's' has the weight of soil 't' in it, which is 0.08 m above it and does not rest on "
+     "it; give 's' initial_stress.surface_level = \"0.2 m\""},
+    {"soil[1].shape.min=(0, 0.2)", "surface_level = 0.2 m of soil 's' has other soil on it"},
+};
+
+static const scene shelves[] = {
+    {NULL, NULL},
+    {"walls[1].shape={type=\"box\"; min=(-0.3, 0.22); max=(-0.1, 0.28);}",
+     "soil 't' does not touch soil 's' below it: there is a gap of 0.08 m"},
 };
 
 static const scene balls[] = {
@@ -114,6 +161,12 @@ static void settings_that_mean_something_else_are_warned_of(void **state)
     check_scenes(*state, column, columns, sizeof columns / sizeof *columns);
 }
 
+static void soil_above_soil_rests_on_it_or_is_warned_of(void **state)
+{
+    check_scenes(*state, release, releases, sizeof releases / sizeof *releases);
+    check_scenes(*state, shelf, shelves, sizeof shelves / sizeof *shelves);
+}
+
 static void bodies_that_nothing_carries_are_warned_of(void **state)
 {
     check_scenes(*state, ball, balls, sizeof balls / sizeof *balls);
@@ -135,6 +188,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
     const struct CMUnitTest tests[] = {
         TEST(settings_that_mean_something_else_are_warned_of),
+        TEST(soil_above_soil_rests_on_it_or_is_warned_of),
         TEST(bodies_that_nothing_carries_are_warned_of),
         TEST(energies_that_did_not_move_need_not_add_up),
     };

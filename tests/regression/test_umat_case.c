@@ -264,6 +264,24 @@ static void case_that_asks_for_what_there_is_not_is_refused(void **state)
     }
 }
 
+/* Constants in MPa, as in millimeters and newtons. 0.2 m of 2000 kg/m3 weigh 3924 Pa, and K = E / 1.2. */
+static void law_too_soft_for_its_weight_is_warned_of(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    static const char *const check[] = {"check", "case.cfg", NULL};
+    fortran_compile(folder, "umat_elastic", path);
+    write_case(folder, "library = './umat_elastic.so'; props = (10, 0.3);");
+    program_outcome outcome = program_run(folder, check, 0);
+    program_expect_text(outcome.output, "soil 'sand' is so soft that its own weight compresses it by about 4.71e+04 %");
+    program_expect_text(outcome.output, "raise its stiffness to 392 kPa or more; a bare number is in Pa");
+    program_clear(&outcome);
+    write_case(folder, "library = './umat_elastic.so'; props = (10e6, 0.3);");
+    outcome = program_run(folder, check, 0);
+    assert_null(strstr(outcome.output, "warning"));
+    program_clear(&outcome);
+}
+
 int main(void)
 {
 #define UMAT_TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
@@ -277,6 +295,7 @@ int main(void)
         UMAT_TEST(library_that_fails_in_its_first_call_is_refused_with_its_place),
         UMAT_TEST(law_that_stops_the_program_is_told),
         UMAT_TEST(material_of_a_case_is_checked_with_its_parameters),
+        UMAT_TEST(law_too_soft_for_its_weight_is_warned_of),
         UMAT_TEST(case_that_asks_for_what_there_is_not_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,71 +3,29 @@
 /* The stress soil starts with. */
 #include "cases/driver/scene/build/simulation_build.h"
 
+#include "cases/driver/scene/soil_columns.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/* The surface of the soil over a grid of vertical columns one spacing wide. */
+/* The surface of the soil over its columns. */
 typedef struct surface {
-    double across[2][3]; /* unit vectors across up */
-    double low[2];       /* smallest coordinate along them, m */
-    int64_t n[2];        /* columns along them */
-    double spacing;      /* m */
-    double *top;         /* shape [n[0], n[1]]; height of the highest particle over the origin of space, m */
+    mor_soil_columns columns;
+    double *top; /* shape [columns]; height of the highest particle over the origin of space, m */
 } surface;
-
-static void set_axes(const double *up, surface *s)
-{
-    /* Any axis that is not along up will do; the grid only has to be the same for all particles. */
-    const int least =
-        fabs(up[0]) <= fabs(up[1]) ? (fabs(up[0]) <= fabs(up[2]) ? 0 : 2) : (fabs(up[1]) <= fabs(up[2]) ? 1 : 2);
-    double *e = s->across[0];
-    for (int a = 0; a < 3; ++a) {
-        e[a] = (a == least ? 1.0 : 0.0) - up[least] * up[a];
-    }
-    const double length = mor_vector_length(e);
-    for (int a = 0; a < 3; ++a) {
-        e[a] /= length;
-    }
-    mor_vector_cross(up, e, s->across[1]);
-}
-
-static int64_t column_of(const surface *s, const double *position)
-{
-    int64_t place[2];
-    for (int k = 0; k < 2; ++k) {
-        /* The middle of a column lies on the lattice, so rounding decides nothing there. */
-        place[k] = (int64_t)floor((mor_vector_dot(position, s->across[k]) - s->low[k]) / s->spacing + 0.5);
-    }
-    return place[0] * s->n[1] + place[1];
-}
 
 static mor_status find_surface(mor_context *context, const mor_simulation *simulation, surface *s)
 {
     const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
-    const int64_t n = simulation->soil.set.n_particles;
-    double high[2] = {-INFINITY, -INFINITY};
-    s->spacing = simulation->the_case->spacing;
-    s->low[0] = s->low[1] = INFINITY;
-    set_axes(simulation->up, s);
-    for (int64_t i = 0; i < n; ++i) {
-        for (int k = 0; k < 2; ++k) {
-            const double along = mor_vector_dot(position + 3 * i, s->across[k]);
-            s->low[k] = fmin(s->low[k], along);
-            high[k] = fmax(high[k], along);
-        }
-    }
-    for (int k = 0; k < 2; ++k) {
-        s->n[k] = (int64_t)floor((high[k] - s->low[k]) / s->spacing + 0.5) + 1;
-    }
-    MOR_TRY(context, MOR_NEW(context, &s->top, s->n[0] * s->n[1], "surface of the soil"));
-    for (int64_t k = 0; k < s->n[0] * s->n[1]; ++k) {
+    mor_soil_columns_find(simulation, &s->columns);
+    const int64_t n_columns = s->columns.n[0] * s->columns.n[1];
+    MOR_TRY(context, MOR_NEW(context, &s->top, n_columns, "surface of the soil"));
+    for (int64_t k = 0; k < n_columns; ++k) {
         s->top[k] = -INFINITY;
     }
-    for (int64_t i = 0; i < n; ++i) {
-        double *top = &s->top[column_of(s, position + 3 * i)];
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        double *top = &s->top[mor_soil_columns_of(&s->columns, position + 3 * i)];
         *top = fmax(*top, mor_vector_dot(position + 3 * i, simulation->up));
     }
     return MOR_OK;
@@ -119,9 +77,9 @@ static int64_t find_cover(const mor_simulation *simulation, const surface *s, do
     int64_t n_cover = 0;
     *highest = -INFINITY;
     for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
-        const int64_t column = column_of(s, position + 3 * i);
+        const int64_t column = mor_soil_columns_of(&s->columns, position + 3 * i);
         const double above = mor_vector_dot(position + 3 * i, simulation->up) - level;
-        if ((i < first || i >= first + n) && covered[column] && above > 0.0 && above <= s->spacing) {
+        if ((i < first || i >= first + n) && covered[column] && above > 0.0 && above <= s->columns.spacing) {
             n_cover += 1;
             *highest = fmax(*highest, s->top[column]);
         }
@@ -142,14 +100,14 @@ static mor_status warn_of_cover(mor_context *context, const mor_simulation *simu
     }
     mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
     const double level = it->surface_level + mor_vector_dot(origin, simulation->up);
-    MOR_TRY(context, MOR_NEW(context, &covered, s->n[0] * s->n[1], "columns of a region of soil"));
+    MOR_TRY(context, MOR_NEW(context, &covered, s->columns.n[0] * s->columns.n[1], "columns of a region of soil"));
     for (int64_t i = first; i < first + n; ++i) {
-        covered[column_of(s, position + 3 * i)] = true;
+        covered[mor_soil_columns_of(&s->columns, position + 3 * i)] = true;
     }
     const int64_t n_cover = find_cover(simulation, s, level, first, n, covered, &highest);
     MOR_FREE(context, &covered);
     if (n_cover > 0) {
-        const double missing = highest + 0.5 * s->spacing - level;
+        const double missing = highest + 0.5 * s->columns.spacing - level;
         mor_context_log(context, MOR_LOG_WARNING,
                         "%s:%d: surface_level = %g m of soil '%s' has other soil on it, up to %.4g m above: that "
                         "weight, up to %.3g Pa, is missing in its initial stress, and the soil below yields as the run "
@@ -160,28 +118,8 @@ static mor_status warn_of_cover(mor_context *context, const mor_simulation *simu
     return MOR_OK;
 }
 
-/* A particle in its column. */
-typedef struct overburden {
-    int64_t column;
-    double height;
-    int64_t particle;
-    int region;
-} overburden;
-
-static int compare_heights(const void *a, const void *b)
-{
-    const overburden *left = a;
-    const overburden *right = b;
-    if (left->column != right->column) {
-        return left->column < right->column ? -1 : 1;
-    }
-    if (left->height != right->height) {
-        return left->height > right->height ? -1 : 1; /* from the top down */
-    }
-    return left->particle < right->particle ? -1 : 1;
-}
-
-static void sum_overburden(const mor_simulation *simulation, double spacing, const overburden *sorted, double *excess)
+static void sum_overburden(const mor_simulation *simulation, double spacing, const mor_soil_place *sorted,
+                           double *excess)
 {
     const mor_case *c = simulation->the_case;
     const double gravity = mor_vector_length(simulation->soil.settings.gravity);
@@ -205,18 +143,10 @@ static void sum_overburden(const mor_simulation *simulation, double spacing, con
 static mor_status find_overburden(mor_context *context, const mor_simulation *simulation, const surface *s,
                                   double *excess)
 {
-    const double *position = simulation->soil.set.data[MOR_FIELD_POSITION];
-    overburden *sorted = NULL;
-    int64_t i = 0;
+    mor_soil_place *sorted = NULL;
     MOR_TRY(context, MOR_NEW(context, &sorted, simulation->soil.set.n_particles, "soil above soil"));
-    for (int region = 0; region < simulation->the_case->n_soils; ++region) {
-        for (int64_t k = 0; k < simulation->region_particles[region]; ++k, ++i) {
-            const double *x = position + 3 * i;
-            sorted[i] = (overburden){column_of(s, x), mor_vector_dot(x, simulation->up), i, region};
-        }
-    }
-    qsort(sorted, (size_t)i, sizeof *sorted, compare_heights);
-    sum_overburden(simulation, s->spacing, sorted, excess);
+    mor_soil_columns_sort(simulation, &s->columns, sorted);
+    sum_overburden(simulation, s->columns.spacing, sorted, excess);
     MOR_FREE(context, &sorted);
     return MOR_OK;
 }
@@ -236,11 +166,12 @@ static void set_region(mor_simulation *simulation, const surface *s, int region,
     const double level = it->surface_level + mor_vector_dot(origin, up); /* NaN when not given */
     for (int64_t i = first; i < first + n; ++i) {
         const double *x = position + 3 * i;
-        const double top = isnan(level) ? s->top[column_of(s, x)] + 0.5 * s->spacing : level;
+        const double top =
+            isnan(level) ? s->top[mor_soil_columns_of(&s->columns, x)] + 0.5 * s->columns.spacing : level;
         simulation->surface_height = fmax(simulation->surface_height, top);
         /* Both halves of a spacing: above the highest center and below the lowest. */
-        simulation->soil_depth =
-            fmax(simulation->soil_depth, s->top[column_of(s, x)] - mor_vector_dot(x, up) + s->spacing);
+        simulation->soil_depth = fmax(simulation->soil_depth, s->top[mor_soil_columns_of(&s->columns, x)] -
+                                                                  mor_vector_dot(x, up) + s->columns.spacing);
         if (it->initial_stress == MOR_CASE_STRESS_NONE) {
             continue;
         }

@@ -3,6 +3,8 @@
 #include "cases/driver/scene/check/simulation_warnings.h"
 
 #include "cases/driver/scene/check/simulation_resolution.h"
+#include "cases/driver/scene/check/soil_neighbors.h"
+#include "cases/driver/scene/check/start_stress.h"
 #include "cases/driver/scene/check/wall_thickness.h"
 #include "cases/driver/scene/wall_seams.h"
 #include "core/base/math.h"
@@ -12,67 +14,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The soil is hardly compressible in the method: compression by its own weight that is advisable, and at most. */
-static const double compression_advisable = 0.01;
-static const double compression_largest = 0.02;
-
 /* Rows and snapshots that a case has by default; a short run has more of them than steps. */
 enum { ROWS_USUAL = 200, SNAPSHOTS_USUAL = 20 };
-
-static void warn_of_softness(mor_context *context, const mor_simulation *s, int region)
-{
-    static const struct {
-        double size;
-        const char *name;
-    } units[] = {{1.0e9, "GPa"}, {1.0e6, "MPa"}, {1.0e3, "kPa"}, {1.0, "Pa"}};
-    const mor_case *c = s->the_case;
-    const mor_case_soil *it = &c->soils[region];
-    const mor_schema *parameters = s->laws[region]->parameters;
-    const double stiffness = mor_params_youngs_modulus(parameters, it->parameters, INFINITY);
-    const double weight = it->density * mor_vector_length(c->gravity) * s->soil_depth;
-    if (!(weight > compression_largest * stiffness)) {
-        return;
-    }
-    int k = 0;
-    while (k < 3 && weight / compression_advisable < units[k].size) {
-        ++k;
-    }
-    mor_context_log(context, MOR_LOG_WARNING,
-                    "soil '%s' is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below 1 %% "
-                    "is advisable: raise %s to %.3g %s or more",
-                    it->name, 100.0 * weight / stiffness, mor_params_stiffness_key(parameters),
-                    weight / compression_advisable / units[k].size, units[k].name);
-}
-
-/* A lateral stress beyond the strength of the soil is no equilibrium: it yields in the first step. The limits are
- * Rankine's at the largest depth, where cohesion matters least. */
-static void warn_of_lateral_stress(mor_context *context, const mor_simulation *s)
-{
-    const mor_case *c = s->the_case;
-    const double slack = 1.05; /* cones differ from Mohr-Coulomb by some per cent */
-    for (int k = 0; k < c->n_soils; ++k) {
-        const mor_case_soil *it = &c->soils[k];
-        const mor_material *law = s->laws[k];
-        const double angle = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_FRICTION_ANGLE, NAN);
-        const double cohesion = mor_params_role_value(law->parameters, it->parameters, MOR_ROLE_COHESION, 0.0);
-        const double vertical = it->density * mor_vector_length(c->gravity) * s->soil_depth;
-        if (it->initial_stress == MOR_CASE_STRESS_NONE || it->initial_stress == MOR_CASE_STRESS_UNIFORM ||
-            isnan(angle) || !(vertical > 0.0)) {
-            continue;
-        }
-        const double passive = (1.0 + sin(angle)) / (1.0 - sin(angle));
-        const double share = 2.0 * cohesion * sqrt(passive) / vertical;
-        const double least = (1.0 - share) / passive;
-        const double largest = passive + share;
-        const double ratio = mor_simulation_lateral_ratio(s, k);
-        if (ratio < least / slack || ratio > largest * slack) {
-            mor_context_log(context, MOR_LOG_WARNING,
-                            "soil '%s' begins with a lateral stress of %.3g of the vertical one, but at its base "
-                            "its strength allows %.3g to %.3g: it yields at once; correct lateral_ratio",
-                            it->name, ratio, fmax(least, 0.0), largest);
-        }
-    }
-}
 
 /* Around loose particles the summation takes what is missing for a free surface and raises their density. */
 static void warn_of_gas(mor_context *context, const mor_simulation *s)
@@ -314,11 +257,9 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     warn_of_shifting(context, c);
     warn_of_thinness(context, simulation);
     warn_of_gaps(context, simulation);
-    for (int k = 0; k < simulation->the_case->n_soils; ++k) {
-        warn_of_softness(context, simulation, k);
-    }
+    MOR_TRY(context, mor_soil_neighbors_warn(context, simulation));
+    MOR_TRY(context, mor_start_stress_warn(context, simulation));
     if (simulation->has_soil) {
-        warn_of_lateral_stress(context, simulation);
         warn_of_gas(context, simulation);
         warn_of_stiffening(context, simulation);
     }
