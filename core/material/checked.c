@@ -3,9 +3,11 @@
 #include "core/material/checked.h"
 
 #include "core/base/memory.h"
+#include "core/material/composite.h"
 
 #include <math.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -72,7 +74,7 @@ static const profile PROFILES[N_OPERATIONS] = {
     [STRESS_TOTAL] = {"stress_total", USES_DEFORMATION | USES_STATE | GIVES_STATE | GIVES_PIOLA, 0},
     [ENERGY] = {"energy", USES_STRESS | USES_DEFORMATION | USES_STATE, 1},
     [ADMISSIBLE] = {"admissible", USES_STRESS | USES_STATE, 1},
-    [PRESSURE] = {"pressure", USES_DENSITY | USES_STRESS, 1},
+    [PRESSURE] = {"pressure", USES_DENSITY | USES_STRESS | USES_STATE, 1},
     [MAX_STEP] = {"max_step", USES_DENSITY | USES_STRESS | USES_STATE | MAY_BE_INFINITE, 1},
     [DIFFUSIVITY] = {"diffusivity", USES_STRESS | USES_STATE, 1},
     [TANGENT] = {"tangent", USES_DENSITY | USES_STRESS | USES_STATE | USES_MOTION, 36},
@@ -152,18 +154,20 @@ static void add_output(guard *g, int which, double *host, int64_t first, int n_c
 static void add_states(guard *g, const mor_material_instance *inner, const call *c, int64_t first)
 {
     const unsigned uses = PROFILES[c->operation].uses;
+    /* A composite finds there which part a particle is of, and what it passes on, whatever the operation. */
+    const bool has_input = (uses & USES_STATE) != 0 || mor_composite_is(inner);
     for (int k = 0; k < inner->n_state; ++k) {
         const int n_components = inner->material->state[k].n_components;
-        if ((uses & USES_STATE) != 0) {
+        if (has_input) {
             add_input(g, STATE_IN + k, c->batch->state_in[k], first, n_components);
-            g->state_in[k] = g->copy[STATE_IN + k];
         }
         if ((uses & GIVES_STATE) != 0) {
             add_output(g, STATE_OUT + k, c->batch->state_out[k], first, n_components);
-            g->state_out[k] = g->copy[STATE_OUT + k];
         }
+        g->state_in[k] = g->copy[STATE_IN + k];
+        g->state_out[k] = g->copy[STATE_OUT + k];
     }
-    g->batch.state_in = (uses & USES_STATE) != 0 ? g->state_in : NULL;
+    g->batch.state_in = has_input ? g->state_in : NULL;
     g->batch.state_out = (uses & GIVES_STATE) != 0 ? g->state_out : NULL;
 }
 

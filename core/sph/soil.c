@@ -52,8 +52,8 @@ static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
      BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDARIES) | SHARED(BOUNDS),
      "positions and densities to the middle of the step", NULL},
-    {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES) | SHARED(STATE), SHARED(LISTS),
-     SHARED(ORDER) | SHARED(BOUNDS),
+    {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES) | SHARED(STATE), 0,
+     SHARED(LISTS) | SHARED(ORDER) | SHARED(BOUNDS),
      "sorts particles at an interval; rebuilds neighbor lists when particles have moved by the skin", NULL},
     {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | SHARED(STATE),
      SHARED(RECORDS), 0, "packs one record per particle for the pair loops", NULL},
@@ -113,7 +113,7 @@ static const mor_stage soil_stages[] = {
 
 static const uint64_t evolving_fields = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
                                         BIT(STRESS) | BIT(STRAIN_RATE) | SHARED(STATE) | SHARED(BOUNDARIES) |
-                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER);
+                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles. */

@@ -94,8 +94,12 @@ static mor_status rogue_wave_speed(const mor_material_instance *instance, const 
     return fill_result(batch, 1, does(instance, INFINITE_SPEED) ? INFINITY : 2.0, speed);
 }
 
+/* It reads the state, as it may. */
 static mor_status rogue_pressure(const mor_material_instance *instance, const mor_batch *batch, double *pressure)
 {
+    if (batch->state_in == NULL || isnan(batch->state_in[0][0])) {
+        return MOR_ERROR_ARGUMENT;
+    }
     return fill_result(batch, 1, does(instance, NAN_PRESSURE) ? NAN : 3.0, pressure);
 }
 
