@@ -185,7 +185,8 @@ static bool is_node_kept(const mor_lattice_request *request, const double *node,
 {
     const double tolerance = MOR_LATTICE_TOLERANCE * request->spacing;
     const double distance = mor_shape_distance(request->shape, node);
-    const bool is_on_face = request->n_siblings > 0 && fabs(distance) <= tolerance;
+    const double on_face = MOR_LATTICE_ON_FACE * request->spacing;
+    const bool is_on_face = request->n_siblings > 0 && fabs(distance) <= on_face;
     double in = is_on_face ? INFINITY : -tolerance - distance;
     in = fmin(in, distance + request->depth - tolerance);
     for (int a = 0; a < request->dimension; ++a) {
@@ -198,8 +199,7 @@ static bool is_node_kept(const mor_lattice_request *request, const double *node,
         *reach = 0.0;
         return in > 0.0 && mor_lattice_is_shared(request, node);
     }
-    /* The faces themselves are looked at. */
-    *reach = request->n_siblings > 0 ? fmax(fabs(in) - 2.0 * tolerance, 0.0) : fabs(in);
+    *reach = request->n_siblings > 0 ? fmax(fabs(in) - tolerance - on_face, 0.0) : fabs(in);
     return in > 0.0;
 }
 

@@ -11,6 +11,10 @@
  *  First positions of particles: the nodes of a square or cubic lattice that lie inside a shape, and the check that two
  *  sets of positions do not overlap. It neither relaxes positions nor uses particle sets. */
 
+/** Distance from the surface of a shape with siblings within which a node lies on it, in spacings: above the rounding
+ *  of meshes of single precision that are a hundred spacings long. */
+#define MOR_LATTICE_ON_FACE 1e-5
+
 /** What to fill. All places are in the scene frame, in which geometry is described; the finished points are mapped by x
  *  -> rotation * x + translation at the very end, so that geometry and lattice are rotated together exactly.
  *
@@ -25,8 +29,9 @@
  *  those of the cubic lattice.
  *
  *  Shapes that adjoin one another and are filled one by one name each other as siblings. A node on faces between them,
- *  with these shapes all around it, belongs to the shape that holds the place beside it in the direction (-1, -0.618,
- *  -0.382): together they are filled as their union is, and in any order alike.
+ *  with these shapes all around it, belongs to the shape that reaches deepest at the place beside it in the direction
+ *  (-1, -0.618, -0.382): together they are filled as their union is, and in any order alike, also where their faces
+ *  overlap or stand apart by less than MOR_LATTICE_ON_FACE.
  *
  *  Made ready by mor_lattice_request_init. Everything pointed to is borrowed during the call. */
 typedef struct mor_lattice_request {

@@ -8,8 +8,9 @@
 
 #include <math.h>
 
-/* Distance from a node to the places beside it, in spacings: far above the tolerance, far below what shapes have. */
-#define ASIDE 0x1p-10
+/* Distance from a node to the places beside it, in spacings: far above MOR_LATTICE_ON_FACE, far below what shapes
+ * have. */
+#define ASIDE 0x1p-8
 
 /* Places looked at around a node. */
 enum { AROUND_PLANE = 16, AROUND_SPACE = 64 };
@@ -44,13 +45,34 @@ static bool is_in_any(const mor_lattice_request *request, const double *place)
     return is_inside;
 }
 
+/* Whether no sibling reaches as deep as the shape. */
+static bool is_deepest(const mor_lattice_request *request, const double *place)
+{
+    const double distance = mor_shape_distance(request->shape, place);
+    bool is = true;
+    for (int k = 0; k < request->n_siblings && is; ++k) {
+        is = distance < mor_shape_distance(request->siblings[k], place);
+    }
+    return is;
+}
+
+/* Whether a sibling holds a node that does not lie on its face. */
+static bool is_of_sibling(const mor_lattice_request *request, const double *node)
+{
+    bool is = false;
+    for (int k = 0; k < request->n_siblings && !is; ++k) {
+        is = mor_shape_distance(request->siblings[k], node) < -MOR_LATTICE_ON_FACE * request->spacing;
+    }
+    return is;
+}
+
 bool mor_lattice_is_shared(const mor_lattice_request *request, const double *node)
 {
     static const double side[3] = {-1.0, -0.61803398874989485, -0.38196601125010515};
     const int n = request->dimension == 3 ? AROUND_SPACE : AROUND_PLANE;
     double place[3];
     step_aside(request, node, side, place);
-    bool is_shared = mor_shape_distance(request->shape, place) < 0.0;
+    bool is_shared = !is_of_sibling(request, node) && is_deepest(request, place);
     for (int k = 0; k < n && is_shared; ++k) {
         double direction[3];
         choose_direction(request->dimension, k, direction);

@@ -106,6 +106,11 @@ static const warned_row rows[] = {
      "soil 'lower' has 1600 kg/m of particles where its shape holds 1500 kg/m, +6.7 %; along y it is 0.75 m, 7.5 "
      "spacings, and has 8 layers: 0.7 m or 0.8 m would fit, or a spacing of 0.0833333 m"},
     {layers, {NULL}, "soil 'upper' has 1400 kg/m of particles where its shape holds 1500 kg/m, -6.7 %; along y"},
+    /* Also where the faces stand apart by rounding. */
+    {layers,
+     {"soil[0].shape.max=(\"1 m\", \"0.7499998 m\")",
+      "soil[1].shape={type=\"box\"; min=(0, 0.7500001); max=(1, 1.5);}"},
+     "and has 8 layers: 0.7 m or 0.8 m would fit"},
     {layers,
      {"soil[0].shape.max=(\"1 m\", \"0.8 m\")", "soil[1].shape={type=\"box\"; min=(0, 0.8); max=(1, 1.5);}"},
      NULL},

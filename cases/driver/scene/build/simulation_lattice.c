@@ -38,10 +38,6 @@ static mor_status refuse_size(mor_context *context, const mor_case_place *place,
         place->file, place->line, name, why, mor_memory_room() / 1073741824.0, bytes_each);
 }
 
-/* Distance from the surface of another region, in spacings, within which a node counts as lying on it: far above
- * rounding. */
-#define ON_FACE 1.0e-6
-
 /* What a shape is filled for: its place in the case, and the memory that particles take. */
 typedef struct filling {
     const mor_case_place *place;
@@ -136,7 +132,7 @@ static mor_status check_overlap(mor_context *context, const mor_case *the_case, 
         const mor_shape *shape =
             is_wall ? the_case->walls[other].shape : the_case->soils[other - the_case->n_walls].shape;
         const char *name = is_wall ? the_case->walls[other].name : the_case->soils[other - the_case->n_walls].name;
-        const double allowed = is_wall ? 0.0 : -ON_FACE * the_case->spacing;
+        const double allowed = is_wall ? 0.0 : -MOR_LATTICE_ON_FACE * the_case->spacing;
         int64_t n_inside = 0;
         double first[3] = {0.0, 0.0, 0.0};
         for (int64_t i = 0; i < points->n_points; ++i) {

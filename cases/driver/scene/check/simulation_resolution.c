@@ -144,7 +144,7 @@ static double count_layers(const mor_case *c, const mor_bounds *bounds, int axis
 /* Layers of a region among others, which share those on faces between them: as many as the error of its mass tells. */
 static double find_layers(const mor_case *c, const mor_bounds *bounds, int axis, double error)
 {
-    const double tolerance = 1.0e-9;
+    const double tolerance = 1.0e-5; /* as that of the lattice for faces between regions */
     const double first = (bounds->minimum[axis] - c->lattice_origin[axis]) / c->spacing;
     const double last = (bounds->maximum[axis] - c->lattice_origin[axis]) / c->spacing;
     const double most = c->n_soils > 1 ? floor(last + 0.5 + tolerance) - ceil(first - 0.5 - tolerance) : 0.0;

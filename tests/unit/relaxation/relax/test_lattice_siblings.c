@@ -103,11 +103,73 @@ static void slope_through_nodes_has_no_empty_row(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+/* Columns of 4 and 6 nodes whose faces miss the fifth column of nodes by a little, as rounded numbers do. */
+static void faces_that_do_not_quite_meet_share_their_nodes(void **state)
+{
+    (void)state;
+    static const struct {
+        double left, right; /* of the faces from the nodes between them, in parts of MOR_LATTICE_ON_FACE */
+        int64_t wanted;     /* columns */
+    } rows[] = {{0.4, -0.4, 10}, {-0.4, 0.4, 10}, {0.4, 0.1, 10}, {-0.4, -0.1, 10},
+                {1.4, -0.4, 10}, {0.4, -1.4, 10}, {-1.1, 1.1, 9}};
+    mor_context context;
+    mor_context_init(&context);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+        mor_lattice_request request;
+        mor_shape *parts[2] = {NULL, NULL};
+        mor_lattice_request_init(&request);
+        request.spacing = 0.1;
+        request.dimension = 2;
+        const double unit = MOR_LATTICE_ON_FACE * request.spacing;
+        const double top[3] = {0.45 + rows[k].left * unit, 0.5, 1.0};
+        const double corner[3] = {0.45 + rows[k].right * unit, 0.0, -1.0};
+        assert_int_equal(mor_shape_new_box(&context, (const double[3]){0.0, 0.0, -1.0}, top, &parts[0]), MOR_OK);
+        assert_int_equal(mor_shape_new_box(&context, corner, (const double[3]){1.0, 0.5, 1.0}, &parts[1]), MOR_OK);
+        assert_int_equal(fill_together(&context, &request, (const mor_shape *const[2]){parts[0], parts[1]}, 2),
+                         5 * rows[k].wanted);
+        assert_int_equal(fill_together(&context, &request, (const mor_shape *const[2]){parts[1], parts[0]}, 2),
+                         5 * rows[k].wanted);
+        mor_shape_free(&context, &parts[0]);
+        mor_shape_free(&context, &parts[1]);
+    }
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+/* A face through one node, nearly in the direction in which its owner is looked for. */
+static void face_along_the_direction_of_the_search_gives_a_node_to_one(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    for (int k = -1; k <= 1; k += 2) { /* faces that stand apart, and that overlap */
+        mor_lattice_request request;
+        mor_shape *parts[2] = {NULL, NULL};
+        mor_lattice_request_init(&request);
+        request.spacing = 0.1;
+        request.dimension = 2;
+        const double shift = 0.4 * k * MOR_LATTICE_ON_FACE * request.spacing;
+        const double slope = 0.618;
+        const double left = 0.45 - 0.45 * slope;
+        const double right = 0.45 + 0.55 * slope;
+        const double below[] = {0.0, 0.0, 1.0, 0.0, 1.0, right + shift, 0.0, left + shift};
+        const double above[] = {0.0, left - shift, 1.0, right - shift, 1.0, 1.0, 0.0, 1.0};
+        assert_int_equal(mor_shape_new_polygon(&context, below, 4, &parts[0]), MOR_OK);
+        assert_int_equal(mor_shape_new_polygon(&context, above, 4, &parts[1]), MOR_OK);
+        assert_int_equal(fill_together(&context, &request, (const mor_shape *const[2]){parts[0], parts[1]}, 2), 100);
+        assert_int_equal(fill_together(&context, &request, (const mor_shape *const[2]){parts[1], parts[0]}, 2), 100);
+        mor_shape_free(&context, &parts[0]);
+        mor_shape_free(&context, &parts[1]);
+    }
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shapes_that_adjoin_are_filled_as_their_union),
         cmocka_unit_test(slope_through_nodes_has_no_empty_row),
+        cmocka_unit_test(faces_that_do_not_quite_meet_share_their_nodes),
+        cmocka_unit_test(face_along_the_direction_of_the_search_gives_a_node_to_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
