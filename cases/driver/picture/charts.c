@@ -107,11 +107,14 @@ static bool is_of_series(const mor_chart_series *curve, const mor_summary_statis
     return is_known;
 }
 
-/* Whether statistics are of a part of a curve; the time of the last row may exceed the window by rounding. */
+/* The time of a row may differ from the end of a window by rounding. */
+static const double time_rounding = 1.0e-9;
+
+/* Whether statistics are of a part of a curve. */
 static bool is_windowed(const mor_chart_series *curve, const mor_summary_statistics *it)
 {
     const double last = curve->n_points > 0 ? curve->x[curve->n_points - 1] : 0.0;
-    return curve->n_points > 0 && (it->window[0] > curve->x[0] || it->window[1] < last * (1.0 - 1.0e-9));
+    return curve->n_points > 0 && (it->window[0] > curve->x[0] || it->window[1] < last * (1.0 - time_rounding));
 }
 
 /* Probes of one quantity with several windows have one curve: each is drawn over it in its own window alone. */
@@ -124,11 +127,11 @@ static void add_windows(plate *p)
         if (!p->has_statistics[curve] || !is_windowed(whole, &p->statistics[curve])) {
             continue;
         }
-        while (first < whole->n_points && whole->x[first] < window[0]) {
+        while (first < whole->n_points && whole->x[first] < window[0] * (1.0 - time_rounding)) {
             ++first;
         }
         int64_t end = first;
-        while (end < whole->n_points && whole->x[end] <= window[1]) {
+        while (end < whole->n_points && whole->x[end] <= window[1] * (1.0 + time_rounding)) {
             ++end;
         }
         whole->style = MOR_CHART_PALE;
