@@ -104,6 +104,33 @@ static void tables_of_an_earlier_test_are_removed(void **state)
     assert_int_equal(access(run_folder_file(folder, path, "out/specimen-4.csv"), F_OK), 0);
 }
 
+/* Neither removed nor written over, though they are those of an earlier test. */
+static void measured_values_stay_as_they_are(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *words[] = {"material", "drucker_prager",
+                           "--path",   "oedometer",
+                           "--stress", "1 kPa, 2 kPa",
+                           "-o",       "out",
+                           "-s",       "test.steps=5",
+                           SOIL,       NULL,
+                           NULL,       NULL};
+    enum { STRESS = 5, MORE = sizeof words / sizeof *words - 3 };
+    program_outcome outcome = program_run(folder, words, 0);
+    program_clear(&outcome);
+    words[STRESS] = "1 kPa";
+    words[MORE] = "--data";
+    words[MORE + 1] = "out/specimen-2.csv";
+    outcome = program_run(folder, words, 0);
+    program_clear(&outcome);
+    assert_int_equal(access(run_folder_file(folder, path, "out/specimen-2.csv"), F_OK), 0);
+    words[STRESS] = "1 kPa, 3 kPa";
+    outcome = program_run(folder, words, 2);
+    program_expect_text(outcome.errors, "found --data = 'out/specimen-2.csv', which a table of the test would replace");
+    program_clear(&outcome);
+}
+
 static void every_path_is_followed_and_drawn(void **state)
 {
     run_folder *folder = *state;
@@ -402,6 +429,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(several_specimens_fail_at_their_strength, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(tables_of_an_earlier_test_are_removed, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(measured_values_stay_as_they_are, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(every_path_is_followed_and_drawn, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(the_soil_of_a_case_is_tested_beside_measured_values, run_folder_setup,
                                         run_folder_teardown),

@@ -135,6 +135,21 @@ static bool is_same_file(const char *path, const char *other)
            of_path.st_dev == of_other.st_dev && of_path.st_ino == of_other.st_ino;
 }
 
+/* Measured values are not written over. */
+static mor_status keep_data(const bench *it, const char *folder, const char *data)
+{
+    mor_context *context = &it->session->context;
+    for (int k = 0; k < it->settings.n_specimens; ++k) {
+        char path[MOR_PATH_BYTES];
+        MOR_TRY(context, join_table(context, folder, k, path));
+        MOR_CHECK(context, !is_same_file(path, data), MOR_ERROR_CONFIG,
+                  "found %s = '%s', which a table of the test would replace; allowed is a file that stays; choose "
+                  "another folder, or rename the file",
+                  name_of(it, "test.data"), data);
+    }
+    return MOR_OK;
+}
+
 /* Tables of an earlier test with more specimens would be taken for those of this one. What was not written by a test,
  * and the measured values of this one, stay. */
 static mor_status remove_earlier(bench *it, const char *folder, const char *data)
@@ -178,6 +193,7 @@ static mor_status write_results(bench *it, const char *folder, const char *data)
     folder = name_folder(it, folder, usual, sizeof usual);
     MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
     MOR_TRY(context, mor_run_folder_make(context, folder));
+    MOR_TRY(context, keep_data(it, folder, data));
     MOR_TRY(context, remove_earlier(it, folder, data));
     for (int k = 0; k < it->settings.n_specimens; ++k) {
         MOR_TRY(context, join_table(context, folder, k, path));
