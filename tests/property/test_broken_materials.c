@@ -18,6 +18,9 @@ static const struct {
 } variants[] = {
     {"s/x/x/", 0, "pass  it takes memory from the services"},
     {"s/\"undrained_clay\"/\"tresca\"/", 1, "FAIL  a case can load it beside the models that are there: plug-in '"},
+    {"s/\"plastic_strain\"/\"velocity\"/", 1,
+     "FAIL  a case can load it beside the models that are there: material 'un"},
+    {"s/\"plastic_strain\"/\"soil\"/", 1, "'soil', but that is the name of a field of the soil: rename it"},
     {"s/\"undrained_clay\"/\"umat\"/", 1, "the name of an interface to laws of other programs: rename it"},
     {"s/host_abi == MOR_MATERIAL_ABI/host_abi == 77/", 1, "does not serve interface"},
     {"s/abi = MOR_MATERIAL_ABI, .n/abi = 77, .n/", 1, "was built for interface 77"},

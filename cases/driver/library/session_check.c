@@ -3,6 +3,7 @@
 /* The check of a material: the laws it must obey, and what it costs. */
 #include "cases/driver/library/session_internal.h"
 
+#include "core/material/composite.h"
 #include "core/material/conformance/conformance.h"
 #include "core/material/conformance/conformance_cost.h"
 #include "core/material/plugin.h"
@@ -138,6 +139,31 @@ static mor_status try_case(mor_session *session, const char *path, int *n_failed
     return MOR_OK;
 }
 
+/* A state variable becomes a field of the soil, beside those that it has. */
+static bool is_field(const char *key)
+{
+    bool is = strcmp(key, MOR_COMPOSITE_INDEX_KEY) == 0;
+    for (int k = 0; k < MOR_FIELD_CORE_COUNT && !is; ++k) {
+        is = strcmp(key, mor_field_core_info((mor_field_id)k)->name) == 0;
+    }
+    return is;
+}
+
+/* What a case would refuse of a plug-in that can be loaded. */
+static mor_status check_use(mor_session *session, const mor_plugin *plugin)
+{
+    MOR_TRY(&session->context, mor_plugin_check_names(&session->context, plugin, session->registry));
+    for (int k = 0; k < mor_plugin_count(plugin); ++k) {
+        const mor_material *material = mor_plugin_get(plugin, k);
+        for (const mor_schema *state = material->state; state->key != NULL; ++state) {
+            MOR_CHECK(&session->context, !is_field(state->key), MOR_ERROR_PLUGIN,
+                      "material '%s' has a state variable '%s', but that is the name of a field of the soil: rename it",
+                      material->name, state->key);
+        }
+    }
+    return MOR_OK;
+}
+
 static mor_status try_plugin(mor_session *session, const char *path, int *n_failed)
 {
     mor_plugin *plugin = NULL;
@@ -147,7 +173,7 @@ static mor_status try_plugin(mor_session *session, const char *path, int *n_fail
     }
     const char *call = status == MOR_OK ? mor_plugin_forbidden_call(plugin) : NULL;
     if (status == MOR_OK) {
-        const bool is_free = mor_plugin_check_names(&session->context, plugin, session->registry) == MOR_OK;
+        const bool is_free = check_use(session, plugin) == MOR_OK;
         fprintf(session->output,
                 "%s\n  %s  it takes memory from the services, and leaves printing and ending to the program%s%s\n",
                 path, call == NULL ? "pass" : "FAIL", call == NULL ? "" : ": it calls ", call == NULL ? "" : call);
