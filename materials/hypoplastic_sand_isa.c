@@ -319,19 +319,27 @@ static mor_status sand_init_state(const mor_material_instance *instance, const m
     return MOR_OK;
 }
 
-/* sqrt(K / rho) with the bulk modulus after a reversal of strain at no less than the pressure of reference: the linear
- * part of (H4) in isotropic compression, times m_R. */
+/* Bulk modulus at a pressure: the linear part of (H4) in isotropic compression, times m_R (or m_T where that is more)
+ * after a reversal of strain. */
+static double find_bulk(const sand *m, double pressure, double void_ratio)
+{
+    const double stiffest = m->reversal > m->turn ? m->reversal : m->turn;
+    const double factor = m->range > 0.0 && stiffest > 1.0 ? stiffest : 1.0;
+    const stiffness k = find_stiffness(m, (mor_symmetric){-pressure, -pressure, -pressure, 0.0, 0.0, 0.0}, void_ratio);
+    return factor * k.scale * (3.0 + k.cone2) * (1.0 / 9.0);
+}
+
+/* sqrt(K / rho) with the bulk modulus at no less than the pressure of reference. Where that is beyond what the grains
+ * bear, the modulus falls with pressure, and that at the pressure of the soil may be the larger one. */
 static mor_status sand_wave_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed)
 {
     const sand *m = instance->data;
-    const double factor = m->range > 0.0 && m->reversal > 1.0 ? m->reversal : 1.0;
     for (int64_t i = 0; i < batch->n; ++i) {
-        const double mean = mor_invariant_i1(mor_symmetric_read(batch->stress_in + 6 * i)) * (1.0 / 3.0);
-        const double used = -mean > m->wave_pressure ? mean : -m->wave_pressure;
-        const stiffness k =
-            find_stiffness(m, (mor_symmetric){used, used, used, 0.0, 0.0, 0.0}, batch->state_in[STATE_VOID_RATIO][i]);
-        const double bulk = factor * k.scale * (3.0 + k.cone2) * (1.0 / 9.0);
-        speed[i] = sqrt(bulk / batch->density[i]);
+        const double p = mor_invariant_i1(mor_symmetric_read(batch->stress_in + 6 * i)) * (-1.0 / 3.0);
+        const double e = batch->state_in[STATE_VOID_RATIO][i];
+        const double at_reference = find_bulk(m, p > m->wave_pressure ? p : m->wave_pressure, e);
+        const double here = find_bulk(m, p > 0.0 ? p : 0.0, e);
+        speed[i] = sqrt((here > at_reference ? here : at_reference) / batch->density[i]);
     }
     return MOR_OK;
 }

@@ -6,13 +6,14 @@
 #include "core/base/guard.h"
 #include "core/material/external.h"
 #include "core/material/shared_object.h"
+#include "materials/interfaces/band.h"
 
 #include <stdbool.h>
 
 /** @file
  *  What the interfaces to laws of other programs share: the descriptor made of a library, the state that such laws
- *  expect to be kept for them, one particle at a time with its motion in the frame of the end of the step, a mark
- *  behind every array that is handed out. For materials/interfaces only.
+ *  expect to be kept for them, one particle at a time with its motion in the frame of the end of the step, a band of
+ *  known numbers behind every array that is handed out. For materials/interfaces only.
  *
  *  The step of a particle: the old stress and strain are turned by the rotation of the step (Hughes and Winget (1980));
  *  the strain increment is the mean of the increment and the turned increment, which is the increment in the frame of
@@ -84,9 +85,6 @@ typedef struct mor_interface_law {
  *  Returns: as make of mor_external_interface. */
 mor_status mor_external_make(mor_context *context, const char *name, const mor_external_kind *kind,
                              const mor_external_request *request, mor_external_law **law);
-
-/** A number that no law computes, put behind what is handed out. */
-#define MOR_EXTERNAL_MARK (-7.3914061e211)
 
 /** The interfaces. */
 extern const mor_external_interface mor_interface_umat, mor_interface_mfront;

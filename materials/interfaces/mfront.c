@@ -40,20 +40,35 @@ typedef struct record {
 /* 1: done; 0: done, but not to be relied on; -1: failed. */
 typedef int (*mfront_function)(record *data);
 
-/* Everything that is handed out. Marks stand between the arrays. */
+/* Everything that is handed out. Bands of known numbers stand between the arrays. */
 typedef struct arguments {
     mfront_function function;
     record data;
     int outcome;
-    double strain[2][COMPONENTS], mark_strain;
-    double stress[2][COMPONENTS], mark_stress;
-    double stiffness[COMPONENTS * COMPONENTS], mark_stiffness;
-    double state[2][MOR_EXTERNAL_STATE_VALUES_MAX + 1]; /* a mark behind the last that there is */
-    double properties[MOR_EXTERNAL_CONSTANTS_MAX + 1];  /* likewise */
-    double outer[OUTER_STATES], mark_outer;
-    double density, step_factor, speed, energy[2][2], mark_scalars;
+    double strain[2][COMPONENTS], behind_strain[MOR_EXTERNAL_BAND];
+    double stress[2][COMPONENTS], behind_stress[MOR_EXTERNAL_BAND];
+    double stiffness[COMPONENTS * COMPONENTS], behind_stiffness[MOR_EXTERNAL_BAND];
+    double state[2][MOR_EXTERNAL_STATE_VALUES_MAX + MOR_EXTERNAL_BAND]; /* the band behind the last that there is */
+    double properties[MOR_EXTERNAL_CONSTANTS_MAX + MOR_EXTERNAL_BAND];  /* likewise */
+    double outer[OUTER_STATES], behind_outer[MOR_EXTERNAL_BAND];
+    double density, step_factor, speed, energy[2][2], behind_scalars[MOR_EXTERNAL_BAND];
     char message[MESSAGE_LETTERS];
 } arguments;
+
+enum { BANDS = 8 };
+
+static void list_bands(const mor_interface_law *law, arguments *a, double **bands)
+{
+    double *const all[BANDS] = {a->behind_strain,
+                                a->behind_stress,
+                                a->behind_stiffness,
+                                a->behind_outer,
+                                a->behind_scalars,
+                                a->state[0] + law->n_state_values,
+                                a->state[1] + law->n_state_values,
+                                a->properties + law->n_constants};
+    memcpy(bands, all, sizeof all);
+}
 
 static void call_mfront(void *job)
 {
@@ -77,9 +92,13 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
 {
     const double root = sqrt(2.0);
     const size_t n_bytes = (size_t)law->n_state_values * sizeof(double);
+    double *bands[BANDS];
     memset(a, 0, sizeof *a);
     a->function = (mfront_function)law->function;
-    a->mark_strain = a->mark_stress = a->mark_stiffness = a->mark_outer = a->mark_scalars = MOR_EXTERNAL_MARK;
+    list_bands(law, a, bands);
+    for (int k = 0; k < BANDS; ++k) {
+        mor_external_band_fill(bands[k]);
+    }
     for (int k = 0; k < COMPONENTS; ++k) {
         const double factor = k < NORMAL ? 1.0 : root;
         a->strain[0][k] = factor * p->strain[PLACE[k]];
@@ -88,10 +107,8 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
     }
     for (int k = 0; k < 2; ++k) {
         memcpy(a->state[k], p->state, n_bytes);
-        a->state[k][law->n_state_values] = MOR_EXTERNAL_MARK;
     }
     memcpy(a->properties, law->constants, (size_t)law->n_constants * sizeof *a->properties);
-    a->properties[law->n_constants] = MOR_EXTERNAL_MARK;
     a->outer[0] = ROOM_TEMPERATURE;
     a->density = p->density;
     a->step_factor = 1.0;
@@ -105,19 +122,13 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
                        .end = connect_end(a, 1)};
 }
 
-static bool are_marks_whole(const mor_interface_law *law, const arguments *a)
+static bool are_bands_whole(const mor_interface_law *law, arguments *a)
 {
-    const double marks[] = {a->mark_strain,
-                            a->mark_stress,
-                            a->mark_stiffness,
-                            a->mark_outer,
-                            a->mark_scalars,
-                            a->state[0][law->n_state_values],
-                            a->state[1][law->n_state_values],
-                            a->properties[law->n_constants]};
+    double *bands[BANDS];
     bool are_whole = true;
-    for (size_t k = 0; k < sizeof marks / sizeof *marks; ++k) {
-        are_whole = are_whole && marks[k] == MOR_EXTERNAL_MARK;
+    list_bands(law, a, bands);
+    for (int k = 0; k < BANDS; ++k) {
+        are_whole = are_whole && mor_external_band_is_whole(bands[k]);
     }
     return are_whole;
 }
@@ -129,7 +140,7 @@ static mor_status update(const mor_interface_law *law, mor_external_point *p)
     if (mor_guard_run(law->guard, call_mfront, &a) != 0) {
         return MOR_ERROR_CRASH;
     }
-    if (!are_marks_whole(law, &a)) {
+    if (!are_bands_whole(law, &a)) {
         return MOR_ERROR_BOUNDS;
     }
     if (a.outcome != 1) { /* what it proposes instead, a.step_factor, is no promise; the step is halved */

@@ -23,23 +23,33 @@ typedef void (*umat_function)(double *stress, double *statev, double *ddsdde, do
                               const int *npt, const int *layer, const int *kspt, const int *jstep, const int *kinc,
                               size_t cmname_letters);
 
-/* Everything that is handed out by reference. Marks stand between the arrays, which a law may take to be longer. */
+/* Everything that is handed out by reference. Bands of known numbers stand between the arrays, which a law may take to
+ * be longer. */
 typedef struct arguments {
     umat_function function;
-    double stress[COMPONENTS];
-    double mark_stress;
-    double ddsdde[COMPONENTS * COMPONENTS];
-    double mark_ddsdde;
-    double statev[MOR_EXTERNAL_STATE_VALUES_MAX + 1]; /* a mark behind the last that there is */
-    double energies[3], mark_energies;                /* SSE, SPD, SCD */
-    double rpl, ddsddt[COMPONENTS], drplde[COMPONENTS], drpldt, mark_heat;
-    double stran[COMPONENTS], dstran[COMPONENTS], mark_strain;
-    double time[2], dtime, temp, dtemp, predef[1], dpred[1], mark_time;
-    double props[MOR_EXTERNAL_CONSTANTS_MAX + 1]; /* likewise */
-    double coords[3], drot[9], pnewdt, celent, dfgrd0[9], dfgrd1[9], mark_motion;
+    double stress[COMPONENTS], behind_stress[MOR_EXTERNAL_BAND];
+    double ddsdde[COMPONENTS * COMPONENTS], behind_ddsdde[MOR_EXTERNAL_BAND];
+    double statev[MOR_EXTERNAL_STATE_VALUES_MAX + MOR_EXTERNAL_BAND]; /* the band behind the last that there is */
+    double energies[3], behind_energies[MOR_EXTERNAL_BAND];           /* SSE, SPD, SCD */
+    double rpl, ddsddt[COMPONENTS], drplde[COMPONENTS], drpldt, behind_heat[MOR_EXTERNAL_BAND];
+    double stran[COMPONENTS], dstran[COMPONENTS], behind_strain[MOR_EXTERNAL_BAND];
+    double time[2], dtime, temp, dtemp, predef[1], dpred[1], behind_time[MOR_EXTERNAL_BAND];
+    double props[MOR_EXTERNAL_CONSTANTS_MAX + MOR_EXTERNAL_BAND]; /* likewise */
+    double coords[3], drot[9], pnewdt, celent, dfgrd0[9], dfgrd1[9], behind_motion[MOR_EXTERNAL_BAND];
     char cmname[NAME_LETTERS];
     int nstatv, nprops;
 } arguments;
+
+enum { BANDS = 9 };
+
+static void list_bands(const mor_interface_law *law, arguments *a, double **bands)
+{
+    double *const all[BANDS] = {
+        a->behind_stress,           a->behind_ddsdde, a->behind_energies, a->behind_heat,
+        a->behind_strain,           a->behind_time,   a->behind_motion,   a->statev + law->n_state_values,
+        a->props + law->n_constants};
+    memcpy(bands, all, sizeof all);
+}
 
 static void call_umat(void *job)
 {
@@ -67,10 +77,13 @@ static void transpose(const double *matrix, double *to)
 static void load_arguments(const mor_interface_law *law, const mor_external_point *p, arguments *a)
 {
     const size_t letters = strlen(law->law);
+    double *bands[BANDS];
     memset(a, 0, sizeof *a);
     a->function = (umat_function)law->function;
-    a->mark_stress = a->mark_ddsdde = a->mark_energies = a->mark_heat = MOR_EXTERNAL_MARK;
-    a->mark_strain = a->mark_time = a->mark_motion = MOR_EXTERNAL_MARK;
+    list_bands(law, a, bands);
+    for (int k = 0; k < BANDS; ++k) {
+        mor_external_band_fill(bands[k]);
+    }
     for (int k = 0; k < COMPONENTS; ++k) {
         const double factor = k < NORMAL ? 1.0 : 2.0;
         a->stress[k] = p->stress[PLACE[k]];
@@ -78,9 +91,7 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
         a->dstran[k] = factor * p->strain_increment[PLACE[k]];
     }
     memcpy(a->statev, p->state, (size_t)law->n_state_values * sizeof *a->statev);
-    a->statev[law->n_state_values] = MOR_EXTERNAL_MARK;
     memcpy(a->props, law->constants, (size_t)law->n_constants * sizeof *a->props);
-    a->props[law->n_constants] = MOR_EXTERNAL_MARK;
     a->nstatv = law->n_state_values;
     a->nprops = law->n_constants;
     a->time[0] = a->time[1] = p->time;
@@ -94,14 +105,13 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
     memcpy(a->cmname, law->law, letters);
 }
 
-static bool are_marks_whole(const mor_interface_law *law, const arguments *a)
+static bool are_bands_whole(const mor_interface_law *law, arguments *a)
 {
-    const double marks[] = {a->mark_stress, a->mark_ddsdde, a->statev[law->n_state_values], a->mark_energies,
-                            a->mark_heat,   a->mark_strain, a->props[law->n_constants],     a->mark_time,
-                            a->mark_motion};
+    double *bands[BANDS];
     bool are_whole = true;
-    for (size_t k = 0; k < sizeof marks / sizeof *marks; ++k) {
-        are_whole = are_whole && marks[k] == MOR_EXTERNAL_MARK;
+    list_bands(law, a, bands);
+    for (int k = 0; k < BANDS; ++k) {
+        are_whole = are_whole && mor_external_band_is_whole(bands[k]);
     }
     return are_whole;
 }
@@ -113,7 +123,7 @@ static mor_status update(const mor_interface_law *law, mor_external_point *p)
     if (mor_guard_run(law->guard, call_umat, &a) != 0) {
         return MOR_ERROR_CRASH;
     }
-    if (!are_marks_whole(law, &a)) {
+    if (!are_bands_whole(law, &a)) {
         return MOR_ERROR_BOUNDS;
     }
     for (int k = 0; k < COMPONENTS; ++k) {

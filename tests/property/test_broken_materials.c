@@ -47,6 +47,10 @@ static const struct {
      1, "crashed (Segmentation fault) while this was tried: timing an update"},
     {"s/{stress\\[0\\], stress\\[3\\], stress\\[5\\], stress\\[3\\]/{stress[0], stress[4], stress[5], stress[3]/", 1,
      "FAIL  a rigid spin keeps the invariants"},
+    {"s/batch->dissipation\\[i\\] = /batch->dissipation[i] = 0.0 * /", 1, "FAIL  work is stored or dissipated"},
+    {"s/batch->dissipation\\[i\\] = /batch->dissipation[i] = 3.0 * /", 1, "found with: shear_modulus = "},
+    {"s/speed\\[i\\] = sqrt/speed[i] = 0.3 * sqrt/", 1, "FAIL  the wave speed is not below sqrt(K/density): 2.3"},
+    {"s/+= 0.5 \\* (increment\\[/-= 0.5 * (increment[/", 1, "FAIL  a small strain from no stress is resisted"},
 };
 
 static void broken_laws_are_caught_and_named(void **state)

@@ -246,6 +246,85 @@ static void a_law_without_a_yield_surface_is_not_said_to_end_on_it(void **state)
     assert_int_equal(conformance_find(&report, CONFORMANCE_NO_YIELD_SURFACE)->verdict, MOR_VERDICT_PASS);
 }
 
+static mor_status tell_fast_waves(const mor_material_instance *instance, const mor_batch *batch, double *speed)
+{
+    const mor_status status = law_named("tresca")->operations.wave_speed(instance, batch, speed);
+    for (int64_t i = 0; i < batch->n; ++i) {
+        speed[i] *= 20.0;
+    }
+    return status;
+}
+
+static void a_wave_speed_far_above_the_stiffness_is_told(void **state)
+{
+    (void)state;
+    const double clay[] = {1e7, 0.3, 1e4, 0, 1};
+    mor_conformance_report report;
+    mor_material fast = *law_named("tresca");
+    fast.operations.wave_speed = tell_fast_waves;
+    conformance_run(&fast, clay, &report);
+    const mor_conformance_row *row = conformance_find(&report, "wave speed is not below");
+    assert_int_equal(row->verdict, MOR_VERDICT_PASS);
+    assert_non_null(strstr(row->note, "but wave_speed is 20 times sqrt(K/density)"));
+}
+
+/* What is told of a failure is found again from it alone: the stress that the step starts with leaves the cone. */
+static void a_failure_is_told_with_what_it_was_found_with(void **state)
+{
+    (void)state;
+    const double soil[MOR_DRUCKER_PRAGER_COUNT] = {5.98e6, 0.3, 0.52, 1e3, 0.1, 0, 1};
+    mor_material spoiled = *law_named("drucker_prager");
+    mor_conformance_report report;
+    double s[6];
+    double l[9];
+    double strain;
+    double step;
+    spoiled.operations.advance_rate = advance_spoiled_4;
+    conformance_run(&spoiled, soil, &report);
+    const mor_conformance_row *row = conformance_find(&report, CONFORMANCE_NO_YIELD_SURFACE);
+    assert_int_equal(row->verdict, MOR_VERDICT_FAIL);
+    assert_non_null(strstr(row->input,
+                           "found with: youngs_modulus = 5980000 Pa; poissons_ratio = 0.3; friction_angle = "
+                           "0.52 rad; cohesion = 1000 Pa"));
+    assert_non_null(strstr(row->input, "density = 2000 kg/m3\n"));
+    const char *start = strstr(row->input, "stress = (");
+    const char *motion = strstr(row->input, "velocity gradient = (");
+    assert_non_null(start);
+    assert_non_null(motion);
+    assert_int_equal(sscanf(start,
+                            "stress = (%lf, %lf, %lf, %lf, %lf, %lf) Pa (xx, yy, zz, xy, yz, zx; tension "
+                            "positive); plastic_strain = %lf",
+                            s, s + 1, s + 2, s + 3, s + 4, s + 5, &strain),
+                     7);
+    assert_int_equal(sscanf(motion,
+                            "velocity gradient = (%lf, %lf, %lf, %lf, %lf, %lf, %lf, %lf, %lf) 1/s (row by "
+                            "row); time step = %lf s",
+                            l, l + 1, l + 2, l + 3, l + 4, l + 5, l + 6, l + 7, l + 8, &step),
+                     10);
+    mor_context context;
+    mor_material_instance *instance = NULL;
+    double out[6];
+    double distance;
+    const double density = 2000.0;
+    const double *state_in[] = {&strain};
+    double *state_out[] = {&strain};
+    mor_context_init(&context);
+    assert_int_equal(mor_material_create(&context, &spoiled, density, soil, &instance), MOR_OK);
+    mor_batch batch = {.n = 1,
+                       .time_step = step,
+                       .density = &density,
+                       .velocity_gradient = l,
+                       .stress_in = s,
+                       .stress_out = out,
+                       .state_in = state_in,
+                       .state_out = state_out};
+    assert_int_equal(instance->operations.advance_rate(instance, &batch), MOR_OK);
+    batch.stress_in = out;
+    assert_int_equal(instance->operations.admissible(instance, &batch, &distance), MOR_OK);
+    assert_true(distance > 1e3); /* of 1e5 Pa that the spoiled law adds */
+    mor_material_destroy(&context, &instance);
+}
+
 static mor_verdict judge_spin(const mor_material *material, const double *values)
 {
     mor_conformance_report report;
@@ -418,6 +497,8 @@ int main(void)
         cmocka_unit_test(special_rocks_obey_all_laws),
         cmocka_unit_test(each_law_notices_its_breach),
         cmocka_unit_test(a_law_without_a_yield_surface_is_not_said_to_end_on_it),
+        cmocka_unit_test(a_wave_speed_far_above_the_stiffness_is_told),
+        cmocka_unit_test(a_failure_is_told_with_what_it_was_found_with),
         cmocka_unit_test(spin_is_compared_with_rest_where_stress_relaxes),
         cmocka_unit_test(a_leak_is_noticed),
         cmocka_unit_test(total_form_is_tried_by_its_own_laws),

@@ -97,6 +97,16 @@ static const char *find_crash(const trial *it)
     return it->is_timing ? "timing an update" : n > 0 ? it->report.rows[n - 1].law : "making an instance";
 }
 
+/* What a failure was found with, below its line. */
+static void print_input(FILE *out, const char *input)
+{
+    while (input[0] != '\0') {
+        const size_t length = strcspn(input, "\n");
+        fprintf(out, "        %.*s\n", (int)length, input);
+        input += length + (input[length] == '\n');
+    }
+}
+
 /* Prints what was found; the law in which a model crashed has no result. */
 static mor_status try_material(mor_session *session, trial *it, int *n_failed)
 {
@@ -107,6 +117,7 @@ static mor_status try_material(mor_session *session, trial *it, int *n_failed)
     for (int k = 0; k < n_rows; ++k) {
         mor_conformance_format(&it->report.rows[k], line, sizeof line);
         fprintf(session->output, "  %s\n", line);
+        print_input(session->output, it->report.rows[k].input);
     }
     MOR_CHECK(&session->context, signal == 0, MOR_ERROR_PLUGIN, "material '%s' crashed (%s) while this was tried: %s",
               it->material->name, strsignal(signal), find_crash(it));

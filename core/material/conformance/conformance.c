@@ -98,7 +98,11 @@ static void run_laws(mor_bench *bench, const mor_bench_entry *laws, mor_conforma
             report->n_rows = *place;
             *row = (mor_conformance_row){.law = entry->law, .tolerance = entry->tolerance, .reason = entry->reason};
         }
+        bench->tried.failed = -1;
         entry->run(bench, row);
+        if (row->verdict == MOR_VERDICT_FAIL) {
+            mor_bench_record(bench, row, bench->tried.failed);
+        }
         mor_context_clear_error(bench->context);
     }
 }
@@ -113,6 +117,7 @@ static void run_set(mor_bench *bench, mor_conformance_report *report)
         *row = (mor_conformance_row){.law = "wave speed is usable and ordinary paths can be followed",
                                      .reason = "exact: no path may stop"};
     }
+    bench->tried.failed = -1;
     mor_status status = mor_bench_measure(bench);
     if (status == MOR_OK) {
         status = mor_bench_prepare(bench);
@@ -121,6 +126,7 @@ static void run_set(mor_bench *bench, mor_conformance_report *report)
     if (status != MOR_OK) {
         mor_bench_fail(row, "wave speed, init_state, max_step or a step of 5e-4 strain failed: %s",
                        mor_status_text(status));
+        mor_bench_record(bench, row, bench->tried.failed);
         return;
     }
     const int is_rate = bench->material->form == MOR_MATERIAL_RATE;
@@ -165,6 +171,7 @@ mor_status mor_conformance_run(mor_context *context, const mor_material *materia
     bench->context = context;
     bench->material = material;
     bench->density = density;
+    bench->is_recording = 1;
     bench->n_out = material->form == MOR_MATERIAL_RATE ? 6 : 9;
     const mor_status status = run_all_sets(context, bench, parameters, report);
     MOR_FREE(context, &bench);

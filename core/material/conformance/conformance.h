@@ -9,7 +9,7 @@
  *  The laws that every material must obey, built in or plugged in, tried with random, extreme and special input. It
  *  needs no particles, prints nothing, and gives the same figures in every run. */
 
-enum { MOR_CONFORMANCE_ROWS_MAX = 40, MOR_CONFORMANCE_NOTE_BYTES = 256 };
+enum { MOR_CONFORMANCE_ROWS_MAX = 40, MOR_CONFORMANCE_NOTE_BYTES = 256, MOR_CONFORMANCE_INPUT_BYTES = 4096 };
 
 /** Outcome of one law. */
 typedef enum mor_verdict { MOR_VERDICT_PASS, MOR_VERDICT_FAIL, MOR_VERDICT_SKIP } mor_verdict;
@@ -18,10 +18,12 @@ typedef enum mor_verdict { MOR_VERDICT_PASS, MOR_VERDICT_FAIL, MOR_VERDICT_SKIP 
 typedef struct mor_conformance_row {
     const char *law; /* a statement, static */
     mor_verdict verdict;
-    double figure;                         /* worst value found; dimensionless, 1 */
-    double tolerance;                      /* largest allowed figure; dimensionless, 1 */
-    const char *reason;                    /* why this tolerance, static */
-    char note[MOR_CONFORMANCE_NOTE_BYTES]; /* what went wrong, or why it was skipped; zero-terminated, may be empty */
+    double figure;                           /* worst value found; dimensionless, 1 */
+    double tolerance;                        /* largest allowed figure; dimensionless, 1 */
+    const char *reason;                      /* why this tolerance, static */
+    char note[MOR_CONFORMANCE_NOTE_BYTES];   /* what went wrong, or why it was skipped; zero-terminated, may be empty */
+    char input[MOR_CONFORMANCE_INPUT_BYTES]; /* what the first failure was found with: lines of parameters and density,
+                                                start and step, '\n' between them; zero-terminated, empty: no failure */
 } mor_conformance_row;
 
 /** The table. */
@@ -44,6 +46,7 @@ mor_status mor_conformance_run(mor_context *context, const mor_material *materia
                                double density, mor_conformance_report *report);
 
 /** Writes one row as a line for people: verdict, law, figure, tolerance and its reason, note.
+ *  The input is left out.
  *  @param text       [out]  shape [text_bytes]; zero-terminated, cut when too long
  *  @param text_bytes [in]   room in text in bytes, > 0; 1024 always suffices */
 void mor_conformance_format(const mor_conformance_row *row, char *text, size_t text_bytes);

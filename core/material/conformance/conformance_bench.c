@@ -133,7 +133,30 @@ static int count_state_numbers(const mor_bench *bench)
     return n_numbers;
 }
 
-mor_status mor_bench_evaluate(const mor_bench *bench, const mor_material_instance *instance, mor_bench_arrays *arrays,
+/* Keeps what a range of particles begins with. */
+static void keep_start(mor_bench *bench, const mor_bench_arrays *arrays, int64_t first, int64_t n)
+{
+    mor_bench_tried *tried = &bench->tried;
+    int64_t offset = 0;
+    tried->failed = -1;
+    for (int k = 0; k < bench->instance->n_state; ++k) {
+        const int64_t n_components = bench->material->state[k].n_components;
+        const int64_t at = offset + first * n_components;
+        memcpy(tried->state + at, arrays->state + at, (size_t)(n * n_components) * sizeof(double));
+        offset += n_components * N;
+    }
+    memcpy(tried->stress + 6 * first, arrays->stress + 6 * first, (size_t)n * 6 * sizeof(double));
+    memcpy(tried->motion + 9 * first, arrays->motion + 9 * first, (size_t)n * 9 * sizeof(double));
+    memcpy(tried->extra + 6 * first, arrays->extra + 6 * first, (size_t)n * 6 * sizeof(double));
+}
+
+void mor_bench_recall(mor_bench *bench, const mor_bench_arrays *start, const mor_bench_arrays *motion)
+{
+    keep_start(bench, start, 0, N);
+    memcpy(bench->tried.motion, motion->motion, sizeof bench->tried.motion);
+}
+
+mor_status mor_bench_evaluate(mor_bench *bench, const mor_material_instance *instance, mor_bench_arrays *arrays,
                               int64_t first, int64_t n)
 {
     const double *state_in[MOR_MATERIAL_STATES_MAX] = {0};
@@ -144,6 +167,9 @@ mor_status mor_bench_evaluate(const mor_bench *bench, const mor_material_instanc
         state_in[k] = arrays->state + offset + first * n_components;
         state_out[k] = (arrays->is_in_place ? arrays->state : arrays->state_out) + offset + first * n_components;
         offset += (int64_t)n_components * N;
+    }
+    if (bench->is_recording) {
+        keep_start(bench, arrays, first, n);
     }
     int64_t failed = -1;
     mor_batch batch = {.n = n,
@@ -156,14 +182,18 @@ mor_status mor_bench_evaluate(const mor_bench *bench, const mor_material_instanc
     if (bench->material->form == MOR_MATERIAL_TOTAL) {
         batch.deformation_gradient = arrays->motion + 9 * first;
         batch.first_piola_out = arrays->out + 9 * first;
-        return instance->operations.stress_total(instance, &batch);
+        const mor_status status = instance->operations.stress_total(instance, &batch);
+        bench->tried.failed = status != MOR_OK && failed >= 0 && failed < n ? (int)(first + failed) : -1;
+        return status;
     }
     batch.velocity_gradient = arrays->motion + 9 * first;
     batch.extra_stress_rate = arrays->extra + 6 * first;
     batch.stress_out = (arrays->is_in_place ? arrays->stress : arrays->out) + 6 * first;
     batch.dissipation =
         (bench->material->capabilities & MOR_MATERIAL_DISSIPATION) != 0 ? arrays->dissipation + first : NULL;
-    return instance->operations.advance_rate(instance, &batch);
+    const mor_status status = instance->operations.advance_rate(instance, &batch);
+    bench->tried.failed = status != MOR_OK && failed >= 0 && failed < n ? (int)(first + failed) : -1;
+    return status;
 }
 
 mor_status mor_bench_step(mor_bench *bench, mor_bench_arrays *arrays)
@@ -192,6 +222,26 @@ double mor_bench_count_different(const mor_bench *bench, const mor_bench_arrays 
         n_different += memcmp(&a->dissipation[i], &b->dissipation[i], sizeof(double)) != 0;
     }
     return (double)n_different;
+}
+
+int mor_bench_find_different(const mor_bench *bench, const mor_bench_arrays *a, const mor_bench_arrays *b)
+{
+    const int n_out = bench->n_out;
+    for (int i = 0; i < N; ++i) {
+        int is_different = memcmp(a->out + n_out * i, b->out + n_out * i, (size_t)n_out * sizeof(double)) != 0;
+        int64_t offset = 0;
+        for (int k = 0; k < bench->instance->n_state; ++k) {
+            const int64_t n = bench->material->state[k].n_components;
+            is_different |=
+                memcmp(a->state_out + offset + n * i, b->state_out + offset + n * i, (size_t)n * sizeof(double)) != 0;
+            offset += n * N;
+        }
+        if (is_different || ((bench->material->capabilities & MOR_MATERIAL_DISSIPATION) != 0 &&
+                             memcmp(&a->dissipation[i], &b->dissipation[i], sizeof(double)) != 0)) {
+            return i;
+        }
+    }
+    return -1;
 }
 
 mor_status mor_bench_measure(mor_bench *bench)
@@ -240,9 +290,8 @@ static void draw_motion(const mor_bench *bench, mor_bench_arrays *arrays, uint64
     }
 }
 
-static mor_status init_start_state(mor_bench *bench)
+static mor_status init_state(const mor_bench *bench, mor_bench_arrays *start)
 {
-    mor_bench_arrays *start = &bench->start;
     double *state_out[MOR_MATERIAL_STATES_MAX] = {0};
     int64_t offset = 0;
     for (int k = 0; k < bench->instance->n_state; ++k) {
@@ -253,14 +302,19 @@ static mor_status init_start_state(mor_bench *bench)
     return bench->instance->operations.init_state(bench->instance, &batch);
 }
 
+mor_status mor_bench_rest(const mor_bench *bench, mor_bench_arrays *arrays)
+{
+    memset(arrays, 0, sizeof *arrays);
+    for (int64_t i = 0; i < N; ++i) {
+        arrays->density[i] = bench->density;
+    }
+    return init_state(bench, arrays);
+}
+
 mor_status mor_bench_prepare(mor_bench *bench)
 {
     mor_bench_arrays *start = &bench->start;
-    memset(start, 0, sizeof *start);
-    for (int64_t i = 0; i < N; ++i) {
-        start->density[i] = bench->density;
-    }
-    mor_status status = init_start_state(bench);
+    mor_status status = mor_bench_rest(bench, start);
     const uint64_t n_steps = bench->material->form == MOR_MATERIAL_TOTAL ? 0 : PATH_STEPS;
     for (uint64_t step = 0; step < n_steps && status == MOR_OK; ++step) {
         draw_motion(bench, start, step);

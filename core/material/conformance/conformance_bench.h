@@ -28,6 +28,15 @@ typedef struct mor_bench_arrays {
     double state_out[MOR_BENCH_NUMBERS * MOR_BENCH_PARTICLES]; /* end, likewise; units of the schema */
 } mor_bench_arrays;
 
+/** What the last evaluation began with. */
+typedef struct mor_bench_tried {
+    double stress[6 * MOR_BENCH_PARTICLES];                /* Pa */
+    double motion[9 * MOR_BENCH_PARTICLES];                /* velocity gradient, 1/s, or deformation gradient, 1 */
+    double extra[6 * MOR_BENCH_PARTICLES];                 /* Pa/s */
+    double state[MOR_BENCH_NUMBERS * MOR_BENCH_PARTICLES]; /* as in mor_bench_arrays; units of the schema */
+    int failed;                                            /* the particle that stopped it; -1: none */
+} mor_bench_tried;
+
 /** The bench. Owner: mor_conformance_run. */
 typedef struct mor_bench {
     mor_context *context;
@@ -42,6 +51,8 @@ typedef struct mor_bench {
     mor_bench_arrays start; /* admissible start states and a motion for one step */
     mor_bench_arrays work;  /* scratch of a law */
     mor_bench_arrays other; /* scratch of a law */
+    int is_recording;       /* non-zero: tried is filled in */
+    mor_bench_tried tried;
 } mor_bench;
 
 /** A law: sets figure and verdict of the row; the caller has filled in the rest. */
@@ -81,7 +92,7 @@ mor_status mor_bench_prepare(mor_bench *bench);
  *  @param first    [in]      first particle
  *  @param n        [in]      number of particles
  *  Returns: MOR_OK; the status of the operation. */
-mor_status mor_bench_evaluate(const mor_bench *bench, const mor_material_instance *instance, mor_bench_arrays *arrays,
+mor_status mor_bench_evaluate(mor_bench *bench, const mor_material_instance *instance, mor_bench_arrays *arrays,
                               int64_t first, int64_t n);
 
 /** As mor_bench_evaluate over all particles with the bench's instance, then makes the end the next start.
@@ -96,6 +107,13 @@ double mor_bench_largest(const double *values, int64_t n);
 /** Number (unit 1) of output components that differ in a bit: out, state_out and, where filled, dissipation. */
 double mor_bench_count_different(const mor_bench *bench, const mor_bench_arrays *a, const mor_bench_arrays *b);
 
+/** The first particle of which mor_bench_count_different tells a difference; -1: none. Unit 1. */
+int mor_bench_find_different(const mor_bench *bench, const mor_bench_arrays *a, const mor_bench_arrays *b);
+
+/** Fills start with the initial state at no stress, without motion.
+ *  Returns: MOR_OK; the status of init_state. */
+mor_status mor_bench_rest(const mor_bench *bench, mor_bench_arrays *arrays);
+
 /** Uniform number in [-1, 1), 1, for a particle and a purpose. */
 double mor_bench_random(const mor_bench *bench, int64_t particle, uint64_t purpose);
 
@@ -107,5 +125,20 @@ void mor_bench_skip(mor_conformance_row *row, const char *note);
 
 /** Takes a figure into a row: the worst counts, and one above the tolerance (or NaN) fails it. Unit 1. */
 void mor_bench_take(mor_conformance_row *row, double figure);
+
+/** As mor_bench_take, of a particle, whose input is kept where it is the first that fails.
+ *  @param particle [in]  -1: none
+ *  @param figure   [in]  1 */
+void mor_bench_take_at(const mor_bench *bench, mor_conformance_row *row, int particle, double figure);
+
+/** Writes what an evaluation began with into a row that has none yet: parameters and density; of a particle also
+ *  stress, state, motion and time step.
+ *  @param particle [in]  -1: none */
+void mor_bench_record(const mor_bench *bench, mor_conformance_row *row, int particle);
+
+/** Makes tried the start of a path of several steps, of which a law takes figures at its end.
+ *  @param start  [in]  whose stress and state are meant
+ *  @param motion [in]  whose motion is meant */
+void mor_bench_recall(mor_bench *bench, const mor_bench_arrays *start, const mor_bench_arrays *motion);
 
 #endif

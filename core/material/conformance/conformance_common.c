@@ -37,7 +37,8 @@ static void compare_parts(mor_bench *bench, mor_conformance_row *row, int64_t fi
         first = end;
         end = end + stride < N ? end + stride : N;
     }
-    mor_bench_take(row, mor_bench_count_different(bench, &bench->work, &bench->other));
+    mor_bench_take_at(bench, row, mor_bench_find_different(bench, &bench->work, &bench->other),
+                      mor_bench_count_different(bench, &bench->work, &bench->other));
 }
 
 static void equal_one_by_one(mor_bench *bench, mor_conformance_row *row)
@@ -248,6 +249,10 @@ static void scale_with_units(mor_bench *bench, mor_conformance_row *row)
     /* A model that promises exactness is held to it; another may differ by its own tolerances. */
     const double n_different = mor_bench_count_different(bench, &bench->work, &bench->other);
     mor_bench_take(row, is_exact ? n_different : largest_relative_change(bench, &bench->work, &bench->other));
+    if (row->verdict == MOR_VERDICT_FAIL) {
+        mor_bench_recall(bench, &bench->start, &bench->start);
+        mor_bench_record(bench, row, mor_bench_find_different(bench, &bench->work, &bench->other));
+    }
 }
 
 /* The wrapper. */
@@ -332,7 +337,7 @@ static void never_pass_not_a_number(mor_bench *bench, mor_conformance_row *row)
                 continue;
             }
             for (int64_t k = 0; k < (int64_t)bench->n_out * N; ++k) {
-                mor_bench_take(row, isfinite(bench->work.out[k]) ? 0.0 : 1.0);
+                mor_bench_take_at(bench, row, (int)(k / bench->n_out), isfinite(bench->work.out[k]) ? 0.0 : 1.0);
             }
         }
     }

@@ -45,7 +45,7 @@ static void balance_moments(mor_bench *bench, mor_conformance_row *row)
         for (int a = 0; a < 3; ++a) {
             const int b = (a + 1) % 3;
             const double skew = mor_vector_dot(p + 3 * a, f + 3 * b) - mor_vector_dot(p + 3 * b, f + 3 * a);
-            mor_bench_take(row, fabs(skew) / bench->modulus);
+            mor_bench_take_at(bench, row, i, fabs(skew) / bench->modulus);
         }
     }
 }
@@ -77,7 +77,7 @@ static void rotate_with_the_frame(mor_bench *bench, mor_conformance_row *row)
     }
     rotate_all(q, bench->work.out, expected);
     for (int k = 0; k < 9 * N; ++k) {
-        mor_bench_take(row, fabs(bench->other.out[k] - expected[k]) / bench->modulus);
+        mor_bench_take_at(bench, row, k / 9, fabs(bench->other.out[k] - expected[k]) / bench->modulus);
     }
 }
 
@@ -122,7 +122,7 @@ static void derive_from_energy(mor_bench *bench, mor_conformance_row *row)
         for (int i = 0; i < N; ++i) {
             const double slope = (plus[i] - minus[i]) / (2.0 * SHIFT);
             const double miss = both == MOR_OK ? fabs(slope - bench->work.out[9 * i + c]) : INFINITY;
-            mor_bench_take(row, miss / bench->modulus);
+            mor_bench_take_at(bench, row, i, miss / bench->modulus);
         }
     }
 }

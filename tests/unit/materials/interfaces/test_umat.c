@@ -370,7 +370,8 @@ static void broken_laws_are_told_by_the_law_of_mechanics_that_they_break(void **
         const char *part;
     } cases[] = {{1.0, "the computation failed"},
                  {6.0, "a superposed rotation turns the stress with it"},
-                 {7.0, "a superposed rotation turns the stress with it"}};
+                 {7.0, "a superposed rotation turns the stress with it"},
+                 {15.0, "a small strain from no stress is resisted"}};
     char text[40 * 1024];
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         const double constants[3] = {3e6, 0.25, cases[k].fault};
@@ -431,6 +432,32 @@ static void faults_in_a_step_become_its_status(void **state)
     assert_int_equal(sigaction(SIGSEGV, &before, NULL), 0);
 }
 
+/* Numbers behind the state variables, written or added to. */
+static void writes_behind_the_state_are_caught(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const names[] = {"q"};
+    static const double faults[] = {16.0, 17.0, 18.0, 19.0};
+    for (int k = 0; k < 4; ++k) {
+        const double constants[3] = {3e6, 0.25, faults[k]};
+        const mor_external_request request = {.constants = constants, .n_constants = 3, .states = names, .n_states = 1};
+        if (k < 2) { /* in its first call */
+            mor_external_law *law = NULL;
+            mor_material_instance *instance = NULL;
+            assert_int_equal(make_law(folder, "umat_faults", &request, &law), MOR_OK);
+            assert_int_equal(mor_material_create(&folder->context, &law->material, density, parameters, &instance),
+                             MOR_ERROR_PLUGIN);
+            assert_non_null(strstr(folder->context.message, "wrote outside its arrays"));
+            mor_external_free(&folder->context, &law);
+        } else {
+            specimen it;
+            start(folder, &it, "umat_faults", &request);
+            assert_int_equal(step(&it, (const double[9]){1e-6}, NULL, 1.0, it.stress, it.state), MOR_ERROR_BOUNDS);
+            end(folder, &it);
+        }
+    }
+}
+
 static void library_that_fails_in_its_first_call_is_refused(void **state)
 {
     run_folder *folder = *state;
@@ -489,6 +516,7 @@ int main(void)
         UMAT_TEST(sound_laws_obey_all_laws_of_mechanics),
         UMAT_TEST(broken_laws_are_told_by_the_law_of_mechanics_that_they_break),
         UMAT_TEST(faults_in_a_step_become_its_status),
+        UMAT_TEST(writes_behind_the_state_are_caught),
         UMAT_TEST(library_that_fails_in_its_first_call_is_refused),
         UMAT_TEST(request_that_cannot_be_met_is_refused),
     };

@@ -1,0 +1,23 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_MATERIALS_INTERFACES_BAND_H
+#define MOR_MATERIALS_INTERFACES_BAND_H
+
+#include <stdbool.h>
+
+/** @file
+ *  A band of numbers behind an array that a law of another program gets, to see whether it writes there. For
+ *  materials/interfaces only. */
+
+enum { MOR_EXTERNAL_BAND = 64 };
+
+/** Fills a band with numbers that differ from each other and that no law computes: of both signs, so that a bound from
+ *  either side changes them, and so small that whatever is added to them does.
+ *  @param band [out]  shape [MOR_EXTERNAL_BAND]; 1 */
+void mor_external_band_fill(double *band);
+
+/** Whether each bit of a band is as it was filled.
+ *  @param band [in]  shape [MOR_EXTERNAL_BAND]; 1 */
+bool mor_external_band_is_whole(const double *band);
+
+#endif
