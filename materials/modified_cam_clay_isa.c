@@ -315,8 +315,10 @@ static void modified_cam_clay_destroy(const mor_services *services, mor_material
 }
 
 static const mor_schema PARAMETERS[] = {
-    [COMPRESSION_INDEX] = {MOR_POSITIVE_ENTRY("compression_index", "1", 1.0,
-                                              "lambda: slope of the virgin line, void ratio over ln p"),
+    [COMPRESSION_INDEX] = {MOR_POSITIVE_ENTRY(
+                               "compression_index", "1", 1.0,
+                               "lambda: slope of the virgin line, void ratio over ln p; 1 + e0 is kept, so that the "
+                               "line is straight in the volumetric strain"),
                            .is_required = 1},
     [SWELLING_INDEX] = {MOR_POSITIVE_ENTRY("swelling_index", "1", 0.5,
                                            "kappa: slope of unloading, void ratio over ln p, below lambda"),

@@ -11,7 +11,8 @@
 /* Step 1: the parameters, in the order in which create finds them. Moraine reads them from the case file, converts the
  * units, checks the ranges and prints them into every output. The role says what a parameter means to the rest of the
  * program: stress at rest, stiffness in contact and warnings need friction angle, cohesion and moduli, whatever their
- * keys. */
+ * keys. A parameter that may be left out of a case has, in place of .is_required = 1, a default in its unit, as
+ * .default_value = 2e3. */
 enum { SHEAR_MODULUS, BULK_MODULUS, UNDRAINED_STRENGTH };
 
 static const mor_schema PARAMETERS[] = {

@@ -205,6 +205,10 @@ class Install:
         folder = os.path.join(self.scratch, "my_umat")
         shutil.copytree(os.path.join(self.prefix, "share/moraine/template_umat"), folder)
         run([compiler, "-O2", "-shared", "-fPIC", "-o", "libumat.so", "drucker_prager.f90"], cwd=folder)
+        with open(os.path.join(folder, "fixed.f"), "w", encoding="utf-8") as file:
+            file.write("      SUBROUTINE UMAT(A)\n      INCLUDE 'ABA_PARAM.INC'\n"
+                       "      DIMENSION A(nprecd)\n      END\n")
+        run([compiler, "-c", "-I", ".", "fixed.f"], cwd=folder)
         table = run([self.program, "check-material", "heap.cfg"], env=self.env, cwd=folder)
         expect("soil 'sand': umat" in table and "failed" not in table, table)
         run([self.program, "run", "heap.cfg", "-o", "results", "--set", "end=0.1 s", "--set", "output.pictures=false"],

@@ -116,6 +116,20 @@ static void six_unit_strains_give_the_columns_of_the_stiffness(void **state)
     end(folder, &it);
 }
 
+/* A source as it is written for Abaqus, with its usual include file. */
+static void a_fixed_form_source_with_the_include_file_computes_in_double_precision(void **state)
+{
+    run_folder *folder = *state;
+    const double constants[2] = {3e6, 0.25}; /* G = 1.2 MPa, lambda = 1.2 MPa */
+    specimen it;
+    start(folder, &it, "umat_fixed_form", &(mor_external_request){.constants = constants, .n_constants = 2});
+    const double gradient[9] = {1e-3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    assert_int_equal(step(&it, gradient, NULL, 1.0, it.stress, it.state), MOR_OK);
+    assert_true(fabs(it.stress[0] - 3.6e3) < 1e-9); /* rounding of double precision; single has 2e-4 */
+    assert_true(fabs(it.stress[1] - 1.2e3) < 1e-9 && fabs(it.stress[2] - 1.2e3) < 1e-9);
+    end(folder, &it);
+}
+
 static void wave_speed_is_that_of_the_bulk_modulus_of_the_stiffness(void **state)
 {
     run_folder *folder = *state;
@@ -506,6 +520,7 @@ int main(void)
 #define UMAT_TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
     const struct CMUnitTest tests[] = {
         UMAT_TEST(six_unit_strains_give_the_columns_of_the_stiffness),
+        UMAT_TEST(a_fixed_form_source_with_the_include_file_computes_in_double_precision),
         UMAT_TEST(wave_speed_is_that_of_the_bulk_modulus_of_the_stiffness),
         UMAT_TEST(law_without_stiffness_needs_a_wave_speed),
         UMAT_TEST(law_is_told_time_strain_rotation_and_deformation),
