@@ -220,17 +220,6 @@ static mor_status drucker_prager_admissible(const mor_material_instance *instanc
     return MOR_OK;
 }
 
-static mor_status check_dilation(const mor_services *services, const char *dilation_key, double dilation,
-                                 const char *friction_key, double friction)
-{
-    return dilation <= friction
-               ? MOR_OK
-               : MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
-                                   "drucker_prager: %s is %g rad, more than %s %g rad: such flow would create energy; "
-                                   "use at most the friction angle",
-                                   dilation_key, dilation, friction_key, friction);
-}
-
 /* Residual values as they are meant: a friction angle of 0 stands for that of the start. */
 static void read_residual(const double *value, double *residual)
 {
@@ -245,8 +234,8 @@ static mor_status check_residual(const mor_services *services, const double *val
     double residual[STRENGTH_COUNT];
     read_residual(value, residual);
     if (value[MOR_DRUCKER_PRAGER_RESIDUAL_STRAIN] > 0.0) {
-        return check_dilation(services, "residual_dilation_angle", residual[DILATION], "residual_friction_angle",
-                              residual[FRICTION]);
+        return mor_frictional_check_dilation(services, "drucker_prager", "residual_dilation_angle", residual[DILATION],
+                                             "residual_friction_angle", residual[FRICTION]);
     }
     if (value[MOR_DRUCKER_PRAGER_RESIDUAL_FRICTION_ANGLE] > 0.0 || residual[COHESION] > 0.0 ||
         residual[DILATION] > 0.0) {
@@ -261,8 +250,9 @@ static mor_status check_residual(const mor_services *services, const double *val
 static mor_status check_parameters(const mor_services *services, const double *value)
 {
     const double tension_ratio = value[MOR_DRUCKER_PRAGER_TENSION_RATIO];
-    mor_status status = check_dilation(services, "dilation_angle", value[MOR_DRUCKER_PRAGER_DILATION_ANGLE],
-                                       "friction_angle", value[MOR_DRUCKER_PRAGER_FRICTION_ANGLE]);
+    mor_status status = mor_frictional_check_dilation(services, "drucker_prager", "dilation_angle",
+                                                      value[MOR_DRUCKER_PRAGER_DILATION_ANGLE], "friction_angle",
+                                                      value[MOR_DRUCKER_PRAGER_FRICTION_ANGLE]);
     if (status == MOR_OK) {
         status = check_residual(services, value);
     }

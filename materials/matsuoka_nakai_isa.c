@@ -226,14 +226,12 @@ static mor_status matsuoka_nakai_create(const mor_services *services, mor_materi
 {
     const double *value = instance->parameters;
     const double friction_angle = value[FRICTION_ANGLE];
-    if (value[DILATION_ANGLE] > friction_angle) {
-        return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
-                                 "matsuoka_nakai: dilation_angle is %g rad, more than friction_angle %g rad: such flow "
-                                 "would create energy; use at most the friction angle",
-                                 value[DILATION_ANGLE], friction_angle);
+    mor_status status = mor_frictional_check_dilation(services, "matsuoka_nakai", "dilation_angle",
+                                                      value[DILATION_ANGLE], "friction_angle", friction_angle);
+    if (status == MOR_OK) {
+        status = services->memory_new(services->context, &instance->data, 1, sizeof(matsuoka_nakai),
+                                      "matsuoka_nakai constants");
     }
-    const mor_status status =
-        services->memory_new(services->context, &instance->data, 1, sizeof(matsuoka_nakai), "matsuoka_nakai constants");
     if (status != MOR_OK) {
         return status;
     }

@@ -126,19 +126,14 @@ static void set_tension(mohr_coulomb *model, double tension_ratio)
 
 static mor_status check_parameters(const mor_services *services, const double *value)
 {
-    if (value[DILATION_ANGLE] > value[FRICTION_ANGLE]) {
-        return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
-                                 "mohr_coulomb: dilation_angle is %g rad, more than friction_angle %g rad: such flow "
-                                 "would create energy; use at most the friction angle",
-                                 value[DILATION_ANGLE], value[FRICTION_ANGLE]);
-    }
     if (!(value[FRICTION_ANGLE] > 0.0) && value[TENSION_RATIO] > 0.0 && value[TENSION_RATIO] < 1.0) {
         return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
                                  "mohr_coulomb: tension_ratio is %g, but without friction the surface has no apex to "
                                  "take a part of; use 0 (no tension) or 1 (no limit)",
                                  value[TENSION_RATIO]);
     }
-    return MOR_OK;
+    return mor_frictional_check_dilation(services, "mohr_coulomb", "dilation_angle", value[DILATION_ANGLE],
+                                         "friction_angle", value[FRICTION_ANGLE]);
 }
 
 static mor_status mohr_coulomb_create(const mor_services *services, mor_material_instance *instance)

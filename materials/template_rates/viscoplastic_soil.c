@@ -76,13 +76,14 @@ static double find_slope(double angle)
 
 static mor_status soil_create(const mor_services *services, mor_material_instance *instance)
 {
+    static const double DEGREE = 0.01745329251994329577; /* rad */
     const double *value = instance->parameters;
     if (value[DILATION_ANGLE] > value[FRICTION_ANGLE]) {
         return MOR_SERVICES_FAIL(
             services, MOR_ERROR_ARGUMENT,
-            "viscoplastic_soil: dilation_angle is %g rad, more than friction_angle %g rad: such flow "
-            "would create energy; use at most the friction angle",
-            value[DILATION_ANGLE], value[FRICTION_ANGLE]);
+            "viscoplastic_soil: dilation_angle is %.6g deg, more than friction_angle %.6g deg: such "
+            "flow would create energy; use at most the friction angle",
+            value[DILATION_ANGLE] / DEGREE, value[FRICTION_ANGLE] / DEGREE);
     }
     const mor_status status =
         services->memory_new(services->context, &instance->data, 1, sizeof(soil), "viscoplastic_soil constants");

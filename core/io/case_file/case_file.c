@@ -186,9 +186,17 @@ static mor_status report_syntax(mor_context *context, const char *name, const ch
     const char *what = config_error_text(config);
     copy_snippet(text, line, snippet, sizeof snippet);
     if (what != NULL && strstr(what, "duplicate") != NULL) {
-        return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "%s:%d: found '%s', a name that this group already has; allowed: each name once; remove one",
-                        name, line, snippet);
+        char key[SNIPPET_BYTES + 8];
+        const int first = mor_case_scan_duplicate(context, text, (int64_t)strlen(text), line, key, sizeof key);
+        return first > 0
+                   ? MOR_FAIL(context, MOR_ERROR_CONFIG,
+                              "%s:%d: found '%s' again, which this group has in line %d; allowed: each name once; "
+                              "remove one",
+                              name, line, key, first)
+                   : MOR_FAIL(context, MOR_ERROR_CONFIG,
+                              "%s:%d: found '%s', a name that this group already has; allowed: each name once; "
+                              "remove one",
+                              name, line, snippet);
     }
     if (what != NULL && strstr(what, "mismatched") != NULL) {
         return MOR_FAIL(context, MOR_ERROR_CONFIG,

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <limits.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -328,4 +329,72 @@ mor_status mor_case_scan(mor_context *context, const char *name, const char *tex
                          s.open[last], closing_of(s.open[last]));
     }
     return MOR_OK;
+}
+
+/* ---- Names that a group has twice -------------------------------------------------------------------------------- */
+
+/* A setting: its name, and the depth of its group. */
+typedef struct setting {
+    int64_t at;     /* of the name */
+    int64_t length; /* of it */
+    int line, depth;
+} setting;
+
+/* Goes on behind the name of the next setting; begins, if not NULL, gets where the bracket at each depth begins. */
+static bool find_setting(scan *s, int64_t *begins, setting *found)
+{
+    setting word = {0, 0, 0, 0};
+    while (s->at < s->n_bytes) {
+        const int64_t at = s->at;
+        const int line = s->line;
+        const char c = peek(s, 0);
+        if (scan_token(s) != MOR_OK) {
+            return false; /* not of a text that was passed */
+        }
+        if (begins != NULL && (c == '{' || c == '(' || c == '[')) {
+            begins[s->depth] = s->at;
+        }
+        if (is_letter(c) || c == '*') {
+            word = (setting){at, s->at - at, line, s->depth};
+        }
+        if ((c == '=' || c == ':') && word.length > 0) {
+            *found = word;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Line of the setting of the same name that begins before, in a group that begins at a place; 0: none. */
+static int find_first(const scan *s, int64_t begin, const setting *it)
+{
+    scan group = {.context = s->context, .name = s->name, .text = s->text, .n_bytes = it->at, .at = begin, .line = 1};
+    setting other;
+    for (int64_t k = 0; k < begin; ++k) {
+        group.line += s->text[k] == '\n';
+    }
+    while (find_setting(&group, NULL, &other)) {
+        if (other.depth == 0 && other.length == it->length &&
+            memcmp(s->text + other.at, s->text + it->at, (size_t)it->length) == 0) {
+            return other.line;
+        }
+    }
+    return 0;
+}
+
+int mor_case_scan_duplicate(mor_context *context, const char *text, int64_t n_bytes, int line, char *key,
+                            size_t key_bytes)
+{
+    scan s = {.context = context, .name = "", .text = text, .n_bytes = n_bytes, .line = 1};
+    int64_t begins[MOR_CASE_SCAN_DEPTH_MAX + 1] = {0};
+    setting it;
+    key[0] = '\0';
+    while (find_setting(&s, begins, &it) && it.line <= line) {
+        const int first = it.line == line ? find_first(&s, begins[it.depth], &it) : 0;
+        if (first > 0) {
+            snprintf(key, key_bytes, "%.*s", (int)it.length, text + it.at);
+            return first;
+        }
+    }
+    return 0;
 }

@@ -25,4 +25,16 @@ enum {
  *  Cost: O(n_bytes). Threads: neither (reports into the context). */
 mor_status mor_case_scan(mor_context *context, const char *name, const char *text, int64_t n_bytes);
 
+/** Finds the first name on a line that its group has already had.
+ *  @param context    [in,out]  as of mor_case_scan
+ *  @param text       [in]   shape [n_bytes]; passed by mor_case_scan
+ *  @param n_bytes    [in]   length of text, >= 0
+ *  @param line       [in]   of the second one, > 0
+ *  @param key        [out]  shape [key_bytes]; zero-terminated, cut when too long; "" where there is none
+ *  @param key_bytes  [in]   room in key in bytes, > 0
+ *  Returns: the line of the first one, > 0; 0 where there is none.
+ *  Cost: O(n_bytes) for each name on the line. */
+int mor_case_scan_duplicate(mor_context *context, const char *text, int64_t n_bytes, int line, char *key,
+                            size_t key_bytes);
+
 #endif

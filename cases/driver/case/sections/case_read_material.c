@@ -103,10 +103,7 @@ static mor_status try_material(const mor_case_reader *reader, const mor_case_nod
     }
     char why[MOR_CONTEXT_MESSAGE_BYTES];
     snprintf(why, sizeof why, "%.1500s", reader->context->message);
-    return MOR_CASE_NODE_FAIL(reader->context, node,
-                              "found parameters that '%s' refuses: %s; allowed: values "
-                              "according to its reference; correct them",
-                              model->name, why);
+    return MOR_CASE_NODE_FAIL(reader->context, node, "found parameters that '%s' refuses: %s", model->name, why);
 }
 
 static mor_status read_parameters(const mor_case_reader *reader, const mor_case_node *node, const mor_schema *schemas,
