@@ -291,8 +291,10 @@ static void a_control_of_ones_own_compresses_in_plane_strain(void **state)
                                  "-o",       "out",
                                  "-s",       "youngs_modulus=10 MPa",
                                  "-s",       "poissons_ratio=0.3",
+                                 "-s",       "density=2.0", /* t/m3 were meant, of which nothing here depends */
                                  NULL};
     program_outcome outcome = program_run(folder, words, 0);
+    program_expect_text(outcome.errors, "soil 'hypoelastic' has a density of 2 kg/m3, which is not that of a soil");
     program_clear(&outcome);
     run_folder_file(folder, path, "out/specimen-1.csv");
     assert_int_equal(mor_table_data_read(&folder->context, &data, path), MOR_OK);

@@ -18,6 +18,7 @@
     "{model=\"hypoplastic_sand\"; density=2000; critical_friction_angle=0.58; granulate_hardness=4e9; exponent=0.27; " \
     "densest_void_ratio=0.68; critical_void_ratio=1.05; loosest_void_ratio=1.2; alpha=0.14; beta=2.5; "                \
     "void_ratio=0.8; "
+#define BACK "{name=\"back\"; friction=\"coulomb\"; shape={type=\"half_space\"; point=(0, 0); normal=(1, 0);}; "
 #define CLAY "{model=\"tresca\"; density=2000; youngs_modulus=2e6; poissons_ratio=0.3; "
 #define WALL(name, point, normal)                                                                                      \
     "{ name = '" name "'; friction = 'smooth'; shape = { type = 'half_space'; point = " point "; normal = " normal     \
@@ -98,6 +99,18 @@ static const scene columns[] = {
      "soil 's' begins with a lateral stress of 0.6 of the vertical one, but at its base its strength allows 0.984 to "
      "1.02: it yields at once; correct lateral_ratio, or the strength"},
     {"soil[0].material=" CLAY "undrained_strength=6e3;}", NULL},
+    /* An angle for its tangent, and pascals for kilopascals times a thousand. */
+    {"walls[1]=" BACK "friction_coefficient=40;}",
+     "wall 'back' has a friction_coefficient of 40, more than any surface: it is the tangent of the friction angle; "
+     "for an angle of 40 degrees write 0.839"},
+    {"walls[1]=" BACK "friction_coefficient=0.5; friction_with=({soil=\"t\"; friction=\"coulomb\"; "
+     "friction_coefficient=120;});}",
+     "wall 'back' has a friction_coefficient of 120 with soil t, more than any surface: it is the tangent of the "
+     "friction angle\n"},
+    {"walls[1]=" BACK "friction_coefficient=0.84;}", NULL},
+    {"soil[0].material.cohesion=5e6",
+     "soil 's' has cohesion = 5e+06 Pa beside its friction, more than any soil but rock"},
+    {"soil[0].material.cohesion=5e3", NULL},
     {"numerics.courant=1e-8", "end = 0.001 s takes about 1.11e+08 steps"},
     {"probes[0].percentile=0.995",
      "found percentile = 0.995, which is 0.995 %: percentiles are in percent; if 99.5 % is"},

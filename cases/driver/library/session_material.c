@@ -8,6 +8,7 @@
 #include "cases/driver/element/element_figure.h"
 #include "cases/driver/element/element_point.h"
 #include "cases/driver/element/element_test.h"
+#include "cases/driver/scene/check/plausible.h"
 #include "core/base/memory.h"
 #include "core/material/params.h"
 
@@ -253,6 +254,7 @@ static mor_status test_material(bench *it, const char *folder)
     }
     MOR_TRY(context, take_model(it, &words));
     MOR_TRY(context, mor_element_settings_read(context, it->material, it->list, it->n, &it->settings));
+    mor_plausible_warn_of_soil_density(context, it->material->name, it->settings.density);
     if (words.data != NULL) {
         MOR_TRY(context, mor_element_record_read(context, words.data, &it->data));
     }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/check/simulation_warnings.h"
 
+#include "cases/driver/scene/check/plausible.h"
 #include "cases/driver/scene/check/simulation_resolution.h"
 #include "cases/driver/scene/check/soil_neighbors.h"
 #include "cases/driver/scene/check/start_stress.h"
@@ -78,51 +79,6 @@ static void warn_of_stiffening(mor_context *context, const mor_simulation *s)
             "as the time step assumes: set numerics.courant = %.2g or less, or raise the pressure at which "
             "the law takes its speed of sound, if it has such a parameter",
             ratio, -(stress[0] + stress[1] + stress[2]) / 3.0, s->the_case->numerics.courant / ratio);
-    }
-}
-
-/* Densities outside those of any soil or rock: a unit is missing. */
-static void warn_of_density(mor_context *context, const char *what, const char *name, double density, double least,
-                            double largest)
-{
-    if (density < least || density > largest) {
-        mor_context_log(
-            context, MOR_LOG_WARNING,
-            "%s '%s' has a density of %.4g kg/m3, which is not that of a %s: a bare number is in kg/m3; give the unit, "
-            "such as \"%s\"",
-            what, name, density, what, strcmp(what, "soil") == 0 ? "1.8 t/m3" : "2.6 t/m3");
-    }
-}
-
-static void warn_of_modulus(mor_context *context, const char *what, const char *name, double modulus)
-{
-    const double least = 1.0e5; /* Pa; below, bodies of any size overlap deeply */
-    if (modulus > 0.0 && modulus < least) {
-        mor_context_log(
-            context, MOR_LOG_WARNING,
-            "%s '%s' has a contact_modulus of %.4g Pa, softer than any rock or wall: a bare number is in Pa; "
-            "give the unit, such as \"50 GPa\"",
-            what, name, modulus);
-    }
-}
-
-static void warn_of_moduli(mor_context *context, const mor_case *c)
-{
-    for (int k = 0; k < c->n_listed_bodies; ++k) {
-        warn_of_modulus(context, "body", c->bodies[k].name, c->bodies[k].contact_modulus);
-    }
-    for (int k = 0; k < c->n_walls; ++k) {
-        warn_of_modulus(context, "wall", c->walls[k].name, c->walls[k].contact_modulus);
-    }
-}
-
-static void warn_of_densities(mor_context *context, const mor_case *c)
-{
-    for (int k = 0; k < c->n_soils; ++k) {
-        warn_of_density(context, "soil", c->soils[k].name, c->soils[k].density, 100.0, 1.0e4);
-    }
-    for (int k = 0; k < c->n_listed_bodies; ++k) {
-        warn_of_density(context, "body", c->bodies[k].name, c->bodies[k].density, 5.0, 1.0e5);
     }
 }
 
@@ -263,8 +219,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
         warn_of_gas(context, simulation);
         warn_of_stiffening(context, simulation);
     }
-    warn_of_densities(context, c);
-    warn_of_moduli(context, c);
+    mor_plausible_warn(context, c);
     mor_wall_thickness_warn(context, c);
     mor_wall_seams_warn(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
