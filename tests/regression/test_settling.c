@@ -1,7 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Soil that does not come to rest before the start: why, by how much, and what it looks like. */
+#include "core/io/table.h"
 #include "tests/common/finished_run.h"
+#include "tests/common/near.h"
 #include "tests/common/program.h"
 
 /* A slope of 27 to 45 degrees, 2 m high, beside a smooth wall; ' stands for ". */
@@ -17,7 +19,8 @@ static const char slope[] =
     "  { name = 'back'; friction = 'smooth';"
     "    shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (1, 0); }; } );"
     "numerics = { stress_diffusion = 0; };"
-    "probes = ( { type = 'run_out'; } ); output = { pictures = false; snapshots = 1; };";
+    "probes = ( { type = 'run_out'; }, { type = 'wall_force'; wall = 'floor'; direction = (0, -1); } ); output = { "
+    "pictures = false; snapshots = 1; };";
 
 #define STRONG "-s", "soil[0].material.cohesion=20 kPa"
 #define TIME "-s", "soil[0].initial_stress.settle_time="
@@ -32,6 +35,23 @@ static void expect_picture(run_folder *folder, const char *run, const char *name
     assert_true(n_bytes > 10000); /* a picture with particles, axes and colors; an empty one has 2 kB */
     assert_memory_equal(bytes, signature, sizeof signature);
     free(bytes);
+}
+
+/* What came to rest presses on the floor at the start as it does afterwards: 7.5 m2 of 2000 kg/m3, whose edges are of
+ * whole particles. */
+static void expect_steady_force(run_folder *folder, const char *run)
+{
+    char path[MOR_PATH_BYTES];
+    mor_table_data rows;
+    const double weight = 7.5 * 2000.0 * 9.81;
+    finished_run_file(folder, path, run, MOR_TABLE_SERIES_FILE);
+    assert_int_equal(mor_table_data_read(&folder->context, &rows, path), MOR_OK);
+    assert_true(rows.n_rows > 2);
+    const double first = rows.values[rows.n_columns - 1];
+    const double second = rows.values[2 * rows.n_columns - 1];
+    assert_near(first, weight, 0.05 * weight);
+    assert_near(second, first, 0.01 * weight); /* damping ends, next to nothing moves */
+    mor_table_data_clear(&folder->context, &rows);
 }
 
 /* Friction of 25 degrees alone does not hold it: it flows, and goes on. */
@@ -73,6 +93,7 @@ static void slope_that_needs_longer_is_told_how_long(void **state)
     outcome = program_run(folder, patient, 0);
     assert_null(strstr(outcome.errors, "settle"));
     program_clear(&outcome);
+    expect_steady_force(folder, "other");
 }
 
 /* A slope that comes to rest elsewhere is not the one that was described. */

@@ -222,8 +222,7 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
         if (soil->set.data[MOR_FIELD_STRAIN_RATE] != NULL) {
             memset(soil->set.data[MOR_FIELD_STRAIN_RATE], 0, (size_t)n * 6 * sizeof(double));
         }
-        memset(soil->wall_impulse, 0, sizeof soil->wall_impulse);
-        memset(soil->wall_force, 0, sizeof soil->wall_force);
+        memset(soil->wall_impulse, 0, sizeof soil->wall_impulse); /* forces stay those of the last step, as of bodies */
         soil->largest_speed = 0.0;
         MOR_TRY(context, mor_soil_init_state(context, soil));
         simulation->schedule.now = 0;
