@@ -6,8 +6,17 @@
 #include "core/base/math.h"
 #include "core/particle/kernel.h"
 
-/* Mean over the particles within two spacings, with the weights of a kernel; NaN where there is no soil, which
- * meets no expectation. */
+/* Weight of a particle in means over the two spacings around the origin of a probe, 1/m3 (1/m2). */
+static double find_weight(const mor_probe_view *v, const double *position)
+{
+    double offset[3];
+    for (int a = 0; a < 3; ++a) {
+        offset[a] = position[a] - v->frame.origin[a];
+    }
+    return mor_kernel_value(mor_vector_length(offset), v->points.spacing, v->points.dimension);
+}
+
+/* NaN where there is no soil, which meets no expectation. */
 static mor_status soil_velocity(mor_context *context, const mor_probe_view *v, double *value)
 {
     const mor_measure_points *points = &v->points;
@@ -15,11 +24,31 @@ static mor_status soil_velocity(mor_context *context, const mor_probe_view *v, d
     double weights = 0.0;
     (void)context;
     for (int64_t i = 0; i < points->n_points; ++i) {
-        const double *x = points->position + 3 * i;
-        const double offset[3] = {x[0] - v->frame.origin[0], x[1] - v->frame.origin[1], x[2] - v->frame.origin[2]};
-        const double weight = mor_kernel_value(mor_vector_length(offset), points->spacing, points->dimension);
+        const double weight = find_weight(v, points->position + 3 * i);
         sum += weight * mor_vector_dot(v->velocity + 3 * i, v->frame.direction);
         weights += weight;
+    }
+    *value = weights > 0.0 ? sum / weights : NAN;
+    return MOR_OK;
+}
+
+/* The stress is not gathered by soil, so that particles are taken where they are. */
+static mor_status soil_stress(mor_context *context, const mor_probe_view *v, double *value)
+{
+    const mor_soil *soil = &v->simulation->soil;
+    double *const *data = soil->set.data;
+    double sum = 0.0;
+    double weights = 0.0;
+    (void)context;
+    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+        const bool is_other = v->soil >= 0 && soil->region_field >= 0 && (int)data[soil->region_field][i] != v->soil;
+        const double weight = is_other ? 0.0 : find_weight(v, data[MOR_FIELD_POSITION] + 3 * i);
+        if (weight > 0.0) {
+            double traction[3];
+            mor_symmetric_apply(data[MOR_FIELD_STRESS] + 6 * i, v->frame.direction, traction);
+            sum += weight * mor_vector_dot(traction, v->frame.direction);
+            weights += weight;
+        }
     }
     *value = weights > 0.0 ? sum / weights : NAN;
     return MOR_OK;
@@ -29,4 +58,8 @@ const mor_probe_measure mor_probe_local_measures[] = {
     {.type = {"soil_velocity", "m/s", "m/s", SOIL | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
               "velocity of the soil at origin along direction, mean over two spacings around; NaN without soil"},
      .run = soil_velocity},
+    {.type = {"soil_stress", "Pa", "Pa", SOIL | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+              "normal stress of the soil at origin across a plane with the normal direction, mean over two spacings "
+              "around; tension is positive; NaN without soil"},
+     .run = soil_stress},
     {.run = NULL}};
