@@ -38,6 +38,7 @@ static void soil_off_a_wall_is_warned_of(void **state)
         program_outcome outcome = program_run(folder, explanations[k].arguments, 0);
         if (explanations[k].warning != NULL) {
             program_expect_text(outcome.output, explanations[k].warning);
+            assert_null(strstr(strstr(outcome.output, "\nwarning: "), "\n  ")); /* they stand last */
         } else if (strstr(outcome.output, "warning") != NULL) {
             fail_msg("scene %d is good and was warned of: %s", k, outcome.output);
         }

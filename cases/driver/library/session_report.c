@@ -340,13 +340,14 @@ static mor_status print_explanation(mor_context *context, FILE *out, mor_simulat
     print_sizes(out, s);
     MOR_TRY(context, find_warnings(context, s, &warnings));
     const mor_status status = print_costs(context, out, s);
-    fputs(status == MOR_OK ? warnings : "", out);
-    free(warnings);
-    MOR_TRY(context, status);
-    for (int k = 0; k < s->schedule.n_steppers; ++k) {
+    for (int k = 0; k < s->schedule.n_steppers && status == MOR_OK; ++k) {
         print_stages(out, &s->schedule.steppers[k], set_of(s, k));
     }
-    return MOR_OK;
+    if (status == MOR_OK && warnings[0] != '\0') { /* last, where they are seen */
+        fprintf(out, "\n%s", warnings);
+    }
+    free(warnings);
+    return status;
 }
 
 mor_status mor_session_explain(mor_session *session)

@@ -35,6 +35,7 @@ static void log_line(void *user, mor_log_level level, const char *text)
     }
     if (files->previous_sink != NULL) {
         files->previous_sink(files->previous_user, level, text);
+        mor_run_warnings_show(&files->warnings, text);
     }
 }
 

@@ -16,10 +16,23 @@
 
 enum { INPUTS_MAX = 512 }; /* files that shapes were made from */
 
+/* Those that were shown when they arose are counted; the others, of before a resume or of a run that shows none, are
+ * printed. */
 static void print_warnings(FILE *out, const mor_run_warnings *warnings)
 {
+    int n_shown = 0;
     for (int k = 0; k < warnings->n; ++k) {
-        fprintf(out, "%swarning: %s\n", k == 0 ? "\n" : "", warnings->texts[k]);
+        n_shown += warnings->is_shown[k];
+    }
+    fputs(warnings->n > 0 ? "\n" : "", out);
+    for (int k = 0; k < warnings->n; ++k) {
+        if (!warnings->is_shown[k]) {
+            fprintf(out, "warning: %s\n", warnings->texts[k]);
+        }
+    }
+    if (n_shown > 0) {
+        fprintf(out, "%d warning%s shown above; " MOR_SUMMARY_FILE " has %s too\n", n_shown,
+                n_shown == 1 ? " was" : "s were", n_shown == 1 ? "it" : "them");
     }
 }
 

@@ -43,6 +43,13 @@ bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, cons
     return !is_last;
 }
 
+void mor_run_warnings_show(mor_run_warnings *warnings, const char *text)
+{
+    for (int k = 0; k < warnings->n; ++k) {
+        warnings->is_shown[k] = warnings->is_shown[k] || strcmp(warnings->texts[k], text) == 0;
+    }
+}
+
 /* Closes the log; NULL is accepted. */
 static void add_lines(mor_context *context, mor_run_warnings *warnings, FILE *log)
 {

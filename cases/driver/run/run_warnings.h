@@ -18,7 +18,8 @@ enum { MOR_RUN_WARNINGS_MAX = 64 };
 
 /** The texts of a run. Zeroed: none. Owner: the run's files, which end it with mor_run_warnings_clear. */
 typedef struct mor_run_warnings {
-    char *texts[MOR_RUN_WARNINGS_MAX]; /* shape [n]; zero-terminated; owned */
+    char *texts[MOR_RUN_WARNINGS_MAX];   /* shape [n]; zero-terminated; owned */
+    bool is_shown[MOR_RUN_WARNINGS_MAX]; /* shape [n]; to whoever runs it, when it arose */
     int n;
 } mor_run_warnings;
 
@@ -26,6 +27,10 @@ typedef struct mor_run_warnings {
  *  @param text     [in]      zero-terminated
  *  Returns: whether the text was new and had room. */
 bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, const char *text);
+
+/** Notes that a text was shown when it arose, so that it need not be printed again.
+ *  @param text     [in]      zero-terminated */
+void mor_run_warnings_show(mor_run_warnings *warnings, const char *text);
 
 /** Adds the warnings in the log of an earlier part of the run, but for those of its end.
  *  @param path     [in]      zero-terminated; of the log; a missing one has none */
