@@ -14,12 +14,12 @@ static const double pattern[MOR_EXTERNAL_BAND] = {
     7.31e-290, -8.68e-290, 9.05e-290, -1.42e-290,
 };
 
-void mor_external_band_fill(double *band)
+void mor_external_band_fill(double *band, int n)
 {
-    memcpy(band, pattern, sizeof pattern);
+    memcpy(band, pattern, (size_t)n * sizeof *pattern);
 }
 
-bool mor_external_band_is_whole(const double *band)
+bool mor_external_band_is_whole(const double *band, int n)
 {
-    return memcmp(band, pattern, sizeof pattern) == 0;
+    return memcmp(band, pattern, (size_t)n * sizeof *pattern) == 0;
 }

@@ -9,15 +9,20 @@
  *  A band of numbers behind an array that a law of another program gets, to see whether it writes there. For
  *  materials/interfaces only. */
 
-enum { MOR_EXTERNAL_BAND = 64 };
+enum {
+    MOR_EXTERNAL_BAND = 64,      /* behind what a law writes and may index beyond */
+    MOR_EXTERNAL_NARROW_BAND = 8 /* behind the rest: bands cost time in each call */
+};
 
 /** Fills a band with numbers that differ from each other and that no law computes: of both signs, so that a bound from
  *  either side changes them, and so small that whatever is added to them does.
- *  @param band [out]  shape [MOR_EXTERNAL_BAND]; 1 */
-void mor_external_band_fill(double *band);
+ *  @param band [out]  shape [n]; 1
+ *  @param n    [in]   one of the two widths, 1 */
+void mor_external_band_fill(double *band, int n);
 
 /** Whether each bit of a band is as it was filled.
- *  @param band [in]  shape [MOR_EXTERNAL_BAND]; 1 */
-bool mor_external_band_is_whole(const double *band);
+ *  @param band [in]  shape [n]; 1
+ *  @param n    [in]  as it was filled, 1 */
+bool mor_external_band_is_whole(const double *band, int n);
 
 #endif

@@ -45,28 +45,29 @@ typedef struct arguments {
     mfront_function function;
     record data;
     int outcome;
-    double strain[2][COMPONENTS], behind_strain[MOR_EXTERNAL_BAND];
+    double strain[2][COMPONENTS], behind_strain[MOR_EXTERNAL_NARROW_BAND];
     double stress[2][COMPONENTS], behind_stress[MOR_EXTERNAL_BAND];
     double stiffness[COMPONENTS * COMPONENTS], behind_stiffness[MOR_EXTERNAL_BAND];
     double state[2][MOR_EXTERNAL_STATE_VALUES_MAX + MOR_EXTERNAL_BAND]; /* the band behind the last that there is */
     double properties[MOR_EXTERNAL_CONSTANTS_MAX + MOR_EXTERNAL_BAND];  /* likewise */
-    double outer[OUTER_STATES], behind_outer[MOR_EXTERNAL_BAND];
-    double density, step_factor, speed, energy[2][2], behind_scalars[MOR_EXTERNAL_BAND];
+    double outer[OUTER_STATES], behind_outer[MOR_EXTERNAL_NARROW_BAND];
+    double density, step_factor, speed, energy[2][2], behind_scalars[MOR_EXTERNAL_NARROW_BAND];
     char message[MESSAGE_LETTERS];
 } arguments;
 
-enum { BANDS = 8 };
+enum { BANDS = 8, WIDE_BANDS = 5 };
 
+/* The wide ones first. */
 static void list_bands(const mor_interface_law *law, arguments *a, double **bands)
 {
-    double *const all[BANDS] = {a->behind_strain,
+    double *const all[BANDS] = {a->state[0] + law->n_state_values,
+                                a->state[1] + law->n_state_values,
+                                a->properties + law->n_constants,
                                 a->behind_stress,
                                 a->behind_stiffness,
+                                a->behind_strain,
                                 a->behind_outer,
-                                a->behind_scalars,
-                                a->state[0] + law->n_state_values,
-                                a->state[1] + law->n_state_values,
-                                a->properties + law->n_constants};
+                                a->behind_scalars};
     memcpy(bands, all, sizeof all);
 }
 
@@ -97,7 +98,7 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
     a->function = (mfront_function)law->function;
     list_bands(law, a, bands);
     for (int k = 0; k < BANDS; ++k) {
-        mor_external_band_fill(bands[k]);
+        mor_external_band_fill(bands[k], k < WIDE_BANDS ? MOR_EXTERNAL_BAND : MOR_EXTERNAL_NARROW_BAND);
     }
     for (int k = 0; k < COMPONENTS; ++k) {
         const double factor = k < NORMAL ? 1.0 : root;
@@ -128,7 +129,8 @@ static bool are_bands_whole(const mor_interface_law *law, arguments *a)
     bool are_whole = true;
     list_bands(law, a, bands);
     for (int k = 0; k < BANDS; ++k) {
-        are_whole = are_whole && mor_external_band_is_whole(bands[k]);
+        are_whole = are_whole &&
+                    mor_external_band_is_whole(bands[k], k < WIDE_BANDS ? MOR_EXTERNAL_BAND : MOR_EXTERNAL_NARROW_BAND);
     }
     return are_whole;
 }

@@ -27,27 +27,33 @@ typedef void (*umat_function)(double *stress, double *statev, double *ddsdde, do
  * be longer. */
 typedef struct arguments {
     umat_function function;
-    double stress[COMPONENTS], behind_stress[MOR_EXTERNAL_BAND];
-    double ddsdde[COMPONENTS * COMPONENTS], behind_ddsdde[MOR_EXTERNAL_BAND];
-    double statev[MOR_EXTERNAL_STATE_VALUES_MAX + MOR_EXTERNAL_BAND]; /* the band behind the last that there is */
-    double energies[3], behind_energies[MOR_EXTERNAL_BAND];           /* SSE, SPD, SCD */
-    double rpl, ddsddt[COMPONENTS], drplde[COMPONENTS], drpldt, behind_heat[MOR_EXTERNAL_BAND];
-    double stran[COMPONENTS], dstran[COMPONENTS], behind_strain[MOR_EXTERNAL_BAND];
-    double time[2], dtime, temp, dtemp, predef[1], dpred[1], behind_time[MOR_EXTERNAL_BAND];
-    double props[MOR_EXTERNAL_CONSTANTS_MAX + MOR_EXTERNAL_BAND]; /* likewise */
-    double coords[3], drot[9], pnewdt, celent, dfgrd0[9], dfgrd1[9], behind_motion[MOR_EXTERNAL_BAND];
+    double stress[COMPONENTS + MOR_EXTERNAL_BAND]; /* the band behind the last that there is */
+    double ddsdde[COMPONENTS * COMPONENTS + MOR_EXTERNAL_BAND];
+    double statev[MOR_EXTERNAL_STATE_VALUES_MAX + MOR_EXTERNAL_BAND];
+    double energies[3], behind_energies[MOR_EXTERNAL_NARROW_BAND]; /* SSE, SPD, SCD */
+    double rpl, ddsddt[COMPONENTS], drplde[COMPONENTS], drpldt, behind_heat[MOR_EXTERNAL_NARROW_BAND];
+    double stran[COMPONENTS], dstran[COMPONENTS], behind_strain[MOR_EXTERNAL_NARROW_BAND];
+    double time[2], dtime, temp, dtemp, predef[1], dpred[1], behind_time[MOR_EXTERNAL_NARROW_BAND];
+    double props[MOR_EXTERNAL_CONSTANTS_MAX + MOR_EXTERNAL_BAND];
+    double coords[3], drot[9], pnewdt, celent, dfgrd0[9], dfgrd1[9], behind_motion[MOR_EXTERNAL_NARROW_BAND];
     char cmname[NAME_LETTERS];
     int nstatv, nprops;
 } arguments;
 
-enum { BANDS = 9 };
+enum { BANDS = 9, WIDE_BANDS = 4 };
 
+/* The wide ones first. */
 static void list_bands(const mor_interface_law *law, arguments *a, double **bands)
 {
-    double *const all[BANDS] = {
-        a->behind_stress,           a->behind_ddsdde, a->behind_energies, a->behind_heat,
-        a->behind_strain,           a->behind_time,   a->behind_motion,   a->statev + law->n_state_values,
-        a->props + law->n_constants};
+    double *const all[BANDS] = {a->statev + law->n_state_values,
+                                a->stress + COMPONENTS,
+                                a->ddsdde + COMPONENTS * COMPONENTS,
+                                a->props + law->n_constants,
+                                a->behind_energies,
+                                a->behind_heat,
+                                a->behind_strain,
+                                a->behind_time,
+                                a->behind_motion};
     memcpy(bands, all, sizeof all);
 }
 
@@ -74,15 +80,26 @@ static void transpose(const double *matrix, double *to)
     }
 }
 
+/* What is not set below; the long arrays are read as far as they are filled. */
+static void clear_outputs(arguments *a)
+{
+    memset(a->ddsdde, 0, COMPONENTS * COMPONENTS * sizeof *a->ddsdde);
+    memset(a->energies, 0, sizeof a->energies);
+    memset(a->ddsddt, 0, sizeof a->ddsddt);
+    memset(a->drplde, 0, sizeof a->drplde);
+    memset(a->coords, 0, sizeof a->coords);
+    a->rpl = a->drpldt = a->temp = a->dtemp = a->predef[0] = a->dpred[0] = 0.0;
+}
+
 static void load_arguments(const mor_interface_law *law, const mor_external_point *p, arguments *a)
 {
     const size_t letters = strlen(law->law);
     double *bands[BANDS];
-    memset(a, 0, sizeof *a);
+    clear_outputs(a);
     a->function = (umat_function)law->function;
     list_bands(law, a, bands);
     for (int k = 0; k < BANDS; ++k) {
-        mor_external_band_fill(bands[k]);
+        mor_external_band_fill(bands[k], k < WIDE_BANDS ? MOR_EXTERNAL_BAND : MOR_EXTERNAL_NARROW_BAND);
     }
     for (int k = 0; k < COMPONENTS; ++k) {
         const double factor = k < NORMAL ? 1.0 : 2.0;
@@ -111,7 +128,8 @@ static bool are_bands_whole(const mor_interface_law *law, arguments *a)
     bool are_whole = true;
     list_bands(law, a, bands);
     for (int k = 0; k < BANDS; ++k) {
-        are_whole = are_whole && mor_external_band_is_whole(bands[k]);
+        are_whole = are_whole &&
+                    mor_external_band_is_whole(bands[k], k < WIDE_BANDS ? MOR_EXTERNAL_BAND : MOR_EXTERNAL_NARROW_BAND);
     }
     return are_whole;
 }
