@@ -329,6 +329,19 @@ static void pictures_are_drawn_from_the_folder_of_a_run(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
 
+/* The script for newcomers names a folder after the case, before anything is built. */
+static void dev_run_with_an_option_for_a_case_tells_its_usage(void **state)
+{
+    (void)state;
+    char text[512] = "";
+    FILE *stream = popen(MOR_SOURCE_DIR "/dev run -t 1 2>&1", "r");
+    assert_non_null(stream);
+    text[fread(text, 1, sizeof text - 1, stream)] = '\0';
+    assert_int_not_equal(pclose(stream), 0);
+    program_expect_text(text, "found -t in place of a case; usage: ./dev run [CASE [OPTION]...], as: ./dev run cases/");
+    assert_null(strstr(text, "dirname"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -342,6 +355,7 @@ int main(void)
         TEST(run_stopped_by_a_guard_ends_with_code_1),
         TEST(interrupted_run_leaves_a_checkpoint_and_goes_on),
         TEST(pictures_are_drawn_from_the_folder_of_a_run),
+        cmocka_unit_test(dev_run_with_an_option_for_a_case_tells_its_usage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,8 @@
     "{model=\"hypoplastic_sand\"; density=2000; critical_friction_angle=0.58; granulate_hardness=4e9; exponent=0.27; " \
     "densest_void_ratio=0.68; critical_void_ratio=1.05; loosest_void_ratio=1.2; alpha=0.14; beta=2.5; "                \
     "void_ratio=0.8; "
+#define CAM_CLAY                                                                                                       \
+    "{model=\"modified_cam_clay\"; density=2000; friction_angle=\"24 deg\"; void_ratio=1.4; preconsolidation=8e3; "
 #define BACK "{name=\"back\"; friction=\"coulomb\"; shape={type=\"half_space\"; point=(0, 0); normal=(1, 0);}; "
 #define CLAY "{model=\"tresca\"; density=2000; youngs_modulus=2e6; poissons_ratio=0.3; "
 #define WALL(name, point, normal)                                                                                      \
@@ -99,6 +101,11 @@ static const scene columns[] = {
      "soil 's' begins with a lateral stress of 0.6 of the vertical one, but at its base its strength allows 0.984 to "
      "1.02: it yields at once; correct lateral_ratio, or the strength"},
     {"soil[0].material=" CLAY "undrained_strength=6e3;}", NULL},
+    /* Clay is compressible by nature: K = (1 + e) p_c / kappa = 384 kPa, of which 7.8 kPa are 2 %; a tenth of it is not
+     * that of clay. */
+    {"soil[0].material=" CAM_CLAY "shear_modulus=5e4; compression_index=0.3; swelling_index=0.05;}", NULL},
+    {"soil[0].material=" CAM_CLAY "shear_modulus=5e4; compression_index=0.9; swelling_index=0.5;}",
+     "soil 's' is so soft that its own weight compresses it by about 20.4 % (g H / c^2"},
     /* An angle for its tangent, and pascals for kilopascals times a thousand. */
     {"walls[1]=" BACK "friction_coefficient=40;}",
      "wall 'back' has a friction_coefficient of 40, more than any surface: it is the tangent of the friction angle; "

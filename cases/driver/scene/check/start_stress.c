@@ -12,6 +12,10 @@
 static const double compression_advisable = 0.01;
 static const double compression_largest = 0.02;
 
+/* Soil whose stiffness grows with the pressure, as that of clay, is compressible by nature; beyond this a unit is
+ * missing. */
+static const double compression_of_clay = 0.1;
+
 /* Jaky's ratio lies outside of the plane-strain cone of Drucker and Prager by 8 % of itself at 40 degrees: what begins
  * within this factor of its limits yields by next to nothing. */
 static const double slack = 1.1;
@@ -131,7 +135,8 @@ static void warn_of_softness(mor_context *context, const mor_case_soil *it, poin
     char needed[32];
     const double youngs = mor_params_youngs_modulus(it->law->parameters, it->parameters, NAN);
     const double modulus = isnan(youngs) ? find_modulus(at, weight, ratio) : youngs;
-    if (!(weight > compression_largest * modulus)) {
+    const bool is_growing = isnan(youngs) && find_modulus(at, 10.0 * weight, ratio) > 1.1 * modulus;
+    if (!(weight > (is_growing ? compression_of_clay : compression_largest) * modulus)) {
         return;
     }
     write_pressure(weight / compression_advisable, needed, sizeof needed);

@@ -9,7 +9,8 @@
  *  Whether each soil can bear the weight that it starts under: stiff enough, and with a lateral stress that its law
  *  admits. The laws themselves are asked, so that it holds for those of others as well. */
 
-/** Logs a warning for each soil that its own weight compresses by more than 2 %, and for each whose lateral stress lies
+/** Logs a warning for each soil that its own weight compresses by more than 2 % (10 % where its
+ *  stiffness grows with the pressure and its law has no modulus), and for each whose lateral stress lies
  *  well outside of its strength.
  *  @param simulation [in]      as it begins
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
