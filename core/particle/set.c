@@ -160,9 +160,19 @@ void mor_set_remove(mor_set *set, const int32_t *removed, int64_t n_removed)
     set->generation += 1;
 }
 
+/* A field is known by its name, so that fields which others have do not change the checksum of a set. */
+static uint64_t hash_name(const char *name)
+{
+    uint64_t hash = 0;
+    for (const char *c = name; *c != '\0'; ++c) {
+        hash = mor_random_mix(hash ^ (uint64_t)(unsigned char)*c);
+    }
+    return hash;
+}
+
 uint64_t mor_set_checksum(const mor_set *set)
 {
-    /* Each number is mixed with its id and place and the results are added: wrapping addition does not depend on
+    /* Each number is mixed with its id, field and place and the results are added: wrapping addition does not depend on
      * order, so no sort by id is needed. */
     uint64_t sum = mor_random_mix((uint64_t)set->n_particles);
     for (int field = 0; field < set->n_fields; ++field) {
@@ -171,12 +181,13 @@ uint64_t mor_set_checksum(const mor_set *set)
             continue;
         }
         const int n_components = set->fields[field].n_components;
+        const uint64_t name = hash_name(set->fields[field].name);
         for (int64_t i = 0; i < set->n_particles; ++i) {
             for (int a = 0; a < n_components; ++a) {
                 uint64_t bits = 0;
                 memcpy(&bits, &data[i * n_components + a], sizeof bits);
-                const uint64_t place = (uint64_t)set->id[i] << 10 | (uint64_t)field << 4 | (uint64_t)a;
-                sum += mor_random_mix(bits ^ mor_random_mix(place));
+                const uint64_t place = (uint64_t)set->id[i] << 4 | (uint64_t)a;
+                sum += mor_random_mix(bits ^ mor_random_mix(place ^ name));
             }
         }
     }
