@@ -146,6 +146,7 @@ typedef struct mor_body_group {
     double *node_weights;                        /* shape [n_nodes, MOR_BODY_NODE_PARTICLES], 1 */
     double gravity[3];                           /* m/s2 */
     double gravity_ramp;                         /* time over which gravity grows from zero, s */
+    bool has_smooth_ramp;                        /* it grows without a kick at either end, see mor_ramp */
     double damping;                              /* rate of velocity damping, for settling, 1/s */
     double domain_minimum[3], domain_maximum[3]; /* m, before the placement */
     const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither rotated nor translated */

@@ -252,7 +252,7 @@ mor_status mor_elastic_kick(mor_context *context, void *owner, mor_view *view, c
     mor_elastic *elastic = mor_view_write_shared(view, MOR_RESOURCE_BODIES, owner);
     mor_body_group *group = &elastic->group;
     const double middle = step->time + 0.5 * step->length;
-    const double part = group->gravity_ramp > 0.0 && middle < group->gravity_ramp ? middle / group->gravity_ramp : 1.0;
+    const double part = mor_ramp(middle, group->gravity_ramp, group->has_smooth_ramp);
     const kick job = {mor_view_read(view, MOR_FIELD_MASS),
                       mor_view_write(view, MOR_FIELD_VELOCITY),
                       mor_view_write(view, MOR_FIELD_ACCELERATION),

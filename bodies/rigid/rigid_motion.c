@@ -305,7 +305,7 @@ static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
     mor_rigid_state *state = &rigid->states[b];
     const double h = step->length;
     const double middle = step->time + 0.5 * h;
-    const double ramp = group->gravity_ramp > 0.0 && middle < group->gravity_ramp ? middle / group->gravity_ramp : 1.0;
+    const double ramp = mor_ramp(middle, group->gravity_ramp, group->has_smooth_ramp);
     double moment[3];
     for (int a = 0; a < 3; ++a) {
         state->soil_impulse[a] += h * constants->held_force[a];

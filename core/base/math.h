@@ -13,6 +13,15 @@
 
 enum { MOR_XX, MOR_YY, MOR_ZZ, MOR_XY, MOR_YZ, MOR_ZX };
 
+/** Part of its final value, 1, that something has reached which grows from zero over a length of time, unit s; all of
+ *  it from the beginning where the length is 0. Evenly, or as x^2 (3 - 2 x) of the time over the length, without a jump
+ *  of the rate at either end. */
+static inline double mor_ramp(double time, double length, int is_smooth)
+{
+    const double x = length > 0.0 && time < length ? time / length : 1.0;
+    return is_smooth ? x * x * (3.0 - 2.0 * x) : x;
+}
+
 /** Inner product of two vectors, shape [3] each; unit: product of theirs. */
 static inline double mor_vector_dot(const double *a, const double *b)
 {

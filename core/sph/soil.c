@@ -38,6 +38,16 @@ static bool has_strain_rate(const void *owner)
     return ((const mor_soil *)owner)->set.data[MOR_FIELD_STRAIN_RATE] != NULL;
 }
 
+static bool has_hourglass(const void *owner)
+{
+    return ((const mor_soil *)owner)->set.data[MOR_FIELD_HOURGLASS] != NULL;
+}
+
+static bool has_mean_stress(const void *owner)
+{
+    return ((const mor_soil *)owner)->set.data[MOR_FIELD_MEAN_STRESS] != NULL;
+}
+
 static bool has_regularization(const void *owner)
 {
     return ((const mor_soil *)owner)->regularization != NULL;
@@ -63,9 +73,13 @@ static const mor_stage soil_stages[] = {
      BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on", has_artificial_stress},
-    {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
+    {"momentum", mor_soil_sum_momentum,
+     SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
+    {"transient diffusion", mor_soil_diffuse_stress, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS),
+     BIT(STRESS_DIFFUSION), BIT(MEAN_STRESS) | BIT(FLOW), "diffusion of the stress that changes, when switched on",
+     has_mean_stress},
     {"angular momentum", mor_soil_conserve_angular_momentum, SHARED(RECORDS) | SHARED(LISTS) | SHARED(SHORT_LISTS),
      SHARED(MOMENTS) | SHARED(SPIN_STRESS), BIT(ACCELERATION),
      "removes the net moment of the internal forces of the soil, when switched on", has_angular_momentum},
@@ -76,13 +90,14 @@ static const mor_stage soil_stages[] = {
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
      "velocities to the end of the step", NULL},
     {"velocity gradient", mor_soil_sum_gradient, SHARED(RECORDS) | SHARED(SHORT_LISTS),
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), 0, "velocity gradient and density rate by the neighbors", NULL},
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE), 0,
+     "velocity gradient and density rate by the neighbors", NULL},
     {"boundary gradient", mor_soil_sum_boundary_gradient, SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES), 0,
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(WALL_SUMS),
      "velocity gradient and density rate by walls and rocks", NULL},
     {"energy of forces", mor_soil_audit_forces,
      SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(SPIN_STRESS) | BIT(MASS) |
-         BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(STRAIN_RATE) |
+         BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) |
          BIT(ARTIFICIAL_STRESS) | SHARED(STATE),
      0, SHARED(ENERGY_SUMS) | SHARED(RECORDS) | SHARED(SHORT_LISTS),
      "energy dissipated by forces other than the stress, at an interval, when a probe needs it", has_audit},
@@ -101,6 +116,11 @@ static const mor_stage soil_stages[] = {
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
      BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
+    {"transient mean", mor_soil_follow_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0, BIT(MEAN_STRESS) | BIT(FLOW),
+     "recent mean of the stress, when switched on", has_mean_stress},
+    {"hourglass", mor_soil_advance_hourglass, BIT(HOURGLASS_RATE) | BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0,
+     BIT(HOURGLASS), "displacement that no velocity gradient sees, limited by the stress, when switched on",
+     has_hourglass},
     {"energy of stress", mor_soil_audit_stress,
      SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
          BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
@@ -111,9 +131,10 @@ static const mor_stage soil_stages[] = {
      "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
-static const uint64_t evolving_fields = BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
-                                        BIT(STRESS) | BIT(STRAIN_RATE) | SHARED(STATE) | SHARED(BOUNDARIES) |
-                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) |
+                                        BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |
+                                        BIT(HOURGLASS) | SHARED(STATE) | SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) |
+                                        SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles. */
@@ -170,6 +191,8 @@ static void set_constants(mor_soil *soil)
         .laplacian_factor = mor_kernel_gradient_factor(h, s->dimension) / moment,
         .limiter_rate = s->scheme.dissipation_factor / soil->sound_speed,
         .diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->sound_speed,
+        .hourglass =
+            s->scheme.soil_hourglass * soil->kinds[0].reference_density * soil->sound_speed * soil->sound_speed,
         .has_limited_diffusion = s->scheme.stress_diffusion_limiter == 1,
         .artificial_exponent = s->scheme.artificial_stress_exponent,
         .shift_diameter = s->spacing * (s->dimension == 3 ? SPHERE_DIAMETER : DISC_DIAMETER),
@@ -178,6 +201,8 @@ static void set_constants(mor_soil *soil)
     };
     for (int k = 0; k < soil->n_kinds && soil->of_soil != NULL; ++k) {
         soil->pair_soils[k].limiter_rate = s->scheme.dissipation_factor / soil->kinds[k].sound_speed;
+        soil->pair_soils[k].hourglass = s->scheme.soil_hourglass * soil->kinds[k].reference_density *
+                                        soil->kinds[k].sound_speed * soil->kinds[k].sound_speed;
         soil->pair_soils[k].diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->kinds[k].sound_speed;
         soil->constants.soils = soil->pair_soils;
     }
@@ -295,6 +320,10 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
     fields &= settings->scheme.artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
     fields &= settings->scheme.stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
+    fields &= settings->scheme.soil_hourglass > 0.0 ? ~(uint64_t)0 : ~(BIT(HOURGLASS) | BIT(HOURGLASS_RATE));
+    fields &= settings->scheme.stress_diffusion > 0.0 && settings->scheme.stress_diffusion_limiter == 2
+                  ? ~(uint64_t)0
+                  : ~(BIT(MEAN_STRESS) | BIT(FLOW));
     fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {

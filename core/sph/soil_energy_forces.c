@@ -189,6 +189,7 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
     arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
+    arrays.hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
     arrays.spin_stress = mor_view_read_shared(view, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress);
     arrays.acceleration = soil->energy->scratch;
     constants.diffusion_rate = 0.0;

@@ -111,8 +111,10 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
     arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
     arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
+    arrays.hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
     arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
-    arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
+    arrays.stress_diffusion =
+        s->scheme.stress_diffusion_limiter != 2 ? mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION) : NULL;
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
     return MOR_OK;
@@ -149,6 +151,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
     arrays.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
+    arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
     return MOR_OK;
 }

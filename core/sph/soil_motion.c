@@ -93,6 +93,7 @@ static void pack_soils(mor_context *context, const mor_soil *soil, const double 
         double *of_soil = soil->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
         of_soil[MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * soil->pair_soils[index].limiter_rate;
         of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
+        of_soil[MOR_PAIR_OF_SOIL_HOURGLASS] = soil->pair_soils[index].hourglass;
     }
     MOR_PARALLEL_FOR (context, block, mor_block_count(soil->tree.n_clusters), 1) {
         mor_pair_find_one_soil(&soil->inner, soil->of_soil, block * MOR_BLOCK,
@@ -210,9 +211,8 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
 
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step)
 {
-    const double ramp = soil->settings.scheme.gravity_ramp;
-    const double middle = step->time + 0.5 * step->length;
-    return ramp > 0.0 && middle < ramp ? middle / ramp : 1.0;
+    const mor_scheme *scheme = &soil->settings.scheme;
+    return mor_ramp(step->time + 0.5 * step->length, scheme->gravity_ramp, scheme->gravity_ramp_form == 1);
 }
 
 static void set_gravity(mor_soil *soil, const mor_step *step)

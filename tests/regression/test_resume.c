@@ -28,6 +28,9 @@ static const variant variants[] = {
       "numerics.artificial_stress=true", "numerics.gravity_ramp=40 ms"},
      5},
     {"reconstructed", {"numerics.reconstruction=linear", "numerics.stress_diffusion_limiter=motion"}, 2},
+    {"calm",
+     {"numerics.soil_hourglass=0.25", "numerics.stress_diffusion_limiter=transient", "numerics.wall_normals=geometry"},
+     3},
     {"no_skin", {"numerics.skin_ratio=0", "lattice.jitter=0.2", "numerics.damping=5"}, 3},
 };
 

@@ -43,6 +43,9 @@ static mor_status make_wall(mor_context *context, mor_soil_contact *contact, con
     MOR_TRY(context, MOR_NEW(context, &boundary->patches, 1, "patch of a wall"));
     boundary->patches[0] = (mor_boundary_patch){
         .n_points = n, .friction = request->friction, .friction_coefficient = request->friction_coefficient};
+    if (request->normals != NULL) {
+        MOR_TRY(context, MOR_NEW(context, &contact->normals, 3 * n, "normals of a wall"));
+    }
     if (boundary->largest_speed > 0.0) {
         MOR_TRY(context, MOR_NEW(context, &contact->base, 3 * n, "wall points at the start"));
     }
@@ -60,6 +63,9 @@ static mor_status copy_points(mor_context *context, mor_soil_contact *contact, c
         record[MOR_BOUNDARY_VOLUME] =
             request->point_volume * (request->shares != NULL ? request->shares[order[i]] : 1.0);
         memcpy(record + MOR_BOUNDARY_VELOCITY, request->velocity, 3 * sizeof *record);
+        if (contact->normals != NULL) {
+            memcpy(contact->normals + 3 * i, request->normals + 3 * (int64_t)order[i], 3 * sizeof *record);
+        }
         if (contact->base != NULL) {
             memcpy(contact->base + 3 * i, record + MOR_BOUNDARY_POSITION, 3 * sizeof *record);
         }
@@ -150,6 +156,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->slots);
     MOR_FREE(context, &contact->patch_slots);
     MOR_FREE(context, &contact->mean_velocity);
+    MOR_FREE(context, &contact->seen_normals);
     MOR_FREE(context, &contact->sums);
     MOR_FREE(context, &contact->stick);
     MOR_FREE(context, &contact->acceleration);
@@ -167,6 +174,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
         MOR_FREE(context, &contact->boundary->patches);
         MOR_FREE(context, &contact->boundary);
     }
+    MOR_FREE(context, &contact->normals);
     MOR_FREE(context, &contact->base);
     MOR_FREE(context, &contact->built);
     MOR_FREE(context, &contact->farthest);
@@ -275,6 +283,8 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->acceleration, n_lanes * 3, "boundary forces"));
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
     MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_borrowed * 3, "velocity of a boundary"));
+    MOR_TRY(context,
+            MOR_NEW(context, &contact->seen_normals, contact->normals != NULL ? n_lanes * 3 : 0, "normals of a wall"));
     MOR_TRY(context, MOR_NEW(context, &contact->given, n_borrowed * MOR_SHARES, "force given to a boundary"));
     MOR_TRY(context, MOR_NEW(context, &contact->repulsion, n_barrier * 3, "barrier force"));
     MOR_TRY(context, MOR_NEW(context, &contact->barrier_steps, n_barrier / MOR_CLUSTER, "steps of the barrier"));

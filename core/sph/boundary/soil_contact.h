@@ -22,11 +22,12 @@ typedef enum mor_wall_stress {
 
 /** What a wall is made from. Borrowed during mor_soil_contact_init only. */
 typedef struct mor_wall_request {
-    const char *name;     /* zero-terminated */
-    const double *points; /* shape [n_points, 3], unit m */
-    int64_t n_points;     /* number of wall particles */
-    double point_volume;  /* of each, m3 (m2 in plane strain) */
-    const double *shares; /* shape [n_points]; part of that volume which each has, 1; NULL: all of it */
+    const char *name;      /* zero-terminated */
+    const double *points;  /* shape [n_points, 3], unit m */
+    int64_t n_points;      /* number of wall particles */
+    double point_volume;   /* of each, m3 (m2 in plane strain) */
+    const double *normals; /* shape [n_points, 3]; of the face nearest to each, unit 1; NULL: as the points lie */
+    const double *shares;  /* shape [n_points]; part of that volume which each has, 1; NULL: all of it */
     mor_wall_friction friction;
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
     double velocity[3];          /* prescribed, m/s */
@@ -59,6 +60,8 @@ typedef struct mor_soil_contact {
     mor_boundary *boundary; /* a wall's own, otherwise borrowed */
     bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
     double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
+    double *normals;        /* shape [n_points, 3]; of a wall's faces, unit 1; NULL: as the points lie */
+    double *seen_normals;   /* shape [capacity * 8, 3]; their means as particles see them, 1; NULL without */
     double *built;          /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;       /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     mor_tree tree;

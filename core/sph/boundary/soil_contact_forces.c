@@ -17,6 +17,21 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
 #define LARGEST_SHARE 0.6
 
+/* Leaves of the kernel gradient over a wall only what lies along the normal of its faces: the points of a wall form a
+ * lattice, and the rest is the lattice's. */
+static void straighten(mor_soil_contact *contact, int64_t first, int64_t last)
+{
+    for (int64_t lane = first; lane < last; ++lane) {
+        const double *normal = contact->seen_normals + 3 * lane;
+        double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+        const double length2 = mor_vector_dot(normal, normal);
+        const double along = length2 > 0.0 ? mor_vector_dot(gradient, normal) / length2 : 0.0;
+        for (int a = 0; a < 3 && length2 > 0.0; ++a) {
+            gradient[a] = along * normal[a];
+        }
+    }
+}
+
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                           const mor_pair_constants *constants, const double *records)
 {
@@ -27,7 +42,14 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
         double *sums = contact->sums + first * MOR_CLUSTER * MOR_KERNEL_SUMS;
         const mor_pair_kernel_job job = {records, points,        MOR_BOUNDARY_RECORD, &contact->relation,
                                          sums,    contact->slots};
-        table->kernel(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
+        const int64_t last = first + GRAIN < n ? first + GRAIN : n;
+        table->kernel(constants, &job, first, last);
+        if (contact->normals != NULL) {
+            const mor_pair_mean_job mean = {records, points,         contact->normals,
+                                            3,       contact->slots, contact->seen_normals};
+            table->mean(constants, &mean, first, last);
+            straighten(contact, first * MOR_CLUSTER, last * MOR_CLUSTER);
+        }
     }
     mor_soil_contact_update_velocity(context, contact, table, constants, records);
 }
@@ -39,7 +61,9 @@ void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *co
     if (contact->is_wall) {
         return;
     }
-    const mor_pair_mean_job job = {records, contact->boundary->records, contact->slots, contact->mean_velocity};
+    const double *points = contact->boundary->records;
+    const mor_pair_mean_job job = {
+        records, points, points + MOR_BOUNDARY_VELOCITY, MOR_BOUNDARY_RECORD, contact->slots, contact->mean_velocity};
     MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
         const int64_t first = chunk * GRAIN;
         table->mean(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);

@@ -37,15 +37,17 @@ typedef enum mor_dissipation {
 /** What the pair loops take of one soil where a set has several; of the others they use mor_pair_constants. */
 typedef struct mor_pair_soil {
     double limiter_rate;     /* eta / c0, s/m */
+    double hourglass;        /* stiffness of the hourglass control, Pa */
     double diffusion_rate;   /* 2 zeta h c0, m2/s */
     double rest_gradient[6]; /* d stress / d height at rest, symmetric tensor, Pa/m */
 } mor_pair_soil;
 
 /** What they read of a particle where a set has several soils. */
 enum {
-    MOR_PAIR_OF_SOIL_LIMITER = 0, /* eta / (2 c0), s/m: a pair has the sum of both */
-    MOR_PAIR_OF_SOIL_INDEX = 1,   /* of its soil, 1 */
-    MOR_PAIR_OF_SOIL_SIZE = 2
+    MOR_PAIR_OF_SOIL_LIMITER = 0,   /* eta / (2 c0), s/m: a pair has the sum of both */
+    MOR_PAIR_OF_SOIL_INDEX = 1,     /* of its soil, 1 */
+    MOR_PAIR_OF_SOIL_HOURGLASS = 2, /* stiffness of the hourglass control, Pa */
+    MOR_PAIR_OF_SOIL_SIZE = 3
 };
 
 /** What is read of a particle to diffuse a field. */
@@ -77,6 +79,7 @@ typedef struct mor_pair_constants {
     double gravity_direction[3]; /* unit vector, 1; zero without gravity */
     double rest_gradient[6];     /* d stress / d height at rest, symmetric tensor, Pa/m */
     const mor_pair_soil *soils;  /* shape [number of soils]; borrowed; NULL: one soil, as above */
+    double hourglass;            /* stiffness of the hourglass control, Pa */
     double artificial_exponent;  /* n, 1 */
     double spacing_kernel;       /* W(spacing), unit 1/m^d */
     double kernel_normalization; /* alpha_d, unit 1/m^d */
@@ -89,15 +92,19 @@ typedef struct mor_pair_arrays {
     const double *records;           /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const mor_relation *inner;       /* current; momentum shortens its lists for the others */
     const double *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
+    const double *hourglass;         /* shape [n padded to 8, 3], m; NULL without hourglass control */
     double *acceleration;            /* shape [n, 3], m/s2 */
     double *stress_diffusion;        /* shape [n, 6], Pa/s; NULL without */
     double *velocity_gradient;       /* shape [n, 9], 1/s */
     double *density_rate;            /* shape [n], kg/m3/s */
+    double *hourglass_rate;          /* shape [n, 3], m/s; velocity beside its linear fit; NULL without */
     double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
     const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
     const double *of_soil;     /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
     const int8_t *one_soil;    /* shape [n_clusters], 1; see mor_pair_find_one_soil; NULL: one soil */
     const double *strain_rate; /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
+    const double *mean_stress; /* shape [n padded to 8, 6], Pa; recent mean; NULL: all of the stress diffuses */
+    const double *flow;        /* shape [n padded to 8], 1; 0: at rest, 1: flows; NULL without the mean */
     const double *field;       /* shape [n padded to 8, MOR_PAIR_FIELD_SIZE], units of the enum; of a nonlocal law */
     double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
 } mor_pair_arrays;
@@ -149,12 +156,14 @@ typedef struct mor_pair_tangent_job {
 typedef void (*mor_pair_tangent_loop)(const mor_pair_constants *constants, const mor_pair_tangent_job *job,
                                       int64_t first, int64_t last);
 
-/** Mean velocity of the points of a boundary that each particle sees, by kernel values; zero where it sees none. */
+/** Mean of a vector of the points of a boundary that each particle sees, by kernel values; zero where it sees none. */
 typedef struct mor_pair_mean_job {
     const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
+    const double *values;       /* shape [n_target, value_stride]; the vector first, any unit */
+    int64_t value_stride;       /* doubles from one vector to the next */
     const mor_pair_slot *slots; /* shape [n_slots] */
-    double *out;                /* shape [n_slots * 8, 3], m/s */
+    double *out;                /* shape [n_slots * 8, 3], unit of the values */
 } mor_pair_mean_job;
 
 typedef void (*mor_pair_mean_loop)(const mor_pair_constants *constants, const mor_pair_mean_job *job, int64_t first,
@@ -192,6 +201,7 @@ typedef struct mor_pair_table {
     mor_pair_mean_loop mean;       /* velocity of a boundary as particles see it */
     mor_pair_share_loop share;     /* forces on the points of a boundary */
     mor_pair_loop spin;            /* adds the acceleration by spin_stress */
+    mor_pair_loop transient;       /* stress diffusion that leaves any equilibrium alone */
     mor_pair_loop diffuse;         /* rate of a field by diffusion, docs/theory/nonlocal.md */
 } mor_pair_table;
 

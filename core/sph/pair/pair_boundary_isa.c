@@ -124,12 +124,13 @@ INLINE void mean_part(const mor_pair_constants *c, const mor_pair_mean_job *job,
     memset(sum, 0, sizeof sum);
     for (int32_t entry = 0; entry < slot->count; ++entry) {
         const double *target = job->target + (int64_t)slot->list[entry] * MOR_BOUNDARY_RECORD;
+        const double *value = job->values + slot->list[entry] * job->value_stride;
         const pair p = pair_of(&f, target, 3);
         const vec square = p.reach * p.reach;
         const vec weight = square * square * (5.0 - 4.0 * p.reach) * target[MOR_BOUNDARY_VOLUME];
         total += weight;
         for (int a = 0; a < 3; ++a) {
-            sum[a] += weight * target[MOR_BOUNDARY_VELOCITY + a];
+            sum[a] += weight * value[a];
         }
     }
     const vec inverse = select_lanes(total > 0.0, 1.0 / total, broadcast(0.0));

@@ -53,6 +53,7 @@ typedef struct momentum_sums {
     vec spread_stress[6]; /* sum kd stress_j */
     vec spread_weight;    /* sum kd */
     vec spread_way[3];    /* sum kd r */
+    vec hourglass[3];     /* sum k m (d_i - d_j), m the stiffness, Pa */
 } momentum_sums;
 
 INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const double *s, const int dimension)
@@ -191,6 +192,33 @@ typedef struct momentum_part {
     momentum_sums sums;
 } momentum_part;
 
+/* The hourglass control: forces between particles that are displaced unlike, whichever way they lie. */
+INLINE void add_hourglass(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                          const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                          const momentum_form form)
+{
+    const double *own = arrays->hourglass + first * 3;
+    const vec d[3] = {load(own, 3, 0), load(own, 3, 1), load(own, 3, 2)};
+    const vec itself = form.several ? load(arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE,
+                                           MOR_PAIR_OF_SOIL_HOURGLASS)
+                                    : broadcast(c->hourglass);
+    vec sum[3] = {part->sums.hourglass[0], part->sums.hourglass[1], part->sums.hourglass[2]};
+    for (int q = 0; q < n; ++q) {
+        const double *other = arrays->hourglass + (int64_t)near[q] * 3;
+        vec k = geometries[q].k;
+        if (form.several) {
+            const double there = of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_HOURGLASS];
+            k *= 2.0 * itself * there / (itself + there);
+        }
+        for (int a = 0; a < form.dimension; ++a) {
+            sum[a] = multiply_add(k, d[a] - other[a], sum[a]);
+        }
+    }
+    for (int a = 0; a < 3; ++a) {
+        part->sums.hourglass[a] = sum[a];
+    }
+}
+
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
 {
@@ -244,6 +272,10 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     }
     part->sums = sums;
     compiler_barrier(part);
+    if (arrays->hourglass != NULL) {
+        add_hourglass(part, geometries, near, n, c, arrays, first, form);
+        compiler_barrier(part);
+    }
     for (int q = 0; q < n && form.artificial; ++q) {
         add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), f, c, artificial + first * 6,
                             artificial + (int64_t)near[q] * 6, form);
@@ -330,11 +362,17 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
     const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
     const vec *w = m->weight;
     double *out = arrays->acceleration + first * 3;
-    store(out, 3, 0, n_lanes, factor * (m->force[0] + s[MOR_XX] * w[0] + s[MOR_XY] * w[1] + s[MOR_ZX] * w[2]));
-    store(out, 3, 1, n_lanes, factor * (m->force[1] + s[MOR_XY] * w[0] + s[MOR_YY] * w[1] + s[MOR_YZ] * w[2]));
-    if (form.dimension == 3) {
-        store(out, 3, 2, n_lanes, factor * (m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]));
-    } else {
+    vec force[3] = {m->force[0] + s[MOR_XX] * w[0] + s[MOR_XY] * w[1] + s[MOR_ZX] * w[2],
+                    m->force[1] + s[MOR_XY] * w[0] + s[MOR_YY] * w[1] + s[MOR_YZ] * w[2],
+                    m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]};
+    const double stiffness = form.several ? 1.0 : c->hourglass;
+    for (int a = 0; a < form.dimension; ++a) {
+        if (arrays->hourglass != NULL) {
+            force[a] += stiffness * m->hourglass[a];
+        }
+        store(out, 3, a, n_lanes, factor * force[a]);
+    }
+    if (form.dimension == 2) {
         store(out, 3, 2, n_lanes, broadcast(0.0));
     }
     if (form.diffuses) {
@@ -396,7 +434,8 @@ INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arr
 INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                            const int dimension)
 {
-    const int diffuses = c->diffusion_rate > 0.0 ? (c->has_limited_diffusion ? 2 : 1) : 0;
+    const int diffuses =
+        arrays->stress_diffusion != NULL && c->diffusion_rate > 0.0 ? (c->has_limited_diffusion ? 2 : 1) : 0;
     mor_pair_constants of_run;
     const mor_pair_constants *constants = c;
     int64_t end = last;

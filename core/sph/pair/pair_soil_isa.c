@@ -12,6 +12,10 @@ typedef struct gradient {
     vec soil;                      /* own, with several soils */
     vec moment[9];                 /* sum k (v_i - v_j) (x) r */
     vec rate;                      /* sum k t (v_i - v_j) . r */
+    vec weight;                    /* sum k; this and the next three with hourglass control */
+    vec jump[3];                   /* sum k (v_i - v_j) */
+    vec way[3];                    /* sum k r */
+    vec shape[6];                  /* sum k r (x) r, symmetric tensor */
 } gradient;
 
 /* What is found of a pair before it is added. */
@@ -27,6 +31,7 @@ typedef struct gradient_form {
     int dimension;
     int pressure; /* pressure part of v* */
     int several;  /* soils of unlike constants */
+    int hourglass;
 } gradient_form;
 
 /* Where soils meet, v* is the mean of both velocities: the volume follows the motion that strains both. */
@@ -62,6 +67,19 @@ INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *tar
             g->moment[3 * a + b] += kr[b] * jump[a];
         }
     }
+    if (form.hourglass) {
+        g->weight += k;
+        for (int a = 0; a < dimension; ++a) {
+            g->jump[a] += k * jump[a];
+            g->way[a] += kr[a];
+            g->shape[a] += kr[a] * r[a];
+        }
+        g->shape[MOR_XY] += kr[0] * r[1];
+        if (dimension == 3) {
+            g->shape[MOR_YZ] += kr[1] * r[2];
+            g->shape[MOR_ZX] += kr[2] * r[0];
+        }
+    }
     const vec plane = multiply_add(kr[0], jump[0], kr[1] * jump[1]);
     g->rate += it->share * (dimension == 3 ? multiply_add(kr[2], jump[2], plane) : plane);
     if (form.pressure) {
@@ -71,6 +89,46 @@ INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *tar
             pressures = (vec)((mask)pressures & it->same);
         }
         g->rate += k / impedances * pressures * it->distance;
+    }
+}
+
+/* The velocity of a particle beside the linear field that fits those of its neighbors best and goes through its own:
+ * the mean of (v_i - v_j) - L r, with L = (sum k (v_i - v_j) (x) r) (sum k r (x) r)^-1. Zero for any linear field, also
+ * at free surfaces, and where the neighbors lie in a plane (on a line). */
+INLINE void find_hourglass_rate(const gradient *g, vec own_weight, double *out, int n_lanes, const int dimension)
+{
+    /* Smallest determinant of the shape over the cube of its mean, 1 for even neighbors. */
+    const double flat = 0.02;
+    const vec *s = g->shape;
+    vec along[3] = {g->way[0], g->way[1], g->way[2]}; /* becomes inverse(shape) way */
+    vec determinant;
+    vec scale;
+    if (dimension == 3) {
+        const vec c[6] = {s[MOR_YY] * s[MOR_ZZ] - s[MOR_YZ] * s[MOR_YZ], s[MOR_XX] * s[MOR_ZZ] - s[MOR_ZX] * s[MOR_ZX],
+                          s[MOR_XX] * s[MOR_YY] - s[MOR_XY] * s[MOR_XY], s[MOR_ZX] * s[MOR_YZ] - s[MOR_XY] * s[MOR_ZZ],
+                          s[MOR_XY] * s[MOR_ZX] - s[MOR_XX] * s[MOR_YZ], s[MOR_XY] * s[MOR_YZ] - s[MOR_ZX] * s[MOR_YY]};
+        const vec mean = (s[MOR_XX] + s[MOR_YY] + s[MOR_ZZ]) * (1.0 / 3.0);
+        scale = mean * mean * mean;
+        determinant = s[MOR_XX] * c[MOR_XX] + s[MOR_XY] * c[MOR_XY] + s[MOR_ZX] * c[MOR_ZX];
+        along[0] = c[MOR_XX] * g->way[0] + c[MOR_XY] * g->way[1] + c[MOR_ZX] * g->way[2];
+        along[1] = c[MOR_XY] * g->way[0] + c[MOR_YY] * g->way[1] + c[MOR_YZ] * g->way[2];
+        along[2] = c[MOR_ZX] * g->way[0] + c[MOR_YZ] * g->way[1] + c[MOR_ZZ] * g->way[2];
+    } else {
+        const vec mean = (s[MOR_XX] + s[MOR_YY]) * 0.5;
+        scale = mean * mean;
+        determinant = s[MOR_XX] * s[MOR_YY] - s[MOR_XY] * s[MOR_XY];
+        along[0] = s[MOR_YY] * g->way[0] - s[MOR_XY] * g->way[1];
+        along[1] = s[MOR_XX] * g->way[1] - s[MOR_XY] * g->way[0];
+    }
+    const mask is_solid = determinant > flat * scale;
+    const vec inverse = 1.0 / select_lanes(is_solid, determinant, broadcast(1.0));
+    const vec mean = 1.0 / (g->weight - own_weight);
+    for (int a = 0; a < 3; ++a) {
+        vec rest = g->jump[a];
+        for (int b = 0; b < dimension; ++b) {
+            rest -= g->moment[3 * a + b] * along[b] * inverse;
+        }
+        store(out, 3, a, n_lanes, (vec)((mask)(rest * mean) & is_solid));
     }
 }
 
@@ -123,22 +181,32 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     }
     const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
     store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
+    if (form.hourglass) {
+        /* The own particle is in its list. */
+        find_hourglass_rate(&g, load(own, MOR_RECORD_SIZE, MOR_RECORD_VOLUME), arrays->hourglass_rate + first * 3,
+                            n_lanes, form.dimension);
+    }
 }
 
 INLINE void gradient_run(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                          const int dimension, int several)
 {
     const int pressure = c->has_pressure_term;
-#define MOR_GRADIENT_CASE(p, s)                                                                                        \
-    if (pressure == (p) && several == (s)) {                                                                           \
+    const int hourglass = arrays->hourglass_rate != NULL;
+#define MOR_GRADIENT_CASE(p, s, h)                                                                                     \
+    if (pressure == (p) && several == (s) && hourglass == (h)) {                                                       \
         for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
-            gradient_part(c, arrays, part *LANES, (gradient_form){dimension, p, s});                                   \
+            gradient_part(c, arrays, part *LANES, (gradient_form){dimension, p, s, h});                                \
         }                                                                                                              \
     }
-    MOR_GRADIENT_CASE(0, 0)
-    MOR_GRADIENT_CASE(0, 1)
-    MOR_GRADIENT_CASE(1, 0)
-    MOR_GRADIENT_CASE(1, 1)
+    MOR_GRADIENT_CASE(0, 0, 0)
+    MOR_GRADIENT_CASE(0, 1, 0)
+    MOR_GRADIENT_CASE(1, 0, 0)
+    MOR_GRADIENT_CASE(1, 1, 0)
+    MOR_GRADIENT_CASE(0, 0, 1)
+    MOR_GRADIENT_CASE(0, 1, 1)
+    MOR_GRADIENT_CASE(1, 0, 1)
+    MOR_GRADIENT_CASE(1, 1, 1)
 }
 
 INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
@@ -295,6 +363,7 @@ const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
                                          MOR_ISA_NAME(mor_pair_mean),
                                          MOR_ISA_NAME(mor_pair_share),
                                          spin_range,
+                                         MOR_ISA_NAME(mor_pair_transient),
                                          diffuse_range};
     return &table;
 }

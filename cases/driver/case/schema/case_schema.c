@@ -120,6 +120,8 @@ static const mor_case_key scale_keys[] = {
 #define DIFFUSION MOR_CASE_NEEDS_DIFFUSION
 #define DISSIPATION MOR_CASE_NEEDS_DISSIPATION
 #define BARRIER MOR_CASE_NEEDS_BARRIER
+#define RAMP MOR_CASE_NEEDS_RAMP
+#define HOURGLASS MOR_CASE_NEEDS_HOURGLASS
 #define MOR_SETTING(type, storage, key, kind, unit, fallback, words, need, computed_default, plane, text, ...)         \
     {{#key, MOR_SCHEMA_##kind, 1, unit, DEFAULT(fallback), __VA_ARGS__, words, text},                                  \
      MOR_CASE_STORE_##storage,                                                                                         \
@@ -140,6 +142,8 @@ static const mor_case_key numerics_keys[] = {
 #undef DIFFUSION
 #undef DISSIPATION
 #undef BARRIER
+#undef RAMP
+#undef HOURGLASS
 
 #define OUTPUT(member) AT(mor_case, output.member)
 static const mor_case_key output_keys[] = {

@@ -30,7 +30,9 @@ static const struct {
              {MOR_CASE_NEEDS_ROTATION, "with an angle other than 0"},
              {MOR_CASE_NEEDS_BODY_ROTATION, "with an angle other than 0"},
              {MOR_CASE_NEEDS_STIFF_SPRING, "with a stiffness above 0"},
-             {MOR_CASE_NEEDS_COMPLIANCE, "with contact_modulus"}};
+             {MOR_CASE_NEEDS_COMPLIANCE, "with contact_modulus"},
+             {MOR_CASE_NEEDS_RAMP, "with gravity_ramp above 0"},
+             {MOR_CASE_NEEDS_HOURGLASS, "with soil_hourglass above 0"}};
 
 static unsigned find_given(const mor_case *c)
 {
@@ -45,6 +47,8 @@ static unsigned find_given(const mor_case *c)
     given |= n->stress_diffusion > 0.0 ? MOR_CASE_NEEDS_DIFFUSION : 0U;
     given |= n->dissipation_factor > 0.0 ? MOR_CASE_NEEDS_DISSIPATION : 0U;
     given |= n->barrier_stiffness > 0.0 ? MOR_CASE_NEEDS_BARRIER : 0U;
+    given |= n->gravity_ramp > 0.0 ? MOR_CASE_NEEDS_RAMP : 0U;
+    given |= n->soil_hourglass > 0.0 ? MOR_CASE_NEEDS_HOURGLASS : 0U;
     return given | (c->placement_angle != 0.0 ? MOR_CASE_NEEDS_ROTATION : 0U);
 }
 

@@ -412,6 +412,7 @@ mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodie
         memcpy(group->domain_maximum, frame->domain_maximum, sizeof group->domain_maximum);
         group->placement = frame->is_placed ? &frame->placement : NULL;
         group->gravity_ramp = the_case->numerics.gravity_ramp;
+        group->has_smooth_ramp = the_case->numerics.gravity_ramp_form == 1;
         group->damping = the_case->numerics.damping;
         MOR_TRY(context, add_body_field(context, group));
     }

@@ -8,6 +8,7 @@
 #include "cases/driver/scene/check/simulation_check.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
+#include "core/geometry/shape_analytic.h"
 #include "core/material/checked.h"
 #include "core/material/params.h"
 #include "core/material/rate_integration.h"
@@ -220,6 +221,21 @@ static mor_status number_particles(mor_context *context, mor_simulation *simulat
     return MOR_OK;
 }
 
+/* The normals of the faces of a wall, seen from its points. */
+static mor_status find_wall_normals(mor_context *context, const mor_case *c, int wall, const mor_lattice_points *points,
+                                    double **normals)
+{
+    MOR_TRY(context, MOR_NEW(context, normals, 3 * points->n_points, "normals of a wall"));
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        double place[3];
+        double normal[3];
+        mor_simulation_take_point_back(c, points->positions + 3 * i, place);
+        mor_shape_normal(c->walls[wall].shape, place, 1.0e-3 * c->spacing, normal);
+        mor_matrix_apply(c->rotation, normal, *normals + 3 * i);
+    }
+    return MOR_OK;
+}
+
 static mor_status add_walls(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
@@ -238,7 +254,12 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
                                     .friction = (mor_wall_friction)c->walls[w].friction,
                                     .friction_coefficient = c->walls[w].friction_coefficient};
         mor_matrix_apply(c->rotation, c->walls[w].velocity, request.velocity);
-        const mor_status status = mor_soil_add_wall(context, &simulation->soil, &request);
+        double *normals = NULL;
+        mor_status status =
+            c->numerics.wall_normals == 1 ? find_wall_normals(context, c, w, &points, &normals) : MOR_OK;
+        request.normals = normals;
+        status = status == MOR_OK ? mor_soil_add_wall(context, &simulation->soil, &request) : status;
+        MOR_FREE(context, &normals);
         mor_lattice_clear(context, &points);
         MOR_FREE(context, &shares);
         MOR_TRY(context, status);

@@ -13,12 +13,14 @@ typedef struct proof {
     mor_stepper *stepper; /* of the soil */
 } proof;
 
-/* Makes the block; has_field: of a soil whose law has a field, of which only one stage makes a difference. */
-static void open_block(proof *it, bool is_checked, bool has_field, const mor_material *law)
+/* Makes the block, with the option that a stage needs, where it excludes another; stage: its name, or NULL. */
+static void open_block(proof *it, bool is_checked, const char *stage, const mor_material *law)
 {
     /* As the law lists them: stiffness, friction, grains, amplitude, time scale, seed, no gas. */
     static const double grains[] = {1e6, 0.3, 0.38, 0.64, 0.278, 1e-3, 2650.0, 0.48, 1e-4, 1e-3, 0.0};
     rock_scene *scene = &it->scene;
+    const bool has_field = stage != NULL && strcmp(stage, "nonlocal field") == 0;
+    const bool is_transient = stage != NULL && strncmp(stage, "transient", 9) == 0;
     const int sides[3] = {SIDE, SIDE, 1};
     const int floor[3] = {SIDE + 4, 3, 1};
     rock_scene_open(scene, 2, 0.01, 2);
@@ -29,6 +31,9 @@ static void open_block(proof *it, bool is_checked, bool has_field, const mor_mat
     scene->settings.scheme.artificial_stress_exponent = 2.55;
     scene->settings.scheme.artificial_stress_factor = 0.5;
     scene->settings.scheme.stress_diffusion = 0.1;
+    scene->settings.scheme.stress_diffusion_limiter = is_transient ? 2 : 0;
+    scene->settings.scheme.soil_hourglass = 0.2;
+    scene->settings.scheme.soil_hourglass_limit = 0.05;
     scene->settings.scheme.reconstruction = 1;
     scene->settings.scheme.gradient_correction = true;
     scene->settings.scheme.angular_momentum = true;
@@ -57,7 +62,7 @@ static void open_block(proof *it, bool is_checked, bool has_field, const mor_mat
 
 static void open_proof(proof *it, bool is_checked, const mor_material *law)
 {
-    open_block(it, is_checked, false, law);
+    open_block(it, is_checked, NULL, law);
 }
 
 static mor_status take_steps(proof *it, int n)
@@ -131,7 +136,7 @@ static void every_declared_bit_of_soil_is_needed(void **state)
     const int n_stages = it.stepper->n_stages;
     rock_scene_close(&it.scene);
     for (int k = 0; k < 64 * n_stages; ++k) {
-        open_block(&it, false, strcmp(it.stages[k / 64].name, "nonlocal field") == 0, NULL);
+        open_block(&it, false, it.stages[k / 64].name, NULL);
         mor_stage *stage = &it.stages[k / 64];
         const uint64_t bit = MOR_BIT(k % 64);
         const bool is_declared = ((stage->reads | stage->writes | stage->accumulates) & bit) != 0;

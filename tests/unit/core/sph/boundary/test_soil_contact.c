@@ -55,6 +55,36 @@ static void wall_sums_are_those_of_the_kernel(void **state)
     }
 }
 
+/* Wherever the particle is over the lattice of the wall, whose own sum ripples. */
+static void wall_with_normals_bears_along_them(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        const int up = dimension - 1;
+        for (int place = 1; place < 10; ++place) {
+            floor_case f;
+            double normals[3 * FLOOR_MAX] = {0.0};
+            double gradient[3];
+            floor_open_single(&f, dimension, MOR_WALL_ROUGH, 0.0);
+            for (int k = 0; k < f.n_points; ++k) {
+                normals[3 * k + up] = 1.0;
+            }
+            mor_wall_request request = floor_request(&f, MOR_WALL_ROUGH, 0.0);
+            request.normals = normals;
+            floor_add(&f, &request);
+            floor_record(&f)[0] = 0.05 * place * ASSEMBLY_SPACING;
+            floor_run(&f, MOR_DISSIPATION_BOTH);
+            floor_gradient(&f, floor_record(&f), gradient);
+            /* Or there is nothing to remove; exactly between two points the sum is symmetric. */
+            assert_true(fabs(gradient[0]) > 1e-5 * fabs(gradient[up]));
+            gradient[0] = 0.0;
+            gradient[1] = dimension == 3 ? 0.0 : gradient[1];
+            floor_assert_vector(f.wall.sums + MOR_KERNEL_SUM_GRADIENT, gradient, fabs(gradient[up]));
+            floor_close(&f);
+        }
+    }
+}
+
 static void wall_at_rest_gives_the_particle_its_own_stress(void **state)
 {
     (void)state;
@@ -445,6 +475,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wall_sums_are_those_of_the_kernel),
+        cmocka_unit_test(wall_with_normals_bears_along_them),
         cmocka_unit_test(wall_at_rest_gives_the_particle_its_own_stress),
         cmocka_unit_test(smooth_wall_gives_the_normal_part_only),
         cmocka_unit_test(coulomb_wall_caps_the_tangential_part),

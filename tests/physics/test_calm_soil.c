@@ -1,0 +1,311 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/random.h"
+#include "tests/common/scene.h"
+
+/* The parts of the scheme that let soil come to rest: hourglass control and transient stress diffusion
+ * (docs/theory/soil.md), each for itself on a free block without gravity, and both on a slope. */
+
+enum { TEXT_BYTES = 4096 };
+
+#define HALF(name, low, high, modulus)                                                                                 \
+    "{ name = '" name "'; shape = { type = 'box'; min = (0, " low "); max = (0.3, " high "); };"                       \
+    "  material = { model = 'hypoelastic'; density = 2000; youngs_modulus = '" modulus "'; poissons_ratio = 0.3; }; }"
+#define ONE HALF("soil", "0", "0.3", "5 MPa")
+#define TWO HALF("lower", "0", "0.15", "5 MPa") ", " HALF("upper", "0.15", "0.3", "20 MPa")
+
+static const char block[] =
+    "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0, 0);"
+    "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; soil = ( %s ); output = { pictures = false; };"
+    "numerics = { %s };";
+
+#define HOURGLASS "soil_hourglass = 0.25; stress_diffusion = 0;"
+#define TRANSIENT "stress_diffusion_limiter = 'transient';"
+#define HOURGLASS_AND_TRANSIENT "soil_hourglass = 0.25; " TRANSIENT
+
+static scene *make(const char *soils, const char *numerics)
+{
+    char text[TEXT_BYTES];
+    snprintf(text, sizeof text, block, soils, numerics);
+    const scene_request request = {.text = text};
+    return scene_new(&request);
+}
+
+static double *field(scene *it, mor_field_id id)
+{
+    return it->simulation.soil.set.data[id];
+}
+
+static int64_t count(const scene *it)
+{
+    return it->simulation.soil.set.n_particles;
+}
+
+/* Moves particles off the lattice, so that nothing cancels by symmetry. */
+static void disorder(scene *it)
+{
+    for (int64_t k = 0; k < count(it); ++k) {
+        for (int a = 0; a < 2; ++a) {
+            field(it, MOR_FIELD_POSITION)[3 * k + a] += 2e-3 * (mor_random_uniform(7, (uint64_t)k, (uint64_t)a) - 0.5);
+        }
+    }
+}
+
+/* Rotation, stretch and shear at once: no particle, at the surface neither, is displaced beside its neighbors. */
+static void linear_motion_has_no_hourglass_rate(void **state)
+{
+    (void)state;
+    scene *it = make(ONE, HOURGLASS "dissipation_factor = 0;");
+    disorder(it);
+    for (int64_t k = 0; k < count(it); ++k) {
+        const double *x = field(it, MOR_FIELD_POSITION) + 3 * k;
+        field(it, MOR_FIELD_VELOCITY)[3 * k] = 0.3 + 0.2 * x[0] - 0.7 * x[1];
+        field(it, MOR_FIELD_VELOCITY)[3 * k + 1] = -0.1 + 0.5 * x[0] - 0.1 * x[1];
+    }
+    scene_step(it, 1);
+    for (int64_t k = 0; k < 3 * count(it); ++k) {
+        /* m/s: rounding of velocities of 0.3 m/s, times the condition of the fit at a corner. */
+        scene_expect_near("rate", field(it, MOR_FIELD_HOURGLASS_RATE)[k], 0.0, 1e-13);
+    }
+    scene_free(it);
+}
+
+/* Rows that slide in alternate directions: the velocity gradient hardly sees them, the control sees all of it. */
+static void sliding_rows_are_seen_by_the_hourglass_rate(void **state)
+{
+    (void)state;
+    scene *it = make(ONE, HOURGLASS "dissipation_factor = 0;");
+    int n = 0;
+    for (int64_t k = 0; k < count(it); ++k) {
+        const int row = (int)floor(field(it, MOR_FIELD_POSITION)[3 * k + 1] / 0.01);
+        field(it, MOR_FIELD_VELOCITY)[3 * k] = row % 2 == 0 ? 1e-3 : -1e-3;
+    }
+    scene_step(it, 1);
+    for (int64_t k = 0; k < count(it); ++k) {
+        const double *x = field(it, MOR_FIELD_POSITION) + 3 * k;
+        if (x[0] > 0.05 && x[0] < 0.25 && x[1] > 0.05 && x[1] < 0.25) {
+            const double sign = (int)floor(x[1] / 0.01) % 2 == 0 ? 1.0 : -1.0;
+            /* The weights of rows at even distances are some two fifths of all: v minus the mean is 1.2 v. */
+            assert_true(sign * field(it, MOR_FIELD_HOURGLASS_RATE)[3 * k] > 1e-3);
+            scene_expect_near("shear", field(it, MOR_FIELD_VELOCITY_GRADIENT)[9 * k + 1], 0.0, 1e-12); /* rounding */
+            n += 1;
+        }
+    }
+    assert_true(n > 300);
+    scene_free(it);
+}
+
+/* In one soil and where two meet: forces of any displacements add up to nothing. */
+static void hourglass_forces_keep_momentum(void **state)
+{
+    (void)state;
+    static const char *const soils[2] = {ONE, TWO};
+    for (int s = 0; s < 2; ++s) {
+        scene *it = make(soils[s], HOURGLASS);
+        double sum[2] = {0.0};
+        double size = 0.0;
+        disorder(it);
+        for (int64_t k = 0; k < count(it); ++k) {
+            for (int a = 0; a < 2; ++a) {
+                field(it, MOR_FIELD_HOURGLASS)[3 * k + a] =
+                    1e-4 * (mor_random_uniform(3, (uint64_t)k, (uint64_t)a) - 0.5);
+            }
+        }
+        scene_step(it, 1);
+        for (int64_t k = 0; k < count(it); ++k) {
+            for (int a = 0; a < 2; ++a) {
+                const double part = field(it, MOR_FIELD_MASS)[k] * field(it, MOR_FIELD_ACCELERATION)[3 * k + a];
+                sum[a] += part;
+                size += fabs(part);
+            }
+        }
+        assert_true(size > 1.0); /* N/m */
+        scene_expect_near("along x", sum[0] / size, 0.0, 1e-14);
+        scene_expect_near("along y", sum[1] / size, 0.0, 1e-14);
+        scene_free(it);
+    }
+}
+
+/* The displacement acts by no more than a part of the stress, so that soil without stress has no strength by it. */
+static void hourglass_displacement_is_limited_by_the_stress(void **state)
+{
+    (void)state;
+    scene *it = make(ONE, HOURGLASS);
+    const mor_soil *soil = &it->simulation.soil;
+    for (int64_t k = 0; k < count(it); ++k) {
+        field(it, MOR_FIELD_HOURGLASS)[3 * k] = 1e-4;
+        field(it, MOR_FIELD_STRESS)[6 * k + MOR_XX] = field(it, MOR_FIELD_POSITION)[3 * k] > 0.15 ? -1000.0 : 0.0;
+    }
+    scene_step(it, 1);
+    int n = 0;
+    for (int64_t k = 0; k < count(it); ++k) {
+        const double *d = field(it, MOR_FIELD_HOURGLASS) + 3 * k;
+        const double *s = field(it, MOR_FIELD_STRESS) + 6 * k;
+        const double norm =
+            sqrt((s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])) / 3.0);
+        const double limit = 0.03 * norm * 0.01 / (0.25 * 2000.0 * soil->sound_speed * soil->sound_speed);
+        assert_true(mor_vector_length(d) <= limit * (1.0 + 1e-12));
+        n += norm > 100.0 && mor_vector_length(d) > 0.999 * limit;
+    }
+    assert_true(n > 400); /* where there is stress the limit is reached */
+    scene_free(it);
+}
+
+/* A stress that varies in any way, and has been as it is: nothing diffuses where soil is at rest. */
+static void stress_at_rest_does_not_diffuse(void **state)
+{
+    (void)state;
+    scene *it = make(TWO, TRANSIENT);
+    disorder(it);
+    for (int64_t k = 0; k < 6 * count(it); ++k) {
+        field(it, MOR_FIELD_STRESS)[k] = 1e4 * (mor_random_uniform(5, (uint64_t)k, 0) - 0.5);
+    }
+    scene_step(it, 1);
+    for (int64_t k = 0; k < 6 * count(it); ++k) {
+        /* Pa/s: rounding; the same stress diffuses at some 1e7 Pa/s where soil flows. */
+        scene_expect_near("diffusion", field(it, MOR_FIELD_STRESS_DIFFUSION)[k], 0.0, 1e-5);
+    }
+    scene_free(it);
+}
+
+/* Where all soil flows, all of its stress diffuses, as without the limiter. */
+static void stress_in_flow_diffuses_as_without_a_limiter(void **state)
+{
+    (void)state;
+    scene *both[2] = {make(TWO, TRANSIENT "gravity_ramp = 0;"), make(TWO, "")};
+    for (int s = 0; s < 2; ++s) {
+        disorder(both[s]);
+        for (int64_t k = 0; k < 6 * count(both[s]); ++k) {
+            field(both[s], MOR_FIELD_STRESS)[k] = 1e4 * (mor_random_uniform(5, (uint64_t)k, 0) - 0.5);
+        }
+    }
+    for (int64_t k = 0; k < count(both[0]); ++k) {
+        field(both[0], MOR_FIELD_FLOW)[k] = 1.0;
+    }
+    scene_step(both[0], 1);
+    scene_step(both[1], 1);
+    double size = 0.0;
+    for (int64_t k = 0; k < 6 * count(both[0]); ++k) {
+        const double reference = field(both[1], MOR_FIELD_STRESS_DIFFUSION)[k];
+        size = fmax(size, fabs(reference));
+        scene_expect_near("diffusion", field(both[0], MOR_FIELD_STRESS_DIFFUSION)[k], reference, 1e-4); /* rounding */
+    }
+    assert_true(size > 1e6);
+    scene_free(both[0]);
+    scene_free(both[1]);
+}
+
+/* Puts a block back where it was, turning at 100 rad/s about its center, with a stress that has turned by an angle. */
+static void turn_block(scene *it, const double *places, double angle)
+{
+    for (int64_t k = 0; k < count(it); ++k) {
+        const double *x = places + 3 * it->simulation.soil.set.id[k];
+        double *s = field(it, MOR_FIELD_STRESS) + 6 * k;
+        memcpy(field(it, MOR_FIELD_POSITION) + 3 * k, x, 3 * sizeof *x);
+        field(it, MOR_FIELD_VELOCITY)[3 * k] = -100.0 * (x[1] - 0.15);
+        field(it, MOR_FIELD_VELOCITY)[3 * k + 1] = 100.0 * (x[0] - 0.15);
+        s[MOR_XX] = 1000.0 * cos(2.0 * angle);
+        s[MOR_YY] = -1000.0 * cos(2.0 * angle);
+        s[MOR_XY] = 1000.0 * sin(2.0 * angle);
+    }
+}
+
+static void mean_stress_turns_with_the_soil(void **state)
+{
+    (void)state;
+    scene *it = make(ONE, TRANSIENT "dissipation_factor = 0; lattice_normalization = true;");
+    double places[3 * 1024];
+    double angle = 0.0;
+    for (int64_t k = 0; k < count(it); ++k) {
+        memcpy(places + 3 * it->simulation.soil.set.id[k], field(it, MOR_FIELD_POSITION) + 3 * k, 3 * sizeof *places);
+    }
+    while (angle < 2.0) {
+        turn_block(it, places, angle);
+        scene_step(it, 1);
+        angle += 100.0 * it->simulation.schedule.step_length;
+    }
+    int n = 0;
+    for (int64_t k = 0; k < count(it); ++k) {
+        const double *x = places + 3 * it->simulation.soil.set.id[k];
+        if (hypot(x[0] - 0.15, x[1] - 0.15) < 0.08) {
+            const double *mean = field(it, MOR_FIELD_MEAN_STRESS) + 6 * k;
+            /* Pa: a mean that does not turn lags by the angle turned within five periods, 250 Pa. What is left is the
+             * square of the angle turned in a step, 1e-4, over the 14 steps that the mean remembers. */
+            scene_expect_near("shear", mean[MOR_XY], 1000.0 * sin(2.0 * angle), 10.0);
+            scene_expect_near("difference", mean[MOR_XX] - mean[MOR_YY], 2000.0 * cos(2.0 * angle), 20.0);
+            n += 1;
+        }
+    }
+    assert_true(n > 150);
+    scene_free(it);
+}
+
+/* A layer on a slope well below its friction angle, between walls at both ends. */
+static const char slope[] =
+    "dimension = 2; spacing = '10 mm'; end = '0.5 s'; gravity = (3.3552, -9.2184, 0);" /* 20 degrees */
+    "domain = { min = (-1, -1, -1); max = (2, 2, 1); };"
+    "soil = ( { name = 'soil'; shape = { type = 'box'; min = (0, 0); max = (0.8, 0.1); };"
+    "  material = { model = 'drucker_prager'; density = 1600; youngs_modulus = '2 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '28 deg'; }; } );"
+    "walls = ( { name = 'floor'; friction = 'rough';"
+    "    shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; },"
+    "  { name = 'ends'; friction = 'smooth'; shape = { type = 'difference';"
+    "    from = { type = 'box'; min = (-0.1, -0.1); max = (0.9, 0.3); };"
+    "    minus = { type = 'box'; min = (0, -0.2); max = (0.8, 0.4); }; }; } );"
+    "numerics = { gravity_ramp = '0.1 s'; %s }; output = { pictures = false; };";
+
+/* Largest difference between a row's velocity and the mean of the rows beside it, m/s. */
+static double find_row_speed(const char *numerics)
+{
+    char text[TEXT_BYTES];
+    snprintf(text, sizeof text, slope, numerics);
+    const scene_request request = {.text = text};
+    scene *it = scene_new(&request);
+    int32_t rows[1 << 12] = {0};
+    double speed[10] = {0.0};
+    int members[10] = {0};
+    for (int64_t k = 0; k < count(it); ++k) {
+        rows[it->simulation.soil.set.id[k]] = (int32_t)(field(it, MOR_FIELD_POSITION)[3 * k + 1] / 0.01);
+    }
+    scene_advance(it, 0.5);
+    for (int64_t k = 0; k < count(it); ++k) {
+        const int row = rows[it->simulation.soil.set.id[k]];
+        const double x = field(it, MOR_FIELD_POSITION)[3 * k];
+        if (x > 0.3 && x < 0.5) {
+            speed[row] += field(it, MOR_FIELD_VELOCITY)[3 * k];
+            members[row] += 1;
+        }
+    }
+    double largest = 0.0;
+    for (int row = 2; row < 8; ++row) {
+        assert_true(members[row] > 15);
+        largest = fmax(largest, fabs(speed[row] / members[row] -
+                                     0.5 * (speed[row - 1] / members[row - 1] + speed[row + 1] / members[row + 1])));
+    }
+    scene_free(it);
+    return largest;
+}
+
+static void rows_of_a_stable_slope_stand_still(void **state)
+{
+    (void)state;
+    const double without = find_row_speed("");
+    const double with = find_row_speed(HOURGLASS_AND_TRANSIENT);
+    scene_expect_near("rows", with, 0.0, 1e-5); /* a tenth of 0.1 mm/s, which counts as rest */
+    assert_true(without > 1e-4);                /* or the test sees nothing */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(linear_motion_has_no_hourglass_rate),
+        cmocka_unit_test(sliding_rows_are_seen_by_the_hourglass_rate),
+        cmocka_unit_test(hourglass_forces_keep_momentum),
+        cmocka_unit_test(hourglass_displacement_is_limited_by_the_stress),
+        cmocka_unit_test(stress_at_rest_does_not_diffuse),
+        cmocka_unit_test(stress_in_flow_diffuses_as_without_a_limiter),
+        cmocka_unit_test(mean_stress_turns_with_the_soil),
+        cmocka_unit_test(rows_of_a_stable_slope_stand_still),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
