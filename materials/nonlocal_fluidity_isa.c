@@ -237,7 +237,7 @@ static const mor_schema PARAMETERS[] = {
                        .default_value = 2650.0},
     [NONLOCAL_AMPLITUDE] = {MOR_REAL_ENTRY(
                                 "nonlocal_amplitude", "1", 0.0, INFINITY,
-                                "A: the fluidity reaches A d/sqrt(|mu - mu_s|) into grains at rest; 0: the local "
+                                "A: the fluidity reaches A d/sqrt(abs(mu - mu_s)) into grains at rest; 0: the local "
                                 "law, without a field and without its time scale"),
                             .default_value = 0.48},
     [TIME_SCALE] = {MOR_POSITIVE_ENTRY("time_scale", "s", INFINITY,
@@ -245,7 +245,7 @@ static const mor_schema PARAMETERS[] = {
                     .role = MOR_ROLE_FIELD_TIME_SCALE, .default_value = 1e-4},
     [FLUIDITY_SEED] = {MOR_REAL_ENTRY(
                            "fluidity_seed", "1", 0.0, 1.0,
-                           "least fluidity of grains that deform, over that of free flow, sqrt(2)|D|/mu_2; flow "
+                           "least fluidity of grains that deform, over that of free flow, sqrt(2 D:D)/mu_2; flow "
                            "begins from it, and no steady flow is slower"),
                        .default_value = 1e-3},
     [GAS_DENSITY_RATIO] = MOR_GAS_DENSITY_RATIO_SCHEMA(

@@ -80,6 +80,11 @@ void mor_picture_color_names(char *text)
 
 static void add_word(const char *word, mor_picture_color_words *words)
 {
+    for (int k = 0; k < words->n; ++k) {
+        if (strcmp(words->of[k], word) == 0) { /* several soils have states of the same name */
+            return;
+        }
+    }
     if (words->n < MOR_PICTURE_COLOR_WORDS_MAX) {
         words->of[words->n++] = word;
     }

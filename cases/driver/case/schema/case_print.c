@@ -138,8 +138,8 @@ static void print_probe_types(mor_case_probe_catalog catalog, FILE *stream)
 static void print_interfaces(const mor_registry *registry, FILE *stream)
 {
     const mor_external_interface *interface = NULL;
-    fprintf(stream, "\nWhen laws of other programs need the keys that follow, and how they are built:\n"
-                    "[use_a_umat.md](../guide/use_a_umat.md).\n");
+    fprintf(stream,
+            "\nHow laws written for other programs are built and used: [use_a_umat.md](../guide/use_a_umat.md).\n");
     for (int k = 0; (interface = mor_registry_interface(registry, k)) != NULL; ++k) {
         print_heading(stream, 3, interface->text, interface->name);
         for (const mor_schema *entry = interface->parameters; entry->key != NULL; ++entry) {
