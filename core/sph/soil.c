@@ -74,12 +74,10 @@ static const mor_stage soil_stages[] = {
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on", has_artificial_stress},
     {"momentum", mor_soil_sum_momentum,
-     SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS),
+     SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(MEAN_STRESS) |
+         BIT(FLOW),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
-    {"transient diffusion", mor_soil_diffuse_stress, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS),
-     BIT(STRESS_DIFFUSION), BIT(MEAN_STRESS) | BIT(FLOW), "diffusion of the stress that changes, when switched on",
-     has_mean_stress},
     {"angular momentum", mor_soil_conserve_angular_momentum, SHARED(RECORDS) | SHARED(LISTS) | SHARED(SHORT_LISTS),
      SHARED(MOMENTS) | SHARED(SPIN_STRESS), BIT(ACCELERATION),
      "removes the net moment of the internal forces of the soil, when switched on", has_angular_momentum},
@@ -539,5 +537,9 @@ mor_status mor_soil_init_state(mor_context *context, mor_soil *soil)
     MOR_CHECK(context, status == MOR_OK, status < 0 ? status : MOR_ERROR_NUMERIC,
               "material '%s' refused the initial state of particle %lld of set '%s'", soil->material->material->name,
               (long long)soil->set.id[failed], soil->set.name);
+    if (has_mean_stress(soil)) {
+        memcpy(soil->set.data[MOR_FIELD_MEAN_STRESS], soil->set.data[MOR_FIELD_STRESS],
+               (size_t)(6 * soil->set.n_particles) * sizeof(double));
+    }
     return MOR_OK;
 }

@@ -113,8 +113,9 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
     arrays.hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
     arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
-    arrays.stress_diffusion =
-        s->scheme.stress_diffusion_limiter != 2 ? mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION) : NULL;
+    arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
+    arrays.mean_stress = mor_view_read(view, MOR_FIELD_MEAN_STRESS);
+    arrays.flow = mor_view_read(view, MOR_FIELD_FLOW);
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
     return MOR_OK;

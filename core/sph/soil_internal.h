@@ -27,7 +27,6 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view
 mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_diffuse_fields(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
-mor_status mor_soil_diffuse_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_follow_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_advance_hourglass(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);

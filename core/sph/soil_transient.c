@@ -16,22 +16,6 @@
 #define MEMORY 5.0
 #define NOISE 0.01
 
-mor_status mor_soil_diffuse_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
-{
-    mor_soil *soil = owner;
-    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
-    const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
-    double *mean = mor_view_write(view, MOR_FIELD_MEAN_STRESS);
-    if (step->number == 0) {
-        memcpy(mean, stress, (size_t)(6 * soil->set.n_particles) * sizeof *mean);
-    }
-    arrays.mean_stress = mean;
-    arrays.flow = mor_view_read(view, MOR_FIELD_FLOW);
-    arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
-    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->transient);
-    return MOR_OK;
-}
-
 /* Turns a mean stress with the soil and lets it follow the stress by a part of their difference. */
 static void follow_stress(double *mean, const double *stress, const double *gradient, double length, double part)
 {

@@ -159,6 +159,7 @@ static void stress_at_rest_does_not_diffuse(void **state)
     disorder(it);
     for (int64_t k = 0; k < 6 * count(it); ++k) {
         field(it, MOR_FIELD_STRESS)[k] = 1e4 * (mor_random_uniform(5, (uint64_t)k, 0) - 0.5);
+        field(it, MOR_FIELD_MEAN_STRESS)[k] = field(it, MOR_FIELD_STRESS)[k];
     }
     scene_step(it, 1);
     for (int64_t k = 0; k < 6 * count(it); ++k) {

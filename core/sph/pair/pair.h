@@ -201,7 +201,6 @@ typedef struct mor_pair_table {
     mor_pair_mean_loop mean;       /* velocity of a boundary as particles see it */
     mor_pair_share_loop share;     /* forces on the points of a boundary */
     mor_pair_loop spin;            /* adds the acceleration by spin_stress */
-    mor_pair_loop transient;       /* stress diffusion that leaves any equilibrium alone */
     mor_pair_loop diffuse;         /* rate of a field by diffusion, docs/theory/nonlocal.md */
 } mor_pair_table;
 

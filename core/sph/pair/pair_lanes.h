@@ -261,9 +261,6 @@ void MOR_ISA_NAME(mor_pair_momentum_2d)(const mor_pair_constants *c, const mor_p
 /** Likewise in three dimensions. */
 void MOR_ISA_NAME(mor_pair_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
                                         int64_t last);
-/** Finds the diffusion of the stress that changes, of a range of clusters. See mor_pair_table. */
-void MOR_ISA_NAME(mor_pair_transient)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
-                                      int64_t last);
 /** Finds kernel sums over a range of a job. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
                                    int64_t last);

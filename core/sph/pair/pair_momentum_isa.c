@@ -6,7 +6,7 @@
 /* What a copy of the momentum loop does; constant in each copy, so that there is no branch per pair. */
 typedef struct momentum_form {
     int dimension;
-    int diffuses;   /* stress diffusion: none, always (1), or as far as pairs move (2) */
+    int diffuses;   /* stress diffusion: none, always (1), as far as pairs move (2), or what changes (3) */
     int artificial; /* artificial stress */
     int linear;     /* velocities reconstructed at the middle of a pair */
     int several;    /* soils of unlike constants */
@@ -44,6 +44,7 @@ typedef struct momentum {
     vec minus_twice_impedance;
     vec strain_rate[6]; /* own, with reconstruction */
     vec limiter, soil;  /* own, with several soils */
+    vec flow;           /* own, where what changes diffuses */
 } momentum;
 
 /* Its sums. */
@@ -52,7 +53,9 @@ typedef struct momentum_sums {
     vec weight[3];        /* sum k r */
     vec spread_stress[6]; /* sum kd stress_j */
     vec spread_weight;    /* sum kd */
-    vec spread_way[3];    /* sum kd r */
+    vec spread_way[3];    /* sum kd r, of what flows */
+    vec spread_mean[6];   /* sum kd (1 - w) mean_j, w: how far the pair flows */
+    vec spread_rest;      /* sum kd (1 - w) */
     vec hourglass[3];     /* sum k m (d_i - d_j), m the stiffness, Pa */
 } momentum_sums;
 
@@ -75,14 +78,28 @@ INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const 
     m->force[1] += y;
 }
 
-INLINE void add_diffusion(momentum_sums *m, const pair *p, vec kd, const double *s, const int dimension)
+/* What is found of a pair before it is added. */
+typedef struct momentum_pair {
+    vec kd;    /* weight of stress diffusion */
+    vec rest;  /* of kd, what is at rest */
+    vec extra; /* isotropic part beside the stresses, Pa */
+} momentum_pair;
+
+INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *it, const double *s, const double *mean,
+                          const momentum_form form)
 {
     for (int a = 0; a < 6; ++a) {
-        m->spread_stress[a] += kd * s[a];
+        m->spread_stress[a] += it->kd * s[a];
     }
-    m->spread_weight += kd;
-    for (int a = 0; a < dimension; ++a) {
-        m->spread_way[a] += kd * p->r[a];
+    m->spread_weight += it->kd;
+    for (int a = 0; a < form.dimension; ++a) {
+        m->spread_way[a] += (form.diffuses == 3 ? it->kd - it->rest : it->kd) * p->r[a];
+    }
+    if (form.diffuses == 3) {
+        for (int a = 0; a < 6; ++a) {
+            m->spread_mean[a] += it->rest * mean[a];
+        }
+        m->spread_rest += it->rest;
     }
 }
 
@@ -107,14 +124,8 @@ INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_const
     }
 }
 
-/* What is found of a pair before it is added. */
-typedef struct momentum_pair {
-    vec kd;    /* weight of stress diffusion */
-    vec extra; /* isotropic part beside the stresses, Pa */
-} momentum_pair;
-
 INLINE void find_extra(momentum_pair *it, const geometry *g, const double *target, const momentum *m, const frame *f,
-                       const mor_pair_constants *c, const double *strain_rate, const double *of_soil,
+                       const mor_pair_constants *c, const double *strain_rate, const double *of_soil, double flow,
                        const momentum_form form)
 {
     const vec *v = m->v;
@@ -155,16 +166,19 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
         /* Stress jumps where soils meet, and must not spread across. */
         it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
     }
+    if (form.diffuses == 3) {
+        it->rest = it->kd * (1.0 - 0.5 * (m->flow + flow));
+    }
 }
 
-INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const double *target, const frame *f,
-                     const momentum_form form)
+INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const double *target,
+                     const double *mean, const frame *f, const momentum_form form)
 {
     pair p;
     separate(p.r, f, target, form.dimension);
     add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, form.dimension);
     if (form.diffuses) {
-        add_diffusion(m, &p, it->kd, target + MOR_RECORD_STRESS, form.dimension);
+        add_diffusion(m, &p, it, target + MOR_RECORD_STRESS, mean, form);
     }
 }
 
@@ -237,6 +251,9 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     for (int a = 0; a < 6 && form.linear; ++a) {
         m->strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
     }
+    if (form.diffuses == 3) {
+        m->flow = load(arrays->flow + first, 1, 0);
+    }
     if (form.several) {
         const double *of_soil = arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE;
         m->limiter = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_LIMITER);
@@ -263,12 +280,15 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
         const double *of_soil = of_soil_of(arrays, near[q], form.several);
-        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, form);
+        const double flow = form.diffuses == 3 ? arrays->flow[near[q]] : 0.0;
+        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, flow,
+                   form);
     }
     compiler_barrier(part);
     momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
-        add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), f, form);
+        const double *mean = form.diffuses == 3 ? arrays->mean_stress + (int64_t)near[q] * 6 : NULL;
+        add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), mean, f, form);
     }
     part->sums = sums;
     compiler_barrier(part);
@@ -337,7 +357,7 @@ INLINE void load_diffusion(diffusion *d, const mor_pair_constants *c, vec soil, 
 
 /* Eq. 25 with the operator of eq. 26 for any direction of gravity: deviations from the profile at rest diffuse. */
 INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const diffusion *d, const vec *s,
-                             double *out, int n_lanes)
+                             const double *own_mean, double *out, int n_lanes)
 {
     const vec rate = -c->gradient_factor * d->rate;
     const double *g = c->gravity_direction;
@@ -345,7 +365,10 @@ INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c
     const vec height = multiply_add(broadcast(g[2]), way[2], multiply_add(broadcast(g[0]), way[0], g[1] * way[1]));
     for (int a = 0; a < 6; ++a) {
         /* Height is -g . r, hence the plus. */
-        const vec sum = s[a] * m->spread_weight - m->spread_stress[a] + d->rest_gradient[a] * height;
+        vec sum = s[a] * m->spread_weight - m->spread_stress[a] + d->rest_gradient[a] * height;
+        if (own_mean != NULL) {
+            sum -= load(own_mean, 6, a) * m->spread_rest - m->spread_mean[a];
+        }
         store(out, 6, a, n_lanes, rate * sum);
     }
 }
@@ -378,7 +401,8 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
     if (form.diffuses) {
         diffusion d;
         load_diffusion(&d, c, soil, form);
-        finish_diffusion(m, c, &d, s, arrays->stress_diffusion + first * 6, n_lanes);
+        finish_diffusion(m, c, &d, s, form.diffuses == 3 ? arrays->mean_stress + first * 6 : NULL,
+                         arrays->stress_diffusion + first * 6, n_lanes);
     }
 }
 
@@ -426,16 +450,18 @@ INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arr
     MOR_MOMENTUM_CASES(0, 0)
     MOR_MOMENTUM_CASES(1, 0)
     MOR_MOMENTUM_CASES(2, 0)
+    MOR_MOMENTUM_CASES(3, 0)
     MOR_MOMENTUM_CASES(0, 1)
     MOR_MOMENTUM_CASES(1, 1)
     MOR_MOMENTUM_CASES(2, 1)
+    MOR_MOMENTUM_CASES(3, 1)
 }
 
 INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                            const int dimension)
 {
-    const int diffuses =
-        arrays->stress_diffusion != NULL && c->diffusion_rate > 0.0 ? (c->has_limited_diffusion ? 2 : 1) : 0;
+    const int limited = arrays->mean_stress != NULL ? 3 : (c->has_limited_diffusion ? 2 : 1);
+    const int diffuses = c->diffusion_rate > 0.0 ? limited : 0;
     mor_pair_constants of_run;
     const mor_pair_constants *constants = c;
     int64_t end = last;

@@ -363,7 +363,6 @@ const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
                                          MOR_ISA_NAME(mor_pair_mean),
                                          MOR_ISA_NAME(mor_pair_share),
                                          spin_range,
-                                         MOR_ISA_NAME(mor_pair_transient),
                                          diffuse_range};
     return &table;
 }
