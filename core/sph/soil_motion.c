@@ -93,7 +93,6 @@ static void pack_soils(mor_context *context, const mor_soil *soil, const double 
         double *of_soil = soil->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
         of_soil[MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * soil->pair_soils[index].limiter_rate;
         of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
-        of_soil[MOR_PAIR_OF_SOIL_HOURGLASS] = soil->pair_soils[index].hourglass;
     }
     MOR_PARALLEL_FOR (context, block, mor_block_count(soil->tree.n_clusters), 1) {
         mor_pair_find_one_soil(&soil->inner, soil->of_soil, block * MOR_BLOCK,

@@ -44,10 +44,9 @@ typedef struct mor_pair_soil {
 
 /** What they read of a particle where a set has several soils. */
 enum {
-    MOR_PAIR_OF_SOIL_LIMITER = 0,   /* eta / (2 c0), s/m: a pair has the sum of both */
-    MOR_PAIR_OF_SOIL_INDEX = 1,     /* of its soil, 1 */
-    MOR_PAIR_OF_SOIL_HOURGLASS = 2, /* stiffness of the hourglass control, Pa */
-    MOR_PAIR_OF_SOIL_SIZE = 3
+    MOR_PAIR_OF_SOIL_LIMITER = 0, /* eta / (2 c0), s/m: a pair has the sum of both */
+    MOR_PAIR_OF_SOIL_INDEX = 1,   /* of its soil, 1 */
+    MOR_PAIR_OF_SOIL_SIZE = 2
 };
 
 /** What is read of a particle to diffuse a field. */

@@ -213,15 +213,16 @@ INLINE void add_hourglass(momentum_part *part, const geometry *geometries, const
 {
     const double *own = arrays->hourglass + first * 3;
     const vec d[3] = {load(own, 3, 0), load(own, 3, 1), load(own, 3, 2)};
-    const vec itself = form.several ? load(arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE,
-                                           MOR_PAIR_OF_SOIL_HOURGLASS)
-                                    : broadcast(c->hourglass);
+    vec itself = broadcast(c->hourglass);
+    for (int lane = 0; lane < LANES && form.several; ++lane) {
+        itself[lane] = c->soils[(int)part->own.soil[lane]].hourglass;
+    }
     vec sum[3] = {part->sums.hourglass[0], part->sums.hourglass[1], part->sums.hourglass[2]};
     for (int q = 0; q < n; ++q) {
         const double *other = arrays->hourglass + (int64_t)near[q] * 3;
         vec k = geometries[q].k;
         if (form.several) {
-            const double there = of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_HOURGLASS];
+            const double there = c->soils[(int)of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
             k *= 2.0 * itself * there / (itself + there);
         }
         for (int a = 0; a < form.dimension; ++a) {
