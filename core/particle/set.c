@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/particle/set.h"
 
+#include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
 
@@ -160,16 +161,6 @@ void mor_set_remove(mor_set *set, const int32_t *removed, int64_t n_removed)
     set->generation += 1;
 }
 
-/* A field is known by its name, so that fields which others have do not change the checksum of a set. */
-static uint64_t hash_name(const char *name)
-{
-    uint64_t hash = 0;
-    for (const char *c = name; *c != '\0'; ++c) {
-        hash = mor_random_mix(hash ^ (uint64_t)(unsigned char)*c);
-    }
-    return hash;
-}
-
 uint64_t mor_set_checksum(const mor_set *set)
 {
     /* Each number is mixed with its id, field and place and the results are added: wrapping addition does not depend on
@@ -181,7 +172,8 @@ uint64_t mor_set_checksum(const mor_set *set)
             continue;
         }
         const int n_components = set->fields[field].n_components;
-        const uint64_t name = hash_name(set->fields[field].name);
+        /* By its name, so that fields which others have do not change the checksum of a set. */
+        const uint64_t name = mor_hash_bytes(set->fields[field].name, strlen(set->fields[field].name));
         for (int64_t i = 0; i < set->n_particles; ++i) {
             for (int a = 0; a < n_components; ++a) {
                 uint64_t bits = 0;
