@@ -189,21 +189,21 @@ static void set_constants(mor_soil *soil)
         .laplacian_factor = mor_kernel_gradient_factor(h, s->dimension) / moment,
         .limiter_rate = s->scheme.dissipation_factor / soil->sound_speed,
         .diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->sound_speed,
-        .hourglass =
-            s->scheme.soil_hourglass * soil->kinds[0].reference_density * soil->sound_speed * soil->sound_speed,
         .has_limited_diffusion = s->scheme.stress_diffusion_limiter == 1,
         .artificial_exponent = s->scheme.artificial_stress_exponent,
         .shift_diameter = s->spacing * (s->dimension == 3 ? SPHERE_DIAMETER : DISC_DIAMETER),
         .spacing_kernel = mor_kernel_value(s->spacing, h, s->dimension),
         .kernel_normalization = mor_kernel_normalization(h, s->dimension),
     };
-    for (int k = 0; k < soil->n_kinds && soil->of_soil != NULL; ++k) {
-        soil->pair_soils[k].limiter_rate = s->scheme.dissipation_factor / soil->kinds[k].sound_speed;
-        soil->pair_soils[k].hourglass = s->scheme.soil_hourglass * soil->kinds[k].reference_density *
-                                        soil->kinds[k].sound_speed * soil->kinds[k].sound_speed;
-        soil->pair_soils[k].diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * soil->kinds[k].sound_speed;
-        soil->constants.soils = soil->pair_soils;
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        const mor_soil_kind *kind = &soil->kinds[k];
+        soil->pair_soils[k].limiter_rate = s->scheme.dissipation_factor / kind->sound_speed;
+        soil->pair_soils[k].hourglass =
+            s->scheme.soil_hourglass * kind->reference_density * kind->sound_speed * kind->sound_speed;
+        soil->pair_soils[k].diffusion_rate = 2.0 * s->scheme.stress_diffusion * h * kind->sound_speed;
     }
+    soil->constants.hourglass = soil->pair_soils[0].hourglass;
+    soil->constants.soils = soil->of_soil != NULL ? soil->pair_soils : NULL;
     const double strength = mor_vector_length(s->gravity);
     for (int a = 0; a < 3 && strength > 0.0; ++a) {
         soil->constants.gravity_direction[a] = s->gravity[a] / strength;

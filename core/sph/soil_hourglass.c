@@ -38,12 +38,10 @@ mor_status mor_soil_advance_hourglass(mor_context *context, void *owner, mor_vie
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
             const double *s = stress + 6 * i;
-            const mor_soil_kind *kind = mor_soil_kind_of(soil, i);
             const double size = sqrt((s[MOR_XX] * s[MOR_XX] + s[MOR_YY] * s[MOR_YY] + s[MOR_ZZ] * s[MOR_ZZ] +
                                       2.0 * (s[MOR_XY] * s[MOR_XY] + s[MOR_YZ] * s[MOR_YZ] + s[MOR_ZX] * s[MOR_ZX])) /
                                      3.0);
-            const double stiffness =
-                scheme->soil_hourglass * kind->reference_density * kind->sound_speed * kind->sound_speed;
+            const double stiffness = soil->pair_soils[mor_soil_kind_of(soil, i) - soil->kinds].hourglass;
             const double limit = scheme->soil_hourglass_limit * size * soil->settings.spacing / stiffness;
             advance_displacement(displacement + 3 * i, rate + 3 * i, gradient + 9 * i, step->length, limit);
         }
