@@ -34,23 +34,35 @@ enum { STEPS_AT_FULL_FACTOR = 150 };
 /* Longest displacement of a step, spacings. */
 #define DISPLACEMENT_MOST 0.1
 
-/* Thinnest shape, spacings. */
-#define THICKNESS_LEAST 4.0
+/* Perturbation of starts that breaks the symmetry of the lattice, spacings. */
+#define JITTER 0.02
 
-enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041 };
+/* Thinnest shape, spacings, alone and among others. */
+#define THICKNESS_LEAST 4.0
+#define THICKNESS_LEAST_AROUND 2.0
+
+static double least_thickness(const mor_relax_frame *frame)
+{
+    return frame->around == NULL ? THICKNESS_LEAST : THICKNESS_LEAST_AROUND;
+}
+
+enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041, STEPS_TOLD = 100 };
 
 /* State of a relaxation. Positions in units of the spacing. */
 typedef struct relaxation {
     mor_relax_frame frame;
     mor_relax_wall wall;
     mor_relax_neighbors neighbors;
-    int64_t n;
-    double volume;            /* of a particle, spacing^dimension */
+    int64_t n;                /* particles that move */
+    int64_t n_all;            /* and those around, which do not and come last */
+    double volume;            /* of a particle that moves, spacing^dimension */
     double step_factor;       /* of the step, spacing^2 */
     double smallest_distance; /* at the end, spacings */
-    double *x;                /* shape [3, n]; first all x, then all y, then all z */
+    double *x;                /* shape [3, n_all]; first all x, then all y, then all z */
+    double *volumes;          /* shape [n_all]; over that of one that moves, 1; NULL: one */
     double *displacements;    /* shape [3, n]; of the last step */
     double *rest;             /* shape [n]; displacement of a particle before its depth is evaluated again */
+    double *clear;            /* shape [n]; displacement before its clearance from solids is; NULL: nothing is around */
     double *strays;           /* shape [n]; displacement since the rows were found */
     double *blocks;           /* shape [mor_block_count(n), 2]; largest displacement in the step and since the rows were
                                * found, of each */
@@ -61,6 +73,7 @@ void mor_relax_request_init(mor_relax_request *request)
     memset(request, 0, sizeof *request);
     request->dimension = 3;
     request->volume = NAN;
+    request->jitter = JITTER;
     request->seed = 1;
     request->largest_residual = 2e-3;
     request->most_steps = 500;
@@ -83,6 +96,10 @@ static mor_status check_request(mor_context *context, const mor_relax_request *r
         request->largest_residual);
     MOR_CHECK(context, request->most_steps >= 0, MOR_ERROR_ARGUMENT, "%d steps are allowed: give a number from 0 on",
               request->most_steps);
+    MOR_CHECK(context, request->jitter >= 0.0 && request->jitter <= MOR_RELAX_JITTER_MOST, MOR_ERROR_ARGUMENT,
+              "starts are displaced by up to %g spacings: give 0 to %g", request->jitter, MOR_RELAX_JITTER_MOST);
+    MOR_CHECK(context, request->around == NULL || !isnan(request->volume), MOR_ERROR_ARGUMENT,
+              "there is no volume for several shapes or one among solids: give that of all that is filled");
     return MOR_OK;
 }
 
@@ -116,15 +133,15 @@ static mor_status refuse_thin(mor_context *context, const mor_relax_request *req
                     "allowed are %g at "
                     "least: use a spacing of at most %.4g m, or make it larger or thicker",
                     request->shape->operations->kind, is_found ? "" : "at most ", thickness * request->spacing,
-                    request->spacing, thickness, THICKNESS_LEAST,
-                    0.999 * thickness * request->spacing / THICKNESS_LEAST); /* digits round up, too */
+                    request->spacing, thickness, least_thickness(frame),
+                    0.999 * thickness * request->spacing / least_thickness(frame)); /* digits round up, too */
 }
 
 static mor_status count_particles(mor_context *context, const mor_relax_request *request, relaxation *it)
 {
     double volume = 0.0;
     double depth = 0.0;
-    const bool is_thick = mor_relax_frame_holds(&it->frame, 0.5 * THICKNESS_LEAST * (1.0 - 1e-6), &depth);
+    const bool is_thick = mor_relax_frame_holds(&it->frame, 0.5 * least_thickness(&it->frame) * (1.0 - 1e-6), &depth);
     if (!is_thick) {
         return refuse_thin(context, request, &it->frame, depth);
     }
@@ -132,22 +149,29 @@ static mor_status count_particles(mor_context *context, const mor_relax_request 
     MOR_CHECK(context, volume < MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
               "the shape (%s) holds %g particles at a spacing of %g m; allowed are %g: use a larger spacing",
               request->shape->operations->kind, volume, request->spacing, MOR_RELAX_PARTICLES_MOST);
-    it->n = (int64_t)floor(volume + 0.5);
+    it->n = mor_relax_frame_count_wanted(&it->frame, (int64_t)floor(volume + 0.5));
     MOR_CHECK(context, it->n > 0, MOR_ERROR_ARGUMENT,
               "the volume of the shape (%s) is %g particles at a spacing of %g m: give its right volume",
               request->shape->operations->kind, volume, request->spacing);
     it->volume = volume / (double)it->n;
+    it->n_all = it->n + mor_relax_frame_count_fixed(&it->frame);
+    MOR_CHECK(context, (double)it->n_all < MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
+              "%lld particles with those around: allowed are %g: use a larger spacing", (long long)it->n_all,
+              MOR_RELAX_PARTICLES_MOST);
     return MOR_OK;
 }
 
 static mor_status make_room(mor_context *context, relaxation *it)
 {
-    MOR_TRY(context, MOR_NEW(context, &it->x, 3 * it->n, "places to relax"));
+    MOR_TRY(context, MOR_NEW(context, &it->x, 3 * it->n_all, "places to relax"));
     MOR_TRY(context, MOR_NEW(context, &it->displacements, 3 * it->n, "displacements of relaxation"));
     MOR_TRY(context, MOR_NEW(context, &it->rest, it->n, "depths of relaxation"));
     MOR_TRY(context, MOR_NEW(context, &it->strays, it->n, "displacements of relaxation"));
+    if (it->frame.around != NULL) {
+        MOR_TRY(context, MOR_NEW(context, &it->clear, it->n, "clearances of relaxation"));
+    }
     MOR_TRY(context, MOR_NEW(context, &it->blocks, 2 * mor_block_count(it->n), "largest displacements"));
-    MOR_TRY(context, mor_relax_neighbors_init(context, it->n, MOR_RELAX_SUPPORT + SKIN, &it->neighbors));
+    MOR_TRY(context, mor_relax_neighbors_init(context, it->n_all, it->n, MOR_RELAX_SUPPORT + SKIN, &it->neighbors));
     MOR_TRY(context, mor_relax_wall_init(context, &it->frame, &it->wall));
     return MOR_OK;
 }
@@ -155,26 +179,44 @@ static mor_status make_room(mor_context *context, relaxation *it)
 static void free_room(mor_context *context, relaxation *it)
 {
     MOR_FREE(context, &it->x);
+    MOR_FREE(context, &it->volumes);
+    mor_relax_frame_free(context, &it->frame);
     MOR_FREE(context, &it->displacements);
     MOR_FREE(context, &it->rest);
     MOR_FREE(context, &it->strays);
+    MOR_FREE(context, &it->clear);
     MOR_FREE(context, &it->blocks);
     mor_relax_neighbors_clear(context, &it->neighbors);
     mor_relax_wall_clear(context, &it->wall);
 }
 
-static mor_status place_starts(mor_context *context, uint64_t seed, relaxation *it)
+/* Those around: where they are, and how much they count. */
+static mor_status place_fixed(mor_context *context, relaxation *it)
+{
+    if (it->n_all == it->n) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, MOR_NEW(context, &it->volumes, it->n_all, "volumes of particles"));
+    mor_relax_frame_place_fixed(&it->frame, it->n, it->n_all, it->x);
+    for (int64_t i = 0; i < it->n_all; ++i) {
+        it->volumes[i] = i < it->n ? 1.0 : it->frame.around->volumes[i - it->n] / it->volume;
+    }
+    it->neighbors.volumes = it->volumes;
+    return MOR_OK;
+}
+
+static mor_status place_starts(mor_context *context, const mor_relax_request *request, relaxation *it)
 {
     double *places = NULL;
     MOR_TRY(context, MOR_NEW(context, &places, 3 * it->n, "starting places"));
-    const mor_status status = mor_relax_fill(context, &it->frame, seed, it->n, places);
+    const mor_status status = mor_relax_fill(context, &it->frame, request->jitter, request->seed, it->n, places);
     for (int64_t i = 0; status == MOR_OK && i < it->n; ++i) {
         for (int a = 0; a < 3; ++a) {
-            it->x[a * it->n + i] = places[3 * i + a];
+            it->x[a * it->n_all + i] = places[3 * i + a];
         }
     }
     MOR_FREE(context, &places);
-    return status;
+    return status == MOR_OK ? place_fixed(context, it) : status;
 }
 
 /* A direction for two particles at identical positions, by their indices: opposite for the other of the two. */
@@ -197,7 +239,7 @@ static void repel_close(const relaxation *it, int64_t i, double *force)
         const int32_t j = row[k];
         double separation[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < 3; ++a) {
-            separation[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+            separation[a] = it->x[a * it->n_all + i] - it->x[a * it->n_all + j];
         }
         const double r = mor_vector_length(separation);
         if (r >= MOR_RELAX_CLOSE) {
@@ -207,8 +249,9 @@ static void repel_close(const relaxation *it, int64_t i, double *force)
             draw_direction(i, j, it->frame.dimension, separation);
         }
         const double length = mor_vector_length(separation);
+        const double volume = it->volumes != NULL ? it->volumes[j] : 1.0;
         for (int a = 0; a < 3 && length > 0.0; ++a) {
-            force[a] += CLOSE_REPULSION * (MOR_RELAX_CLOSE - r) * (separation[a] / length);
+            force[a] += volume * CLOSE_REPULSION * (MOR_RELAX_CLOSE - r) * (separation[a] / length);
         }
     }
 }
@@ -226,7 +269,7 @@ static void find_moves(mor_context *context, relaxation *it)
         double forces[CHUNK][4];
         sum_forces[isa](&it->neighbors, it->x, first, end, forces);
         for (int64_t i = first; i < end; ++i) {
-            const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
+            const double place[3] = {it->x[i], it->x[it->n_all + i], it->x[2 * it->n_all + i]};
             double force[3];
             double displacement[3];
             mor_relax_wall_force(&it->wall, place, force);
@@ -246,6 +289,37 @@ static void find_moves(mor_context *context, relaxation *it)
     }
 }
 
+/* Back under the outer layer, unless nothing near is empty space: what holds a particle off a solid is the solid's
+ * particles. Returns its depth, or one at which it is looked at again soon. */
+static double sink_particle(const relaxation *it, double *place)
+{
+    double force[3];
+    if (it->frame.around != NULL) {
+        mor_relax_wall_force(&it->wall, place, force);
+        if (!(mor_vector_length(force) > 0.0) && mor_relax_frame_depth(&it->frame, place) > -MOR_RELAX_LAYER) {
+            return MOR_RELAX_LAYER + MOR_RELAX_COVERED_REST;
+        }
+        if (!mor_relax_frame_is_alone(&it->frame, place)) {
+            mor_relax_wall_sink(&it->wall, &it->frame, place, SINK_MOST);
+            return MOR_RELAX_LAYER;
+        }
+    }
+    return mor_relax_frame_sink(&it->frame, place, SINK_MOST);
+}
+
+/* Keeps a particle off solids. */
+static void clear_particle(relaxation *it, int64_t i, const double *old, double *place)
+{
+    double path[3];
+    for (int a = 0; a < 3; ++a) {
+        path[a] = place[a] - old[a];
+    }
+    it->clear[i] -= MOR_SHAPE_SLOPE_MOST * mor_vector_length(path);
+    if (!(it->clear[i] > 0.0)) {
+        it->clear[i] = mor_relax_frame_clear(&it->frame, place);
+    }
+}
+
 /* Moves one particle, back under the outer layer where it left it, and never out of the shape. Returns its
  * displacement. */
 static double move_particle(relaxation *it, int64_t i)
@@ -254,7 +328,7 @@ static double move_particle(relaxation *it, int64_t i)
     double place[3];
     double path[3];
     for (int a = 0; a < 3; ++a) {
-        old[a] = it->x[a * it->n + i];
+        old[a] = it->x[a * it->n_all + i];
         place[a] = old[a] + it->displacements[a * it->n + i];
     }
     for (int a = 0; a < 3; ++a) {
@@ -262,15 +336,18 @@ static double move_particle(relaxation *it, int64_t i)
     }
     it->rest[i] -= MOR_SHAPE_SLOPE_MOST * mor_vector_length(path);
     if (!(it->rest[i] > 0.0)) {
-        const double depth = mor_relax_frame_sink(&it->frame, place, SINK_MOST);
+        const double depth = sink_particle(it, place);
         if (!(depth > 0.0)) {
             memcpy(place, old, sizeof place);
         }
         it->rest[i] = depth - MOR_RELAX_LAYER;
     }
+    if (it->clear != NULL) {
+        clear_particle(it, i, old, place);
+    }
     for (int a = 0; a < 3; ++a) {
         path[a] = place[a] - old[a];
-        it->x[a * it->n + i] = place[a];
+        it->x[a * it->n_all + i] = place[a];
         it->displacements[a * it->n + i] = path[a];
     }
     return mor_vector_length(path);
@@ -300,7 +377,8 @@ static void move_particles(mor_context *context, relaxation *it, double *residua
     }
 }
 
-/* The smallest distance of two particles, spacings, of those in the rows. */
+/* The smallest distance of two particles that move, spacings, of those in the rows. Fixed ones may be parts of
+ * cells. */
 static double find_smallest_distance(mor_context *context, relaxation *it)
 {
     const int64_t n_blocks = mor_block_count(it->n);
@@ -312,9 +390,10 @@ static double find_smallest_distance(mor_context *context, relaxation *it)
                 const int32_t j = it->neighbors.rows[i * it->neighbors.capacity + k];
                 double separation[3];
                 for (int a = 0; a < 3; ++a) {
-                    separation[a] = it->x[a * it->n + i] - it->x[a * it->n + j];
+                    separation[a] = it->x[a * it->n_all + i] - it->x[a * it->n_all + j];
                 }
-                nearest2 = fmin(nearest2, mor_vector_dot(separation, separation));
+                const double r2 = mor_vector_dot(separation, separation);
+                nearest2 = j < it->n ? fmin(nearest2, r2) : nearest2;
             }
         }
         it->blocks[2 * block] = sqrt(nearest2);
@@ -341,6 +420,11 @@ static mor_status relax_particles(mor_context *context, const mor_relax_request 
         find_moves(context, it);
         move_particles(context, it, &points->residual, &stray);
         points->n_steps = step + 1;
+        if (it->frame.around != NULL && points->n_steps % STEPS_TOLD == 0) {
+            mor_context_log(context, MOR_LOG_INFO,
+                            "relaxation of %lld particles: %d steps, longest displacement %.2g spacings",
+                            (long long)it->n, points->n_steps, points->residual);
+        }
         points->is_converged =
             points->residual < request->largest_residual && find_smallest_distance(context, it) >= MOR_RELAX_APART;
     }
@@ -348,11 +432,35 @@ static mor_status relax_particles(mor_context *context, const mor_relax_request 
     return MOR_OK;
 }
 
+/* Among solids nobody uses particles that did not come to rest. */
+static mor_status check_end(mor_context *context, const mor_relax_request *request, const relaxation *it,
+                            const mor_relax_points *points)
+{
+    double least = INFINITY;
+    MOR_CHECK(
+        context, points->is_converged, MOR_NOT_CONVERGED,
+        "relaxation of %lld particles stopped after %d steps with a longest displacement of %.3g spacings and two "
+        "particles %.3g spacings apart; allowed are %g at most and %g at least: use a lattice, or a smaller "
+        "spacing where soil is thin",
+        (long long)it->n, points->n_steps, points->residual, it->smallest_distance, request->largest_residual,
+        MOR_RELAX_APART);
+    for (int64_t i = 0; i < it->n; ++i) {
+        const double place[3] = {it->x[i], it->x[it->n_all + i], it->x[2 * it->n_all + i]};
+        least = fmin(least, mor_relax_frame_clearance(&it->frame, place, MOR_RELAX_LAYER));
+    }
+    MOR_CHECK(
+        context, least > 0.0, MOR_NOT_CONVERGED,
+        "relaxation of %lld particles pushed some of them into a solid, by up to %.3g spacings; allowed are none: "
+        "use a lattice, or a smaller spacing where soil is thin",
+        (long long)it->n, -least);
+    return MOR_OK;
+}
+
 static mor_status write_points(mor_context *context, const relaxation *it, mor_relax_points *points)
 {
     MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * it->n, "relaxed positions"));
     for (int64_t i = 0; i < it->n; ++i) {
-        const double place[3] = {it->x[i], it->x[it->n + i], it->x[2 * it->n + i]};
+        const double place[3] = {it->x[i], it->x[it->n_all + i], it->x[2 * it->n_all + i]};
         mor_relax_frame_point(&it->frame, place, points->positions + 3 * i);
     }
     points->n_points = it->n;
@@ -360,7 +468,7 @@ static mor_status write_points(mor_context *context, const relaxation *it, mor_r
     for (int a = 0; a < it->frame.dimension; ++a) {
         points->volume *= it->frame.spacing;
     }
-    if (!points->is_converged) {
+    if (!points->is_converged && it->frame.around == NULL) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "relaxation of %lld particles in a shape (%s) stopped after %d steps at a residual of %.3g "
                         "spacings; their positions are used as they are",
@@ -381,14 +489,21 @@ mor_status mor_relax(mor_context *context, const mor_relax_request *request, mor
     memset(points, 0, sizeof *points);
     memset(&it, 0, sizeof it);
     MOR_TRY(context, check_request(context, request));
-    MOR_TRY(context, mor_relax_frame_init(context, request, &it.frame));
-    MOR_TRY(context, count_particles(context, request, &it));
-    mor_status status = make_room(context, &it);
+    mor_status status = mor_relax_frame_init(context, request, &it.frame);
     if (status == MOR_OK) {
-        status = place_starts(context, request->seed, &it);
+        status = count_particles(context, request, &it);
+    }
+    if (status == MOR_OK) {
+        status = make_room(context, &it);
+    }
+    if (status == MOR_OK) {
+        status = place_starts(context, request, &it);
     }
     if (status == MOR_OK) {
         status = relax_particles(context, request, &it, points);
+    }
+    if (status == MOR_OK && request->around != NULL) {
+        status = check_end(context, request, &it, points);
     }
     if (status == MOR_OK) {
         status = write_points(context, &it, points);

@@ -17,9 +17,6 @@
 /* A gradient of the distance flatter than this is that of a ridge, where several surfaces are equally near. */
 #define GRADIENT_LEAST 0.3
 
-/* Each initial coordinate is perturbed by up to this, spacings, to break the symmetry of the lattice. */
-#define JITTER 0.02
-
 /* Starts shallower than this are not used, spacings. */
 #define SHALLOWEST 0.05
 
@@ -58,6 +55,20 @@ static double count_nodes(const mor_relax_frame *frame, int axis)
     return fmax(1.0, floor(2.0 * frame->half[axis] + 0.5)) + 2.0;
 }
 
+/* About all that is filled. */
+static void find_bounds(const mor_relax_frame *frame, mor_bounds *bounds)
+{
+    mor_shape_bounds(frame->shape, bounds);
+    for (int k = 1; k < mor_relax_frame_parts(frame); ++k) {
+        mor_bounds part;
+        mor_shape_bounds(frame->around->adjoining[k - 1], &part);
+        for (int a = 0; a < 3; ++a) {
+            bounds->minimum[a] = fmin(bounds->minimum[a], part.minimum[a]);
+            bounds->maximum[a] = fmax(bounds->maximum[a], part.maximum[a]);
+        }
+    }
+}
+
 mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *request, mor_relax_frame *frame)
 {
     mor_bounds bounds;
@@ -70,7 +81,8 @@ mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *r
     frame->shape = request->shape;
     frame->dimension = request->dimension;
     frame->spacing = request->spacing;
-    mor_shape_bounds(request->shape, &bounds);
+    frame->around = request->around;
+    find_bounds(frame, &bounds);
     for (int a = 0; a < request->dimension; ++a) {
         MOR_CHECK(context, isfinite(bounds.minimum[a]) && isfinite(bounds.maximum[a]), MOR_ERROR_ARGUMENT,
                   "the shape (%s) is unbounded along %c, from %g m to %g m: give one that is bounded",
@@ -82,19 +94,26 @@ mor_status mor_relax_frame_init(mor_context *context, const mor_relax_request *r
     MOR_CHECK(context, total < (double)nodes_limit, MOR_ERROR_ARGUMENT,
               "the box about the shape (%s) holds %g particles; allowed are %g: use a larger spacing",
               frame->shape->operations->kind, total, (double)nodes_limit);
-    return MOR_OK;
+    return mor_relax_frame_surround(context, frame);
 }
 
-double mor_relax_frame_depth(const mor_relax_frame *frame, const double *place)
+/* The shape that a place lies deepest in, or nearest to. */
+static int find_deepest(const mor_relax_frame *frame, const double *place, double *depth)
 {
-    double point[3];
-    mor_relax_frame_point(frame, place, point);
-    return -mor_shape_distance(frame->shape, point) / frame->spacing;
+    int deepest = 0;
+    *depth = mor_relax_frame_part_depth(frame, 0, place);
+    for (int k = 1; k < mor_relax_frame_parts(frame); ++k) {
+        const double own = mor_relax_frame_part_depth(frame, k, place);
+        deepest = own > *depth ? k : deepest;
+        *depth = fmax(own, *depth);
+    }
+    return deepest;
 }
 
 double mor_relax_frame_sink(const mor_relax_frame *frame, double *place, int n_most)
 {
-    double depth = mor_relax_frame_depth(frame, place);
+    double depth = 0.0;
+    const int part = find_deepest(frame, place, &depth);
     double at[3] = {place[0], place[1], place[2]};
     double deepest = depth;
     for (int n = 0; n < n_most && depth < MOR_RELAX_LAYER; ++n) {
@@ -102,15 +121,18 @@ double mor_relax_frame_sink(const mor_relax_frame *frame, double *place, int n_m
         for (int a = 0; a < frame->dimension; ++a) {
             double side[3] = {at[0], at[1], at[2]};
             side[a] = at[a] + NORMAL_STEP;
-            slope[a] = mor_relax_frame_depth(frame, side);
+            slope[a] = mor_relax_frame_part_depth(frame, part, side);
             side[a] = at[a] - NORMAL_STEP;
-            slope[a] = (slope[a] - mor_relax_frame_depth(frame, side)) / (2.0 * NORMAL_STEP);
+            slope[a] = (slope[a] - mor_relax_frame_part_depth(frame, part, side)) / (2.0 * NORMAL_STEP);
+        }
+        if (mor_relax_frame_is_covered(frame, part, at, slope, depth)) {
+            return MOR_RELAX_LAYER;
         }
         const double length = fmax(mor_vector_length(slope), GRADIENT_LEAST);
         for (int a = 0; a < frame->dimension; ++a) {
             at[a] += slope[a] * (MOR_RELAX_LAYER - depth) / (length * length);
         }
-        depth = mor_relax_frame_depth(frame, at);
+        depth = mor_relax_frame_part_depth(frame, part, at);
         if (depth > deepest) {
             deepest = depth;
             memcpy(place, at, sizeof at);
@@ -273,7 +295,7 @@ static void choose_start(const start_lattice *lattice, start_list *list, const d
     list->heads[cell] = (int32_t)++list->n;
 }
 
-/* Chooses n nodes where there are so many; they come out in the order of the lattice. */
+/* Chooses nodes up to n in all, where there are so many. */
 static void choose_nodes(const mor_relax_frame *frame, const start_lattice *lattice, int64_t n, int64_t n_nodes,
                          start_node *nodes, start_list *list)
 {
@@ -292,18 +314,18 @@ static void choose_nodes(const mor_relax_frame *frame, const start_lattice *latt
             }
         }
     }
-    qsort(list->indices, (size_t)list->n, sizeof *list->indices, compare_index);
 }
 
 /* An initial position that the perturbation would move out of the shape is not perturbed. */
-static void jitter_start(const mor_relax_frame *frame, uint64_t seed, int64_t index, double *place)
+static void jitter_start(const mor_relax_frame *frame, double jitter, uint64_t seed, int64_t index, double *place)
 {
     double moved[3] = {place[0], place[1], place[2]};
     for (int a = 0; a < frame->dimension; ++a) {
         const double number = mor_random_uniform(seed, (uint64_t)index, JITTER_PURPOSE + (uint64_t)a);
-        moved[a] += JITTER * (2.0 * number - 1.0);
+        moved[a] += jitter * (2.0 * number - 1.0);
     }
-    if (mor_relax_frame_sink(frame, moved, SINK_MOST) > 0.0 || mor_relax_frame_sink(frame, place, SINK_MOST) <= 0.0) {
+    if ((mor_relax_frame_sink(frame, moved, SINK_MOST) > 0.0 && mor_relax_frame_clearance(frame, moved, 1.0) > 0.0) ||
+        mor_relax_frame_sink(frame, place, SINK_MOST) <= 0.0) {
         memcpy(place, moved, sizeof moved);
     }
 }
@@ -318,12 +340,18 @@ static mor_status list_starts(mor_context *context, const mor_relax_frame *frame
     MOR_TRY(context, MOR_NEW(context, &list->next, n, "chosen starts"));
     MOR_TRY(context, MOR_NEW(context, &list->heads, n_nodes, "chosen starts"));
     MOR_TRY(context, MOR_NEW(context, &nodes, n_nodes, "starting lattice"));
-    MOR_PARALLEL_FOR (context, k, n_nodes, 256) {
-        double place[3];
-        place_start(frame, lattice, k, place);
-        nodes[k] = (start_node){mor_relax_frame_depth(frame, place), k};
+    for (int part = 0; part < mor_relax_frame_parts(frame); ++part) {
+        const int64_t first = list->n;
+        MOR_PARALLEL_FOR (context, k, n_nodes, 256) {
+            double place[3];
+            place_start(frame, lattice, k, place);
+            const double depth = mor_relax_frame_part_depth(frame, part, place);
+            nodes[k] = (start_node){mor_relax_frame_clearance(frame, place, depth), k};
+        }
+        choose_nodes(frame, lattice, frame->around != NULL ? first + frame->around->counts[part] : n, n_nodes, nodes,
+                     list);
+        qsort(list->indices + first, (size_t)(list->n - first), sizeof *list->indices, compare_index);
     }
-    choose_nodes(frame, lattice, n, n_nodes, nodes, list);
     MOR_FREE(context, &nodes);
     MOR_CHECK(context, list->n == n, MOR_ERROR_ARGUMENT,
               "the shape (%s) is to hold %lld particles at a spacing of %g m, but only %lld fit: give its correct "
@@ -332,7 +360,8 @@ static mor_status list_starts(mor_context *context, const mor_relax_frame *frame
     return MOR_OK;
 }
 
-mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, uint64_t seed, int64_t n, double *places)
+mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, double jitter, uint64_t seed, int64_t n,
+                          double *places)
 {
     start_lattice lattice;
     start_list list;
@@ -342,7 +371,7 @@ mor_status mor_relax_fill(mor_context *context, const mor_relax_frame *frame, ui
     if (status == MOR_OK) {
         MOR_PARALLEL_FOR (context, i, n, 128) {
             place_start(frame, &lattice, list.indices[i], places + 3 * i);
-            jitter_start(frame, seed, list.indices[i], places + 3 * i);
+            jitter_start(frame, jitter, seed, list.indices[i], places + 3 * i);
         }
     }
     MOR_FREE(context, &list.indices);

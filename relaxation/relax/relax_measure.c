@@ -128,7 +128,9 @@ mor_status mor_relax_measure(mor_context *context, const mor_relax_request *requ
     double *x = NULL;
     particle_measure *measures = NULL;
     memset(quality, 0, sizeof *quality);
-    MOR_TRY(context, mor_relax_frame_init(context, request, &frame));
+    mor_relax_request alone = *request;
+    alone.around = NULL;
+    MOR_TRY(context, mor_relax_frame_init(context, &alone, &frame));
     MOR_CHECK(context, n_points >= 0 && (double)n_points <= MOR_RELAX_PARTICLES_MOST, MOR_ERROR_ARGUMENT,
               "%lld particles are to be measured: give a number from 0 to %g", (long long)n_points,
               MOR_RELAX_PARTICLES_MOST);
@@ -136,7 +138,7 @@ mor_status mor_relax_measure(mor_context *context, const mor_relax_request *requ
     for (int a = 0; a < frame.dimension; ++a) {
         unit_volume /= frame.spacing;
     }
-    mor_status status = mor_relax_neighbors_init(context, n_points, MEASURE_SUPPORT, &neighbors);
+    mor_status status = mor_relax_neighbors_init(context, n_points, n_points, MEASURE_SUPPORT, &neighbors);
     if (status == MOR_OK) {
         status = MOR_NEW(context, &x, 3 * n_points, "places to measure");
     }
@@ -194,6 +196,25 @@ static void hash_shape(mor_hash *hash, const mor_shape *shape, int dimension)
     }
 }
 
+/* Solids by the fixed particles in them, which follow their surfaces, and by their own distances. */
+static void hash_around(mor_hash *hash, const mor_relax_request *request)
+{
+    const mor_relax_around *around = request->around;
+    mor_hash_add(hash, around->counts, (size_t)(1 + around->n_adjoining) * sizeof *around->counts);
+    for (int k = 0; k < around->n_adjoining; ++k) {
+        hash_shape(hash, around->adjoining[k], request->dimension);
+    }
+    for (int k = 0; k < around->n_solids; ++k) {
+        hash_shape(hash, around->solids[k], request->dimension);
+    }
+    for (int64_t i = 0; i < 3 * around->n_points; ++i) {
+        hash_number(hash, around->positions[i]);
+    }
+    for (int64_t i = 0; i < around->n_points; ++i) {
+        hash_number(hash, around->volumes[i]);
+    }
+}
+
 void mor_relax_request_hash(const mor_relax_request *request, uint64_t *hash)
 {
     mor_hash it;
@@ -203,6 +224,10 @@ void mor_relax_request_hash(const mor_relax_request *request, uint64_t *hash)
     hash_number(&it, request->spacing);
     hash_number(&it, request->volume);
     hash_number(&it, request->largest_residual);
+    hash_number(&it, request->jitter);
     hash_shape(&it, request->shape, request->dimension);
+    if (request->around != NULL) {
+        hash_around(&it, request);
+    }
     *hash = mor_hash_value(&it);
 }

@@ -10,18 +10,21 @@
 /* Cells per radius, and those to look at on each side. */
 enum { PER_RADIUS = 2, REACH = 2, CELLS_PER_PARTICLE = 16, CELLS_LEAST = 4096 };
 
-mor_status mor_relax_neighbors_init(mor_context *context, int64_t n, double radius, mor_relax_neighbors *neighbors)
+mor_status mor_relax_neighbors_init(mor_context *context, int64_t n, int64_t n_rows, double radius,
+                                    mor_relax_neighbors *neighbors)
 {
     memset(neighbors, 0, sizeof *neighbors);
     neighbors->n = n;
+    neighbors->n_rows = n_rows;
     neighbors->radius = radius;
     neighbors->n_cells_max = CELLS_PER_PARTICLE * n + CELLS_LEAST;
     MOR_TRY(context, MOR_NEW(context, &neighbors->firsts, neighbors->n_cells_max + 1, "cells of particles"));
     MOR_TRY(context, MOR_NEW(context, &neighbors->cell_of, n, "cells of particles"));
     MOR_TRY(context, MOR_NEW(context, &neighbors->sorted, n, "cells of particles"));
-    MOR_TRY(context, MOR_NEW(context, &neighbors->counts, n, "counts of neighbors"));
+    MOR_TRY(context, MOR_NEW(context, &neighbors->places, 3 * n, "cells of particles"));
+    MOR_TRY(context, MOR_NEW(context, &neighbors->counts, n_rows, "counts of neighbors"));
     neighbors->capacity = MOR_RELAX_LANES;
-    MOR_TRY(context, MOR_NEW(context, &neighbors->rows, n * neighbors->capacity, "rows of neighbors"));
+    MOR_TRY(context, MOR_NEW(context, &neighbors->rows, n_rows * neighbors->capacity, "rows of neighbors"));
     return MOR_OK;
 }
 
@@ -30,6 +33,7 @@ void mor_relax_neighbors_clear(mor_context *context, mor_relax_neighbors *neighb
     MOR_FREE(context, &neighbors->firsts);
     MOR_FREE(context, &neighbors->cell_of);
     MOR_FREE(context, &neighbors->sorted);
+    MOR_FREE(context, &neighbors->places);
     MOR_FREE(context, &neighbors->counts);
     MOR_FREE(context, &neighbors->rows);
     memset(neighbors, 0, sizeof *neighbors);
@@ -86,6 +90,11 @@ static void sort_particles(mor_relax_neighbors *neighbors, const double *x)
     }
     memmove(neighbors->firsts, neighbors->firsts + 1, (size_t)n_cells * sizeof *neighbors->firsts);
     neighbors->firsts[n_cells] = (int32_t)n;
+    for (int64_t s = 0; s < n; ++s) {
+        for (int a = 0; a < 3; ++a) {
+            neighbors->places[3 * s + a] = x[a * n + neighbors->sorted[s]];
+        }
+    }
 }
 
 /* Visits the particles near i; writes those within the radius as far as there is room. Returns how many there are. */
@@ -108,13 +117,13 @@ static int32_t walk_near(const mor_relax_neighbors *neighbors, const double *x, 
             const int64_t line = neighbors->n_cells[0] * (b + neighbors->n_cells[1] * c);
             for (int32_t s = neighbors->firsts[line + first[0]]; s < neighbors->firsts[line + last[0] + 1]; ++s) {
                 const int32_t j = neighbors->sorted[s];
-                const double way[3] = {x[i] - x[j], x[n + i] - x[n + j], x[2 * n + i] - x[2 * n + j]};
-                if (mor_vector_dot(way, way) < radius2 && j != i) {
-                    if (count < neighbors->capacity) {
-                        row[count] = j;
-                    }
-                    count += 1;
+                const double *other = neighbors->places + 3 * (int64_t)s;
+                const double way[3] = {x[i] - other[0], x[n + i] - other[1], x[2 * n + i] - other[2]};
+                /* Written in any case and counted if near: which it is, nobody can predict. */
+                if (count < neighbors->capacity) {
+                    row[count] = j;
                 }
+                count += (mor_vector_dot(way, way) < radius2) & (j != i);
             }
         }
     }
@@ -125,14 +134,14 @@ static int32_t walk_near(const mor_relax_neighbors *neighbors, const double *x, 
 static int32_t fill_rows(mor_context *context, mor_relax_neighbors *neighbors, const double *x)
 {
     int32_t most = 0;
-    MOR_PARALLEL_FOR (context, i, neighbors->n, 128) {
+    MOR_PARALLEL_FOR (context, i, neighbors->n_rows, 128) {
         int32_t *row = neighbors->rows + i * neighbors->capacity;
         neighbors->counts[i] = walk_near(neighbors, x, i, row);
         for (int64_t k = neighbors->counts[i]; k < neighbors->capacity; ++k) {
             row[k] = (int32_t)i;
         }
     }
-    for (int64_t i = 0; i < neighbors->n; ++i) {
+    for (int64_t i = 0; i < neighbors->n_rows; ++i) {
         most = neighbors->counts[i] > most ? neighbors->counts[i] : most;
     }
     return most;
@@ -153,6 +162,7 @@ mor_status mor_relax_neighbors_find(mor_context *context, mor_relax_neighbors *n
         /* They may become more before long. */
         neighbors->capacity = (most + most / 8 + MOR_RELAX_LANES) / MOR_RELAX_LANES * MOR_RELAX_LANES;
         MOR_FREE(context, &neighbors->rows);
-        MOR_TRY(context, MOR_NEW(context, &neighbors->rows, neighbors->n * neighbors->capacity, "rows of neighbors"));
+        MOR_TRY(context,
+                MOR_NEW(context, &neighbors->rows, neighbors->n_rows * neighbors->capacity, "rows of neighbors"));
     }
 }

@@ -104,6 +104,26 @@ static void layer_rests_below_the_angle_of_friction(void **state)
     scene_free(it);
 }
 
+/* Relaxed particles of a layer keep its mass, lie above the ground and below its surface, and bear what lies above. */
+static void relaxed_layer_follows_the_ground(void **state)
+{
+    (void)state;
+    scene *it = make_scene(15.0 * degree, (const char *const[]){"soil[0].particles=relaxed", NULL});
+    const mor_set *set = &it->simulation.soil.set;
+    double mass = 0.0;
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double *x = set->data[MOR_FIELD_POSITION] + 3 * i;
+        const double height = x[2] - x[0] * tan(15.0 * degree);
+        mass += set->data[MOR_FIELD_MASS][i];
+        assert_true(height > 0.25 * spacing && height < 0.4 - 0.25 * spacing); /* the least distance from ground */
+        /* Pa: the surface is found to 1e-6 spacings. */
+        scene_expect_near("vertical stress", set->data[MOR_FIELD_STRESS][6 * i + 2], -2000.0 * gravity * (0.4 - height),
+                          1e-5 * 2000.0 * gravity * spacing);
+    }
+    scene_expect_near("mass", mass, 2000.0 * 0.4 * 3.0 * 1.2, 1e-3 * 2880.0); /* that of the volume of a release */
+    scene_free(it);
+}
+
 /* The coefficient of friction that explains how a block of cohesive soil accelerates down the slope. */
 static double find_coefficient(double angle, double given)
 {
@@ -138,6 +158,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layer_rests_below_the_angle_of_friction),
+        cmocka_unit_test(relaxed_layer_follows_the_ground),
         cmocka_unit_test(block_slides_by_the_law_of_coulomb),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

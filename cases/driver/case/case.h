@@ -155,6 +155,7 @@ typedef struct mor_case_soil {
     double density;                             /* initial density, kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
     double velocity[3];                         /* initial velocity, m/s */
+    bool is_relaxed;                            /* filled with relaxed particles, else with those of the lattice */
     mor_case_stress initial_stress;
     double pressure;           /* of a uniform initial stress, Pa */
     double lateral_ratio;      /* K0 of the initial stress; < 0: 1 - sin(friction angle) */

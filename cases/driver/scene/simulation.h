@@ -32,6 +32,7 @@ typedef struct mor_simulation {
     double surface_height; /* of the initial soil along up over the placed origin, m */
     double soil_depth;     /* height of the highest column of the initial soil along up, m; 0 without */
     int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
+    double particle_volumes[MOR_CASE_SOILS_MAX];  /* of each particle of a region at the start, m3 (m2) */
     double first_step;                            /* length of the first time step, s */
     double initial_energies[3];                   /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     struct mor_probe_track *probes;               /* state of the probes; owned */

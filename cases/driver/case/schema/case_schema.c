@@ -74,12 +74,12 @@ static const mor_case_key lattice_keys[] = {
       "by up to 4.5 % near the line, 0.3 % from 25 spacings on"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case, lattice_pattern),
-     .needs = MOR_CASE_NEEDS_SOIL},
+     .needs = MOR_CASE_NEEDS_SOIL | MOR_CASE_NEEDS_LATTICE},
     {{"jitter", SCALAR, "1", DEFAULT(0.0), BELOW(0.0, 0.5), NULL,
       "largest random displacement of particles along each axis / spacing"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, jitter_ratio),
-     .needs = MOR_CASE_NEEDS_SOIL},
+     .needs = MOR_CASE_NEEDS_SOIL | MOR_CASE_NEEDS_LATTICE},
     END};
 
 static const mor_case_key placement_keys[] = {
@@ -193,6 +193,11 @@ static const mor_case_key soil_keys[] = {
     {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "initial velocity"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, velocity)},
+    {{"particles", CHOICE, "1", DEFAULT(0.0), ANY, "lattice|relaxed",
+      "how the shape is filled; lattice: with the nodes of the lattice; relaxed: with relaxed positions without its "
+      "order, that follow surfaces, walls and bodies and hold the mass of the shape"},
+     MOR_CASE_STORE_BOOL,
+     AT(mor_case_soil, is_relaxed)},
     END};
 
 static const mor_case_part soil_parts[] = {

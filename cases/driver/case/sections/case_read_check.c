@@ -32,7 +32,8 @@ static const struct {
              {MOR_CASE_NEEDS_STIFF_SPRING, "with a stiffness above 0"},
              {MOR_CASE_NEEDS_COMPLIANCE, "with contact_modulus"},
              {MOR_CASE_NEEDS_RAMP, "with gravity_ramp above 0"},
-             {MOR_CASE_NEEDS_HOURGLASS, "with soil_hourglass above 0"}};
+             {MOR_CASE_NEEDS_HOURGLASS, "with soil_hourglass above 0"},
+             {MOR_CASE_NEEDS_LATTICE, "with soil of particles = \"lattice\""}};
 
 static unsigned find_given(const mor_case *c)
 {
@@ -41,6 +42,9 @@ static unsigned find_given(const mor_case *c)
                      (c->n_walls > 0 ? MOR_CASE_NEEDS_WALLS : 0U);
     for (int k = 0; k < c->n_bodies; ++k) {
         given |= mor_case_body_is_rigid(&c->bodies[k]) ? 0U : MOR_CASE_NEEDS_ELASTIC;
+    }
+    for (int k = 0; k < c->n_soils; ++k) {
+        given |= c->soils[k].is_relaxed ? 0U : MOR_CASE_NEEDS_LATTICE;
     }
     given |= mor_vector_length(c->gravity) > 0.0 ? MOR_CASE_NEEDS_GRAVITY : 0U;
     given |= n->artificial_stress ? MOR_CASE_NEEDS_ARTIFICIAL : 0U;
@@ -169,11 +173,29 @@ static mor_status check_barrier(const mor_case_reader *reader, const mor_case_no
                               c->numerics.barrier_radius, support);
 }
 
+/* The number by which kernel gradients are divided is that of the lattice. */
+static mor_status check_normalization(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    for (int k = 0; k < c->n_soils && c->numerics.lattice_normalization; ++k) {
+        if (c->soils[k].is_relaxed) {
+            const mor_case_node *node =
+                mor_case_node_find(mor_case_node_find(root, "numerics"), "lattice_normalization");
+            return MOR_CASE_NODE_FAIL(reader->context, node,
+                                      "found numerics.lattice_normalization with soil '%s' of relaxed particles, which "
+                                      "have no lattice; allowed is one of them; remove the normalization or choose "
+                                      "particles = \"lattice\"",
+                                      c->soils[k].name);
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)
 {
     MOR_TRY(reader->context, check_ramp(reader, root, the_case));
     MOR_TRY(reader->context, check_series(reader, root, the_case));
     MOR_TRY(reader->context, check_barrier(reader, root, the_case));
+    MOR_TRY(reader->context, check_normalization(reader, root, the_case));
     warn_of_idle_settings(reader, root, the_case);
     return MOR_OK;
 }

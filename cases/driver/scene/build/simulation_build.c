@@ -4,6 +4,7 @@
 
 #include "cases/driver/case/schema/case_schema.h"
 #include "cases/driver/probe/probe_track.h"
+#include "cases/driver/scene/build/simulation_relax.h"
 #include "cases/driver/scene/check/narrow_gaps.h"
 #include "cases/driver/scene/check/simulation_check.h"
 #include "core/base/math.h"
@@ -152,7 +153,6 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
 {
     const mor_case *c = simulation->the_case;
     double *const *data = simulation->soil.set.data;
-    const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
     int64_t first = 0;
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
@@ -164,7 +164,7 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
         for (int64_t i = first; i < first + n; ++i) {
             memcpy(data[MOR_FIELD_VELOCITY] + 3 * i, velocity, sizeof velocity);
             data[MOR_FIELD_DENSITY][i] = it->density;
-            data[MOR_FIELD_MASS][i] = it->density * volume;
+            data[MOR_FIELD_MASS][i] = it->density * simulation->particle_volumes[k];
             if (simulation->soil.region_field >= 0) {
                 data[simulation->soil.region_field][i] = k;
             }
@@ -267,6 +267,21 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
     return MOR_OK;
 }
 
+static int64_t count_points(const mor_lattice_points *regions, int n_regions)
+{
+    int64_t n = 0;
+    for (int k = 0; k < n_regions; ++k) {
+        n += regions[k].n_points;
+    }
+    return n;
+}
+
+static mor_status build_bodies(mor_context *context, mor_simulation *simulation, const mor_registry *registry)
+{
+    return mor_simulation_bodies_init(context, &simulation->bodies, simulation->the_case, registry, &simulation->frame,
+                                      simulation->has_soil ? 1 : 0);
+}
+
 static mor_status build_soil(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
@@ -278,6 +293,10 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation)
     for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
         status = mor_simulation_fill_soil(context, c, k, n_particles, &regions[k]);
         n_particles += regions[k].n_points;
+    }
+    if (status == MOR_OK) {
+        status = mor_simulation_relax_soil(context, simulation, regions);
+        n_particles = count_points(regions, c->n_soils);
     }
     if (status == MOR_OK) {
         set_settings(simulation, kinds, &settings);
@@ -335,10 +354,14 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     simulation->has_soil = the_case->n_soils > 0;
     mor_simulation_find_up(the_case, simulation->up);
     find_frame(the_case, &simulation->frame);
-    mor_status status = simulation->has_soil ? build_soil(context, simulation) : MOR_OK;
-    if (status == MOR_OK) {
-        status = mor_simulation_bodies_init(context, &simulation->bodies, the_case, registry, &simulation->frame,
-                                            simulation->has_soil ? 1 : 0);
+    /* Soil is relaxed among bodies, which are then needed first. */
+    const bool is_relaxed = mor_simulation_has_relaxed_soil(the_case);
+    mor_status status = is_relaxed ? build_bodies(context, simulation, registry) : MOR_OK;
+    if (status == MOR_OK && simulation->has_soil) {
+        status = build_soil(context, simulation);
+    }
+    if (status == MOR_OK && !is_relaxed) {
+        status = build_bodies(context, simulation, registry);
     }
     if (status == MOR_OK) {
         status = mor_simulation_set_frictions(context, simulation);

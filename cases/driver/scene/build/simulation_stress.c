@@ -3,6 +3,8 @@
 /* The stress soil starts with. */
 #include "cases/driver/scene/build/simulation_build.h"
 
+#include "cases/driver/scene/build/simulation_relax.h"
+#include "cases/driver/scene/build/soil_above.h"
 #include "cases/driver/scene/soil_columns.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -151,8 +153,25 @@ static mor_status find_overburden(mor_context *context, const mor_simulation *si
     return MOR_OK;
 }
 
-/* Geostatic stress of one region; excess: shape [n_particles], Pa, of soil of other density above. */
-static void set_region(mor_simulation *simulation, const surface *s, int region, const double *excess, int64_t first)
+/* The height of the surface above each particle, m, and the weight of soil of other density above it, Pa; shape
+ * [n_particles] each. */
+static mor_status find_above(mor_context *context, const mor_simulation *simulation, const surface *s, double *tops,
+                             double *excess)
+{
+    if (mor_simulation_has_relaxed_soil(simulation->the_case)) {
+        mor_soil_above_find(context, simulation, tops, excess);
+        return MOR_OK;
+    }
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        const double *x = simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
+        tops[i] = s->top[mor_soil_columns_of(&s->columns, x)] + 0.5 * s->columns.spacing;
+    }
+    return find_overburden(context, simulation, s, excess);
+}
+
+/* Geostatic stress of one region; tops and excess as of find_above. */
+static void set_region(mor_simulation *simulation, const surface *s, int region, const double *tops,
+                       const double *excess, int64_t first)
 {
     const mor_case_soil *it = &simulation->the_case->soils[region];
     const int64_t n = simulation->region_particles[region];
@@ -166,8 +185,7 @@ static void set_region(mor_simulation *simulation, const surface *s, int region,
     const double level = it->surface_level + mor_vector_dot(origin, up); /* NaN when not given */
     for (int64_t i = first; i < first + n; ++i) {
         const double *x = position + 3 * i;
-        const double top =
-            isnan(level) ? s->top[mor_soil_columns_of(&s->columns, x)] + 0.5 * s->columns.spacing : level;
+        const double top = isnan(level) ? tops[i] : level;
         simulation->surface_height = fmax(simulation->surface_height, top);
         /* Both halves of a spacing: above the highest center and below the lowest. */
         simulation->soil_depth = fmax(simulation->soil_depth, s->top[mor_soil_columns_of(&s->columns, x)] -
@@ -195,12 +213,16 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
 {
     surface s = {.top = NULL};
     double *excess = NULL;
+    double *tops = NULL;
     MOR_TRY(context, find_surface(context, simulation, &s));
     int64_t first = 0;
     simulation->surface_height = -INFINITY;
     mor_status status = MOR_NEW(context, &excess, simulation->soil.set.n_particles, "weight of soil above soil");
     if (status == MOR_OK) {
-        status = find_overburden(context, simulation, &s, excess);
+        status = MOR_NEW(context, &tops, simulation->soil.set.n_particles, "surface above soil");
+    }
+    if (status == MOR_OK) {
+        status = find_above(context, simulation, &s, tops, excess);
     }
     for (int k = 0; k < simulation->the_case->n_soils && status == MOR_OK; ++k) {
         const mor_case_soil *it = &simulation->the_case->soils[k];
@@ -209,11 +231,12 @@ mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simul
             status = warn_of_cover(context, simulation, &s, it, first, regions[k].n_points);
         }
         if (status == MOR_OK) {
-            set_region(simulation, &s, k, excess, first);
+            set_region(simulation, &s, k, tops, excess, first);
         }
         first += regions[k].n_points;
     }
     MOR_FREE(context, &excess);
+    MOR_FREE(context, &tops);
     MOR_FREE(context, &s.top);
     return status;
 }

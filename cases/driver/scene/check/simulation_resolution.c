@@ -18,20 +18,9 @@ enum { ADVICE_BYTES = 512, SPACINGS_TRIED = 64 };
 
 /* ---- Volume of a region ------------------------------------------------------------------------------------------ */
 
-/* A region as it is filled, or the part of it that a body occupies. In the frame of the case. */
-typedef struct region {
-    mor_shape base;
-    const mor_shape *shape;
-    mor_bounds bounds;
-    bool is_clipped; /* by the domain */
-    int dimension;
-    const mor_case *the_case;
-    const mor_body *body; /* NULL: the whole region */
-} region;
-
 static double region_distance(const mor_shape *shape, const double *point)
 {
-    const region *it = (const region *)shape;
+    const mor_soil_region *it = (const mor_soil_region *)shape;
     double distance = mor_shape_distance(it->shape, point);
     for (int a = 0; a < it->dimension && it->is_clipped; ++a) {
         distance = fmax(distance, fmax(it->bounds.minimum[a] - point[a], point[a] - it->bounds.maximum[a]));
@@ -47,17 +36,16 @@ static double region_distance(const mor_shape *shape, const double *point)
 
 static void region_bounds(const mor_shape *shape, mor_bounds *bounds)
 {
-    *bounds = ((const region *)shape)->bounds;
+    *bounds = ((const mor_soil_region *)shape)->bounds;
 }
 
 static const mor_shape_operations region_operations = {
     .kind = "region", .distance = region_distance, .bounds = region_bounds};
 
-/* An unbounded region ends at the domain; others are filled whole. */
-static void make_region(const mor_case *c, int soil, region *it)
+void mor_soil_region_make(const mor_case *c, int soil, mor_soil_region *it)
 {
-    *it =
-        (region){.base = {&region_operations}, .shape = c->soils[soil].shape, .dimension = c->dimension, .the_case = c};
+    *it = (mor_soil_region){
+        .base = {&region_operations}, .shape = c->soils[soil].shape, .dimension = c->dimension, .the_case = c};
     mor_shape_bounds(it->shape, &it->bounds);
     for (int a = 0; a < c->dimension; ++a) {
         it->is_clipped = it->is_clipped || !isfinite(it->bounds.minimum[a]) || !isfinite(it->bounds.maximum[a]);
@@ -69,7 +57,7 @@ static void make_region(const mor_case *c, int soil, region *it)
 }
 
 /* The number of the surface nodes of a body that lie in a region. */
-static int64_t count_inside(const mor_body_group *group, const mor_body *body, const region *it)
+static int64_t count_inside(const mor_body_group *group, const mor_body *body, const mor_soil_region *it)
 {
     int64_t n = 0;
     for (int64_t k = body->first_node; k < body->first_node + body->n_nodes; ++k) {
@@ -82,8 +70,8 @@ static int64_t count_inside(const mor_body_group *group, const mor_body *body, c
 
 /* The volume of a region that a body occupies. Wholly inside it is the body's own volume; across the surface it is
  * integrated as that of the region. */
-static mor_status find_taken(mor_context *context, const mor_body_group *group, const mor_body *body, const region *it,
-                             double *volume)
+static mor_status find_taken(mor_context *context, const mor_body_group *group, const mor_body *body,
+                             const mor_soil_region *it, double *volume)
 {
     const int64_t n = count_inside(group, body, it);
     mor_shape_moments moments;
@@ -91,7 +79,7 @@ static mor_status find_taken(mor_context *context, const mor_body_group *group, 
     if (n == 0 || n == body->n_nodes) {
         return MOR_OK;
     }
-    region part = *it;
+    mor_soil_region part = *it;
     part.body = body;
     const mor_status status = mor_shape_find_moments(context, &part.base, it->dimension, &moments);
     if (status == MOR_ERROR_ARGUMENT) { /* only nodes touch the region */
@@ -103,7 +91,7 @@ static mor_status find_taken(mor_context *context, const mor_body_group *group, 
     return MOR_OK;
 }
 
-static mor_status find_whole(mor_context *context, const region *it, double *volume)
+static mor_status find_whole(mor_context *context, const mor_soil_region *it, double *volume)
 {
     mor_shape_moments moments;
     if (mor_terrain_release_volume(it->shape, volume)) { /* its faces are as rough as the ground */
@@ -116,8 +104,8 @@ static mor_status find_whole(mor_context *context, const region *it, double *vol
 
 mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation *simulation, int soil, double *volume)
 {
-    region whole;
-    make_region(simulation->the_case, soil, &whole);
+    mor_soil_region whole;
+    mor_soil_region_make(simulation->the_case, soil, &whole);
     MOR_TRY(context, find_whole(context, &whole, volume));
     for (int g = 0; g < simulation->bodies.n_groups; ++g) {
         const mor_body_group *group = simulation->bodies.groups[g];
@@ -226,13 +214,13 @@ static mor_status warn_of_mass(mor_context *context, const mor_simulation *s, in
     const double filled = (double)s->region_particles[soil] * volume_each;
     char advice[ADVICE_BYTES];
     double volume = 0.0;
-    region whole;
+    mor_soil_region whole;
     MOR_TRY(context, mor_simulation_find_volume(context, s, soil, &volume));
     const double error = filled / volume - 1.0;
     if (!(fabs(error) > mass_allowed)) {
         return MOR_OK;
     }
-    make_region(c, soil, &whole);
+    mor_soil_region_make(c, soil, &whole);
     advise_mass(c, &whole.bounds, error, advice, sizeof advice);
     mor_context_log(context, MOR_LOG_WARNING,
                     "%s:%d: soil '%s' has %.4g kg%s of particles where its shape holds %.4g kg%s, %+.2g %%; %s",
@@ -284,9 +272,9 @@ static bool is_carried(const mor_simulation *s, const mor_body_group *group, con
 {
     const mor_case *c = s->the_case;
     for (int k = 0; k < c->n_soils; ++k) {
-        region whole;
+        mor_soil_region whole;
         double velocity[3];
-        make_region(c, k, &whole);
+        mor_soil_region_make(c, k, &whole);
         mor_matrix_apply(c->rotation, c->soils[k].velocity, velocity);
         if (memcmp(velocity, body->velocity, sizeof velocity) == 0 &&
             count_inside(group, body, &whole) == body->n_nodes) {

@@ -9,6 +9,22 @@
  *  Whether the spacing resolves what the case describes: the mass of soil against that of its shape, and the particles
  *  across bodies in contact with soil. */
 
+/** A soil region as it is filled, or the part of it that a body occupies, as a shape in the frame of the case. */
+typedef struct mor_soil_region {
+    mor_shape base;
+    const mor_shape *shape; /* of the region; borrowed */
+    mor_bounds bounds;      /* m */
+    bool is_clipped;        /* by the domain */
+    int dimension;          /* 2 or 3 */
+    const mor_case *the_case;
+    const mor_body *body; /* NULL: the whole region */
+} mor_soil_region;
+
+/** Makes the shape of a region. An unbounded one ends at the domain; others are filled whole.
+ *  @param soil   [in]   number of the region in the case
+ *  @param region [out]  borrows from the case; owns nothing */
+void mor_soil_region_make(const mor_case *the_case, int soil, mor_soil_region *region);
+
 /** Finds the volume of a soil region inside the domain, without the bodies in it.
  *  @param simulation [in]      as it begins
  *  @param soil       [in]      number of the region in the case

@@ -82,7 +82,14 @@ static void warn_of_stiffening(mor_context *context, const mor_simulation *s)
     }
 }
 
-/* Smallest distance of a soil particle from the face of a wall, in spacings. */
+static bool is_relaxed(const mor_simulation *s, int64_t particle)
+{
+    const double *region = s->soil.region_field >= 0 ? s->soil.set.data[s->soil.region_field] : NULL;
+    return s->the_case->soils[region != NULL ? (int)region[particle] : 0].is_relaxed;
+}
+
+/* Smallest distance of a soil particle from the face of a wall, in spacings. Relaxed ones lie where walls do not repel
+ * them. */
 static double find_gap(const mor_simulation *s, int wall)
 {
     const mor_case *c = s->the_case;
@@ -91,6 +98,9 @@ static double find_gap(const mor_simulation *s, int wall)
     for (int64_t i = 0; i < s->soil.set.n_particles; ++i) {
         const double *position = s->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
         double local[3];
+        if (is_relaxed(s, i)) {
+            continue;
+        }
         mor_simulation_take_point_back(c, position, local);
         nearest = fmin(nearest, shape->operations->distance(shape, local));
     }

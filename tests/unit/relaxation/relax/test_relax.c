@@ -4,6 +4,8 @@
 #include "relaxation/relax/relax_internal.h"
 #include "tests/common/relax_scene.h"
 
+#include <stdlib.h>
+
 static void number_of_particles_is_the_volume_and_their_volumes_add_up(void **state)
 {
     mor_context context;
@@ -148,7 +150,7 @@ static void rows_of_neighbors_are_those_of_all_pairs(void **state)
         x[i] = 9.0 * fmod(0.754877666 * (i + 1) + 0.1 * (i / N), 1.0);
     }
     x[0] = 1e7; /* one far away: the cells must not be as many as the space is large */
-    assert_int_equal(mor_relax_neighbors_init(&context, N, 2.9, &neighbors), MOR_OK);
+    assert_int_equal(mor_relax_neighbors_init(&context, N, N, 2.9, &neighbors), MOR_OK);
     assert_int_equal(mor_relax_neighbors_find(&context, &neighbors, x), MOR_OK);
     for (int i = 0; i < N; ++i) {
         int n_near = 0;
@@ -207,7 +209,7 @@ static void starts_in_a_needle_are_apart(void **state)
     assert_int_equal(mor_relax_frame_init(&context, &request, &frame), MOR_OK);
     enum { N = 180 };
     double places[3 * N];
-    assert_int_equal(mor_relax_fill(&context, &frame, 1, N, places), MOR_OK);
+    assert_int_equal(mor_relax_fill(&context, &frame, 0.02, 1, N, places), MOR_OK);
     double nearest = INFINITY;
     for (int i = 0; i < N; ++i) {
         for (int j = 0; j < i; ++j) {
@@ -297,6 +299,100 @@ static void stop_before_the_residual_is_told(void **state)
     (void)state;
 }
 
+/* Two boxes in the plane, side by side on a floor of four layers of particles. */
+typedef struct neighbors_scene {
+    mor_shape *left, *right, *floor;
+    double positions[3 * 4 * 60], volumes[4 * 60];
+    int64_t counts[2];
+    const mor_shape *adjoining[1], *solids[1];
+    mor_relax_around around;
+    mor_relax_request request;
+} neighbors_scene;
+
+static void make_neighbors(mor_context *context, neighbors_scene *it)
+{
+    static const double corners[3][2][3] = {{{0.0, 0.0, -INFINITY}, {11.3, 9.0, INFINITY}},
+                                            {{11.3, 0.0, -INFINITY}, {21.0, 9.0, INFINITY}},
+                                            {{-20.0, -8.0, -INFINITY}, {40.0, 0.0, INFINITY}}};
+    mor_shape **const shapes[3] = {&it->left, &it->right, &it->floor};
+    memset(it, 0, sizeof *it);
+    for (int k = 0; k < 3; ++k) {
+        assert_int_equal(mor_shape_new_box(context, corners[k][0], corners[k][1], shapes[k]), MOR_OK);
+    }
+    for (int k = 0; k < 4 * 60; ++k) {
+        it->positions[3 * k] = k % 60 - 19.5;
+        it->positions[3 * k + 1] = -0.5 - k / 60;
+        it->volumes[k] = 1.0;
+    }
+    it->counts[0] = 102; /* 11.3 x 9 */
+    it->counts[1] = 87;  /* 9.7 x 9 */
+    it->adjoining[0] = it->right;
+    it->solids[0] = it->floor;
+    it->around = (mor_relax_around){it->adjoining, 1, it->counts, it->solids, 1, it->positions, it->volumes, 4 * 60};
+    it->request = new_relax_request(it->left, 2, 1.0);
+    it->request.around = &it->around;
+    it->request.volume = 21.0 * 9.0;
+    it->request.jitter = 0.5;
+}
+
+static void free_neighbors(mor_context *context, neighbors_scene *it)
+{
+    mor_shape_free(context, &it->left);
+    mor_shape_free(context, &it->right);
+    mor_shape_free(context, &it->floor);
+    assert_int_equal(context->memory_bytes, 0);
+}
+
+/* No layer is missing or doubled where they meet, and on the floor particles lie half a layer above it. */
+static void adjoining_shapes_are_filled_together(void **state)
+{
+    mor_context context;
+    mor_relax_points points;
+    neighbors_scene it;
+    mor_context_init(&context);
+    make_neighbors(&context, &it);
+    assert_int_equal(mor_relax(&context, &it.request, &points), MOR_OK);
+    assert_true(points.is_converged);
+    assert_int_equal(points.n_points, 189);
+    double mean[2] = {0.0, 0.0};
+    int n_seam = 0;
+    for (int64_t i = 0; i < points.n_points; ++i) {
+        const double *x = points.positions + 3 * i;
+        const int part = i < it.counts[0] ? 0 : 1;
+        mean[part] += x[0] / (double)it.counts[part];
+        n_seam += fabs(x[0] - 11.3) < 2.0;
+        assert_true(x[1] > 0.24 && x[1] < 8.56);  /* a quarter off the floor; the outer layer lies at 0.46 */
+        assert_true(x[0] > 0.44 && x[0] < 20.56); /* likewise */
+    }
+    assert_true(fabs(mean[0] - 5.65) < 0.5 && fabs(mean[1] - 16.15) < 0.5); /* half a spacing */
+    assert_true(abs(n_seam - 36) <= 5); /* 4 x 9 spacings; a row more or less of half as many on each side */
+    mor_relax_clear(&context, &points);
+    free_neighbors(&context, &it);
+    (void)state;
+}
+
+static void wrong_surroundings_are_refused(void **state)
+{
+    mor_context context;
+    mor_relax_points points;
+    neighbors_scene it;
+    mor_context_init(&context);
+    make_neighbors(&context, &it);
+    const mor_relax_request right = it.request;
+    it.request.volume = NAN;
+    assert_int_equal(mor_relax(&context, &it.request, &points), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(context.message, "give that of all that is filled"));
+    it.request = right;
+    it.request.jitter = 0.6;
+    assert_int_equal(mor_relax(&context, &it.request, &points), MOR_ERROR_ARGUMENT);
+    it.request = right;
+    it.request.most_steps = 20;
+    assert_int_equal(mor_relax(&context, &it.request, &points), MOR_NOT_CONVERGED);
+    assert_non_null(strstr(context.message, "stopped after 20 steps"));
+    free_neighbors(&context, &it);
+    (void)state;
+}
+
 static uint64_t hash_request(mor_relax_request request)
 {
     uint64_t hash = 0;
@@ -335,6 +431,21 @@ static void hash_stands_for_all_that_decides(void **state)
     request.most_steps += 1;
     assert_true(hash_request(request) != hash_request(first));
     request = first;
+    request.jitter = 0.5;
+    assert_true(hash_request(request) != hash_request(first));
+    const int64_t counts[1] = {4989};
+    const double place[3] = {2.0, 0.0, 0.0};
+    const double one = 1.0;
+    mor_relax_around around = {.counts = counts};
+    request = first;
+    request.around = &around;
+    const uint64_t alone = hash_request(request);
+    assert_true(alone != hash_request(first));
+    around.positions = place;
+    around.volumes = &one;
+    around.n_points = 1;
+    assert_true(hash_request(request) != alone);
+    request = first;
     request.largest_residual = 1e-4;
     assert_true(hash_request(request) != hash_request(first));
     mor_shape_free(&context, &ball);
@@ -355,6 +466,8 @@ int main(void)
         cmocka_unit_test(starts_in_a_needle_are_apart),
         cmocka_unit_test(wrong_requests_are_refused),
         cmocka_unit_test(stop_before_the_residual_is_told),
+        cmocka_unit_test(adjoining_shapes_are_filled_together),
+        cmocka_unit_test(wrong_surroundings_are_refused),
         cmocka_unit_test(hash_stands_for_all_that_decides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
