@@ -74,6 +74,14 @@ static void add_point(const scene *it, const double *x, const double *point, dou
     }
 }
 
+static void add_boundary(const scene *it, const double *x, const mor_boundary *boundary, kernel_sums *sums)
+{
+    for (int64_t j = 0; j < boundary->n_points; ++j) {
+        const double *record = boundary->records + j * MOR_BOUNDARY_RECORD;
+        add_point(it, x, record + MOR_BOUNDARY_POSITION, record[MOR_BOUNDARY_VOLUME], sums);
+    }
+}
+
 static void find_sums(const scene *it, int64_t i, kernel_sums *sums)
 {
     const mor_soil *soil = &it->simulation.soil;
@@ -84,11 +92,10 @@ static void find_sums(const scene *it, int64_t i, kernel_sums *sums)
         add_point(it, x, data[MOR_FIELD_POSITION] + 3 * j, data[MOR_FIELD_MASS][j] / data[MOR_FIELD_DENSITY][j], sums);
     }
     for (int w = 0; w < it->the_case.n_walls; ++w) {
-        const mor_boundary *wall = soil->walls[w].boundary;
-        for (int64_t j = 0; j < wall->n_points; ++j) {
-            const double *record = wall->records + j * MOR_BOUNDARY_RECORD;
-            add_point(it, x, record + MOR_BOUNDARY_POSITION, record[MOR_BOUNDARY_VOLUME], sums);
-        }
+        add_boundary(it, x, soil->walls[w].boundary, sums);
+    }
+    for (int g = 0; g < it->simulation.bodies.n_groups; ++g) {
+        add_boundary(it, x, &it->simulation.bodies.groups[g]->boundary, sums);
     }
 }
 
@@ -253,6 +260,61 @@ static void relaxed_soil_stays_in_its_region(void **state)
         least = fmin(least, rock);
     }
     assert_true(least < 0.7 * DP); /* soil touches the rock: no layer is missing */
+    scene_free(it);
+}
+
+/* Root mean square of h sum V grad W over the particles within a spacing of the rock. */
+static double find_gradient_at_rock(const scene *it)
+{
+    const mor_soil *soil = &it->simulation.soil;
+    double squares = 0.0;
+    int n = 0;
+    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+        const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+        if (hypot(x[0] - 0.15, x[1] - 0.07) < 0.031 + DP) {
+            kernel_sums sums;
+            find_sums(it, i, &sums);
+            squares += mor_vector_dot(sums.gradient, sums.gradient);
+            n += 1;
+        }
+    }
+    assert_true(n > 15); /* 20 fit around it */
+    return sqrt(squares / n);
+}
+
+static void relaxed_soil_closes_kernel_sums_around_a_rock(void **state)
+{
+    (void)state;
+    static const char *const particles[] = {"bodies[0].particles=relaxed", NULL};
+    static const char *const lattices[] = {"soil[0].particles=lattice", "soil[1].particles=lattice", NULL};
+    scene *soil = new_scene(layers, particles, nothing, 1);
+    scene *lattice = new_scene(layers, particles, lattices, 1);
+    const double found = find_gradient_at_rock(soil);
+    const double before = find_gradient_at_rock(lattice);
+    printf("around a rock: gradient %.4f, on the lattice %.4f\n", found, before);
+    assert_true(found < 0.02 && found < 0.1 * before); /* what the end of relaxation leaves; a tenth */
+    scene_free(soil);
+    scene_free(lattice);
+}
+
+/* Soil that stays on the lattice is a neighbor like walls: it keeps its places, and the other fits to it. */
+static void relaxed_soil_fits_to_soil_on_the_lattice(void **state)
+{
+    (void)state;
+    static const char *const below[] = {"soil[1].particles=lattice", NULL};
+    scene *it = new_scene(layers, below, nothing, 1);
+    const mor_soil *soil = &it->simulation.soil;
+    double lowest = INFINITY;
+    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+        const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+        if (soil->set.data[soil->region_field][i] > 0.5) {
+            scene_expect_near("place on the lattice", remainder(x[1] / DP - 0.5, 1.0), 0.0, 1e-12); /* rounding */
+        } else if (fabs(x[0] - 0.15) > 0.06) {
+            lowest = fmin(lowest, x[1]);
+        }
+    }
+    /* The uppermost row of the lattice lies at 7.5 spacings, under a face at 8.3: a layer above it, no gap of two. */
+    assert_true(lowest > 0.083 && lowest < 0.095);
     scene_free(it);
 }
 
@@ -430,6 +492,8 @@ int main(void)
         cmocka_unit_test(relaxed_soil_closes_kernel_sums_at_a_tilted_wall),
         cmocka_unit_test(relaxed_soil_keeps_the_mass_of_its_region),
         cmocka_unit_test(relaxed_soil_stays_in_its_region),
+        cmocka_unit_test(relaxed_soil_closes_kernel_sums_around_a_rock),
+        cmocka_unit_test(relaxed_soil_fits_to_soil_on_the_lattice),
         cmocka_unit_test(relaxed_soil_bears_the_weight_of_the_shapes_above),
         cmocka_unit_test(relaxed_soil_has_no_order_of_the_lattice),
         cmocka_unit_test(relaxed_soil_is_the_same_for_any_number_of_threads),
