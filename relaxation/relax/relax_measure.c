@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-/* To be raised with any change of the method that moves particles. */
-enum { METHOD = 3 };
+/* To be raised with any change of the method that moves particles; the second: those among others only. */
+enum { METHOD = 3, METHOD_AROUND = 2 };
 
 /* Nodes along the longest side of the grid whose distances represent a shape in the hash. */
 enum { HASH_NODES = 24 };
@@ -200,6 +200,8 @@ static void hash_shape(mor_hash *hash, const mor_shape *shape, int dimension)
 static void hash_around(mor_hash *hash, const mor_relax_request *request)
 {
     const mor_relax_around *around = request->around;
+    const uint64_t method = METHOD_AROUND;
+    mor_hash_add(hash, &method, sizeof method);
     mor_hash_add(hash, around->counts, (size_t)(1 + around->n_adjoining) * sizeof *around->counts);
     for (int k = 0; k < around->n_adjoining; ++k) {
         hash_shape(hash, around->adjoining[k], request->dimension);

@@ -18,6 +18,9 @@
 /* A part outside that changes less than this with the place, 1/spacing, has no direction. */
 #define SLOPE_LEAST 0.02
 
+/* Longest step towards the outer layer, spacings: no particle leaves the grid. */
+#define STEP_MOST 0.5
+
 enum { N_LIMIT = 2000000000 };
 
 /* Places relative to a node within the kernel's radius. */
@@ -273,8 +276,9 @@ bool mor_relax_wall_step(const mor_relax_wall *wall, const double *place, double
     const double excess = shares[0] - wall->outer_share * shares[1];
     const double slope2 = mor_vector_dot(force, force);
     const bool is_outside = excess > 0.0 && slope2 > SLOPE_LEAST * SLOPE_LEAST;
+    const double part = is_outside ? fmin(excess / slope2, STEP_MOST / sqrt(slope2)) : 0.0;
     for (int a = 0; a < 3; ++a) {
-        step[a] = is_outside && a < wall->dimension ? excess * force[a] / slope2 : 0.0;
+        step[a] = a < wall->dimension ? part * force[a] : 0.0;
     }
     return is_outside;
 }
@@ -282,7 +286,7 @@ bool mor_relax_wall_step(const mor_relax_wall *wall, const double *place, double
 void mor_relax_wall_sink(const mor_relax_wall *wall, const mor_relax_frame *frame, double *place, int n_most)
 {
     double depth = mor_relax_frame_depth(frame, place);
-    double step[3];
+    double step[3] = {0.0, 0.0, 0.0};
     for (int n = 0; n < n_most && depth < MOR_RELAX_LAYER && mor_relax_wall_step(wall, place, step); ++n) {
         const double next[3] = {place[0] + step[0], place[1] + step[1], place[2] + step[2]};
         const double deeper = mor_relax_frame_depth(frame, next);
