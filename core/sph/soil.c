@@ -33,6 +33,11 @@ static bool has_correction(const void *owner)
     return ((const mor_soil *)owner)->settings.scheme.gradient_correction;
 }
 
+static bool has_fit(const void *owner)
+{
+    return ((const mor_soil *)owner)->continued != NULL;
+}
+
 static bool has_strain_rate(const void *owner)
 {
     return ((const mor_soil *)owner)->set.data[MOR_FIELD_STRAIN_RATE] != NULL;
@@ -88,7 +93,7 @@ static const mor_stage soil_stages[] = {
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
      "velocities to the end of the step", NULL},
     {"velocity gradient", mor_soil_sum_gradient, SHARED(RECORDS) | SHARED(SHORT_LISTS),
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE), 0,
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE) | SHARED(MOMENTS), 0,
      "velocity gradient and density rate by the neighbors", NULL},
     {"boundary gradient", mor_soil_sum_boundary_gradient, SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES), 0,
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(WALL_SUMS),
@@ -103,6 +108,9 @@ static const mor_stage soil_stages[] = {
      SHARED(RECORDS) | SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(DENSITY), SHARED(MOMENTS),
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "corrects both to be exact for linear fields, when switched on",
      has_correction},
+    {"velocity gradient fit", mor_soil_fit_gradient, SHARED(WALL_SUMS) | BIT(DENSITY), 0,
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(MOMENTS),
+     "makes both those of the linear field that fits the neighbors, when switched on", has_fit},
     {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), BIT(STRAIN_RATE), 0,
      "strain rate, stored for the reconstruction of the next step, when switched on", has_strain_rate},
     {"regularization", mor_soil_regularize, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(VELOCITY_GRADIENT),
@@ -178,6 +186,7 @@ static void set_constants(mor_soil *soil)
     soil->smoothing_length = h;
     double moment = 0.0;
     sum_lattice(s, h, &soil->lattice_sum, &moment);
+    soil->lattice_moment = moment;
     soil->constants = (mor_pair_constants){
         .dimension = s->dimension,
         .dissipation = (mor_dissipation)s->scheme.dissipation,
@@ -271,7 +280,10 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
-    if (s->scheme.gradient_correction || s->scheme.angular_momentum) {
+    if (s->scheme.velocity_gradient == 1) {
+        MOR_TRY(context, MOR_NEW(context, &soil->continued, padded * 6, "moments continued into walls"));
+    }
+    if (s->scheme.gradient_correction || s->scheme.angular_momentum || s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
     if (s->scheme.angular_momentum) {
@@ -355,6 +367,8 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->diffusion);
     MOR_FREE(context, &soil->field_records);
     MOR_FREE(context, &soil->moments);
+    MOR_FREE(context, &soil->corners);
+    MOR_FREE(context, &soil->continued);
     MOR_FREE(context, &soil->spin_stress);
     MOR_FREE(context, &soil->regularization);
     MOR_FREE(context, &soil->order);
@@ -372,6 +386,9 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
               MOR_SOIL_WALLS_MAX);
     MOR_TRY(context, mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, soil->tree.n_clusters));
     soil->n_walls += 1;
+    if (request->normals != NULL && soil->corners == NULL) {
+        MOR_TRY(context, MOR_NEW(context, &soil->corners, soil->set.n_particles, "faces that particles see"));
+    }
     return MOR_OK;
 }
 
@@ -507,6 +524,8 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->of_soil != NULL ? padded * (MOR_PAIR_OF_SOIL_SIZE * sizeof(double) + 1.0 / MOR_CLUSTER) : 0.0;
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += soil->continued != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
     bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
     bytes += soil->spin_stress != NULL ? padded * 3.0 * sizeof(double) : 0.0;

@@ -87,18 +87,20 @@ typedef struct mor_soil {
     int n_diffusing;
     const mor_pair_table *table;
     mor_pair_constants constants;
-    double *records;         /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
-    double *of_soil;         /* shape [n_particles padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; or NULL */
-    int8_t *one_soil;        /* shape [clusters]; the one soil that a cluster sees, or -1; NULL: one soil */
-    double *regularization;  /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
-    double *moments;         /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
-    double *spin_stress;     /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
-    double *field_records;   /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
-    double *diffusion;       /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
-    double *density_sums;    /* shape [n_particles]; densities by summation, kg/m3; or NULL */
-    mor_reduce_room room;    /* of reductions over particles */
-    int32_t *order;          /* shape [n_particles]; scratch of the sort */
-    mor_soil_energy *energy; /* the audit; NULL: none */
+    double *records;        /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+    double *of_soil;        /* shape [n_particles padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; or NULL */
+    int8_t *one_soil;       /* shape [clusters]; the one soil that a cluster sees, or -1; NULL: one soil */
+    double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
+    double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
+    double *continued;   /* shape [n_particles, 6]; of the moments, what walls continue along themselves, 1; or NULL */
+    double *spin_stress; /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
+    double *field_records; /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
+    double *diffusion;     /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
+    mor_contact_corner *corners; /* shape [n_particles]; faces that each sees; NULL: no wall has normals */
+    double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
+    mor_reduce_room room;        /* of reductions over particles */
+    int32_t *order;              /* shape [n_particles]; scratch of the sort */
+    mor_soil_energy *energy;     /* the audit; NULL: none */
     mor_tree tree;
     mor_relation inner;
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];
@@ -107,6 +109,7 @@ typedef struct mor_soil {
     int n_boundaries;
     double sound_speed;                         /* c0, m/s; the largest of several soils */
     double smoothing_length;                    /* h, m */
+    double lattice_moment;                      /* moment of the kernel gradient on it, 1 */
     double lattice_sum;                         /* sum V W on the perfect lattice, 1 */
     double largest_speed;                       /* after the last kick, m/s */
     double largest_acceleration;                /* in the last step, m/s2 */

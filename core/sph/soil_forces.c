@@ -25,6 +25,28 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
     }
 }
 
+/* Directs the kernel gradients over walls by the normals of their faces. */
+static void use_normals(mor_context *context, mor_soil *soil)
+{
+    const int64_t n = soil->set.n_particles;
+    for (int64_t i = 0; i < n && soil->corners != NULL; ++i) {
+        soil->corners[i].n_faces = 0;
+    }
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        if (mor_soil_contact_at(soil, k)->normals != NULL) {
+            mor_soil_contact_project(context, mor_soil_contact_at(soil, k), n, soil->corners);
+        }
+    }
+    if (soil->corners != NULL) {
+        mor_soil_contact_solve_corners(context, n, soil->corners);
+    }
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        if (mor_soil_contact_at(soil, k)->normals != NULL) {
+            mor_soil_contact_close_corners(context, mor_soil_contact_at(soil, k), n, soil->corners);
+        }
+    }
+}
+
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
@@ -36,6 +58,7 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view,
         mor_view_compare(view, MOR_RESOURCE_LISTS, contact->relation.generation);
         mor_soil_contact_sum(context, contact, soil->table, &soil->constants, records);
     }
+    use_normals(context, soil);
     return MOR_OK;
 }
 
@@ -153,6 +176,8 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
+    arrays.moments =
+        soil->continued != NULL ? mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments) : NULL;
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
     return MOR_OK;
 }

@@ -22,6 +22,7 @@ mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, cons
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step);

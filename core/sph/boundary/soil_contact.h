@@ -53,6 +53,13 @@ typedef struct mor_contact_soil {
     int64_t n_particles;
 } mor_contact_soil;
 
+/** What a soil particle sees of faces with normals n, those of all boundaries together. */
+typedef struct mor_contact_corner {
+    double rest[3]; /* sum of kernel gradients, what is not along the own normal of each; then what corners add, 1/m */
+    double normals[6]; /* sum of n (x) n, symmetric tensor, 1 */
+    int64_t n_faces;   /* faces seen */
+} mor_contact_corner;
+
 /** One boundary and its relation to the soil. Owner: the soil solver. */
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
@@ -137,6 +144,26 @@ double mor_soil_contact_speed(const mor_soil_contact *contact);
  *  @param records   [in]      shape [n_particles padded to 8, 16]; the soil's, units of MOR_RECORD_... */
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                           const mor_pair_constants *constants, const double *records);
+
+/** Keeps of kernel gradients what lies along the normals of faces, for the points of a wall form a lattice and the rest
+ *  is the lattice's - except where several faces meet.
+ *  @param contact     [in,out]  with normals; sums must be current
+ *  @param n_particles [in]      number of soil particles
+ *  @param corners     [in,out]  shape [n_particles]; added to, n_faces zero at first */
+void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
+                              mor_contact_corner *corners);
+
+/** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
+ *  @param corners [in,out]  shape [n_particles] */
+void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, mor_contact_corner *corners);
+
+/** Gives the faces that meet their part of the rest, each along its normal, so that kernel gradients over soil and all
+ *  boundaries together still cancel.
+ *  @param contact     [in,out]  projected
+ *  @param n_particles [in]      number of soil particles
+ *  @param corners     [in]      shape [n_particles]; solved */
+void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
+                                    const mor_contact_corner *corners);
 
 /** Updates the velocity of the boundary as the particles see it; to be called when its owner has changed it.
  *  @param contact   [in,out]  lists must be current

@@ -17,21 +17,6 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
 #define LARGEST_SHARE 0.6
 
-/* Leaves of the kernel gradient over a wall only what lies along the normal of its faces: the points of a wall form a
- * lattice, and the rest is the lattice's. */
-static void straighten(mor_soil_contact *contact, int64_t first, int64_t last)
-{
-    for (int64_t lane = first; lane < last; ++lane) {
-        const double *normal = contact->seen_normals + 3 * lane;
-        double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
-        const double length2 = mor_vector_dot(normal, normal);
-        const double along = length2 > 0.0 ? mor_vector_dot(gradient, normal) / length2 : 0.0;
-        for (int a = 0; a < 3 && length2 > 0.0; ++a) {
-            gradient[a] = along * normal[a];
-        }
-    }
-}
-
 void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                           const mor_pair_constants *constants, const double *records)
 {
@@ -48,7 +33,6 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
             const mor_pair_mean_job mean = {records, points,         contact->normals,
                                             3,       contact->slots, contact->seen_normals};
             table->mean(constants, &mean, first, last);
-            straighten(contact, first * MOR_CLUSTER, last * MOR_CLUSTER);
         }
     }
     mor_soil_contact_update_velocity(context, contact, table, constants, records);

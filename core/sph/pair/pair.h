@@ -97,6 +97,7 @@ typedef struct mor_pair_arrays {
     double *velocity_gradient;       /* shape [n, 9], 1/s */
     double *density_rate;            /* shape [n], kg/m3/s */
     double *hourglass_rate;          /* shape [n, 3], m/s; velocity beside its linear fit; NULL without */
+    double *moments;                 /* shape [n, 6]; sum V_j (r_j - r_i) (x) grad_i W, 1; NULL without */
     double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
     const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
     const double *of_soil;     /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */

@@ -12,7 +12,7 @@ typedef struct gradient {
     vec soil;                      /* own, with several soils */
     vec moment[9];                 /* sum k (v_i - v_j) (x) r */
     vec rate;                      /* sum k t (v_i - v_j) . r */
-    vec weight;                    /* sum k; this and the next three with hourglass control */
+    vec weight;                    /* sum k; this and the next three for a fit */
     vec jump[3];                   /* sum k (v_i - v_j) */
     vec way[3];                    /* sum k r */
     vec shape[6];                  /* sum k r (x) r, symmetric tensor */
@@ -31,7 +31,7 @@ typedef struct gradient_form {
     int dimension;
     int pressure; /* pressure part of v* */
     int several;  /* soils of unlike constants */
-    int hourglass;
+    int fits;    /* linear fields fitted to velocities */
 } gradient_form;
 
 /* Where soils meet, v* is the mean of both velocities: the volume follows the motion that strains both. */
@@ -67,7 +67,7 @@ INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *tar
             g->moment[3 * a + b] += kr[b] * jump[a];
         }
     }
-    if (form.hourglass) {
+    if (form.fits) {
         g->weight += k;
         for (int a = 0; a < dimension; ++a) {
             g->jump[a] += k * jump[a];
@@ -181,7 +181,10 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     }
     const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
     store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
-    if (form.hourglass) {
+    for (int a = 0; a < 6 && form.fits && arrays->moments != NULL; ++a) {
+        store(arrays->moments + first * 6, 6, a, n_lanes, c->gradient_factor * g.shape[a]);
+    }
+    if (form.fits && arrays->hourglass_rate != NULL) {
         /* The own particle is in its list. */
         find_hourglass_rate(&g, load(own, MOR_RECORD_SIZE, MOR_RECORD_VOLUME), arrays->hourglass_rate + first * 3,
                             n_lanes, form.dimension);
@@ -192,9 +195,9 @@ INLINE void gradient_run(const mor_pair_constants *c, const mor_pair_arrays *arr
                          const int dimension, int several)
 {
     const int pressure = c->has_pressure_term;
-    const int hourglass = arrays->hourglass_rate != NULL;
+    const int fits = arrays->hourglass_rate != NULL || arrays->moments != NULL;
 #define MOR_GRADIENT_CASE(p, s, h)                                                                                     \
-    if (pressure == (p) && several == (s) && hourglass == (h)) {                                                       \
+    if (pressure == (p) && several == (s) && fits == (h)) {                                                       \
         for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
             gradient_part(c, arrays, part *LANES, (gradient_form){dimension, p, s, h});                                \
         }                                                                                                              \
