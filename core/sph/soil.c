@@ -70,7 +70,9 @@ static const mor_stage soil_stages[] = {
     {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES) | SHARED(STATE), 0,
      SHARED(LISTS) | SHARED(ORDER) | SHARED(BOUNDS),
      "sorts particles at an interval; rebuilds neighbor lists when particles have moved by the skin", NULL},
-    {"pack", mor_soil_pack, BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | SHARED(STATE),
+    {"pack", mor_soil_pack,
+     BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | BIT(HOURGLASS) | BIT(MEAN_STRESS) |
+         BIT(FLOW) | BIT(SPIN_STRESS) | SHARED(STATE),
      SHARED(RECORDS), 0, "packs one record per particle for the pair loops", NULL},
     {"wall sums", mor_soil_sum_walls, SHARED(RECORDS) | SHARED(LISTS) | SHARED(BOUNDARIES), SHARED(WALL_SUMS), 0,
      "kernel sums over walls and rocks in reach", NULL},
@@ -78,14 +80,9 @@ static const mor_stage soil_stages[] = {
      BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on", has_artificial_stress},
-    {"momentum", mor_soil_sum_momentum,
-     SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(MEAN_STRESS) |
-         BIT(FLOW),
-     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS), 0,
+    {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
+     BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS) | BIT(HOURGLASS_MOMENT), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
-    {"angular momentum", mor_soil_conserve_angular_momentum, SHARED(RECORDS) | SHARED(LISTS) | SHARED(SHORT_LISTS),
-     SHARED(MOMENTS) | SHARED(SPIN_STRESS), BIT(ACCELERATION),
-     "removes the net moment of the internal forces of the soil, when switched on", has_angular_momentum},
     {"boundary forces", mor_soil_sum_boundary_forces,
      SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE),
      SHARED(WALL_FORCES), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
@@ -99,17 +96,18 @@ static const mor_stage soil_stages[] = {
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(WALL_SUMS),
      "velocity gradient and density rate by walls and rocks", NULL},
     {"energy of forces", mor_soil_audit_forces,
-     SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(SPIN_STRESS) | BIT(MASS) |
-         BIT(VELOCITY) | BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) |
-         BIT(ARTIFICIAL_STRESS) | SHARED(STATE),
+     SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | BIT(MASS) | BIT(VELOCITY) |
+         BIT(ACCELERATION) | BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS) |
+         SHARED(STATE),
      0, SHARED(ENERGY_SUMS) | SHARED(RECORDS) | SHARED(SHORT_LISTS),
      "energy dissipated by forces other than the stress, at an interval, when a probe needs it", has_audit},
     {"gradient correction", mor_soil_correct_gradient,
-     SHARED(RECORDS) | SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(DENSITY), SHARED(MOMENTS),
+     SHARED(RECORDS) | SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(DENSITY), SHARED(CLOSED),
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "corrects both to be exact for linear fields, when switched on",
      has_correction},
-    {"velocity gradient fit", mor_soil_fit_gradient, SHARED(WALL_SUMS) | BIT(DENSITY), 0,
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(MOMENTS),
+    {"velocity gradient fit", mor_soil_fit_gradient,
+     SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(MOMENTS) | BIT(DENSITY), SHARED(CLOSED),
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "makes both those of the linear field that fits the neighbors, when switched on", has_fit},
     {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), BIT(STRAIN_RATE), 0,
      "strain rate, stored for the reconstruction of the next step, when switched on", has_strain_rate},
@@ -122,6 +120,8 @@ static const mor_stage soil_stages[] = {
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
      BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
+    {"skew stress", mor_soil_find_spin_stress, SHARED(MOMENTS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), BIT(SPIN_STRESS),
+     0, "with which the forces of the soil have no moment, when switched on", has_angular_momentum},
     {"transient mean", mor_soil_follow_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0, BIT(MEAN_STRESS) | BIT(FLOW),
      "recent mean of the stress, when switched on", has_mean_stress},
     {"hourglass", mor_soil_advance_hourglass, BIT(HOURGLASS_RATE) | BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0,
@@ -139,8 +139,8 @@ static const mor_stage soil_stages[] = {
 
 static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) |
                                         BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |
-                                        BIT(HOURGLASS) | SHARED(STATE) | SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) |
-                                        SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+                                        BIT(HOURGLASS) | BIT(SPIN_STRESS) | SHARED(STATE) | SHARED(BOUNDARIES) |
+                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles. */
@@ -151,7 +151,7 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
     visit(job, MOR_RESOURCE_RECORDS, soil->records, n * MOR_RECORD_SIZE);
     visit(job, MOR_RESOURCE_LISTS, soil->of_soil, n * MOR_PAIR_OF_SOIL_SIZE);
     visit(job, MOR_RESOURCE_MOMENTS, soil->moments, 6 * n);
-    visit(job, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress, 3 * n);
+    visit(job, MOR_RESOURCE_CLOSED, soil->closed, 6 * n);
     visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
 }
 
@@ -192,6 +192,9 @@ static void set_constants(mor_soil *soil)
         .dissipation = (mor_dissipation)s->scheme.dissipation,
         .has_artificial_stress = s->scheme.artificial_stress,
         .has_pressure_term = s->scheme.density_pressure_term,
+        .has_transient = has_mean_stress(soil),
+        .has_hourglass = has_hourglass(soil),
+        .has_spin = has_angular_momentum(soil),
         .smoothing_length = h,
         .gradient_factor =
             mor_kernel_gradient_factor(h, s->dimension) / (s->scheme.lattice_normalization ? moment : 1.0),
@@ -283,11 +286,14 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->continued, padded * 6, "moments continued into walls"));
     }
-    if (s->scheme.gradient_correction || s->scheme.angular_momentum || s->scheme.velocity_gradient == 1) {
+    if (s->scheme.angular_momentum || s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
-    if (s->scheme.angular_momentum) {
-        MOR_TRY(context, MOR_NEW(context, &soil->spin_stress, padded * 3, "skew stresses"));
+    if (s->scheme.gradient_correction || s->scheme.velocity_gradient == 1) {
+        MOR_TRY(context, MOR_NEW(context, &soil->closed, padded * 6, "closed kernel-gradient moments"));
+    }
+    if (has_angular_momentum(soil) || has_hourglass(soil) || has_mean_stress(soil)) {
+        MOR_TRY(context, MOR_NEW(context, &soil->extra, padded * MOR_EXTRA_SIZE, "neighbor records"));
     }
     if (mor_soil_has_density_sums(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
@@ -330,7 +336,9 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
     fields &= settings->scheme.artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
     fields &= settings->scheme.stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
-    fields &= settings->scheme.soil_hourglass > 0.0 ? ~(uint64_t)0 : ~(BIT(HOURGLASS) | BIT(HOURGLASS_RATE));
+    fields &= settings->scheme.soil_hourglass > 0.0 ? ~(uint64_t)0
+                                                    : ~(BIT(HOURGLASS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT));
+    fields &= settings->scheme.angular_momentum ? ~(uint64_t)0 : ~(BIT(SPIN_STRESS) | BIT(HOURGLASS_MOMENT));
     fields &= settings->scheme.stress_diffusion > 0.0 && settings->scheme.stress_diffusion_limiter == 2
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
@@ -369,7 +377,8 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->moments);
     MOR_FREE(context, &soil->corners);
     MOR_FREE(context, &soil->continued);
-    MOR_FREE(context, &soil->spin_stress);
+    MOR_FREE(context, &soil->closed);
+    MOR_FREE(context, &soil->extra);
     MOR_FREE(context, &soil->regularization);
     MOR_FREE(context, &soil->order);
     MOR_FREE(context, &soil->one_soil);
@@ -528,7 +537,8 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
     bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
-    bytes += soil->spin_stress != NULL ? padded * 3.0 * sizeof(double) : 0.0;
+    bytes += soil->closed != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += soil->extra != NULL ? padded * (double)MOR_EXTRA_SIZE * sizeof(double) : 0.0;
     bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);
     bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 3 * sizeof(int32_t));
     for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {

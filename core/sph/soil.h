@@ -91,11 +91,12 @@ typedef struct mor_soil {
     double *of_soil;        /* shape [n_particles padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; or NULL */
     int8_t *one_soil;       /* shape [clusters]; the one soil that a cluster sees, or -1; NULL: one soil */
     double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
-    double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient, 1; or NULL */
-    double *continued;   /* shape [n_particles, 6]; of the moments, what walls continue along themselves, 1; or NULL */
-    double *spin_stress; /* shape [n_particles, 3]; skew stress as an axial vector, Pa; or NULL */
-    double *field_records; /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
-    double *diffusion;     /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
+    double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1; or NULL */
+    double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; or NULL */
+    double *continued;      /* shape [n_particles, 6]; what boundaries continue of them along themselves, 1; or NULL */
+    double *extra;          /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
+    double *field_records;  /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
+    double *diffusion;      /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
     mor_contact_corner *corners; /* shape [n_particles]; faces that each sees; NULL: no wall has normals */
     double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
     mor_reduce_room room;        /* of reductions over particles */

@@ -161,7 +161,7 @@ static void find_stress_block(void *powers, int64_t first, int64_t last, double 
     for (int64_t i = first; i < last && job->soil->regularization != NULL; ++i) {
         sums[MOR_SOIL_ENERGY_REGULARIZATION] += find_regularization(job, i);
     }
-    for (int64_t i = first; i < last && job->soil->settings.scheme.gradient_correction; ++i) {
+    for (int64_t i = first; i < last && mor_soil_corrects_gradient(job->soil); ++i) {
         const double *record = job->records + i * MOR_RECORD_SIZE;
         sums[MOR_SOIL_ENERGY_CORRECTION] -=
             record[MOR_RECORD_VOLUME] *

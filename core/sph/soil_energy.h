@@ -21,6 +21,7 @@ typedef enum mor_soil_energy_part {
     MOR_SOIL_ENERGY_DIFFUSION,      /* stress diffusion, (E5) */
     MOR_SOIL_ENERGY_RIEMANN,        /* Riemann terms between soil particles, (E6) */
     MOR_SOIL_ENERGY_ARTIFICIAL,     /* artificial stress, (E6) */
+    MOR_SOIL_ENERGY_HOURGLASS,      /* hourglass control, (E6); in part stored, and given back */
     MOR_SOIL_ENERGY_DAMPING,        /* velocity damping */
     MOR_SOIL_ENERGY_REGULARIZATION, /* XSPH and shifting */
     MOR_SOIL_ENERGY_CORRECTION,     /* gradient correction and the skew stress that conserves angular momentum, (E8) */

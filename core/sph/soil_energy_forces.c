@@ -117,7 +117,7 @@ static void find_motion_block(void *powers, int64_t first, int64_t last, double 
         }
         sums[MOR_SOIL_ENERGY_BOUNDARY] += taken[LOST];
         sums[MOR_SOIL_ENERGY_DRIVEN] += taken[GIVEN];
-        if (s->scheme.gradient_correction) {
+        if (mor_soil_corrects_gradient(soil)) {
             sums[MOR_SOIL_ENERGY_CORRECTION] +=
                 record[MOR_RECORD_VOLUME] *
                 mor_soil_stress_power(record + MOR_RECORD_STRESS, job->velocity_gradient + 9 * i);
@@ -143,6 +143,11 @@ static void find_riemann_block(void *job, int64_t first, int64_t last, double *s
 static void find_artificial_block(void *job, int64_t first, int64_t last, double *sums)
 {
     add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_ARTIFICIAL);
+}
+
+static void find_hourglass_block(void *job, int64_t first, int64_t last, double *sums)
+{
+    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_HOURGLASS);
 }
 
 static void find_spin_block(void *job, int64_t first, int64_t last, double *sums)
@@ -178,40 +183,53 @@ static bool is_calm(const mor_soil *soil, const mor_step *step)
     return soil->energy->stride == MOR_SOIL_ENERGY_INTERVAL && step->number / MOR_SOIL_ENERGY_INTERVAL % 4 != 0;
 }
 
-/* (E6): the momentum loop once more with what is not stress, and once with the artificial stress alone. Particles are
- * where they were, so that the short lists come out the same. */
+/* Power of what one switch of the momentum loop adds to the Riemann terms. */
+static void audit_switch(mor_context *context, mor_soil_powers *job, const mor_pair_arrays *arrays,
+                         const mor_pair_constants *constants, mor_soil_energy_part part, mor_reduce_block block)
+{
+    mor_soil *soil = job->soil;
+    mor_soil_run_pairs(context, constants, arrays, soil->table->momentum[soil->settings.dimension - 2]);
+    mor_soil_energy_add(context, job, block);
+    soil->energy->fresh[part] -= soil->energy->fresh[MOR_SOIL_ENERGY_RIEMANN];
+}
+
+/* (E6): the momentum loop once more with what is not stress, first without and then with each of what may be switched
+ * on alone. Particles are where they were, so that the short lists come out the same. */
 static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *view)
 {
     mor_soil *soil = job->soil;
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
-    mor_pair_constants constants = soil->constants;
-    const mor_pair_loop momentum = soil->table->momentum[soil->settings.dimension - 2];
+    mor_pair_constants none = soil->constants;
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
     arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
-    arrays.hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
-    arrays.spin_stress = mor_view_read_shared(view, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress);
     arrays.acceleration = soil->energy->scratch;
-    constants.diffusion_rate = 0.0;
-    constants.has_artificial_stress = false;
+    none.diffusion_rate = 0.0;
+    none.has_artificial_stress = none.has_hourglass = none.has_spin = false;
     strip_records(context, job);
-    mor_soil_run_pairs(context, &constants, &arrays, momentum);
+    mor_soil_run_pairs(context, &none, &arrays, soil->table->momentum[soil->settings.dimension - 2]);
     mor_soil_energy_add(context, job, find_riemann_block);
+    mor_pair_constants one = none;
     if (soil->settings.scheme.artificial_stress && is_calm(soil, job->step)) {
         soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] = soil->energy->power[MOR_SOIL_ENERGY_ARTIFICIAL];
     } else if (soil->settings.scheme.artificial_stress) {
-        const double riemann = soil->energy->fresh[MOR_SOIL_ENERGY_RIEMANN];
-        constants.has_artificial_stress = true;
-        mor_soil_run_pairs(context, &constants, &arrays, momentum);
-        mor_soil_energy_add(context, job, find_artificial_block);
-        soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] -= riemann;
+        one.has_artificial_stress = true;
+        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_ARTIFICIAL, find_artificial_block);
+    }
+    if (soil->constants.has_hourglass) {
+        one = none;
+        one.has_hourglass = true;
+        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_HOURGLASS, find_hourglass_block);
+    }
+    if (soil->constants.has_spin) {
+        const double corrected = soil->energy->fresh[MOR_SOIL_ENERGY_CORRECTION];
+        soil->energy->fresh[MOR_SOIL_ENERGY_CORRECTION] = 0.0;
+        one = none;
+        one.has_spin = true;
+        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_CORRECTION, find_spin_block);
+        soil->energy->fresh[MOR_SOIL_ENERGY_CORRECTION] += corrected;
     }
     restore_records(context, job);
-    if (soil->settings.scheme.angular_momentum) {
-        memset(soil->energy->scratch, 0, (size_t)(3 * soil->set.n_particles) * sizeof(double));
-        mor_soil_run_pairs(context, &constants, &arrays, soil->table->spin);
-        mor_soil_energy_add(context, job, find_spin_block);
-    }
 }
 
 mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)

@@ -47,7 +47,7 @@ static void add_slot_moments(const mor_soil *soil, const mor_soil_contact *conta
         const double across = mor_vector_dot(applied, gradient) / length2;
         const double along = (mor_symmetric_trace(sums + MOR_KERNEL_SUM_MOMENT) - across) / (dimension - 1);
         const double stick = contact->stick[slot * MOR_CLUSTER + lane];
-        double *moment = soil->moments + 6 * (first + lane);
+        double *moment = soil->closed + 6 * (first + lane);
         double *continued = soil->continued + 6 * (first + lane);
         for (int a = 0; a < 6; ++a) {
             const double square = gradient[a % 3] * gradient[a < 3 ? a : (a - 2) % 3] / length2;
@@ -97,7 +97,7 @@ static void fit_particle(const fit *it, int64_t i)
 {
     const mor_soil *soil = it->soil;
     const int dimension = soil->settings.dimension;
-    const double *m = soil->moments + 6 * i;
+    const double *m = soil->closed + 6 * i;
     const double *c = soil->continued + 6 * i;
     double *gradient = it->gradient + 9 * i;
     double inverse[6];
@@ -130,7 +130,10 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
                      .gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT),
                      .density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE),
                      .volume_factor = soil->settings.scheme.lattice_normalization ? soil->lattice_moment : 1.0};
-    mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
+    mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
+    memcpy(closed, moments, (size_t)(6 * n) * sizeof *closed);
     memset(soil->continued, 0, (size_t)(6 * n) * sizeof *soil->continued);
     add_wall_moments(context, soil, view);
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {

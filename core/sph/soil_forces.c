@@ -134,11 +134,9 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
     arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
     arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
-    arrays.hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
     arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
-    arrays.mean_stress = mor_view_read(view, MOR_FIELD_MEAN_STRESS);
-    arrays.flow = mor_view_read(view, MOR_FIELD_FLOW);
+    arrays.hourglass_moment = mor_view_write(view, MOR_FIELD_HOURGLASS_MOMENT);
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
     return MOR_OK;
@@ -176,8 +174,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
-    arrays.moments =
-        soil->continued != NULL ? mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments) : NULL;
+    arrays.moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
     return MOR_OK;
 }

@@ -16,7 +16,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
-mor_status mor_soil_conserve_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_find_spin_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
@@ -47,6 +47,12 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
 
 /** Whether the density is reinitialized by summation at an interval. */
 bool mor_soil_has_density_sums(const void *owner);
+
+/** Whether the velocity gradient is another than the sum whose counterpart the forces are. */
+static inline bool mor_soil_corrects_gradient(const mor_soil *soil)
+{
+    return soil->closed != NULL;
+}
 
 /** Whether the soil has a law with a field. */
 bool mor_soil_has_field(const void *owner);

@@ -18,6 +18,7 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int l
     mor_view_compare(view, lists, soil->inner.generation);
     return (mor_pair_arrays){.n_particles = soil->set.n_particles,
                              .records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                             .extra = soil->extra,
                              .of_soil = soil->of_soil,
                              .one_soil = soil->one_soil,
                              .inner = mor_view_read_shared(view, lists, &soil->inner)};
@@ -152,6 +153,37 @@ typedef struct packing {
     double *records;
 } packing;
 
+/* What the momentum loop reads beside the records; what a scheme does not have stays zero. */
+static void pack_extra(mor_context *context, mor_soil *soil, mor_view *view)
+{
+    static const struct {
+        int field, place, size;
+    } parts[] = {{MOR_FIELD_MEAN_STRESS, MOR_EXTRA_MEAN, 6},
+                 {MOR_FIELD_FLOW, MOR_EXTRA_FLOW, 1},
+                 {MOR_FIELD_HOURGLASS, MOR_EXTRA_HOURGLASS, 3},
+                 {MOR_FIELD_SPIN_STRESS, MOR_EXTRA_SPIN, 3}};
+    enum { PARTS = sizeof parts / sizeof *parts };
+    const double *data[PARTS];
+    const int64_t n = soil->set.n_particles;
+    for (int p = 0; p < PARTS; ++p) {
+        data[p] = mor_view_read(view, parts[p].field);
+    }
+    MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
+        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
+            double *extra = soil->extra + i * MOR_EXTRA_SIZE;
+            for (int p = 0; p < PARTS; ++p) {
+                for (int a = 0; a < parts[p].size && data[p] != NULL; ++a) {
+                    extra[parts[p].place + a] = data[p][i * parts[p].size + a];
+                }
+            }
+        }
+    }
+    for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
+        memcpy(soil->extra + i * MOR_EXTRA_SIZE, soil->extra + (n - 1) * MOR_EXTRA_SIZE,
+               MOR_EXTRA_SIZE * sizeof(double));
+    }
+}
+
 static mor_status pack_range(void *job, int64_t first, int64_t last)
 {
     const packing *p = job;
@@ -199,6 +231,9 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
                         "s",
                         soil->material->material->name, (long long)(chunk * GRAIN),
                         (long long)((chunk + 1) * GRAIN - 1), soil->set.name, step->time);
+    }
+    if (soil->extra != NULL) {
+        pack_extra(context, soil, view);
     }
     /* The lanes behind the last particle repeat it; their sums are discarded. */
     for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {

@@ -108,7 +108,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
 
 static void keep_moments(mor_soil *soil, int64_t i, const double *sums)
 {
-    memcpy(soil->moments + 6 * i, sums + MOR_KERNEL_SUM_MOMENT, 6 * sizeof *sums);
+    memcpy(soil->closed + 6 * i, sums + MOR_KERNEL_SUM_MOMENT, 6 * sizeof *sums);
 }
 
 /* Inverse of a symmetric matrix, [3,3] out; false when it is close to singular. In plane strain the out-of-plane
@@ -137,7 +137,7 @@ static bool invert_moments(const double *m, int dimension, double *inverse)
 static void correct_particle(const mor_soil *soil, double density, int64_t i, double *gradient, double *density_rate)
 {
     double inverse[9];
-    if (!invert_moments(soil->moments + 6 * i, soil->settings.dimension, inverse)) {
+    if (!invert_moments(soil->closed + 6 * i, soil->settings.dimension, inverse)) {
         return;
     }
     double corrected[9];
@@ -159,9 +159,9 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
     const double *density = mor_view_read(view, MOR_FIELD_DENSITY);
     double *gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
     double *rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
-    double *moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
     sum_kernels(context, soil, view, mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records), keep_moments);
-    add_wall_sums(context, soil, view, MOR_KERNEL_SUM_MOMENT, 6, NULL, moments);
+    add_wall_sums(context, soil, view, MOR_KERNEL_SUM_MOMENT, 6, NULL, closed);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         correct_particle(soil, density[i], i, gradient + 9 * i, rate + i);
     }
@@ -183,51 +183,6 @@ mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_vie
             d[a] = l[4 * a] + 0.0;
             d[3 + a] = 0.5 * (l[3 * a + b] + l[3 * b + a]) + 0.0;
         }
-    }
-    return MOR_OK;
-}
-
-/* The pair forces sigma_i . grad W of particle i exert the moment of the skew part of M sigma_i about it, M being the
- * kernel's moment over the soil. A skew stress A beside sigma_i takes that away: M A + A M = M sigma - sigma M, which
- * for the axial vector a of A reads (tr M - M) a = axial vector of the right side. In the frame of M its components
- * are sigma_ab (m_a - m_b) / (m_a + m_b): never larger than the stress, and none where the kernel is full. */
-static void find_spin_stress(const double *m, const double *s, double *spin)
-{
-    double values[3];
-    double axes[9];
-    mor_symmetric_eigen(m, values, axes);
-    spin[0] = spin[1] = spin[2] = 0.0;
-    for (int c = 0; c < 3; ++c) {
-        const int a = (c + 1) % 3;
-        const int b = (c + 2) % 3;
-        const double u[3] = {axes[a], axes[3 + a], axes[6 + a]};
-        const double v[3] = {axes[b], axes[3 + b], axes[6 + b]};
-        const double sum = values[a] + values[b];
-        double rotated[3];
-        mor_symmetric_apply(s, v, rotated);
-        /* Without neighbors in this plane there is no moment either. */
-        const double part = sum > 0.0 ? mor_vector_dot(u, rotated) * (values[b] - values[a]) / sum : 0.0;
-        mor_vector_cross_add(part, u, v, spin);
-    }
-}
-
-mor_status mor_soil_conserve_angular_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
-{
-    mor_soil *soil = owner;
-    (void)step;
-    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
-    const double *moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    double *spin = mor_view_write_shared(view, MOR_RESOURCE_SPIN_STRESS, soil->spin_stress);
-    arrays.spin_stress = spin;
-    arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
-    sum_kernels(context, soil, view, arrays.records, keep_moments);
-    MOR_PARALLEL_FOR (context, i, arrays.n_particles, MOR_BLOCK) {
-        find_spin_stress(moments + 6 * i, arrays.records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS, spin + 3 * i);
-    }
-    const int64_t n = soil->tree.n_clusters;
-    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
-        const int64_t last = (chunk + 1) * CLUSTERS;
-        soil->table->spin(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
     }
     return MOR_OK;
 }

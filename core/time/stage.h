@@ -28,7 +28,7 @@
     X(WALL_SUMS, "wall sums")           /* kernel sums over walls and rocks */                                         \
     X(WALL_FORCES, "wall forces")       /* forces between soil and walls or rocks, and where they stick */             \
     X(MOMENTS, "moments")               /* moments of the kernel gradient */                                           \
-    X(SPIN_STRESS, "skew stresses")     /* that keep angular momentum */                                               \
+    X(CLOSED, "closed moments")         /* of the kernel gradient over soil and boundaries */                          \
     X(REGULARIZATION, "regularization") /* sums of XSPH and shifting */                                                \
     X(ENERGY_SUMS, "energy sums")       /* what the audit of energy carries from stage to stage */                     \
     X(BOUNDS, "bounds of motion")       /* largest speed and acceleration, drift since the lists were built */         \

@@ -25,8 +25,9 @@ static mor_status numerical_dissipation(mor_context *context, const view *v, dou
 {
     (void)context;
     *value = taken(v, MOR_SOIL_ENERGY_RIEMANN) + taken(v, MOR_SOIL_ENERGY_ARTIFICIAL) +
-             taken(v, MOR_SOIL_ENERGY_DIFFUSION) + taken(v, MOR_SOIL_ENERGY_DAMPING) +
-             taken(v, MOR_SOIL_ENERGY_REGULARIZATION) + taken(v, MOR_SOIL_ENERGY_CORRECTION);
+             taken(v, MOR_SOIL_ENERGY_HOURGLASS) + taken(v, MOR_SOIL_ENERGY_DIFFUSION) +
+             taken(v, MOR_SOIL_ENERGY_DAMPING) + taken(v, MOR_SOIL_ENERGY_REGULARIZATION) +
+             taken(v, MOR_SOIL_ENERGY_CORRECTION);
     return MOR_OK;
 }
 
@@ -41,6 +42,13 @@ static mor_status artificial_stress_energy(mor_context *context, const view *v, 
 {
     (void)context;
     *value = taken(v, MOR_SOIL_ENERGY_ARTIFICIAL);
+    return MOR_OK;
+}
+
+static mor_status soil_hourglass_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = taken(v, MOR_SOIL_ENERGY_HOURGLASS);
     return MOR_OK;
 }
 
@@ -205,9 +213,11 @@ const mor_probe_measure mor_probe_energy_measures[] =
     {{.type = {"plastic_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
                "energy lost to plastic strain since the start"},
       .run = plastic_energy},
-     {.type = {"numerical_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-               "energy lost to the numerical scheme of the soil since the start: Riemann dissipation, artificial "
-               "stress, stress diffusion, damping, XSPH, shifting, gradient correction, angular momentum"},
+     {.type =
+          {"numerical_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+           "energy lost to the numerical scheme of the soil since the start: Riemann dissipation, artificial "
+           "stress, hourglass control, stress diffusion, damping, XSPH, shifting, gradient correction or fit, angular "
+           "momentum"},
       .run = numerical_dissipation},
      {.type = {"riemann_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
                "part of numerical_dissipation: Riemann dissipation"},
@@ -215,6 +225,9 @@ const mor_probe_measure mor_probe_energy_measures[] =
      {.type = {"artificial_stress_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
                "part of numerical_dissipation: artificial stress"},
       .run = artificial_stress_energy},
+     {.type = {"soil_hourglass_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
+               "part of numerical_dissipation: hourglass control of the soil; in part stored, and given back"},
+      .run = soil_hourglass_energy},
      {.type = {"stress_diffusion_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
                "part of numerical_dissipation: stress diffusion"},
       .run = stress_diffusion_energy},

@@ -49,6 +49,16 @@ enum {
     MOR_PAIR_OF_SOIL_SIZE = 2
 };
 
+/** What the momentum loop reads of a particle beside its record where the scheme needs it, in one record of 16 doubles:
+ *  two cache lines. */
+enum {
+    MOR_EXTRA_MEAN = 0,      /* 6, recent mean of the stress, Pa */
+    MOR_EXTRA_FLOW = 6,      /* 0: at rest, 1: flows; 1 */
+    MOR_EXTRA_HOURGLASS = 8, /* 3, displacement that no velocity gradient sees, m */
+    MOR_EXTRA_SPIN = 11,     /* 3, axial vector of the skew stress, Pa */
+    MOR_EXTRA_SIZE = 16
+};
+
 /** What is read of a particle to diffuse a field. */
 enum {
     MOR_PAIR_FIELD_VALUE = 0,       /* g, unit: of the field */
@@ -70,6 +80,9 @@ typedef struct mor_pair_constants {
     bool has_artificial_stress;  /* artificial_stress is read */
     bool has_limited_diffusion;  /* stress diffuses as far as a pair moves, by the limiter of the dissipation */
     bool has_pressure_term;      /* pressure part of U* in the density rate */
+    bool has_transient;          /* only what changes diffuses where soil is at rest; reads means and flow */
+    bool has_hourglass;          /* forces by hourglass displacements; reads them */
+    bool has_spin;               /* forces by skew stresses; reads them */
     double smoothing_length;     /* h, m */
     double gradient_factor;      /* mor_kernel_gradient_factor, unit 1/m^(d+2) */
     double laplacian_factor;     /* over the moment of the initial lattice, unit 1/m^(d+2) */
@@ -91,7 +104,7 @@ typedef struct mor_pair_arrays {
     const double *records;           /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const mor_relation *inner;       /* current; momentum shortens its lists for the others */
     const double *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
-    const double *hourglass;         /* shape [n padded to 8, 3], m; NULL without hourglass control */
+    const double *extra;             /* shape [n padded to 8, 16]; units of MOR_EXTRA_...; NULL: none of it is read */
     double *acceleration;            /* shape [n, 3], m/s2 */
     double *stress_diffusion;        /* shape [n, 6], Pa/s; NULL without */
     double *velocity_gradient;       /* shape [n, 9], 1/s */
@@ -99,12 +112,10 @@ typedef struct mor_pair_arrays {
     double *hourglass_rate;          /* shape [n, 3], m/s; velocity beside its linear fit; NULL without */
     double *moments;                 /* shape [n, 6]; sum V_j (r_j - r_i) (x) grad_i W, 1; NULL without */
     double *regularization;          /* shape [n, 6]; XSPH in m/s, shift with unit 1; NULL without */
-    const double *spin_stress;       /* shape [n padded to 8, 3], Pa; axial vector; NULL without */
+    double *hourglass_moment;  /* shape [n, 3], Pa; moment that hourglass forces leave, per volume; NULL without */
     const double *of_soil;     /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
     const int8_t *one_soil;    /* shape [n_clusters], 1; see mor_pair_find_one_soil; NULL: one soil */
     const double *strain_rate; /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
-    const double *mean_stress; /* shape [n padded to 8, 6], Pa; recent mean; NULL: all of the stress diffuses */
-    const double *flow;        /* shape [n padded to 8], 1; 0: at rest, 1: flows; NULL without the mean */
     const double *field;       /* shape [n padded to 8, MOR_PAIR_FIELD_SIZE], units of the enum; of a nonlocal law */
     double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
 } mor_pair_arrays;
@@ -200,7 +211,6 @@ typedef struct mor_pair_table {
     mor_pair_tangent_loop tangent; /* stress divergence along and across a wall */
     mor_pair_mean_loop mean;       /* velocity of a boundary as particles see it */
     mor_pair_share_loop share;     /* forces on the points of a boundary */
-    mor_pair_loop spin;            /* adds the acceleration by spin_stress */
     mor_pair_loop diffuse;         /* rate of a field by diffusion, docs/theory/nonlocal.md */
 } mor_pair_table;
 

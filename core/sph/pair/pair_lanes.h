@@ -200,6 +200,13 @@ INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
     return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
 }
 
+/** Returns what the momentum loop reads of a target beside its record, shape [MOR_EXTRA_SIZE], units of
+ *  MOR_EXTRA_.... */
+INLINE const double *extra_of(const mor_pair_arrays *arrays, int32_t j)
+{
+    return arrays->extra + (int64_t)j * MOR_EXTRA_SIZE;
+}
+
 /** Returns what is read of a target beside its record, shape [MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL with one
  *  soil. */
 INLINE const double *of_soil_of(const mor_pair_arrays *arrays, int32_t j, const int several)

@@ -10,6 +10,7 @@ typedef struct momentum_form {
     int artificial; /* artificial stress */
     int linear;     /* velocities reconstructed at the middle of a pair */
     int several;    /* soils of unlike constants */
+    int extra;      /* reads what is beside the records; not constant */
 } momentum_form;
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
@@ -56,7 +57,11 @@ typedef struct momentum_sums {
     vec spread_way[3];    /* sum kd r, of what flows */
     vec spread_mean[6];   /* sum kd (1 - w) mean_j, w: how far the pair flows */
     vec spread_rest;      /* sum kd (1 - w) */
-    vec hourglass[3];     /* sum k m (d_i - d_j), m the stiffness, Pa */
+    vec stiffness;        /* sum k m, m the stiffness of the hourglass control, Pa */
+    vec hourglass[3];     /* sum k m d_j */
+    vec lever[3];         /* sum k m r */
+    vec moment[3];        /* sum k m r x d_j */
+    vec spin[3];          /* sum k s_j x r, s the axial vector of the skew stress */
 } momentum_sums;
 
 INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const double *s, const int dimension)
@@ -85,8 +90,8 @@ typedef struct momentum_pair {
     vec extra; /* isotropic part beside the stresses, Pa */
 } momentum_pair;
 
-INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *it, const double *s, const double *mean,
-                          const momentum_form form)
+INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *it, const double *s,
+                          const double *extra, const momentum_form form)
 {
     for (int a = 0; a < 6; ++a) {
         m->spread_stress[a] += it->kd * s[a];
@@ -97,7 +102,7 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
     }
     if (form.diffuses == 3) {
         for (int a = 0; a < 6; ++a) {
-            m->spread_mean[a] += it->rest * mean[a];
+            m->spread_mean[a] += it->rest * extra[MOR_EXTRA_MEAN + a];
         }
         m->spread_rest += it->rest;
     }
@@ -172,13 +177,13 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
 }
 
 INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const double *target,
-                     const double *mean, const frame *f, const momentum_form form)
+                     const double *extra, const frame *f, const momentum_form form)
 {
     pair p;
     separate(p.r, f, target, form.dimension);
     add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, form.dimension);
     if (form.diffuses) {
-        add_diffusion(m, &p, it, target + MOR_RECORD_STRESS, mean, form);
+        add_diffusion(m, &p, it, target + MOR_RECORD_STRESS, extra, form);
     }
 }
 
@@ -208,31 +213,81 @@ typedef struct momentum_part {
 
 /* The hourglass control: forces between particles that are displaced unlike, whichever way they lie. */
 INLINE void add_hourglass(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                          const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
-                          const momentum_form form)
+                          const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
 {
-    const double *own = arrays->hourglass + first * 3;
-    const vec d[3] = {load(own, 3, 0), load(own, 3, 1), load(own, 3, 2)};
     vec itself = broadcast(c->hourglass);
     for (int lane = 0; lane < LANES && form.several; ++lane) {
         itself[lane] = c->soils[(int)part->own.soil[lane]].hourglass;
     }
-    vec sum[3] = {part->sums.hourglass[0], part->sums.hourglass[1], part->sums.hourglass[2]};
+    momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
-        const double *other = arrays->hourglass + (int64_t)near[q] * 3;
+        const double *d = extra_of(arrays, near[q]) + MOR_EXTRA_HOURGLASS;
         vec k = geometries[q].k;
+        vec r[3];
+        separate(r, &part->frame, target_of(arrays, near[q]), form.dimension);
         if (form.several) {
             const double there = c->soils[(int)of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
             k *= 2.0 * itself * there / (itself + there);
         }
+        sums.stiffness += k;
         for (int a = 0; a < form.dimension; ++a) {
-            sum[a] = multiply_add(k, d[a] - other[a], sum[a]);
+            r[a] *= k;
+            sums.hourglass[a] += k * d[a];
+            sums.lever[a] += r[a];
+        }
+        if (form.dimension == 3) {
+            sums.moment[0] += multiply_add(r[1], broadcast(d[2]), -r[2] * d[1]);
+            sums.moment[1] += multiply_add(r[2], broadcast(d[0]), -r[0] * d[2]);
+        }
+        sums.moment[2] += multiply_add(r[0], broadcast(d[1]), -r[1] * d[0]);
+    }
+    part->sums = sums;
+}
+
+/* Forces by the skew stresses of the neighbors, each the cross product with an axial vector. */
+INLINE void add_spin(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                     const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
+{
+    (void)c;
+    vec sum[3] = {part->sums.spin[0], part->sums.spin[1], part->sums.spin[2]};
+    for (int q = 0; q < n; ++q) {
+        const double *s = extra_of(arrays, near[q]) + MOR_EXTRA_SPIN;
+        vec r[3];
+        separate(r, &part->frame, target_of(arrays, near[q]), form.dimension);
+        for (int a = 0; a < form.dimension; ++a) {
+            r[a] *= geometries[q].k;
+        }
+        sum[0] -= r[1] * s[2];
+        sum[1] += r[0] * s[2];
+        if (form.dimension == 3) {
+            sum[0] += r[2] * s[1];
+            sum[1] -= r[2] * s[0];
+            sum[2] += multiply_add(r[1], broadcast(s[0]), -r[0] * s[1]);
         }
     }
     for (int a = 0; a < 3; ++a) {
-        part->sums.hourglass[a] = sum[a];
+        part->sums.spin[a] = sum[a];
     }
 }
+
+/* Out of the many copies of the momentum loop, which would all hold them. */
+typedef void (*add_extra)(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                          const mor_pair_constants *c, const mor_pair_arrays *arrays);
+#define MOR_EXTRA_FUNCTION(name, add, dimension, several)                                                              \
+    __attribute__((noinline)) static void name(momentum_part *part, const geometry *geometries, const int32_t *near,   \
+                                               int n, const mor_pair_constants *c, const mor_pair_arrays *arrays)      \
+    {                                                                                                                  \
+        add(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, 0, (several), 1});                \
+    }
+MOR_EXTRA_FUNCTION(add_hourglass_2d, add_hourglass, 2, 0)
+MOR_EXTRA_FUNCTION(add_hourglass_3d, add_hourglass, 3, 0)
+MOR_EXTRA_FUNCTION(add_several_hourglass_2d, add_hourglass, 2, 1)
+MOR_EXTRA_FUNCTION(add_several_hourglass_3d, add_hourglass, 3, 1)
+MOR_EXTRA_FUNCTION(add_spin_2d, add_spin, 2, 0)
+MOR_EXTRA_FUNCTION(add_spin_3d, add_spin, 3, 0)
+static const add_extra hourglass_adders[2][2] = {{add_hourglass_2d, add_hourglass_3d},
+                                                 {add_several_hourglass_2d, add_several_hourglass_3d}};
+static const add_extra spin_adders[2] = {add_spin_2d, add_spin_3d};
 
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
@@ -253,7 +308,7 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
         m->strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
     }
     if (form.diffuses == 3) {
-        m->flow = load(arrays->flow + first, 1, 0);
+        m->flow = load(arrays->extra + first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, MOR_EXTRA_FLOW);
     }
     if (form.several) {
         const double *of_soil = arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE;
@@ -281,21 +336,23 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
         const double *of_soil = of_soil_of(arrays, near[q], form.several);
-        const double flow = form.diffuses == 3 ? arrays->flow[near[q]] : 0.0;
+        const double flow = form.diffuses == 3 ? extra_of(arrays, near[q])[MOR_EXTRA_FLOW] : 0.0;
         find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, flow,
                    form);
     }
     compiler_barrier(part);
     momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
-        const double *mean = form.diffuses == 3 ? arrays->mean_stress + (int64_t)near[q] * 6 : NULL;
-        add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), mean, f, form);
+        const double *extra = form.diffuses == 3 ? extra_of(arrays, near[q]) : NULL;
+        add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), extra, f, form);
     }
     part->sums = sums;
     compiler_barrier(part);
-    if (arrays->hourglass != NULL) {
-        add_hourglass(part, geometries, near, n, c, arrays, first, form);
-        compiler_barrier(part);
+    if (c->has_hourglass) {
+        hourglass_adders[form.several][form.dimension - 2](part, geometries, near, n, c, arrays);
+    }
+    if (c->has_spin) {
+        spin_adders[form.dimension - 2](part, geometries, near, n, c, arrays);
     }
     for (int q = 0; q < n && form.artificial; ++q) {
         add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), f, c, artificial + first * 6,
@@ -305,8 +362,9 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
 
 /* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
 INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, const int32_t *list, int32_t count,
-                     int32_t *entry, int32_t *near, const int dimension)
+                     int32_t *entry, int32_t *near, const momentum_form form)
 {
+    const int dimension = form.dimension;
     /* Slightly wider, so that rounding omits no pair within the support. */
     const double half = parts[0].frame.half_inverse_h;
     const double reach2 = (1.0 + 0x1p-40) / (half * half);
@@ -316,6 +374,11 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
         const double *ahead = target_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]);
         __builtin_prefetch(ahead);
         __builtin_prefetch(ahead + MOR_RECORD_STRESS);
+        if (form.extra) {
+            const double *extra = extra_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]);
+            __builtin_prefetch(extra);
+            __builtin_prefetch(extra + MOR_EXTRA_HOURGLASS);
+        }
         int any = 0;
         for (int part = 0; part < PARTS; ++part) {
             vec r[3];
@@ -358,7 +421,7 @@ INLINE void load_diffusion(diffusion *d, const mor_pair_constants *c, vec soil, 
 
 /* Eq. 25 with the operator of eq. 26 for any direction of gravity: deviations from the profile at rest diffuse. */
 INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const diffusion *d, const vec *s,
-                             const double *own_mean, double *out, int n_lanes)
+                             const double *own_extra, double *out, int n_lanes)
 {
     const vec rate = -c->gradient_factor * d->rate;
     const double *g = c->gravity_direction;
@@ -367,10 +430,47 @@ INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c
     for (int a = 0; a < 6; ++a) {
         /* Height is -g . r, hence the plus. */
         vec sum = s[a] * m->spread_weight - m->spread_stress[a] + d->rest_gradient[a] * height;
-        if (own_mean != NULL) {
-            sum -= load(own_mean, 6, a) * m->spread_rest - m->spread_mean[a];
+        if (own_extra != NULL) {
+            sum -= load(own_extra, MOR_EXTRA_SIZE, MOR_EXTRA_MEAN + a) * m->spread_rest - m->spread_mean[a];
         }
         store(out, 6, a, n_lanes, rate * sum);
+    }
+}
+
+/* Half of the moment of a pair's forces is taken as that of each of its particles. */
+__attribute__((noinline)) static void finish_hourglass(const momentum_sums *m, const mor_pair_constants *c,
+                                                       const mor_pair_arrays *arrays, int64_t first, vec *force,
+                                                       const momentum_form form)
+{
+    const double *own = arrays->extra + first * MOR_EXTRA_SIZE;
+    const double stiffness = form.several ? 1.0 : c->hourglass;
+    vec d[3];
+    for (int a = 0; a < 3; ++a) {
+        d[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_HOURGLASS + a);
+        force[a] += stiffness * (m->stiffness * d[a] - m->hourglass[a]);
+    }
+    for (int a = 0; a < 3 && arrays->hourglass_moment != NULL; ++a) {
+        const int b = (a + 1) % 3;
+        const int e = (a + 2) % 3;
+        const vec moment = m->lever[b] * d[e] - m->lever[e] * d[b] - m->moment[a];
+        store(arrays->hourglass_moment + first * 3, 3, a, lanes_of(first, arrays->n_particles),
+              -0.5 * c->gradient_factor * stiffness * moment);
+    }
+}
+
+__attribute__((noinline)) static void finish_spin(const momentum_sums *m, const mor_pair_arrays *arrays, int64_t first,
+                                                  vec *force)
+{
+    const double *own = arrays->extra + first * MOR_EXTRA_SIZE;
+    const vec *w = m->weight;
+    vec s[3];
+    for (int a = 0; a < 3; ++a) {
+        s[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_SPIN + a);
+    }
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3;
+        const int e = (a + 2) % 3;
+        force[a] += m->spin[a] + s[b] * w[e] - s[e] * w[b];
     }
 }
 
@@ -389,11 +489,13 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
     vec force[3] = {m->force[0] + s[MOR_XX] * w[0] + s[MOR_XY] * w[1] + s[MOR_ZX] * w[2],
                     m->force[1] + s[MOR_XY] * w[0] + s[MOR_YY] * w[1] + s[MOR_YZ] * w[2],
                     m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]};
-    const double stiffness = form.several ? 1.0 : c->hourglass;
+    if (c->has_hourglass) {
+        finish_hourglass(m, c, arrays, first, force, form);
+    }
+    if (c->has_spin) {
+        finish_spin(m, arrays, first, force);
+    }
     for (int a = 0; a < form.dimension; ++a) {
-        if (arrays->hourglass != NULL) {
-            force[a] += stiffness * m->hourglass[a];
-        }
         store(out, 3, a, n_lanes, factor * force[a]);
     }
     if (form.dimension == 2) {
@@ -402,7 +504,7 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
     if (form.diffuses) {
         diffusion d;
         load_diffusion(&d, c, soil, form);
-        finish_diffusion(m, c, &d, s, form.diffuses == 3 ? arrays->mean_stress + first * 6 : NULL,
+        finish_diffusion(m, c, &d, s, form.diffuses == 3 ? arrays->extra + first * MOR_EXTRA_SIZE : NULL,
                          arrays->stress_diffusion + first * 6, n_lanes);
     }
 }
@@ -419,7 +521,7 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     int32_t *near = mor_relation_near(arrays->inner, cluster);
     int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
-        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form.dimension);
+        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form);
         for (int part = 0; part < PARTS; ++part) {
             add_chunk(parts + part, near + n_near, n, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
         }
@@ -437,10 +539,11 @@ INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arr
 {
     const int artificial = c->has_artificial_stress;
     const int linear = arrays->strain_rate != NULL;
+    const int extra = arrays->extra != NULL;
 #define MOR_MOMENTUM_CASE(d, a, l, s)                                                                                  \
     if (diffuses == (d) && artificial == (a) && linear == (l) && several == (s)) {                                     \
         for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \
-            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, a, l, s});                              \
+            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, a, l, s, extra});                       \
         }                                                                                                              \
     }
 #define MOR_MOMENTUM_CASES(d, s)                                                                                       \
@@ -461,7 +564,7 @@ INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arr
 INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                            const int dimension)
 {
-    const int limited = arrays->mean_stress != NULL ? 3 : (c->has_limited_diffusion ? 2 : 1);
+    const int limited = c->has_transient ? 3 : (c->has_limited_diffusion ? 2 : 1);
     const int diffuses = c->diffusion_rate > 0.0 ? limited : 0;
     mor_pair_constants of_run;
     const mor_pair_constants *constants = c;

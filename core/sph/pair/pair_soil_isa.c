@@ -31,7 +31,7 @@ typedef struct gradient_form {
     int dimension;
     int pressure; /* pressure part of v* */
     int several;  /* soils of unlike constants */
-    int fits;    /* linear fields fitted to velocities */
+    int fits;     /* linear fields fitted to velocities */
 } gradient_form;
 
 /* Where soils meet, v* is the mean of both velocities: the volume follows the motion that strains both. */
@@ -197,7 +197,7 @@ INLINE void gradient_run(const mor_pair_constants *c, const mor_pair_arrays *arr
     const int pressure = c->has_pressure_term;
     const int fits = arrays->hourglass_rate != NULL || arrays->moments != NULL;
 #define MOR_GRADIENT_CASE(p, s, h)                                                                                     \
-    if (pressure == (p) && several == (s) && fits == (h)) {                                                       \
+    if (pressure == (p) && several == (s) && fits == (h)) {                                                            \
         for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
             gradient_part(c, arrays, part *LANES, (gradient_form){dimension, p, s, h});                                \
         }                                                                                                              \
@@ -234,46 +234,6 @@ static void gradient_2d(const mor_pair_constants *c, const mor_pair_arrays *arra
 static void gradient_3d(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
 {
     gradient_range(c, arrays, first, last, 3);
-}
-
-/* Acceleration by the skew stresses A_i + A_j, each the cross product with an axial vector. */
-INLINE void spin_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
-{
-    const double *own = arrays->records + first * MOR_RECORD_SIZE;
-    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    vec s[3];
-    vec sum[3];
-    memset(sum, 0, sizeof sum);
-    for (int a = 0; a < 3; ++a) {
-        s[a] = load(arrays->spin_stress + first * 3, 3, a);
-    }
-    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
-    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
-    for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = target_of(arrays, near[entry]);
-        const double *other = arrays->spin_stress + (int64_t)near[entry] * 3;
-        const pair p = pair_of(&f, target, 3);
-        const vec k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
-        for (int a = 0; a < 3; ++a) {
-            const int b = (a + 1) % 3;
-            const int d = (a + 2) % 3;
-            sum[a] += k * multiply_add(s[b] + other[b], p.r[d], -(s[d] + other[d]) * p.r[b]);
-        }
-    }
-    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-    double *out = arrays->acceleration + first * 3;
-    for (int lane = 0; lane < lanes_of(first, arrays->n_particles); ++lane) {
-        for (int a = 0; a < 3; ++a) {
-            out[3 * lane + a] += factor[lane] * sum[a][lane];
-        }
-    }
-}
-
-static void spin_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
-{
-    for (int64_t part = first * PARTS; part < last * PARTS; ++part) {
-        spin_part(c, arrays, part * LANES);
-    }
 }
 
 /* Diffusion of a field: w = 2 D_ij V_j |W'|/r with the harmonic mean of both diffusivities, so that V_i w_ij is the
@@ -365,7 +325,6 @@ const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
                                          MOR_ISA_NAME(mor_pair_tangent),
                                          MOR_ISA_NAME(mor_pair_mean),
                                          MOR_ISA_NAME(mor_pair_share),
-                                         spin_range,
                                          diffuse_range};
     return &table;
 }

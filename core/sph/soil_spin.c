@@ -1,0 +1,54 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Stage that finds the skew stresses with which the forces of the soil have no moment. */
+#include "core/sph/soil_internal.h"
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+
+#include <string.h>
+
+/* Added to the moments, over their trace: particles on a line turn about it without a moment. */
+#define LEAST_MOMENT 1.0e-9
+
+/* The pair forces sigma_i . grad W of particle i exert the moment of the skew part of M sigma_i about it, M being the
+ * kernel's moment over the soil. A skew stress A beside sigma_i takes that away: M A + A M = M sigma - sigma M, which
+ * for the axial vector a of A reads (tr M - M) a = axial vector of the right side. The moment that other pair forces
+ * leave per volume, if any, is added to the right side. */
+static void find_spin_stress(const double *m, const double *s, const double *left, double *spin)
+{
+    const double trace = mor_symmetric_trace(m) * (1.0 + LEAST_MOMENT);
+    const double t[6] = {trace - m[MOR_XX], trace - m[MOR_YY], trace - m[MOR_ZZ], -m[MOR_XY], -m[MOR_YZ], -m[MOR_ZX]};
+    const double side[3] = {left[0] + m[MOR_ZX] * s[MOR_XY] + m[MOR_YZ] * s[MOR_YY] + m[MOR_ZZ] * s[MOR_YZ] -
+                                s[MOR_ZX] * m[MOR_XY] - s[MOR_YZ] * m[MOR_YY] - s[MOR_ZZ] * m[MOR_YZ],
+                            left[1] + m[MOR_XX] * s[MOR_ZX] + m[MOR_XY] * s[MOR_YZ] + m[MOR_ZX] * s[MOR_ZZ] -
+                                s[MOR_XX] * m[MOR_ZX] - s[MOR_XY] * m[MOR_YZ] - s[MOR_ZX] * m[MOR_ZZ],
+                            left[2] + m[MOR_XY] * s[MOR_XX] + m[MOR_YY] * s[MOR_XY] + m[MOR_YZ] * s[MOR_ZX] -
+                                s[MOR_XY] * m[MOR_XX] - s[MOR_YY] * m[MOR_XY] - s[MOR_YZ] * m[MOR_ZX]};
+    const double c[6] = {t[MOR_YY] * t[MOR_ZZ] - t[MOR_YZ] * t[MOR_YZ], t[MOR_XX] * t[MOR_ZZ] - t[MOR_ZX] * t[MOR_ZX],
+                         t[MOR_XX] * t[MOR_YY] - t[MOR_XY] * t[MOR_XY], t[MOR_ZX] * t[MOR_YZ] - t[MOR_XY] * t[MOR_ZZ],
+                         t[MOR_XY] * t[MOR_ZX] - t[MOR_XX] * t[MOR_YZ], t[MOR_XY] * t[MOR_YZ] - t[MOR_YY] * t[MOR_ZX]};
+    const double determinant = t[MOR_XX] * c[MOR_XX] + t[MOR_XY] * c[MOR_XY] + t[MOR_ZX] * c[MOR_ZX];
+    spin[0] = spin[1] = spin[2] = 0.0;
+    if (determinant > 0.0) {
+        mor_symmetric_apply(c, side, spin);
+        for (int a = 0; a < 3; ++a) {
+            spin[a] /= determinant;
+        }
+    }
+}
+
+mor_status mor_soil_find_spin_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    const double none[3] = {0.0, 0.0, 0.0};
+    const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    const double *left = mor_view_read(view, MOR_FIELD_HOURGLASS_MOMENT);
+    const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
+    double *spin = mor_view_write(view, MOR_FIELD_SPIN_STRESS);
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        find_spin_stress(moments + 6 * i, stress + 6 * i, left != NULL ? left + 3 * i : none, spin + 3 * i);
+    }
+    return MOR_OK;
+}
