@@ -194,6 +194,7 @@ static void set_constants(mor_soil *soil)
         .has_pressure_term = s->scheme.density_pressure_term,
         .has_transient = has_mean_stress(soil),
         .has_hourglass = has_hourglass(soil),
+        .has_fit = has_fit(soil),
         .has_spin = has_angular_momentum(soil),
         .smoothing_length = h,
         .gradient_factor =

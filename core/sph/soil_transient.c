@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/material/composite.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,19 +20,20 @@
 /* Turns a mean stress with the soil and lets it follow the stress by a part of their difference. */
 static void follow_stress(double *mean, const double *stress, const double *gradient, double length, double part)
 {
-    static const int place[6] = {0, 4, 8, 1, 5, 2};
-    const double m[9] = {mean[MOR_XX], mean[MOR_XY], mean[MOR_ZX], mean[MOR_XY], mean[MOR_YY],
-                         mean[MOR_YZ], mean[MOR_ZX], mean[MOR_YZ], mean[MOR_ZZ]};
-    for (int k = 0; k < 6; ++k) {
-        const int a = place[k] / 3;
-        const int b = place[k] % 3;
-        double spin = 0.0; /* W m - m W, W the skew part of the gradient */
-        for (int c = 0; c < 3; ++c) {
-            spin += 0.5 * (gradient[3 * a + c] - gradient[3 * c + a]) * m[3 * c + b];
-            spin += 0.5 * (gradient[3 * b + c] - gradient[3 * c + b]) * m[3 * a + c];
-        }
-        const double turned = m[place[k]] + length * spin;
-        mean[k] = turned + part * (stress[k] - turned);
+    /* Skew part of the gradient, times the step: W_ab, and W m - m W. */
+    const double xy = 0.5 * length * (gradient[1] - gradient[3]);
+    const double yz = 0.5 * length * (gradient[5] - gradient[7]);
+    const double zx = 0.5 * length * (gradient[6] - gradient[2]);
+    const double *m = mean;
+    const double spin[6] = {2.0 * (xy * m[MOR_XY] - zx * m[MOR_ZX]),
+                            2.0 * (yz * m[MOR_YZ] - xy * m[MOR_XY]),
+                            2.0 * (zx * m[MOR_ZX] - yz * m[MOR_YZ]),
+                            xy * (m[MOR_YY] - m[MOR_XX]) - zx * m[MOR_YZ] + yz * m[MOR_ZX],
+                            yz * (m[MOR_ZZ] - m[MOR_YY]) - xy * m[MOR_ZX] + zx * m[MOR_XY],
+                            zx * (m[MOR_XX] - m[MOR_ZZ]) - yz * m[MOR_XY] + xy * m[MOR_YZ]};
+    for (int a = 0; a < 6; ++a) {
+        const double turned = mean[a] + spin[a];
+        mean[a] = turned + part * (stress[a] - turned);
     }
 }
 
@@ -49,6 +51,13 @@ static double find_shear_rate(const double *gradient)
     return sqrt(sum);
 }
 
+/* What the advance of means takes of one soil in one step. */
+typedef struct follow {
+    double fade; /* time over which flow is forgotten, s */
+    double kept; /* part of the flow that is left after the step, 1 */
+    double part; /* of the difference to the stress by which the mean follows, 1 */
+} follow;
+
 mor_status mor_soil_follow_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     const mor_soil *soil = owner;
@@ -57,14 +66,18 @@ mor_status mor_soil_follow_stress(mor_context *context, void *owner, mor_view *v
     double *mean = mor_view_write(view, MOR_FIELD_MEAN_STRESS);
     double *flow = mor_view_write(view, MOR_FIELD_FLOW);
     const int64_t n = soil->set.n_particles;
+    follow of[MOR_COMPOSITE_PARTS_MAX];
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        const double period = soil->smoothing_length / soil->kinds[k].sound_speed;
+        const double fade = period / (NOISE * soil->settings.scheme.stress_diffusion);
+        of[k] = (follow){fade, exp(-step->length / fade), -expm1(-step->length / (MEMORY * period))};
+    }
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
-            const double period = soil->smoothing_length / mor_soil_kind_of(soil, i)->sound_speed;
-            const double fade = period / (NOISE * soil->settings.scheme.stress_diffusion);
-            const double now = fmin(fade * find_shear_rate(gradient + 9 * i), 1.0);
-            follow_stress(mean + 6 * i, stress + 6 * i, gradient + 9 * i, step->length,
-                          -expm1(-step->length / (MEMORY * period)));
-            flow[i] = fmax(now, exp(-step->length / fade) * flow[i]);
+            const follow *it = &of[mor_soil_kind_of(soil, i) - soil->kinds];
+            const double now = fmin(it->fade * find_shear_rate(gradient + 9 * i), 1.0);
+            follow_stress(mean + 6 * i, stress + 6 * i, gradient + 9 * i, step->length, it->part);
+            flow[i] = fmax(now, it->kept * flow[i]);
         }
     }
     return MOR_OK;

@@ -82,6 +82,7 @@ typedef struct mor_pair_constants {
     bool has_pressure_term;      /* pressure part of U* in the density rate */
     bool has_transient;          /* only what changes diffuses where soil is at rest; reads means and flow */
     bool has_hourglass;          /* forces by hourglass displacements; reads them */
+    bool has_fit;                /* density rates follow from the fitted gradient, so that no sum is needed */
     bool has_spin;               /* forces by skew stresses; reads them */
     double smoothing_length;     /* h, m */
     double gradient_factor;      /* mor_kernel_gradient_factor, unit 1/m^(d+2) */

@@ -10,8 +10,11 @@ typedef struct momentum_form {
     int artificial; /* artificial stress */
     int linear;     /* velocities reconstructed at the middle of a pair */
     int several;    /* soils of unlike constants */
-    int extra;      /* reads what is beside the records; not constant */
+    int extra;      /* what is read beside the records, bits of the enum; not constant */
 } momentum_form;
+
+/* What the momentum loop reads beside the records. */
+enum { MOR_HOURGLASSES = 1, MOR_SPINS = 2, MOR_MEANS = 4 };
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
 INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
@@ -59,7 +62,7 @@ typedef struct momentum_sums {
     vec spread_rest;      /* sum kd (1 - w) */
     vec stiffness;        /* sum k m, m the stiffness of the hourglass control, Pa */
     vec hourglass[3];     /* sum k m d_j */
-    vec lever[3];         /* sum k m r */
+    vec lever[3];         /* sum k m r; with several soils */
     vec moment[3];        /* sum k m r x d_j */
     vec spin[3];          /* sum k s_j x r, s the axial vector of the skew stress */
 } momentum_sums;
@@ -211,9 +214,10 @@ typedef struct momentum_part {
     momentum_sums sums;
 } momentum_part;
 
-/* The hourglass control: forces between particles that are displaced unlike, whichever way they lie. */
-INLINE void add_hourglass(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                          const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
+/* The hourglass control: forces between particles that are displaced unlike, whichever way they lie. And the forces by
+ * the skew stresses of the neighbors, each the cross product with an axial vector. */
+INLINE void add_extra(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                      const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
 {
     vec itself = broadcast(c->hourglass);
     for (int lane = 0; lane < LANES && form.several; ++lane) {
@@ -222,72 +226,73 @@ INLINE void add_hourglass(momentum_part *part, const geometry *geometries, const
     momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
         const double *d = extra_of(arrays, near[q]) + MOR_EXTRA_HOURGLASS;
-        vec k = geometries[q].k;
+        const double *s = extra_of(arrays, near[q]) + MOR_EXTRA_SPIN;
         vec r[3];
+        vec kr[3];
+        vec m = geometries[q].k;
         separate(r, &part->frame, target_of(arrays, near[q]), form.dimension);
+        for (int a = 0; a < 3; ++a) {
+            kr[a] = geometries[q].k * r[a];
+        }
+        if (form.extra & MOR_SPINS) {
+            sums.spin[0] -= kr[1] * s[2];
+            sums.spin[1] += kr[0] * s[2];
+        }
+        if ((form.extra & MOR_SPINS) && form.dimension == 3) {
+            sums.spin[0] += kr[2] * s[1];
+            sums.spin[1] -= kr[2] * s[0];
+            sums.spin[2] += multiply_add(kr[1], broadcast(s[0]), -kr[0] * s[1]);
+        }
+        if (!(form.extra & MOR_HOURGLASSES)) {
+            continue;
+        }
         if (form.several) {
             const double there = c->soils[(int)of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
-            k *= 2.0 * itself * there / (itself + there);
+            const vec mean = 2.0 * itself * there / (itself + there);
+            m *= mean;
+            for (int a = 0; a < 3; ++a) {
+                kr[a] *= mean;
+                sums.lever[a] += kr[a];
+            }
         }
-        sums.stiffness += k;
+        sums.stiffness += m;
         for (int a = 0; a < form.dimension; ++a) {
-            r[a] *= k;
-            sums.hourglass[a] += k * d[a];
-            sums.lever[a] += r[a];
+            sums.hourglass[a] += m * d[a];
         }
         if (form.dimension == 3) {
-            sums.moment[0] += multiply_add(r[1], broadcast(d[2]), -r[2] * d[1]);
-            sums.moment[1] += multiply_add(r[2], broadcast(d[0]), -r[0] * d[2]);
+            sums.moment[0] += multiply_add(kr[1], broadcast(d[2]), -kr[2] * d[1]);
+            sums.moment[1] += multiply_add(kr[2], broadcast(d[0]), -kr[0] * d[2]);
         }
-        sums.moment[2] += multiply_add(r[0], broadcast(d[1]), -r[1] * d[0]);
+        sums.moment[2] += multiply_add(kr[0], broadcast(d[1]), -kr[1] * d[0]);
     }
     part->sums = sums;
 }
 
-/* Forces by the skew stresses of the neighbors, each the cross product with an axial vector. */
-INLINE void add_spin(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                     const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
-{
-    (void)c;
-    vec sum[3] = {part->sums.spin[0], part->sums.spin[1], part->sums.spin[2]};
-    for (int q = 0; q < n; ++q) {
-        const double *s = extra_of(arrays, near[q]) + MOR_EXTRA_SPIN;
-        vec r[3];
-        separate(r, &part->frame, target_of(arrays, near[q]), form.dimension);
-        for (int a = 0; a < form.dimension; ++a) {
-            r[a] *= geometries[q].k;
-        }
-        sum[0] -= r[1] * s[2];
-        sum[1] += r[0] * s[2];
-        if (form.dimension == 3) {
-            sum[0] += r[2] * s[1];
-            sum[1] -= r[2] * s[0];
-            sum[2] += multiply_add(r[1], broadcast(s[0]), -r[0] * s[1]);
-        }
-    }
-    for (int a = 0; a < 3; ++a) {
-        part->sums.spin[a] = sum[a];
-    }
-}
-
-/* Out of the many copies of the momentum loop, which would all hold them. */
-typedef void (*add_extra)(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                          const mor_pair_constants *c, const mor_pair_arrays *arrays);
-#define MOR_EXTRA_FUNCTION(name, add, dimension, several)                                                              \
+/* Out of the many copies of the momentum loop, which would all hold them; by what is added. */
+typedef void (*adder)(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                      const mor_pair_constants *c, const mor_pair_arrays *arrays);
+#define MOR_EXTRA_FUNCTION(name, dimension, several, extra)                                                            \
     __attribute__((noinline)) static void name(momentum_part *part, const geometry *geometries, const int32_t *near,   \
                                                int n, const mor_pair_constants *c, const mor_pair_arrays *arrays)      \
     {                                                                                                                  \
-        add(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, 0, (several), 1});                \
+        add_extra(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, 0, (several), (extra)});    \
     }
-MOR_EXTRA_FUNCTION(add_hourglass_2d, add_hourglass, 2, 0)
-MOR_EXTRA_FUNCTION(add_hourglass_3d, add_hourglass, 3, 0)
-MOR_EXTRA_FUNCTION(add_several_hourglass_2d, add_hourglass, 2, 1)
-MOR_EXTRA_FUNCTION(add_several_hourglass_3d, add_hourglass, 3, 1)
-MOR_EXTRA_FUNCTION(add_spin_2d, add_spin, 2, 0)
-MOR_EXTRA_FUNCTION(add_spin_3d, add_spin, 3, 0)
-static const add_extra hourglass_adders[2][2] = {{add_hourglass_2d, add_hourglass_3d},
-                                                 {add_several_hourglass_2d, add_several_hourglass_3d}};
-static const add_extra spin_adders[2] = {add_spin_2d, add_spin_3d};
+MOR_EXTRA_FUNCTION(spin_2d, 2, 0, MOR_SPINS)
+MOR_EXTRA_FUNCTION(spin_3d, 3, 0, MOR_SPINS)
+MOR_EXTRA_FUNCTION(hourglass_2d, 2, 0, MOR_HOURGLASSES)
+MOR_EXTRA_FUNCTION(hourglass_3d, 3, 0, MOR_HOURGLASSES)
+MOR_EXTRA_FUNCTION(both_2d, 2, 0, MOR_HOURGLASSES | MOR_SPINS)
+MOR_EXTRA_FUNCTION(both_3d, 3, 0, MOR_HOURGLASSES | MOR_SPINS)
+MOR_EXTRA_FUNCTION(several_hourglass_2d, 2, 1, MOR_HOURGLASSES)
+MOR_EXTRA_FUNCTION(several_hourglass_3d, 3, 1, MOR_HOURGLASSES)
+MOR_EXTRA_FUNCTION(several_both_2d, 2, 1, MOR_HOURGLASSES | MOR_SPINS)
+MOR_EXTRA_FUNCTION(several_both_3d, 3, 1, MOR_HOURGLASSES | MOR_SPINS)
+static const adder adders[2][4][2] = {
+    {{NULL, NULL}, {hourglass_2d, hourglass_3d}, {spin_2d, spin_3d}, {both_2d, both_3d}},
+    {{NULL, NULL},
+     {several_hourglass_2d, several_hourglass_3d},
+     {spin_2d, spin_3d},
+     {several_both_2d, several_both_3d}}};
 
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
@@ -348,11 +353,9 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     }
     part->sums = sums;
     compiler_barrier(part);
-    if (c->has_hourglass) {
-        hourglass_adders[form.several][form.dimension - 2](part, geometries, near, n, c, arrays);
-    }
-    if (c->has_spin) {
-        spin_adders[form.dimension - 2](part, geometries, near, n, c, arrays);
+    if (form.extra & (MOR_HOURGLASSES | MOR_SPINS)) {
+        adders[form.several][form.extra & (MOR_HOURGLASSES | MOR_SPINS)][form.dimension - 2](part, geometries, near, n,
+                                                                                             c, arrays);
     }
     for (int q = 0; q < n && form.artificial; ++q) {
         add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), f, c, artificial + first * 6,
@@ -444,6 +447,7 @@ __attribute__((noinline)) static void finish_hourglass(const momentum_sums *m, c
 {
     const double *own = arrays->extra + first * MOR_EXTRA_SIZE;
     const double stiffness = form.several ? 1.0 : c->hourglass;
+    const vec *lever = form.several ? m->lever : m->weight;
     vec d[3];
     for (int a = 0; a < 3; ++a) {
         d[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_HOURGLASS + a);
@@ -452,7 +456,7 @@ __attribute__((noinline)) static void finish_hourglass(const momentum_sums *m, c
     for (int a = 0; a < 3 && arrays->hourglass_moment != NULL; ++a) {
         const int b = (a + 1) % 3;
         const int e = (a + 2) % 3;
-        const vec moment = m->lever[b] * d[e] - m->lever[e] * d[b] - m->moment[a];
+        const vec moment = lever[b] * d[e] - lever[e] * d[b] - m->moment[a];
         store(arrays->hourglass_moment + first * 3, 3, a, lanes_of(first, arrays->n_particles),
               -0.5 * c->gradient_factor * stiffness * moment);
     }
@@ -489,10 +493,10 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
     vec force[3] = {m->force[0] + s[MOR_XX] * w[0] + s[MOR_XY] * w[1] + s[MOR_ZX] * w[2],
                     m->force[1] + s[MOR_XY] * w[0] + s[MOR_YY] * w[1] + s[MOR_YZ] * w[2],
                     m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]};
-    if (c->has_hourglass) {
+    if (form.extra & MOR_HOURGLASSES) {
         finish_hourglass(m, c, arrays, first, force, form);
     }
-    if (c->has_spin) {
+    if (form.extra & MOR_SPINS) {
         finish_spin(m, arrays, first, force);
     }
     for (int a = 0; a < form.dimension; ++a) {
@@ -539,7 +543,8 @@ INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arr
 {
     const int artificial = c->has_artificial_stress;
     const int linear = arrays->strain_rate != NULL;
-    const int extra = arrays->extra != NULL;
+    const int extra =
+        (c->has_hourglass ? MOR_HOURGLASSES : 0) | (c->has_spin ? MOR_SPINS : 0) | (diffuses == 3 ? MOR_MEANS : 0);
 #define MOR_MOMENTUM_CASE(d, a, l, s)                                                                                  \
     if (diffuses == (d) && artificial == (a) && linear == (l) && several == (s)) {                                     \
         for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \

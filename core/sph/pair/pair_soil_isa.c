@@ -31,7 +31,7 @@ typedef struct gradient_form {
     int dimension;
     int pressure; /* pressure part of v* */
     int several;  /* soils of unlike constants */
-    int fits;     /* linear fields fitted to velocities */
+    int fits;     /* linear fields fitted to velocities; 2: and no sum for the density rate */
 } gradient_form;
 
 /* Where soils meet, v* is the mean of both velocities: the volume follows the motion that strains both. */
@@ -42,6 +42,9 @@ INLINE void find_share(gradient_pair *it, const double *target, const gradient *
     vec other = broadcast(target[MOR_RECORD_IMPEDANCE]);
     it->distance = p.distance;
     it->reach = p.reach;
+    if (form.fits == 2) {
+        return;
+    }
     if (form.several) {
         it->same = g->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX];
         other = select_lanes(it->same, other, g->impedance);
@@ -79,6 +82,9 @@ INLINE void add_gradient(gradient *g, const gradient_pair *it, const double *tar
             g->shape[MOR_YZ] += kr[1] * r[2];
             g->shape[MOR_ZX] += kr[2] * r[0];
         }
+    }
+    if (form.fits == 2) {
+        return;
     }
     const vec plane = multiply_add(kr[0], jump[0], kr[1] * jump[1]);
     g->rate += it->share * (dimension == 3 ? multiply_add(kr[2], jump[2], plane) : plane);
@@ -179,8 +185,10 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
         /* Exactly zero out of the plane, where the sum is zero. */
         store(arrays->velocity_gradient + first * 9, 9, a, n_lanes, c->gradient_factor * g.moment[a]);
     }
-    const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-    store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
+    if (form.fits != 2) {
+        const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+        store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
+    }
     for (int a = 0; a < 6 && form.fits && arrays->moments != NULL; ++a) {
         store(arrays->moments + first * 6, 6, a, n_lanes, c->gradient_factor * g.shape[a]);
     }
@@ -194,8 +202,9 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
 INLINE void gradient_run(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                          const int dimension, int several)
 {
-    const int pressure = c->has_pressure_term;
-    const int fits = arrays->hourglass_rate != NULL || arrays->moments != NULL;
+    const int pressure = c->has_pressure_term && !c->has_fit;
+    const int sums = arrays->hourglass_rate != NULL || arrays->moments != NULL;
+    const int fits = c->has_fit ? 2 : sums;
 #define MOR_GRADIENT_CASE(p, s, h)                                                                                     \
     if (pressure == (p) && several == (s) && fits == (h)) {                                                            \
         for (int64_t part = first * PARTS; part < last * PARTS; ++part) {                                              \
@@ -210,6 +219,8 @@ INLINE void gradient_run(const mor_pair_constants *c, const mor_pair_arrays *arr
     MOR_GRADIENT_CASE(0, 1, 1)
     MOR_GRADIENT_CASE(1, 0, 1)
     MOR_GRADIENT_CASE(1, 1, 1)
+    MOR_GRADIENT_CASE(0, 0, 2)
+    MOR_GRADIENT_CASE(0, 1, 2)
 }
 
 INLINE void gradient_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
