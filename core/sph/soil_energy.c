@@ -61,7 +61,8 @@ double mor_soil_energy_taken(const mor_soil *soil, mor_soil_energy_part part)
 
 bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step)
 {
-    return soil->energy != NULL && (int64_t)step->number >= soil->energy->next;
+    /* A sample stands for steps without diffusion, too. */
+    return soil->energy != NULL && (int64_t)step->number >= soil->energy->next && mor_soil_diffuses(soil, step);
 }
 
 void mor_soil_energy_add(mor_context *context, mor_soil_powers *job, mor_reduce_block block)
@@ -108,6 +109,8 @@ enum { START, END, LOW, HIGH, N_STRESSES };
 static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t n, double *sums)
 {
     const double length = job->step->length;
+    /* Of the steps, those in which stress diffuses. */
+    const double share = job->soil->constants.has_transient ? 0.5 : 1.0;
     double stress[N_STRESSES][BATCH * 6];
     double stored[N_STRESSES][BATCH];
     double middle[BATCH * 6];
@@ -130,7 +133,7 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
         const double *strains = job->soil->energy->strains + 12 * (first + i);
         const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
         sums[MOR_SOIL_ENERGY_PLASTIC] += volume * (work + spread - (stored[END][i] - stored[START][i]) / length);
-        sums[MOR_SOIL_ENERGY_DIFFUSION] -= volume * spread;
+        sums[MOR_SOIL_ENERGY_DIFFUSION] -= share * volume * spread;
         sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * double_dot(middle + 6 * i, strains);
         sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * double_dot(middle + 6 * i, strains + 6);
     }

@@ -121,6 +121,16 @@ static void find_rest_gradient(const mor_soil_kind *kind, double gravity, const 
     }
 }
 
+/* Transient stress diffuses in every other step, twice as fast: it follows changes over several steps. */
+static void set_diffusion(mor_soil *soil, const mor_step *step, double *diffusion)
+{
+    const bool is_due = mor_soil_diffuses(soil, step);
+    soil->constants.diffusion_factor = soil->constants.has_transient ? (is_due ? 2.0 : 0.0) : 1.0;
+    if (!is_due && diffusion != NULL) {
+        memset(diffusion, 0, (size_t)(6 * soil->set.n_particles) * sizeof *diffusion);
+    }
+}
+
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
@@ -138,6 +148,7 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
     arrays.hourglass_moment = mor_view_write(view, MOR_FIELD_HOURGLASS_MOMENT);
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
+    set_diffusion(soil, step, arrays.stress_diffusion);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
     return MOR_OK;
 }

@@ -48,6 +48,12 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
 /** Whether the density is reinitialized by summation at an interval. */
 bool mor_soil_has_density_sums(const void *owner);
 
+/** Whether stress diffuses in this step: always, or in every other step where only what changes does. */
+static inline bool mor_soil_diffuses(const mor_soil *soil, const mor_step *step)
+{
+    return !soil->constants.has_transient || step->number % 2 == 0;
+}
+
 /** Whether the velocity gradient is another than the sum whose counterpart the forces are. */
 static inline bool mor_soil_corrects_gradient(const mor_soil *soil)
 {

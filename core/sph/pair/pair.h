@@ -54,8 +54,8 @@ enum {
 enum {
     MOR_EXTRA_MEAN = 0,      /* 6, recent mean of the stress, Pa */
     MOR_EXTRA_FLOW = 6,      /* 0: at rest, 1: flows; 1 */
-    MOR_EXTRA_HOURGLASS = 8, /* 3, displacement that no velocity gradient sees, m */
-    MOR_EXTRA_SPIN = 11,     /* 3, axial vector of the skew stress, Pa */
+    MOR_EXTRA_HOURGLASS = 7, /* 3, displacement that no velocity gradient sees, m */
+    MOR_EXTRA_SPIN = 10,     /* 3, axial vector of the skew stress, Pa */
     MOR_EXTRA_SIZE = 16
 };
 
@@ -89,6 +89,7 @@ typedef struct mor_pair_constants {
     double laplacian_factor;     /* over the moment of the initial lattice, unit 1/m^(d+2) */
     double limiter_rate;         /* eta / c0, s/m: slope of the dissipation limiter */
     double diffusion_rate;       /* 2 zeta h c0, m2/s; 0 without stress diffusion */
+    double diffusion_factor;     /* on the rates of all soils in this step, 1; 0: nothing diffuses */
     double gravity_direction[3]; /* unit vector, 1; zero without gravity */
     double rest_gradient[6];     /* d stress / d height at rest, symmetric tensor, Pa/m */
     const mor_pair_soil *soils;  /* shape [number of soils]; borrowed; NULL: one soil, as above */

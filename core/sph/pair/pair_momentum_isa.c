@@ -6,11 +6,10 @@
 /* What a copy of the momentum loop does; constant in each copy, so that there is no branch per pair. */
 typedef struct momentum_form {
     int dimension;
-    int diffuses;   /* stress diffusion: none, always (1), as far as pairs move (2), or what changes (3) */
-    int artificial; /* artificial stress */
-    int linear;     /* velocities reconstructed at the middle of a pair */
-    int several;    /* soils of unlike constants */
-    int extra;      /* what is read beside the records, bits of the enum; not constant */
+    int diffuses; /* stress diffusion: none, always (1), as far as pairs move (2), or what changes (3) */
+    int linear;   /* velocities reconstructed at the middle of a pair */
+    int several;  /* soils of unlike constants */
+    int extra;    /* what is read beside the records, bits of the enum; not constant */
 } momentum_form;
 
 /* What the momentum loop reads beside the records. */
@@ -133,8 +132,8 @@ INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_const
 }
 
 INLINE void find_extra(momentum_pair *it, const geometry *g, const double *target, const momentum *m, const frame *f,
-                       const mor_pair_constants *c, const double *strain_rate, const double *of_soil, double flow,
-                       const momentum_form form)
+                       const mor_pair_constants *c, const double *strain_rate, const double *of_soil,
+                       const double *extra, const momentum_form form)
 {
     const vec *v = m->v;
     pair p;
@@ -175,7 +174,7 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
         it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
     }
     if (form.diffuses == 3) {
-        it->rest = it->kd * (1.0 - 0.5 * (m->flow + flow));
+        it->rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
     }
 }
 
@@ -192,7 +191,7 @@ INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *
 
 INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const double *target, const frame *f,
                                 const mor_pair_constants *c, const double *own, const double *other,
-                                const momentum_form form)
+                                const int dimension)
 {
     vec size = broadcast(0.0);
     for (int a = 0; a < 6; ++a) {
@@ -201,9 +200,9 @@ INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const doubl
     /* The power is expensive, and few pairs are under tension. */
     if (any_less(size, 0.0)) {
         pair p;
-        separate(p.r, f, target, form.dimension);
+        separate(p.r, f, target, dimension);
         p.reach = positive_part(1.0 - g->distance * f->half_inverse_h);
-        add_artificial(m, &p, c, g->k, own, other, form.dimension);
+        add_artificial(m, &p, c, g->k, own, other, dimension);
     }
 }
 
@@ -268,14 +267,42 @@ INLINE void add_extra(momentum_part *part, const geometry *geometries, const int
     part->sums = sums;
 }
 
+/* Artificial stress of a chunk of targets. */
+INLINE void add_artificial_chunk(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                                 const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                 const int dimension)
+{
+    const double *artificial = arrays->artificial_stress;
+    for (int q = 0; q < n; ++q) {
+        add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), &part->frame, c,
+                            artificial + first * 6, artificial + (int64_t)near[q] * 6, dimension);
+    }
+}
+
 /* Out of the many copies of the momentum loop, which would all hold them; by what is added. */
+static void add_artificial_chunk_2d(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                                    const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
+{
+    add_artificial_chunk(part, geometries, near, n, c, arrays, first, 2);
+}
+
+static void add_artificial_chunk_3d(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+                                    const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
+{
+    add_artificial_chunk(part, geometries, near, n, c, arrays, first, 3);
+}
+
+static void (*const artificial_adders[2])(momentum_part *, const geometry *, const int32_t *, int,
+                                          const mor_pair_constants *, const mor_pair_arrays *,
+                                          int64_t) = {add_artificial_chunk_2d, add_artificial_chunk_3d};
+
 typedef void (*adder)(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
                       const mor_pair_constants *c, const mor_pair_arrays *arrays);
 #define MOR_EXTRA_FUNCTION(name, dimension, several, extra)                                                            \
     __attribute__((noinline)) static void name(momentum_part *part, const geometry *geometries, const int32_t *near,   \
                                                int n, const mor_pair_constants *c, const mor_pair_arrays *arrays)      \
     {                                                                                                                  \
-        add_extra(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, 0, (several), (extra)});    \
+        add_extra(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, (several), (extra)});       \
     }
 MOR_EXTRA_FUNCTION(spin_2d, 2, 0, MOR_SPINS)
 MOR_EXTRA_FUNCTION(spin_3d, 3, 0, MOR_SPINS)
@@ -332,7 +359,6 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
                       const mor_pair_arrays *arrays, int64_t first, const momentum_form form)
 {
     const frame *f = &part->frame;
-    const double *artificial = arrays->artificial_stress;
     geometry geometries[CHUNK];
     momentum_pair pairs[CHUNK];
     compiler_barrier(part);
@@ -341,8 +367,8 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
         const double *of_soil = of_soil_of(arrays, near[q], form.several);
-        const double flow = form.diffuses == 3 ? extra_of(arrays, near[q])[MOR_EXTRA_FLOW] : 0.0;
-        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, flow,
+        const double *extra = form.diffuses == 3 ? extra_of(arrays, near[q]) : NULL;
+        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra,
                    form);
     }
     compiler_barrier(part);
@@ -357,9 +383,8 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
         adders[form.several][form.extra & (MOR_HOURGLASSES | MOR_SPINS)][form.dimension - 2](part, geometries, near, n,
                                                                                              c, arrays);
     }
-    for (int q = 0; q < n && form.artificial; ++q) {
-        add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), f, c, artificial + first * 6,
-                            artificial + (int64_t)near[q] * 6, form);
+    if (c->has_artificial_stress) {
+        artificial_adders[form.dimension - 2](part, geometries, near, n, c, arrays, first);
     }
 }
 
@@ -404,7 +429,7 @@ typedef struct diffusion {
 INLINE void load_diffusion(diffusion *d, const mor_pair_constants *c, vec soil, const momentum_form form)
 {
     double of_lanes[LANES * 7];
-    d->rate = broadcast(c->diffusion_rate);
+    d->rate = broadcast(c->diffusion_rate * c->diffusion_factor);
     for (int a = 0; a < 6; ++a) {
         d->rest_gradient[a] = broadcast(c->rest_gradient[a]);
     }
@@ -413,7 +438,7 @@ INLINE void load_diffusion(diffusion *d, const mor_pair_constants *c, vec soil, 
     }
     for (int lane = 0; lane < LANES; ++lane) {
         const mor_pair_soil *own = &c->soils[(int)soil[lane]];
-        of_lanes[7 * lane] = own->diffusion_rate;
+        of_lanes[7 * lane] = own->diffusion_rate * c->diffusion_factor;
         memcpy(of_lanes + 7 * lane + 1, own->rest_gradient, sizeof own->rest_gradient);
     }
     d->rate = load(of_lanes, 7, 0);
@@ -541,36 +566,31 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                          const int dimension, int diffuses, int several)
 {
-    const int artificial = c->has_artificial_stress;
     const int linear = arrays->strain_rate != NULL;
     const int extra =
         (c->has_hourglass ? MOR_HOURGLASSES : 0) | (c->has_spin ? MOR_SPINS : 0) | (diffuses == 3 ? MOR_MEANS : 0);
-#define MOR_MOMENTUM_CASE(d, a, l, s)                                                                                  \
-    if (diffuses == (d) && artificial == (a) && linear == (l) && several == (s)) {                                     \
+#define MOR_MOMENTUM_CASE(d, l, s)                                                                                     \
+    if (diffuses == (d) && linear == (l) && several == (s)) {                                                          \
         for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \
-            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, a, l, s, extra});                       \
+            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, l, s, extra});                          \
         }                                                                                                              \
     }
-#define MOR_MOMENTUM_CASES(d, s)                                                                                       \
-    MOR_MOMENTUM_CASE(d, 0, 0, s)                                                                                      \
-    MOR_MOMENTUM_CASE(d, 0, 1, s)                                                                                      \
-    MOR_MOMENTUM_CASE(d, 1, 0, s)                                                                                      \
-    MOR_MOMENTUM_CASE(d, 1, 1, s)
+#define MOR_MOMENTUM_CASES(l, s)                                                                                       \
+    MOR_MOMENTUM_CASE(0, l, s)                                                                                         \
+    MOR_MOMENTUM_CASE(1, l, s)                                                                                         \
+    MOR_MOMENTUM_CASE(2, l, s)                                                                                         \
+    MOR_MOMENTUM_CASE(3, l, s)
     MOR_MOMENTUM_CASES(0, 0)
     MOR_MOMENTUM_CASES(1, 0)
-    MOR_MOMENTUM_CASES(2, 0)
-    MOR_MOMENTUM_CASES(3, 0)
     MOR_MOMENTUM_CASES(0, 1)
     MOR_MOMENTUM_CASES(1, 1)
-    MOR_MOMENTUM_CASES(2, 1)
-    MOR_MOMENTUM_CASES(3, 1)
 }
 
 INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                            const int dimension)
 {
     const int limited = c->has_transient ? 3 : (c->has_limited_diffusion ? 2 : 1);
-    const int diffuses = c->diffusion_rate > 0.0 ? limited : 0;
+    const int diffuses = c->diffusion_rate * c->diffusion_factor > 0.0 ? limited : 0;
     mor_pair_constants of_run;
     const mor_pair_constants *constants = c;
     int64_t end = last;
