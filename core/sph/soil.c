@@ -28,6 +28,16 @@ static bool has_angular_momentum(const void *owner)
     return ((const mor_soil *)owner)->settings.scheme.angular_momentum;
 }
 
+static bool has_present_spin(const void *owner)
+{
+    return has_angular_momentum(owner) && ((const mor_soil *)owner)->settings.scheme.angular_momentum_by == 0;
+}
+
+static bool has_last_spin(const void *owner)
+{
+    return has_angular_momentum(owner) && !has_present_spin(owner);
+}
+
 static bool has_correction(const void *owner)
 {
     return ((const mor_soil *)owner)->settings.scheme.gradient_correction;
@@ -80,6 +90,9 @@ static const mor_stage soil_stages[] = {
      BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on", has_artificial_stress},
+    {"present skew stress", mor_soil_find_present_spin, SHARED(LISTS) | BIT(HOURGLASS_MOMENT),
+     SHARED(CLOSED) | BIT(SPIN_STRESS), SHARED(RECORDS),
+     "with which the forces of the soil have no moment, found in this step, when switched on", has_present_spin},
     {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS) | BIT(HOURGLASS_MOMENT), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
@@ -121,7 +134,7 @@ static const mor_stage soil_stages[] = {
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
      BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
     {"skew stress", mor_soil_find_spin_stress, SHARED(MOMENTS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), BIT(SPIN_STRESS),
-     0, "with which the forces of the soil have no moment, when switched on", has_angular_momentum},
+     0, "with which the forces of the soil will have no moment in the next step, when switched on", has_last_spin},
     {"transient mean", mor_soil_follow_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0, BIT(MEAN_STRESS) | BIT(FLOW),
      "recent mean of the stress, when switched on", has_mean_stress},
     {"hourglass", mor_soil_advance_hourglass, BIT(HOURGLASS_RATE) | BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0,
@@ -137,10 +150,10 @@ static const mor_stage soil_stages[] = {
      "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
-static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) |
-                                        BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |
-                                        BIT(HOURGLASS) | BIT(SPIN_STRESS) | SHARED(STATE) | SHARED(BOUNDARIES) |
-                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+static const uint64_t evolving_fields =
+    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
+    BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | SHARED(STATE) |
+    SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles. */
@@ -288,10 +301,10 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->continued, padded * 6, "moments continued into walls"));
     }
-    if (s->scheme.angular_momentum || s->scheme.velocity_gradient == 1) {
+    if (has_last_spin(soil) || s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
-    if (s->scheme.gradient_correction || s->scheme.velocity_gradient == 1) {
+    if (s->scheme.gradient_correction || s->scheme.velocity_gradient == 1 || has_present_spin(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->closed, padded * 6, "closed kernel-gradient moments"));
     }
     if (has_angular_momentum(soil) || has_hourglass(soil) || has_mean_stress(soil)) {

@@ -16,6 +16,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_find_spin_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step);
@@ -54,10 +55,19 @@ static inline bool mor_soil_diffuses(const mor_soil *soil, const mor_step *step)
     return !soil->constants.has_transient || step->number % 2 == 0;
 }
 
+/** Takes the kernel sums over the soil of one particle, shape [MOR_KERNEL_SUMS], units of the enum. */
+typedef void (*mor_soil_kernel_use)(mor_soil *soil, int64_t i, const double *sums);
+
+/** Sums kernel values over the soil, particle by particle.
+ *  @param records [in]  shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
+ *  @param use     [in]  called once for each particle, by any thread */
+void mor_soil_sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, const double *records,
+                          mor_soil_kernel_use use);
+
 /** Whether the velocity gradient is another than the sum whose counterpart the forces are. */
 static inline bool mor_soil_corrects_gradient(const mor_soil *soil)
 {
-    return soil->closed != NULL;
+    return soil->settings.scheme.gradient_correction || soil->settings.scheme.velocity_gradient == 1;
 }
 
 /** Whether the soil has a law with a field. */

@@ -19,10 +19,8 @@ enum { CLUSTERS = 16 };
 #define SINGLE 0.4
 #define HALF 0.6
 
-/* Calls use(soil, particle, sums of that particle) for the kernel sums over the soil itself. */
-typedef void (*kernel_use)(mor_soil *soil, int64_t i, const double *sums);
-
-static void sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, const double *records, kernel_use use)
+void mor_soil_sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, const double *records,
+                          mor_soil_kernel_use use)
 {
     const int64_t n_particles = soil->set.n_particles;
     const int64_t n = soil->tree.n_clusters;
@@ -92,7 +90,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
         const double divisor = soil->of_soil != NULL ? mor_soil_kind_of(soil, i)->reference_density : 1.0;
         records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i] / divisor;
     }
-    sum_kernels(context, soil, view, records, keep_density);
+    mor_soil_sum_kernels(context, soil, view, records, keep_density);
     for (int64_t i = 0; i < n && soil->of_soil != NULL; ++i) {
         sum[i] *= mor_soil_kind_of(soil, i)->reference_density;
     }
@@ -164,7 +162,8 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
     double *gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
     double *rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
-    sum_kernels(context, soil, view, mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records), keep_moments);
+    mor_soil_sum_kernels(context, soil, view, mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                         keep_moments);
     add_wall_sums(context, soil, view, MOR_KERNEL_SUM_MOMENT, 6, NULL, closed);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         correct_particle(soil, density[i], i, gradient + 9 * i, rate + i);

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Added to the moments, over their trace: particles on a line turn about it without a moment. */
-#define LEAST_MOMENT 1.0e-9
+#define LEAST_MOMENT 1.0e-12
 
 /* The pair forces sigma_i . grad W of particle i exert the moment of the skew part of M sigma_i about it, M being the
  * kernel's moment over the soil. A skew stress A beside sigma_i takes that away: M A + A M = M sigma - sigma M, which
@@ -36,6 +36,31 @@ static void find_spin_stress(const double *m, const double *s, const double *lef
             spin[a] /= determinant;
         }
     }
+}
+
+/* Moments of this step, by a loop of their own. */
+static void keep_moments(mor_soil *soil, int64_t i, const double *sums)
+{
+    memcpy(soil->closed + 6 * i, sums + MOR_KERNEL_SUM_MOMENT, 6 * sizeof *sums);
+}
+
+/* What hourglass forces leave in this step is not known yet: that of the last step is taken up. */
+mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    (void)step;
+    const double none[3] = {0.0, 0.0, 0.0};
+    double *records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    const double *moments = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
+    const double *left = mor_view_read(view, MOR_FIELD_HOURGLASS_MOMENT);
+    double *spin = mor_view_write(view, MOR_FIELD_SPIN_STRESS);
+    mor_soil_sum_kernels(context, soil, view, records, keep_moments);
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        find_spin_stress(moments + 6 * i, records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS,
+                         left != NULL ? left + 3 * i : none, spin + 3 * i);
+        memcpy(soil->extra + i * MOR_EXTRA_SIZE + MOR_EXTRA_SPIN, spin + 3 * i, 3 * sizeof *spin);
+    }
+    return MOR_OK;
 }
 
 mor_status mor_soil_find_spin_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)

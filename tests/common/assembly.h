@@ -79,6 +79,7 @@ static inline mor_pair_constants assembly_constants(int dimension)
                             .smoothing_length = h,
                             .gradient_factor = mor_kernel_gradient_factor(h, dimension),
                             .limiter_rate = ASSEMBLY_ETA / ASSEMBLY_SOUND,
+                            .diffusion_factor = 1.0,
                             .diffusion_rate = 2.0 * 0.1 * h * ASSEMBLY_SOUND,
                             .gravity_direction = {0.28, -0.96, 0.0},
                             .artificial_exponent = 2.55,

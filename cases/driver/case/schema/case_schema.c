@@ -123,6 +123,7 @@ static const mor_case_key scale_keys[] = {
 #define RAMP MOR_CASE_NEEDS_RAMP
 #define HOURGLASS MOR_CASE_NEEDS_HOURGLASS
 #define SUM MOR_CASE_NEEDS_SUM
+#define ANGULAR MOR_CASE_NEEDS_ANGULAR
 #define MOR_SETTING(type, storage, key, kind, unit, fallback, words, need, computed_default, plane, text, ...)         \
     {{#key, MOR_SCHEMA_##kind, 1, unit, DEFAULT(fallback), __VA_ARGS__, words, text},                                  \
      MOR_CASE_STORE_##storage,                                                                                         \
@@ -146,6 +147,7 @@ static const mor_case_key numerics_keys[] = {
 #undef RAMP
 #undef HOURGLASS
 #undef SUM
+#undef ANGULAR
 
 #define OUTPUT(member) AT(mor_case, output.member)
 static const mor_case_key output_keys[] = {

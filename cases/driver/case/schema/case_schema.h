@@ -44,7 +44,8 @@ enum {
     MOR_CASE_NEEDS_RAMP = 8192,
     MOR_CASE_NEEDS_HOURGLASS = 16384,
     MOR_CASE_NEEDS_LATTICE = 32768,
-    MOR_CASE_NEEDS_SUM = 65536
+    MOR_CASE_NEEDS_SUM = 65536,
+    MOR_CASE_NEEDS_ANGULAR = 131072
 };
 
 /** One key. A table ends with schema.key NULL. */

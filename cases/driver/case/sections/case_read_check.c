@@ -34,7 +34,8 @@ static const struct {
              {MOR_CASE_NEEDS_RAMP, "with gravity_ramp above 0"},
              {MOR_CASE_NEEDS_HOURGLASS, "with soil_hourglass above 0"},
              {MOR_CASE_NEEDS_LATTICE, "with soil of particles = \"lattice\""},
-             {MOR_CASE_NEEDS_SUM, "with velocity_gradient = \"sum\""}};
+             {MOR_CASE_NEEDS_SUM, "with velocity_gradient = \"sum\""},
+             {MOR_CASE_NEEDS_ANGULAR, "with angular_momentum = true"}};
 
 static unsigned find_given(const mor_case *c)
 {
@@ -54,6 +55,7 @@ static unsigned find_given(const mor_case *c)
     given |= n->barrier_stiffness > 0.0 ? MOR_CASE_NEEDS_BARRIER : 0U;
     given |= n->gravity_ramp > 0.0 ? MOR_CASE_NEEDS_RAMP : 0U;
     given |= n->soil_hourglass > 0.0 ? MOR_CASE_NEEDS_HOURGLASS : 0U;
+    given |= n->angular_momentum ? MOR_CASE_NEEDS_ANGULAR : 0U;
     given |= n->velocity_gradient == 0 ? MOR_CASE_NEEDS_SUM : 0U;
     return given | (c->placement_angle != 0.0 ? MOR_CASE_NEEDS_ROTATION : 0U);
 }

@@ -21,6 +21,9 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     rock_scene *scene = &it->scene;
     const bool has_field = stage != NULL && strcmp(stage, "nonlocal field") == 0;
     const bool is_transient = stage != NULL && strncmp(stage, "transient", 9) == 0;
+    /* Stages that only a fitted gradient and the moments of the last step need, or that do more with them. */
+    const bool is_fitted = stage != NULL && (strncmp(stage, "velocity gradient", 17) == 0 ||
+                                             strcmp(stage, "strain rate") == 0 || strcmp(stage, "skew stress") == 0);
     const int sides[3] = {SIDE, SIDE, 1};
     const int floor[3] = {SIDE + 4, 3, 1};
     rock_scene_open(scene, 2, 0.01, 2);
@@ -35,8 +38,10 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     scene->settings.scheme.soil_hourglass = 0.2;
     scene->settings.scheme.soil_hourglass_limit = 0.05;
     scene->settings.scheme.reconstruction = 1;
-    scene->settings.scheme.gradient_correction = true;
+    scene->settings.scheme.gradient_correction = !is_fitted;
+    scene->settings.scheme.velocity_gradient = is_fitted;
     scene->settings.scheme.angular_momentum = true;
+    scene->settings.scheme.angular_momentum_by = is_fitted;
     scene->settings.scheme.xsph = 0.1;
     scene->settings.scheme.shifting = true;
     scene->settings.scheme.density_reinitialization = 1;
