@@ -90,6 +90,8 @@ typedef struct mor_body {
     double angular_velocity[3]; /* rad/s */
     double rotation[9];         /* rotation since the reference configuration, shape [3,3], 1 */
     double rotation_angle[3];   /* integral of the angular velocity since the start, rad */
+    double begin_velocity[3];         /* of the center when the last common step began, m/s */
+    double begin_angular_velocity[3]; /* likewise, rad/s */
     bool is_held;               /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
     double added_mass_ratio;    /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
     bool is_light;              /* that ratio is above 1, or it is less dense than the soil */
@@ -204,7 +206,8 @@ mor_status mor_body_group_init(mor_context *context, mor_body_group *group, cons
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_body_group_clear(mor_context *context, mor_body_group *group);
 
-/** Sets the positions that the soil sees to those in the middle of the coming common step, and stores the present ones.
+/** Sets the positions that the soil sees to those in the middle of the coming common step, and stores the present ones
+ *  and the motion of the bodies.
  *  Velocities stay those that the last common step ended with (at the start: the initial ones).
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);

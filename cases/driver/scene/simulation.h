@@ -34,6 +34,8 @@ typedef struct mor_simulation {
     int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
     double particle_volumes[MOR_CASE_SOILS_MAX];  /* of each particle of a region at the start, m3 (m2) */
     double first_step;                            /* length of the first time step, s */
+    uint64_t resumed_step; /* steps done when a state was put back, after which the forces of the last step are not
+                              known; 0: none was */
     double initial_energies[3];                   /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     struct mor_probe_track *probes;               /* state of the probes; owned */
     mor_state_list state;                         /* what a resumed run needs, as its owners list it */

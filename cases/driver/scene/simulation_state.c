@@ -37,6 +37,7 @@ mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simul
 
 mor_status mor_simulation_resume(mor_context *context, mor_simulation *simulation)
 {
+    simulation->resumed_step = simulation->schedule.n_steps;
     if (simulation->bodies.has_contact) {
         mor_contact_resume(&simulation->bodies.contact, mor_schedule_time(&simulation->schedule));
     }
