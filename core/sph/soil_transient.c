@@ -61,7 +61,7 @@ mor_status mor_soil_follow_stress(mor_context *context, void *owner, mor_view *v
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
             const double period = soil->smoothing_length / mor_soil_kind_of(soil, i)->sound_speed;
             const double fade = period / (NOISE * soil->settings.scheme.stress_diffusion);
-            const double now = fmin(fade * find_shear_rate(gradient + 9 * i), 1.0);
+            const double now = soil->is_relaxing ? 0.0 : fmin(fade * find_shear_rate(gradient + 9 * i), 1.0);
             follow_stress(mean + 6 * i, stress + 6 * i, gradient + 9 * i, step->length,
                           -expm1(-step->length / (MEMORY * period)));
             flow[i] = fmax(now, exp(-step->length / fade) * flow[i]);

@@ -102,6 +102,8 @@ static const bad_case bad_cases[] = {
     {"idle_thickness", 24, "'thickness', which has no effect here", "with measure = \"thickness\""},
     {"missing_pressure", 17, "found no 'pressure' in an initial stress of type \"uniform\"",
      "allowed: >= 0 Pa; add it"},
+    {"idle_settle_key", 17, "found 'settle_force_ratio', which has no effect with this way of settling",
+     "with settle_method = \"relaxation\""},
     {"idle_stress_key", 17, "'settle_time', which has no effect", "\"settled\""},
     {"direction_of_zero", 20, "normal = a list of 3, a direction of length zero", "give it a length"},
     {"empty_list", 23, "found probes = an empty list", "allowed: a list of 1 to 64 groups"},

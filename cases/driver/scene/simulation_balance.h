@@ -16,13 +16,26 @@ typedef struct mor_simulation_imbalance {
     double mean;    /* sum of the magnitudes over the sum of the weights, 1; NaN: no step since the start or a
                        resume, or no weight */
     double largest; /* largest magnitude over the weight of that particle or body, 1; NaN likewise */
+    double bodies;  /* largest of the bodies alone, 1; 0 without */
 } mor_simulation_imbalance;
+
+/** How fast soil and bodies move. A body counts with its velocity and its angular velocity times its radius of gyration;
+ *  who takes part is as above. */
+typedef struct mor_simulation_motion {
+    double mean;   /* by mass, m/s */
+    double bodies; /* largest of the bodies, m/s; 0 without */
+} mor_simulation_motion;
 
 /** Finds the unbalanced forces of the last step.
  *  @param n_threads [in]   that share the work; 0: one. Results do not depend on it
  *  Cost: two passes over the soil, allocates nothing. */
 void mor_simulation_find_imbalance(const mor_simulation *simulation, int n_threads,
                                    mor_simulation_imbalance *imbalance);
+
+/** Finds how fast everything moves.
+ *  @param n_threads [in]   as above
+ *  Cost: two passes over the soil, allocates nothing. */
+void mor_simulation_find_motion(const mor_simulation *simulation, int n_threads, mor_simulation_motion *motion);
 
 /** Finds what is farthest from equilibrium.
  *  @param body     [out]  its number in the case; -1: a particle of the soil
