@@ -7,7 +7,7 @@
 
 /** @file
  *  How far a simulation is from equilibrium: unbalanced forces, as in explicit codes of geomechanics.
- *  Theory: docs/theory/settling.md [R1], [R2]. */
+ *  Theory: docs/theory/settling.md (R1), (R2). */
 
 /** Unbalanced forces of the last step over weights. A particle or body counts with the sum of all forces on it but
  *  numerical damping (numerics.damping, or that of settling); a body with its moment, too, over its radius of gyration.
@@ -19,8 +19,8 @@ typedef struct mor_simulation_imbalance {
     double bodies;  /* largest of the bodies alone, 1; 0 without */
 } mor_simulation_imbalance;
 
-/** How fast soil and bodies move. A body counts with its velocity and its angular velocity times its radius of gyration;
- *  who takes part is as above. */
+/** How fast soil and bodies move. A body counts with its velocity and its angular velocity times its radius of
+ *  gyration; who takes part is as above. */
 typedef struct mor_simulation_motion {
     double mean;   /* by mass, m/s */
     double bodies; /* largest of the bodies, m/s; 0 without */

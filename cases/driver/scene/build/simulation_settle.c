@@ -86,7 +86,7 @@ static bool starts_without_stress(const mor_case *the_case)
     return is_free;
 }
 
-/* The speed below which the soil is at rest, and the period of a wave of a quarter of its length across the depth. */
+/* The speed below which the soil is at rest, and the period of the wave of which the depth is a quarter. */
 static mor_status find_limits(mor_context *context, const mor_simulation *simulation, mor_settling *it)
 {
     const mor_measure_points points = points_of(simulation);
@@ -195,6 +195,21 @@ static bool has_failed(const mor_simulation *simulation, mor_settling *it)
     return it->has_flowed || it->gives_way;
 }
 
+/* What the summary of the run says of it. */
+static void record(const mor_context *context, mor_simulation *simulation, const mor_settling *it)
+{
+    mor_simulation_imbalance imbalance;
+    mor_simulation_find_imbalance(simulation, context->n_threads, &imbalance);
+    const double numbers[MOR_SIMULATION_SETTLED_NUMBERS] = {
+        [MOR_SIMULATION_SETTLED_TIME] = mor_schedule_time(&simulation->schedule),
+        [MOR_SIMULATION_SETTLED_STEPS] = (double)simulation->schedule.n_steps,
+        [MOR_SIMULATION_SETTLED_FORCE] = imbalance.mean,
+        [MOR_SIMULATION_SETTLED_LARGEST] = imbalance.largest,
+        [MOR_SIMULATION_SETTLED_DISPLACEMENT] = it->watch.n > 0 ? it->watch.samples[it->watch.n - 1].displacement : 0.0,
+        [MOR_SIMULATION_SETTLED_RELAXED] = it->is_relaxed};
+    memcpy(simulation->settled, numbers, sizeof numbers);
+}
+
 static mor_status run_settling(mor_context *context, mor_simulation *simulation, mor_settling *it,
                                const mor_settle_observer *observer)
 {
@@ -226,6 +241,7 @@ static mor_status run_settling(mor_context *context, mor_simulation *simulation,
         return mor_settling_report_unrest(context, simulation, it);
     }
     mor_settling_report_rest(context, simulation, it, is_stopped);
+    record(context, simulation, it);
     return MOR_OK;
 }
 
