@@ -149,6 +149,22 @@ static void settling_tells_soil_that_needs_longer(void **state)
     scene_free(it);
 }
 
+/* Where stress diffusion acts on standing soil, a column creeps on: nobody is told that it falls. */
+static void soil_that_creeps_by_diffusion_is_told_from_soil_that_falls(void **state)
+{
+    (void)state;
+    static const char *const creeping[] = {"numerics.stress_diffusion_limiter=none",
+                                           "soil[0].initial_stress.settle_method=relaxation",
+                                           "soil[0].initial_stress.settle_time=0.5 s", NULL};
+    static const char *const *const lists[] = {creeping};
+    scene *it = scene_build(&(scene_request){.text = column, .settings = lists, .n_lists = 1});
+    assert_int_equal(mor_simulation_settle(&it->context, &it->simulation, NULL), MOR_NOT_CONVERGED);
+    assert_null(strstr(it->context.message, "does not stand"));
+    assert_non_null(strstr(it->context.message, "stress diffusion drains"));
+    assert_non_null(strstr(it->context.message, "stress_diffusion_limiter = \"transient\""));
+    scene_free(it);
+}
+
 static void expect_same_bits(scene *one, scene *other)
 {
     static const mor_field_id fields[] = {MOR_FIELD_POSITION, MOR_FIELD_STRESS};
@@ -255,6 +271,7 @@ int main(void)
         cmocka_unit_test(settling_leaves_no_motion_behind),
         cmocka_unit_test(settling_tells_a_slope_that_cannot_stand),
         cmocka_unit_test(settling_tells_soil_that_needs_longer),
+        cmocka_unit_test(soil_that_creeps_by_diffusion_is_told_from_soil_that_falls),
         cmocka_unit_test(relaxation_has_the_same_bits_for_any_number_of_threads),
         cmocka_unit_test(relaxation_that_was_stopped_starts_over_to_the_same_bits),
         cmocka_unit_test(settled_rock_stays_and_bears_on_the_soil),

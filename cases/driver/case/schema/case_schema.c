@@ -122,6 +122,7 @@ static const mor_case_key scale_keys[] = {
 #define BARRIER MOR_CASE_NEEDS_BARRIER
 #define RAMP MOR_CASE_NEEDS_RAMP
 #define HOURGLASS MOR_CASE_NEEDS_HOURGLASS
+#define DAMPING MOR_CASE_NEEDS_DAMPING
 #define MOR_SETTING(type, storage, key, kind, unit, fallback, words, need, computed_default, plane, text, ...)         \
     {{#key, MOR_SCHEMA_##kind, 1, unit, DEFAULT(fallback), __VA_ARGS__, words, text},                                  \
      MOR_CASE_STORE_##storage,                                                                                         \
@@ -144,6 +145,7 @@ static const mor_case_key numerics_keys[] = {
 #undef BARRIER
 #undef RAMP
 #undef HOURGLASS
+#undef DAMPING
 
 #define OUTPUT(member) AT(mor_case, output.member)
 static const mor_case_key output_keys[] = {

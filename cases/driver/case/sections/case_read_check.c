@@ -33,6 +33,7 @@ static const struct {
              {MOR_CASE_NEEDS_COMPLIANCE, "with contact_modulus"},
              {MOR_CASE_NEEDS_RAMP, "with gravity_ramp above 0"},
              {MOR_CASE_NEEDS_HOURGLASS, "with soil_hourglass above 0"},
+             {MOR_CASE_NEEDS_DAMPING, "with damping or local_damping above 0"},
              {MOR_CASE_NEEDS_LATTICE, "with soil of particles = \"lattice\""}};
 
 static unsigned find_given(const mor_case *c)
@@ -53,6 +54,7 @@ static unsigned find_given(const mor_case *c)
     given |= n->barrier_stiffness > 0.0 ? MOR_CASE_NEEDS_BARRIER : 0U;
     given |= n->gravity_ramp > 0.0 ? MOR_CASE_NEEDS_RAMP : 0U;
     given |= n->soil_hourglass > 0.0 ? MOR_CASE_NEEDS_HOURGLASS : 0U;
+    given |= n->damping > 0.0 || n->local_damping > 0.0 ? MOR_CASE_NEEDS_DAMPING : 0U;
     return given | (c->placement_angle != 0.0 ? MOR_CASE_NEEDS_ROTATION : 0U);
 }
 

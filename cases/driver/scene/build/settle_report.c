@@ -100,6 +100,15 @@ mor_status mor_settling_report_unrest(mor_context *context, const mor_simulation
     char found[FOUND_BYTES];
     mor_settle_watch_evaluate(&it->watch, it->limit, spacing, &result);
     tell_reached(simulation, it, found, sizeof found);
+    if (it->is_relaxed && may_creep && !it->gives_way) {
+        return MOR_FAIL(
+            context, MOR_NOT_CONVERGED,
+            "forces did not balance: %s; it has moved by up to %.3g m (%.3g spacings). It may creep where it "
+            "would stand: stress diffusion drains the stress that carries a standing load, so that forces "
+            "need never balance. Set numerics.stress_diffusion_limiter = \"transient\", or settle_method = "
+            "\"damping\", which asks for slow motion only",
+            found, result.displacement, result.displacement / spacing);
+    }
     if (it->gives_way || it->has_flowed || result.outcome == MOR_SETTLE_FAILS) {
         return report_failure(context, simulation, it, &result, found);
     }
