@@ -59,7 +59,7 @@ static inline double mor_vector_length(const double *a)
 /** Takes from a rate of change the share of its size that opposes a motion, local non-viscous damping: motion that
  *  gains speed gains less, motion that loses speed loses more, and where nothing moves or changes there is no damping.
  *  motion and rate: shape [3], any units; share: 0 <= share < 1, 1.
- *  Theory: Cundall (1987), for vectors; docs/theory/settling.md (R6). */
+ *  Theory: Cundall (1987), for vectors; docs/theory/settling.md (U5). */
 static inline void mor_damp_locally(double share, const double *motion, double *rate)
 {
     const double speed = mor_vector_length(motion);
@@ -69,7 +69,7 @@ static inline void mor_damp_locally(double share, const double *motion, double *
     }
 }
 
-/** Puts back what mor_damp_locally took: the positive root of |n|^2 = |r + share |n| e|^2, e the direction of motion.
+/** Puts back what mor_damp_locally took, (U6): the positive root of |n|^2 = |r + share |n| e|^2, e along the motion.
  *  motion and rate: shape [3], any units; share: 0 <= share < 1, 1. */
 static inline void mor_undamp_locally(double share, const double *motion, double *rate)
 {

@@ -36,7 +36,7 @@ static const bad_case bad_cases[] = {
     {"unknown_in_group", 23, "unknown name 'corant' in numerics", "did you mean 'courant'?"},
     {"parameter_by_symbol", 13, "unknown name 'E'", "did you mean 'youngs_modulus'?"},
     {"unknown_parameter", 15, "unknown name 'frction_angle'", "did you mean 'friction_angle'?"},
-    {"unknown_in_soil", 8, "unknown name 'nam' in soil[0]", "allowed: name, velocity, shape"},
+    {"unknown_in_soil", 8, "unknown name 'nam' in soil[0]", "allowed: name, velocity, particles, shape"},
     {"unknown_in_shape", 9, "unknown name 'radius' in soil[0].shape", "allowed: type, min, max"},
     {"unknown_model", 11, "\"druker_prager\"", "did you mean 'drucker_prager'?"},
     {"unknown_shape", 9, "\"bocks\"", "allowed: box, cylinder, cone, sphere, ellipsoid, half_space, polygon"},

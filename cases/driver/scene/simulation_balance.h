@@ -7,7 +7,7 @@
 
 /** @file
  *  How far a simulation is from equilibrium: unbalanced forces, as in explicit codes of geomechanics.
- *  Theory: docs/theory/settling.md (R1), (R2). */
+ *  Theory: docs/theory/settling.md (U1), (U2). */
 
 /** Unbalanced forces of the last step over weights. A particle or body counts with the sum of all forces on it but
  *  numerical damping (numerics.damping, or that of settling); a body with its moment, too, over its radius of gyration.

@@ -12,17 +12,17 @@
 
 /** One settling: what it is to reach, and what it has reached. */
 typedef struct mor_settling {
-    bool is_relaxed; /* by relaxation, until forces balance; else by damping, until soil is slow */
-    double longest;  /* time after which it fails, s */
-    double ratio;    /* what is to be reached, of speed or of force, 1 */
-    double limit;  /* soil is at rest below this speed; by relaxation that of a wave of the period below with forces of
-                        the ratio, m/s */
-    double period; /* of the longest elastic wave across the depth of the soil, s */
-    double settlement; /* of elastic soil under its own weight across that depth, about, m */
-    double ramp;    /* time over which gravity grows where all soil starts without stress, s; 0: it is there at once */
-    double kinetic; /* energy after the step before, since everything was stopped, J (J/m) */
-    int n_stops;    /* how often everything was stopped */
+    bool is_relaxed;                    /* by relaxation, until forces balance; else by damping, until soil is slow */
+    double longest;                     /* time after which it fails, s */
+    double ratio;                       /* what is to be reached, of speed or of force, 1 */
+    double limit;                       /* soil is at rest below this speed, m/s; by relaxation the speed of a wave of
+                                           the period below whose forces are of the ratio */
+    double period;                      /* of the longest elastic wave across the depth of the soil, s */
+    double settlement;                  /* of elastic soil under its own weight across that depth, about, m */
+    double ramp;                        /* time over which gravity grows where all soil starts without stress, s; 0:
+                                           it is there at once */
     mor_simulation_settling means;      /* by which it comes to rest */
+    double kinetic;                     /* energy after the step before, 0 once everything was stopped, J (J/m) */
     double speed;                       /* reached: 99 % of the soil are slower, m/s */
     double residual;                    /* reached by relaxation: to come below the ratio, 1 */
     mor_simulation_imbalance imbalance; /* reached */

@@ -141,12 +141,11 @@ static mor_status stop_at_peak(mor_context *context, mor_simulation *simulation,
         energies[0] + mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]);
     const bool has_passed = kinetic < it->kinetic;
     it->kinetic = has_passed ? 0.0 : kinetic;
-    it->n_stops += has_passed;
     return has_passed ? stop_motion(context, simulation, &it->means) : MOR_OK;
 }
 
-/* Soil that has not come to rest in a few periods may be flowing. Stops would hide whether it gains speed; local damping
- * does not. */
+/* Soil that has not come to rest in a few periods may be flowing. Stops would hide whether it gains speed, and local
+ * damping does not. */
 static void damp_locally(mor_simulation *simulation, mor_settling *it)
 {
     it->means.local_damping = SETTLE_LOCAL_DAMPING;
