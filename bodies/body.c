@@ -265,6 +265,11 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
     const double *position = group->set.data[MOR_FIELD_POSITION];
     const double *velocity = group->set.data[MOR_FIELD_VELOCITY];
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
+    for (int b = 0; b < group->n_bodies; ++b) {
+        mor_body *body = &group->bodies[b];
+        memcpy(body->begin_velocity, body->velocity, sizeof body->velocity);
+        memcpy(body->begin_angular_velocity, body->angular_velocity, sizeof body->angular_velocity);
+    }
     MOR_PARALLEL_FOR (&team, p, group->is_unseen ? 0 : group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
         for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {

@@ -85,14 +85,16 @@ typedef struct mor_body {
     double contact_poisson;      /* Poisson's ratio of a rigid body's surface in contact, 0 <= nu < 0.5, 1 */
     /* Motion as a whole. Rigid: kept current at the end of each sub-step. Elastic: the mean, found after each common
      * step. */
-    double center[3];           /* of mass, m */
-    double velocity[3];         /* of the center, m/s */
-    double angular_velocity[3]; /* rad/s */
-    double rotation[9];         /* rotation since the reference configuration, shape [3,3], 1 */
-    double rotation_angle[3];   /* integral of the angular velocity since the start, rad */
-    bool is_held;               /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
-    double added_mass_ratio;    /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
-    bool is_light;              /* that ratio is above 1, or it is less dense than the soil */
+    double center[3];                 /* of mass, m */
+    double velocity[3];               /* of the center, m/s */
+    double angular_velocity[3];       /* rad/s */
+    double rotation[9];               /* rotation since the reference configuration, shape [3,3], 1 */
+    double rotation_angle[3];         /* integral of the angular velocity since the start, rad */
+    double begin_velocity[3];         /* of the center when the last common step began, m/s */
+    double begin_angular_velocity[3]; /* likewise, rad/s */
+    bool is_held;            /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
+    double added_mass_ratio; /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
+    bool is_light;           /* that ratio is above 1, or it is less dense than the soil */
     /* Forces. */
     double contact_force[3];  /* of other bodies and walls on a rigid body, at its center, in this sub-step, N (N/m) */
     double contact_moment[3]; /* about its center, N m (N) */
@@ -148,6 +150,8 @@ typedef struct mor_body_group {
     double gravity_ramp;                         /* time over which gravity grows from zero, s */
     bool has_smooth_ramp;                        /* it grows without a kick at either end, see mor_ramp */
     double damping;                              /* rate of velocity damping, for settling, 1/s */
+    double local_damping;                        /* share of the net force that opposes motion, 1 */
+    double damping_time;                         /* when both end, s; 0: never */
     double domain_minimum[3], domain_maximum[3]; /* m, before the placement */
     const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither rotated nor translated */
     /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Set by mor_contact_init. */
@@ -204,7 +208,8 @@ mor_status mor_body_group_init(mor_context *context, mor_body_group *group, cons
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_body_group_clear(mor_context *context, mor_body_group *group);
 
-/** Sets the positions that the soil sees to those in the middle of the coming common step, and stores the present ones.
+/** Sets the positions that the soil sees to those in the middle of the coming common step, and stores the present ones
+ *  and the motion of the bodies.
  *  Velocities stay those that the last common step ended with (at the start: the initial ones).
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);

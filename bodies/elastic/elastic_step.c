@@ -170,7 +170,9 @@ typedef struct kick {
     double *velocity;
     double *acceleration;
     double gravity[3];
-    double length; /* of the sub-step, s */
+    double length;        /* of the sub-step, s */
+    double damping;       /* rate, 1/s */
+    double local_damping; /* share, 1 */
 } kick;
 
 /* Largest squared speed and acceleration of a piece, where a value that is not a number is kept; external forces. */
@@ -178,7 +180,7 @@ static void kick_piece(const mor_elastic *elastic, const kick *job, const mor_bo
                        mor_elastic_kick_sums *sums_out)
 {
     const mor_body_group *group = &elastic->group;
-    const double damping = group->damping;
+    const double damping = job->damping;
     const double inverse_mass = 1.0 / job->mass[piece->first];
     mor_elastic_kick_sums sums = {0.0, 0.0, {0.0}, {0.0}};
     for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
@@ -193,6 +195,11 @@ static void kick_piece(const mor_elastic *elastic, const kick *job, const mor_bo
             if (elastic->held[i]) {
                 a[k] = 0.0;
             }
+        }
+        if (job->local_damping > 0.0) {
+            mor_damp_locally(job->local_damping, v, a);
+        }
+        for (int k = 0; k < 3; ++k) {
             v[k] += job->length * a[k];
         }
         const double speed2 = mor_vector_dot(v, v);
@@ -253,11 +260,14 @@ mor_status mor_elastic_kick(mor_context *context, void *owner, mor_view *view, c
     mor_body_group *group = &elastic->group;
     const double middle = step->time + 0.5 * step->length;
     const double part = mor_ramp(middle, group->gravity_ramp, group->has_smooth_ramp);
+    const bool is_damped = mor_is_damped(step->time, group->damping_time);
     const kick job = {mor_view_read(view, MOR_FIELD_MASS),
                       mor_view_write(view, MOR_FIELD_VELOCITY),
                       mor_view_write(view, MOR_FIELD_ACCELERATION),
                       {part * group->gravity[0], part * group->gravity[1], part * group->gravity[2]},
-                      step->length};
+                      step->length,
+                      is_damped ? group->damping : 0.0,
+                      is_damped ? group->local_damping : 0.0};
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         kick_piece(elastic, &job, &group->pieces[p], &elastic->work->piece_kicks[p]);

@@ -297,6 +297,25 @@ static void apply_spring(mor_rigid *rigid, int b, double length, const mor_rigid
     apply_impulse(constants, body, arm, direction, -part * speed / (1.0 + part * flexion), state);
 }
 
+/* Local damping acts on what all forces together, springs and locks included, change in the motion of a body. */
+static void damp_change(const mor_rigid_constants *constants, double share, const mor_rigid_state *before,
+                        mor_rigid_state *state)
+{
+    double velocity[3];
+    double momentum[3];
+    for (int a = 0; a < 3; ++a) {
+        velocity[a] = state->velocity[a] - before->velocity[a];
+        momentum[a] = state->angular_momentum[a] - before->angular_momentum[a];
+    }
+    mor_damp_locally(share, before->velocity, velocity);
+    mor_damp_locally(share, before->angular_momentum, momentum);
+    for (int a = 0; a < 3; ++a) {
+        state->velocity[a] = before->velocity[a] + velocity[a];
+        state->angular_momentum[a] = before->angular_momentum[a] + momentum[a];
+    }
+    apply_locks(constants, state);
+}
+
 static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
 {
     const mor_body_group *group = &rigid->group;
@@ -318,7 +337,8 @@ static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
     }
     mor_vector_cross_add(-1.0, body->center, constants->held_force, moment);
     const mor_rigid_state before = *state;
-    const double damping = 0.5 * h * group->damping;
+    const bool is_damped = mor_is_damped(step->time, group->damping_time);
+    const double damping = is_damped ? 0.5 * h * group->damping : 0.0;
     for (int a = 0; a < 3; ++a) {
         const double acceleration =
             (constants->held_force[a] + body->contact_force[a]) / body->mass + ramp * group->gravity[a];
@@ -328,6 +348,9 @@ static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
     apply_locks(constants, state);
     if (rigid->motions[b].has_spring) {
         apply_spring(rigid, b, h, &before);
+    }
+    if (is_damped && group->local_damping > 0.0) {
+        damp_change(constants, group->local_damping, &before, state);
     }
 }
 

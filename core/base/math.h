@@ -22,6 +22,12 @@ static inline double mor_ramp(double time, double length, int is_smooth)
     return is_smooth ? x * x * (3.0 - 2.0 * x) : x;
 }
 
+/** Whether damping still acts at a time, unit s; end: time at which it ends, s; 0: never. */
+static inline int mor_is_damped(double time, double end)
+{
+    return end <= 0.0 || time < end;
+}
+
 /** Inner product of two vectors, shape [3] each; unit: product of theirs. */
 static inline double mor_vector_dot(const double *a, const double *b)
 {
@@ -50,6 +56,33 @@ static inline double mor_vector_length(const double *a)
     return sqrt(mor_vector_dot(a, a));
 }
 
+/** Takes from a rate of change the share of its size that opposes a motion, local non-viscous damping: motion that
+ *  gains speed gains less, motion that loses speed loses more, and where nothing moves or changes there is no damping.
+ *  motion and rate: shape [3], any units; share: 0 <= share < 1, 1.
+ *  Theory: Cundall (1987), for vectors; docs/theory/settling.md (U5). */
+static inline void mor_damp_locally(double share, const double *motion, double *rate)
+{
+    const double speed = mor_vector_length(motion);
+    const double taken = speed > 0.0 ? share * mor_vector_length(rate) / speed : 0.0;
+    for (int a = 0; a < 3; ++a) {
+        rate[a] -= taken * motion[a];
+    }
+}
+
+/** Puts back what mor_damp_locally took, (U6): the positive root of |n|^2 = |r + share |n| e|^2, e along the motion.
+ *  motion and rate: shape [3], any units; share: 0 <= share < 1, 1. */
+static inline void mor_undamp_locally(double share, const double *motion, double *rate)
+{
+    const double speed = mor_vector_length(motion);
+    if (speed > 0.0 && share > 0.0) {
+        const double along = share * mor_vector_dot(rate, motion) / speed;
+        const double rest = 1.0 - share * share;
+        const double size = (along + sqrt(along * along + rest * mor_vector_dot(rate, rate))) / rest;
+        for (int a = 0; a < 3; ++a) {
+            rate[a] += share * size * motion[a] / speed;
+        }
+    }
+}
 /** to = from + way * direction; all shape [3], to may be from; unit of to and from: way times direction. */
 static inline void mor_vector_advance(const double *from, double way, const double *direction, double *to)
 {

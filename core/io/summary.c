@@ -80,6 +80,16 @@ static int add_named(mor_context *context, json_t *object, const char *name, jso
     return error;
 }
 
+/* An object or list whose members were added; NULL when one could not be. */
+static json_t *finish(json_t *object, int error)
+{
+    if (error != 0) {
+        json_decref(object);
+        return NULL;
+    }
+    return object;
+}
+
 static int fill_statistics(mor_context *context, json_t *result, const mor_summary_statistics *it)
 {
     int error = add_member(result, "maximum", make_number(it->maximum));
@@ -117,11 +127,7 @@ static json_t *make_results(mor_context *context, const mor_summary *summary)
         }
         error |= add_named(context, results, summary->results[k].probe, result);
     }
-    if (error != 0) {
-        json_decref(results);
-        return NULL;
-    }
-    return results;
+    return finish(results, error);
 }
 
 static int fill_expectation(mor_context *context, json_t *item, const mor_summary_expectation *expectation,
@@ -152,11 +158,7 @@ static json_t *make_expectations(mor_context *context, const mor_summary *summar
             mor_summary_find_unit(mor_summary_find_result(summary, expectation->probe), expectation->statistic));
         error |= json_array_append_new(list, item);
     }
-    if (error != 0) {
-        json_decref(list);
-        return NULL;
-    }
-    return list;
+    return finish(list, error);
 }
 
 static json_t *make_warnings(mor_context *context, const mor_summary *summary)
@@ -182,11 +184,7 @@ static json_t *make_plugins(mor_context *context, const mor_summary *summary)
         error |= add_member(item, "hash", make_hash(summary->plugins[k].hash));
         error |= json_array_append_new(list, item);
     }
-    if (error != 0) {
-        json_decref(list);
-        return NULL;
-    }
-    return list;
+    return finish(list, error);
 }
 
 static json_t *make_provenance(mor_context *context, const mor_summary *summary)
@@ -203,11 +201,7 @@ static json_t *make_provenance(mor_context *context, const mor_summary *summary)
     }
     error |= add_member(provenance, "inputs", inputs);
     error |= add_member(provenance, "plugins", make_plugins(context, summary));
-    if (error != 0) {
-        json_decref(provenance);
-        return NULL;
-    }
-    return provenance;
+    return finish(provenance, error);
 }
 
 static json_t *make_failure(mor_context *context, const mor_summary_failure *failure)
@@ -223,11 +217,7 @@ static json_t *make_failure(mor_context *context, const mor_summary_failure *fai
     error |= add_member(object, "step", json_integer(failure->step));
     error |= add_member(object, "set", has_particle ? make_text(context, failure->set) : json_null());
     error |= add_member(object, "particle", has_particle ? json_integer(failure->particle) : json_null());
-    if (error != 0) {
-        json_decref(object);
-        return NULL;
-    }
-    return object;
+    return finish(object, error);
 }
 
 static const char *const COUNTS[] = {"updates", "sub_steps", "rejected", "rates", "failures"};
@@ -241,11 +231,19 @@ static json_t *make_integration(const mor_summary_integration *it)
     for (int k = 0; k < N_COUNTS; ++k) {
         error |= add_member(object, COUNTS[k], json_integer(counts[k]));
     }
-    if (error != 0) {
-        json_decref(object);
-        return NULL;
-    }
-    return object;
+    return finish(object, error);
+}
+
+static json_t *make_settling(const mor_summary_settling *it)
+{
+    json_t *object = json_object();
+    int error = add_member(object, "method", json_string(it->method));
+    error |= add_member(object, "time", make_number(it->time));
+    error |= add_member(object, "steps", make_number(it->n_steps));
+    error |= add_member(object, "unbalanced_force", make_number(it->unbalanced_force));
+    error |= add_member(object, "unbalanced_force_largest", make_number(it->unbalanced_force_largest));
+    error |= add_member(object, "displacement", make_number(it->displacement));
+    return finish(object, error);
 }
 
 /* The whole document, NULL when memory runs out or two names are the same. */
@@ -264,16 +262,15 @@ static json_t *make_document(mor_context *context, const mor_summary *summary)
     if (summary->integration != NULL) {
         error |= add_member(document, "integration", make_integration(summary->integration));
     }
+    if (summary->settling != NULL) {
+        error |= add_member(document, "settling", make_settling(summary->settling));
+    }
     error |= add_member(document, "warnings", make_warnings(context, summary));
     error |= add_member(document, "state_hash", make_hash(summary->state_hash));
     error |= add_member(document, "speed", speed);
     error |= add_member(document, "memory", memory);
     error |= add_member(document, "provenance", make_provenance(context, summary));
-    if (error != 0) {
-        json_decref(document);
-        return NULL;
-    }
-    return document;
+    return finish(document, error);
 }
 
 mor_status mor_summary_write(mor_context *context, const char *path, const mor_summary *summary)

@@ -21,6 +21,8 @@
  *                      "unit", "pass", "source" }, ... ],
  *        "integration" (of materials whose rates are integrated): { "updates", "sub_steps", "rejected", "rates",
  *                       "failures": numbers },
+ *        "settling" (where a region settled): { "method": text, "time" in s, "steps", "unbalanced_force",
+ *                    "unbalanced_force_largest", "displacement" in m: numbers },
  *        "warnings": [ text, ... ],
  *        "state_hash": "16 hexadecimal digits",
  *        "speed": { "particle_steps_per_second": number },
@@ -101,12 +103,23 @@ typedef struct mor_summary_integration {
     int64_t n_failures;  /* batches of particles repeated with smaller steps */
 } mor_summary_integration;
 
+/** How the initial stress settled before the start. */
+typedef struct mor_summary_settling {
+    const char *method;              /* zero-terminated */
+    double time;                     /* it took, s */
+    double n_steps;                  /* likewise, 1 */
+    double unbalanced_force;         /* left, over the weight, in the mean, 1 */
+    double unbalanced_force_largest; /* likewise the largest of a particle or body, 1 */
+    double displacement;             /* 99 % of the soil moved less, m */
+} mor_summary_settling;
+
 /** Everything in the file. A view: nothing in it is owned. */
 typedef struct mor_summary {
     const mor_summary_failure *failure; /* NULL: the run reached its end */
     const mor_summary_result *results;  /* shape [n_results] */
     int n_results;
     const mor_summary_integration *integration;  /* NULL: of no material */
+    const mor_summary_settling *settling;        /* NULL: nothing settled */
     const mor_summary_expectation *expectations; /* shape [n_expectations] */
     int n_expectations;
     const char *const *warnings; /* shape [n_warnings]; zero-terminated; what was warned of, in order */

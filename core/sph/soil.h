@@ -114,6 +114,7 @@ typedef struct mor_soil {
     double lattice_sum;                         /* sum V W on the perfect lattice, 1 */
     double largest_speed;                       /* after the last kick, m/s */
     double largest_acceleration;                /* in the last step, m/s2 */
+    bool is_relaxing;                           /* it is brought to rest: what moves is no flow */
     double drift;                               /* bound of any particle's motion since the lists were built, m */
     bool has_outflow;                           /* particles are to be removed at the end of the step */
     int64_t n_outflow;                          /* particles that have left the domain since the start */

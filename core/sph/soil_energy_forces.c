@@ -99,20 +99,40 @@ static void audit_rocks(mor_soil *soil, const mor_boundary *boundary)
     }
 }
 
+/* Power that local damping takes from a particle, W (W/m). */
+static double find_local_damping(const mor_soil_powers *job, int64_t i, double share, const double *middle)
+{
+    const double *record = job->records + i * MOR_RECORD_SIZE;
+    double before[3];
+    double net[3];
+    for (int a = 0; a < 3; ++a) {
+        net[a] = job->acceleration[3 * i + a];
+        before[a] = record[MOR_RECORD_VELOCITY + a] - job->step->length * net[a];
+    }
+    mor_undamp_locally(share, before, net);
+    return job->mass[i] * (mor_vector_dot(net, middle) - mor_vector_dot(job->acceleration + 3 * i, middle));
+}
+
 static void find_motion_block(void *powers, int64_t first, int64_t last, double *sums)
 {
     const mor_soil_powers *job = powers;
     const mor_soil *soil = job->soil;
     const mor_soil_settings *s = &soil->settings;
+    const bool is_damped = mor_is_damped(job->step->time, s->scheme.damping_time);
+    const double damping = is_damped ? s->scheme.damping : 0.0;
+    const double local = is_damped ? s->scheme.local_damping : 0.0;
     for (int64_t i = first; i < last; ++i) {
         const double *taken = soil->energy->scratch + 3 * i;
         const double *record = job->records + i * MOR_RECORD_SIZE;
         const double mass = job->mass[i];
         double middle[3];
         find_middle_velocity(job, i, middle);
+        if (local > 0.0) {
+            sums[MOR_SOIL_ENERGY_DAMPING] += find_local_damping(job, i, local, middle);
+        }
         for (int a = 0; a < 3; ++a) {
             const double before = record[MOR_RECORD_VELOCITY + a] - job->step->length * job->acceleration[3 * i + a];
-            sums[MOR_SOIL_ENERGY_DAMPING] += s->scheme.damping * mass * before * middle[a];
+            sums[MOR_SOIL_ENERGY_DAMPING] += damping * mass * before * middle[a];
             sums[MOR_SOIL_ENERGY_RAMP] += mass * (s->gravity[a] - soil->gravity[a]) * middle[a];
         }
         sums[MOR_SOIL_ENERGY_BOUNDARY] += taken[LOST];

@@ -260,7 +260,9 @@ static void set_gravity(mor_soil *soil, const mor_step *step)
 /* What the kick reads and writes. */
 typedef struct kick {
     const mor_soil *soil;
-    double length;
+    double length;        /* of the step, s */
+    double damping;       /* rate, 1/s */
+    double local_damping; /* share, 1 */
     double *velocity, *acceleration, *records;
 } kick;
 
@@ -271,7 +273,7 @@ static void kick_block(void *job, int64_t first, int64_t last, double *values)
 {
     const kick *it = job;
     const mor_soil *soil = it->soil;
-    const double damping = soil->settings.scheme.damping;
+    const double damping = it->damping;
     double fastest = 0.0;
     double strongest = 0.0;
     for (int64_t i = first; i < last; ++i) {
@@ -279,6 +281,11 @@ static void kick_block(void *job, int64_t first, int64_t last, double *values)
         double *a = it->acceleration + 3 * i;
         for (int k = 0; k < 3; ++k) {
             a[k] += soil->gravity[k] - damping * v[k];
+        }
+        if (it->local_damping > 0.0) {
+            mor_damp_locally(it->local_damping, v, a);
+        }
+        for (int k = 0; k < 3; ++k) {
             v[k] += it->length * a[k];
             it->records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + k] = v[k];
         }
@@ -325,7 +332,13 @@ mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, cons
     mor_soil *soil = owner;
     double largest[2] = {0.0, 0.0};
     set_gravity(soil, step);
-    kick job = {soil, step->length, mor_view_write(view, MOR_FIELD_VELOCITY),
+    const mor_scheme *scheme = &soil->settings.scheme;
+    const bool is_damped = mor_is_damped(step->time, scheme->damping_time);
+    kick job = {soil,
+                step->length,
+                is_damped ? scheme->damping : 0.0,
+                is_damped ? scheme->local_damping : 0.0,
+                mor_view_write(view, MOR_FIELD_VELOCITY),
                 mor_view_write(view, MOR_FIELD_ACCELERATION),
                 mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);

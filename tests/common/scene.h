@@ -99,8 +99,8 @@ static inline void scene_read(scene *it, const scene_request *request)
     free(text);
 }
 
-/** Builds a scene and lets it settle where its case asks for that; one object, owned by the caller. */
-static inline scene *scene_new(const scene_request *request)
+/** Builds a scene that has not settled; one object, owned by the caller. */
+static inline scene *scene_build(const scene_request *request)
 {
     scene *it = calloc(1, sizeof *it);
     assert_non_null(it);
@@ -110,8 +110,15 @@ static inline scene *scene_new(const scene_request *request)
     scene_require(it, mor_registry_add_list(&it->context, it->registry, mor_materials_builtin(NULL)));
     scene_read(it, request);
     scene_require(it, mor_simulation_init(&it->context, &it->simulation, &it->the_case, it->registry));
-    scene_require(it, mor_simulation_settle(&it->context, &it->simulation, NULL));
     scene_require(it, MOR_NEW(&it->context, &it->place, it->simulation.soil.set.n_particles, "places of particles"));
+    return it;
+}
+
+/** Builds a scene and lets it settle where its case asks for that; one object, owned by the caller. */
+static inline scene *scene_new(const scene_request *request)
+{
+    scene *it = scene_build(request);
+    scene_require(it, mor_simulation_settle(&it->context, &it->simulation, NULL));
     return it;
 }
 

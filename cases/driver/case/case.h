@@ -162,8 +162,18 @@ typedef struct mor_case_soil {
     double surface_level;      /* height against gravity of the free surface, m; NaN: top of the region's particles */
     double settle_time;        /* longest settling, s */
     double settle_speed_ratio; /* settled when the 99th-percentile speed is under this times sqrt(|g| * height) */
+    int settle_method;         /* a mor_case_settle_method; the chosen one, once the case has been read */
+    int settle_from;           /* stress that settling begins with: 0: as k0; 1: none */
+    double settle_force_ratio; /* relaxed when unbalanced forces are under this times the weight, in the mean */
     uint64_t written, written_stress, written_material, written_parameters;
 } mor_case_soil;
+
+/** How soil is brought to rest before the start. */
+typedef enum mor_case_settle_method {
+    MOR_CASE_SETTLE_AUTO, /* relaxation where the scheme lets soil rest, else damping */
+    MOR_CASE_SETTLE_DAMPING,
+    MOR_CASE_SETTLE_RELAXATION
+} mor_case_settle_method;
 
 typedef enum mor_case_friction {
     MOR_CASE_FRICTION_ROUGH,

@@ -178,7 +178,8 @@ double mor_probe_lift_energy(const mor_simulation *s)
 /* Whether nothing but the bodies and what the audit knows of them gives or takes energy. */
 static bool is_closed(const mor_case *c)
 {
-    bool is_closed = c->n_soils == 0 && !(c->numerics.gravity_ramp > 0.0) && !(c->numerics.damping > 0.0);
+    bool is_closed = c->n_soils == 0 && !(c->numerics.gravity_ramp > 0.0) && !(c->numerics.damping > 0.0) &&
+                     !(c->numerics.local_damping > 0.0);
     for (int b = 0; b < c->n_bodies; ++b) {
         is_closed = is_closed && !(c->bodies[b].spring_damping > 0.0);
     }

@@ -1,8 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Probes of the soil at a place. */
+/* Probes of the soil at a place, and of how far everything is from equilibrium. */
 #include "cases/driver/probe/probe_row_internal.h"
 
+#include "cases/driver/scene/simulation_balance.h"
 #include "core/base/math.h"
 #include "core/particle/kernel.h"
 
@@ -54,7 +55,40 @@ static mor_status soil_stress(mor_context *context, const mor_probe_view *v, dou
     return MOR_OK;
 }
 
+static mor_status find_imbalance(mor_context *context, const mor_probe_view *v, mor_simulation_imbalance *imbalance)
+{
+    MOR_CHECK(context, mor_vector_length(v->simulation->frame.gravity) > 0.0, MOR_ERROR_CONFIG,
+              "found a case without gravity; allowed is one with gravity, because forces are compared with weights; "
+              "remove the probe");
+    mor_simulation_find_imbalance(v->simulation, v->points.n_threads, imbalance);
+    return MOR_OK;
+}
+
+static mor_status unbalanced_force(mor_context *context, const mor_probe_view *v, double *value)
+{
+    mor_simulation_imbalance imbalance;
+    MOR_TRY(context, find_imbalance(context, v, &imbalance));
+    *value = imbalance.mean;
+    return MOR_OK;
+}
+
+static mor_status unbalanced_force_largest(mor_context *context, const mor_probe_view *v, double *value)
+{
+    mor_simulation_imbalance imbalance;
+    MOR_TRY(context, find_imbalance(context, v, &imbalance));
+    *value = imbalance.largest;
+    return MOR_OK;
+}
+
 const mor_probe_measure mor_probe_local_measures[] = {
+    {.type = {"unbalanced_force", "1", "1", 0, 0, STEP, 100.0,
+              "mean net force on particles and free bodies / their mean weight; 0: equilibrium"},
+     .run = unbalanced_force,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"unbalanced_force_largest", "1", "1", 0, 0, STEP, 100.0,
+              "largest net force on a particle or free body / its weight"},
+     .run = unbalanced_force_largest,
+     .cost = MOR_PROBE_COST_SUM},
     {.type = {"soil_velocity", "m/s", "m/s", SOIL | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
               "velocity of the soil at origin along direction, mean over two spacings around; NaN without soil"},
      .run = soil_velocity},

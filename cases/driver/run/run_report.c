@@ -157,6 +157,30 @@ static void print_integration(FILE *out, const mor_summary_integration *it)
     }
 }
 
+/* How the initial stress settled; returns whether it did. */
+static bool find_settling(const mor_simulation *simulation, mor_summary_settling *settling)
+{
+    const double *it = simulation->settled;
+    *settling = (mor_summary_settling){.method = it[MOR_SIMULATION_SETTLED_RELAXED] == 1.0 ? "relaxation" : "damping",
+                                       .time = it[MOR_SIMULATION_SETTLED_TIME],
+                                       .n_steps = it[MOR_SIMULATION_SETTLED_STEPS],
+                                       .unbalanced_force = it[MOR_SIMULATION_SETTLED_FORCE],
+                                       .unbalanced_force_largest = it[MOR_SIMULATION_SETTLED_LARGEST],
+                                       .displacement = it[MOR_SIMULATION_SETTLED_DISPLACEMENT]};
+    return settling->time > 0.0;
+}
+
+static void print_settling(FILE *out, const mor_summary_settling *it)
+{
+    if (it != NULL) {
+        fprintf(out,
+                "\nthe initial stress settled by %s in %.4g s, %.0f steps: unbalanced forces are %.3g of the weight in "
+                "the mean, %.3g the largest; 99 %% of the soil moved by less than %.3g m\n",
+                it->method, it->time, it->n_steps, it->unbalanced_force, it->unbalanced_force_largest,
+                it->displacement);
+    }
+}
+
 /* Above the table of a run that did not reach its end. */
 static void print_failure(FILE *out, const mor_summary *summary)
 {
@@ -213,6 +237,8 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     *n_missed = compare(c, results, failure != NULL, expectations);
     mor_summary_integration integration;
     summary.integration = find_integration(files->simulation, &integration) ? &integration : NULL;
+    mor_summary_settling settling;
+    summary.settling = find_settling(files->simulation, &settling) ? &settling : NULL;
     fill_summary(files, &summary);
     MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, MOR_SUMMARY_FILE));
     if (isnan(particle_steps_per_second)) {
@@ -222,6 +248,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     print_failure(files->options->output, &summary);
     MOR_TRY(context, mor_run_table_print(context, c, &summary, files->options->output));
     print_integration(files->options->output, summary.integration);
+    print_settling(files->options->output, summary.settling);
     print_warnings(files->options->output, &files->warnings);
     return MOR_OK;
 }

@@ -57,11 +57,13 @@ static void show_progress(void *user, const mor_settle_course *course)
     mor_run_files *files = user;
     char line[MOR_RUN_PROGRESS_BYTES];
     if (mor_run_progress_is_due(&files->progress, mor_wall_time())) {
-        snprintf(
-            line, sizeof line,
-            "settling  t = %.4g s of at most %.4g s  step %llu  99 %% of the soil slower than %.3g m/s, at rest below "
-            "%.3g m/s",
-            course->time, course->longest, (unsigned long long)course->n_steps, course->speed, course->limit);
+        const int n = snprintf(line, sizeof line, "settling  t = %.4g s of at most %.4g s  step %llu  ", course->time,
+                               course->longest, (unsigned long long)course->n_steps);
+        snprintf(line + n, sizeof line - (size_t)n,
+                 course->is_relaxed ? "unbalanced force / weight %.3g, at rest below %.3g"
+                                    : "99 %% of the soil slower than %.3g m/s, at rest below %.3g m/s",
+                 course->is_relaxed ? course->force : course->speed,
+                 course->is_relaxed ? course->ratio : course->limit);
         mor_run_progress_show(&files->progress, line);
     }
 }

@@ -15,6 +15,17 @@
 
 struct mor_probe_track; /* cases/driver/probe/probe_track.h */
 
+/** What settling of the initial stress came to. */
+enum {
+    MOR_SIMULATION_SETTLED_TIME,         /* it took, s */
+    MOR_SIMULATION_SETTLED_STEPS,        /* likewise, 1 */
+    MOR_SIMULATION_SETTLED_FORCE,        /* mean unbalanced force / weight that was left, 1 */
+    MOR_SIMULATION_SETTLED_LARGEST,      /* likewise the largest, 1 */
+    MOR_SIMULATION_SETTLED_DISPLACEMENT, /* 99 % of the soil moved less, m */
+    MOR_SIMULATION_SETTLED_RELAXED,      /* 1: by relaxation; 0: by damping */
+    MOR_SIMULATION_SETTLED_NUMBERS
+};
+
 /** A case made ready to run. Owner: the caller, who ends it with mor_simulation_clear. */
 typedef struct mor_simulation {
     const mor_case *the_case; /* borrowed; outlives the simulation */
@@ -34,9 +45,13 @@ typedef struct mor_simulation {
     int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
     double particle_volumes[MOR_CASE_SOILS_MAX];  /* of each particle of a region at the start, m3 (m2) */
     double first_step;                            /* length of the first time step, s */
-    double initial_energies[3];                   /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
-    struct mor_probe_track *probes;               /* state of the probes; owned */
-    mor_state_list state;                         /* what a resumed run needs, as its owners list it */
+    uint64_t resumed_step; /* steps done when a state was put back, after which the forces of the last step are not
+                              known; 0: none was */
+    double settled[MOR_SIMULATION_SETTLED_NUMBERS]; /* how the initial stress settled, units of the enum above; time 0:
+                                                       it did not */
+    double initial_energies[3];                     /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    struct mor_probe_track *probes;                 /* state of the probes; owned */
+    mor_state_list state;                           /* what a resumed run needs, as its owners list it */
 } mor_simulation;
 
 /** Maps a point, or a direction, of the case into the placed frame.

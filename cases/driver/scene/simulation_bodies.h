@@ -109,10 +109,17 @@ void mor_simulation_bodies_momentum(const mor_simulation_bodies *bodies, const d
  *  @param level [in]  along up over the origin of coordinates, unit m */
 double mor_simulation_body_depth(const mor_simulation_body *body, const double *up, double level);
 
+/** How bodies come to rest while soil settles. */
+typedef struct mor_simulation_settling {
+    double damping;       /* rate, 1/s */
+    double local_damping; /* share of the net force, 1 */
+    double gravity_ramp;  /* time over which gravity grows smoothly from zero, s; 0: it is there at once */
+} mor_simulation_settling;
+
 /** Brings all bodies to rest and sets the damping of their motion, or gives them their motion at the start.
- *  @param damping  [in]      unit 1/s; while the soil settles; 0: the start of the run
+ *  @param settling [in]      while the soil settles; NULL: the start of the run
  *  Returns: MOR_OK; what a material returns. */
 mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
-                                        double damping);
+                                        const mor_simulation_settling *settling);
 
 #endif

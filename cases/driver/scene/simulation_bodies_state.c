@@ -215,16 +215,20 @@ static mor_status start_body(mor_context *context, const mor_simulation_body *bo
 }
 
 mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bodies *bodies, const mor_case *the_case,
-                                        double damping)
+                                        const mor_simulation_settling *settling)
 {
-    const bool is_resting = damping > 0.0;
+    const bool is_resting = settling != NULL;
+    const mor_scheme *own = &the_case->numerics;
     for (int b = 0; b < the_case->n_bodies; ++b) {
         MOR_TRY(context, start_body(context, &bodies->of[b], the_case, &the_case->bodies[b], is_resting));
     }
     for (int g = 0; g < bodies->n_groups; ++g) {
         mor_body_group *group = bodies->groups[g];
-        group->damping = is_resting ? damping : the_case->numerics.damping;
-        group->gravity_ramp = is_resting ? 0.0 : the_case->numerics.gravity_ramp; /* as the soil's */
+        group->damping = is_resting ? settling->damping : own->damping;
+        group->local_damping = is_resting ? settling->local_damping : own->local_damping;
+        group->damping_time = is_resting ? 0.0 : own->damping_time;
+        group->gravity_ramp = is_resting ? settling->gravity_ramp : own->gravity_ramp; /* as the soil's */
+        group->has_smooth_ramp = is_resting || own->gravity_ramp_form == 1;
         MOR_TRY(context, group->operations->prepare(context, group));
         show_velocities(group);
     }

@@ -22,6 +22,15 @@ static mor_status list_integration(mor_context *context, mor_simulation *s, mor_
     return MOR_OK;
 }
 
+static bool has_settling(const mor_case *the_case)
+{
+    bool is_asked = false;
+    for (int k = 0; k < the_case->n_soils; ++k) {
+        is_asked = is_asked || the_case->soils[k].initial_stress == MOR_CASE_STRESS_SETTLED;
+    }
+    return is_asked;
+}
+
 mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simulation, mor_state_list *list)
 {
     mor_simulation *s = simulation;
@@ -32,11 +41,16 @@ mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simul
     }
     MOR_TRY(context, list_integration(context, s, list));
     MOR_TRY(context, mor_state_add(context, list, own, "initial_energies", MOR_STATE_DOUBLE, 3, s->initial_energies));
+    if (has_settling(s->the_case)) {
+        MOR_TRY(context, mor_state_add(context, list, own, "settled", MOR_STATE_DOUBLE, MOR_SIMULATION_SETTLED_NUMBERS,
+                                       s->settled));
+    }
     return mor_state_add(context, list, own, "surface_height", MOR_STATE_DOUBLE, 1, &s->surface_height);
 }
 
 mor_status mor_simulation_resume(mor_context *context, mor_simulation *simulation)
 {
+    simulation->resumed_step = simulation->schedule.n_steps;
     if (simulation->bodies.has_contact) {
         mor_contact_resume(&simulation->bodies.contact, mor_schedule_time(&simulation->schedule));
     }

@@ -154,6 +154,7 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                               mor_contact_corner *corners);
 
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
+ *  @param n_particles [in]  number of soil particles
  *  @param corners [in,out]  shape [n_particles] */
 void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, mor_contact_corner *corners);
 

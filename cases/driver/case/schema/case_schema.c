@@ -124,6 +124,7 @@ static const mor_case_key scale_keys[] = {
 #define HOURGLASS MOR_CASE_NEEDS_HOURGLASS
 #define SUM MOR_CASE_NEEDS_SUM
 #define ANGULAR MOR_CASE_NEEDS_ANGULAR
+#define DAMPING MOR_CASE_NEEDS_DAMPING
 #define MOR_SETTING(type, storage, key, kind, unit, fallback, words, need, computed_default, plane, text, ...)         \
     {{#key, MOR_SCHEMA_##kind, 1, unit, DEFAULT(fallback), __VA_ARGS__, words, text},                                  \
      MOR_CASE_STORE_##storage,                                                                                         \
@@ -148,6 +149,7 @@ static const mor_case_key numerics_keys[] = {
 #undef HOURGLASS
 #undef SUM
 #undef ANGULAR
+#undef DAMPING
 
 #define OUTPUT(member) AT(mor_case, output.member)
 static const mor_case_key output_keys[] = {
@@ -264,6 +266,19 @@ static const mor_case_key stress_keys[] = {
       "settled when the 99th-percentile speed is below this times sqrt(gravity * height)"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, settle_speed_ratio)},
+    {{"settle_method", CHOICE, "1", DEFAULT(0.0), ANY, "auto|damping|relaxation",
+      "damping: velocities are damped until soil is slow; relaxation: local damping until forces balance, which is "
+      "faster; auto: relaxation with stress_diffusion_limiter = \"transient\", which lets soil rest, else damping"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_case_soil, settle_method)},
+    {{"settle_from", CHOICE, "1", DEFAULT(0.0), ANY, "k0|none",
+      "stress that settling begins with; k0: as type k0; none: zero, and the weight loads the soil"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_case_soil, settle_from)},
+    {{"settle_force_ratio", SCALAR, "1", DEFAULT(1.0e-4), POSITIVE, NULL,
+      "settled by relaxation when the mean unbalanced force is below this times the mean weight of a particle"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_soil, settle_force_ratio)},
     END};
 
 static const mor_case_key wall_keys[] = {

@@ -35,7 +35,8 @@ static const struct {
              {MOR_CASE_NEEDS_HOURGLASS, "with soil_hourglass above 0"},
              {MOR_CASE_NEEDS_LATTICE, "with soil of particles = \"lattice\""},
              {MOR_CASE_NEEDS_SUM, "with velocity_gradient = \"sum\""},
-             {MOR_CASE_NEEDS_ANGULAR, "with angular_momentum = true"}};
+             {MOR_CASE_NEEDS_ANGULAR, "with angular_momentum = true"},
+             {MOR_CASE_NEEDS_DAMPING, "with damping or local_damping above 0"}};
 
 static unsigned find_given(const mor_case *c)
 {
@@ -57,6 +58,7 @@ static unsigned find_given(const mor_case *c)
     given |= n->soil_hourglass > 0.0 ? MOR_CASE_NEEDS_HOURGLASS : 0U;
     given |= n->angular_momentum ? MOR_CASE_NEEDS_ANGULAR : 0U;
     given |= n->velocity_gradient == 0 ? MOR_CASE_NEEDS_SUM : 0U;
+    given |= n->damping > 0.0 || n->local_damping > 0.0 ? MOR_CASE_NEEDS_DAMPING : 0U;
     return given | (c->placement_angle != 0.0 ? MOR_CASE_NEEDS_ROTATION : 0U);
 }
 

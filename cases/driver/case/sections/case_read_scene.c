@@ -37,6 +37,9 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
                 {"surface_level", "\"k0\" or \"settled\"", {false, true, true, false}},
                 {"settle_time", "\"settled\"", {false, false, true, false}},
                 {"settle_speed_ratio", "\"settled\"", {false, false, true, false}},
+                {"settle_method", "\"settled\"", {false, false, true, false}},
+                {"settle_from", "\"settled\"", {false, false, true, false}},
+                {"settle_force_ratio", "\"settled\"", {false, false, true, false}},
                 {"pressure", "\"uniform\"", {false, false, false, true}}};
     for (size_t k = 0; k < sizeof uses / sizeof uses[0]; ++k) {
         const mor_case_node *child = mor_case_node_find(node, uses[k].key);
@@ -45,6 +48,29 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
                                       "found '%s', which has no effect with this type of initial "
                                       "stress; allowed: with type = %s; remove it or change the type",
                                       uses[k].key, uses[k].types);
+        }
+    }
+    return MOR_OK;
+}
+
+/* Keys that the chosen way of settling does not use are refused likewise. */
+static mor_status check_settle_keys(const mor_case_reader *reader, const mor_case_node *node, const mor_case_soil *soil)
+{
+    const bool is_relaxed = soil->settle_method == MOR_CASE_SETTLE_RELAXATION;
+    const struct {
+        const char *key, *condition;
+        bool is_used;
+    } uses[] = {{"settle_speed_ratio", "settle_method = \"damping\"", !is_relaxed},
+                {"settle_force_ratio", "settle_method = \"relaxation\"", is_relaxed},
+                {"lateral_ratio", "settle_from = \"k0\"", soil->settle_from == 0},
+                {"surface_level", "settle_from = \"k0\"", soil->settle_from == 0}};
+    for (size_t k = 0; k < sizeof uses / sizeof uses[0]; ++k) {
+        const mor_case_node *child = mor_case_node_find(node, uses[k].key);
+        if (soil->initial_stress == MOR_CASE_STRESS_SETTLED && child != NULL && !uses[k].is_used) {
+            return MOR_CASE_NODE_FAIL(reader->context, child,
+                                      "found '%s', which has no effect with this way of settling; allowed: with %s; "
+                                      "remove it or change the way",
+                                      uses[k].key, uses[k].condition);
         }
     }
     return MOR_OK;
@@ -89,7 +115,12 @@ static mor_status read_stress(const mor_case_reader *reader, const mor_case_node
     if (!mor_case_reader_has(&mor_case_stress_group, soil->written_stress, "settle_time")) {
         soil->settle_time = the_case->end;
     }
+    if (soil->settle_method == MOR_CASE_SETTLE_AUTO) {
+        const bool can_rest = the_case->numerics.stress_diffusion_limiter == 2;
+        soil->settle_method = can_rest ? MOR_CASE_SETTLE_RELAXATION : MOR_CASE_SETTLE_DAMPING;
+    }
     MOR_TRY(reader->context, check_stress_keys(reader, node, soil->initial_stress));
+    MOR_TRY(reader->context, check_settle_keys(reader, node, soil));
     MOR_TRY(reader->context, check_stress_pressure(reader, node, soil));
     return check_stress_weight(reader, node, the_case, soil);
 }

@@ -138,6 +138,12 @@ static mor_case_presence presence_of_stress_key(const mor_case_key *key, const v
     if (soil->initial_stress == MOR_CASE_STRESS_NONE || (is_settling && soil->initial_stress == MOR_CASE_STRESS_K0)) {
         return MOR_CASE_OMIT;
     }
+    const bool is_relaxed = soil->settle_method == MOR_CASE_SETTLE_RELAXATION;
+    const bool is_of_k0 = strcmp(name, "lateral_ratio") == 0 || strcmp(name, "surface_level") == 0;
+    if ((is_settling && strcmp(name, is_relaxed ? "settle_speed_ratio" : "settle_force_ratio") == 0) ||
+        (soil->initial_stress == MOR_CASE_STRESS_SETTLED && soil->settle_from != 0 && is_of_k0)) {
+        return MOR_CASE_OMIT;
+    }
     const bool is_left_open = (strcmp(name, "lateral_ratio") == 0 && soil->lateral_ratio < 0.0) ||
                               (strcmp(name, "surface_level") == 0 && isnan(soil->surface_level));
     return is_left_open ? MOR_CASE_MENTION : MOR_CASE_WRITE;

@@ -17,6 +17,9 @@ static const double far_away = 20.0;
 /* A speed decays when its logarithm falls by this over the second half of the time; vibrations fall by less. */
 static const double decay_least = 0.3;
 
+/* Soil that gives way moves by more than this part of a spacing while its speed grows. */
+static const double noticeable = 0.1;
+
 /* Fewer samples than this are not evaluated. */
 enum { SAMPLES_LEAST = 8 };
 
@@ -56,10 +59,11 @@ void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sam
     watch->samples[watch->n++] = *sample;
 }
 
-mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set, double time,
-                                double speed)
+mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set,
+                                const mor_settle_sample *known)
 {
-    mor_settle_sample sample = {.time = time, .speed = speed, .plastic_strain = NAN};
+    mor_settle_sample sample = *known;
+    sample.plastic_strain = NAN;
     const double *position = set->data[MOR_FIELD_POSITION];
     const int field = mor_set_find_field(set, "plastic_strain");
     for (int64_t i = 0; i < set->n_particles; ++i) {
@@ -152,4 +156,33 @@ void mor_settle_watch_evaluate(const mor_settle_watch *watch, double limit, doub
     } else if (is_decaying) {
         result->outcome = MOR_SETTLE_NEEDS_TIME;
     }
+}
+
+bool mor_settle_watch_gives_way(const mor_settle_watch *watch, double period, double spacing, double *speeds)
+{
+    const mor_settle_sample *last = &watch->samples[watch->n - 1];
+    double sums[MOR_SETTLE_PERIODS] = {0.0};
+    double moved = INFINITY; /* at the beginning of the periods */
+    int counts[MOR_SETTLE_PERIODS] = {0};
+    speeds[0] = speeds[1] = 0.0;
+    if (watch->n == 0 || last->time < MOR_SETTLE_PERIODS * period) {
+        return false;
+    }
+    for (int k = watch->n - 1; k >= 0; --k) {
+        const int ago = (int)fmin((last->time - watch->samples[k].time) / period, MOR_SETTLE_PERIODS);
+        if (ago < MOR_SETTLE_PERIODS) {
+            sums[MOR_SETTLE_PERIODS - 1 - ago] += watch->samples[k].mean_speed;
+            counts[MOR_SETTLE_PERIODS - 1 - ago] += 1;
+            moved = watch->samples[k].displacement;
+        }
+    }
+    bool is_growing = last->displacement - moved > noticeable * spacing;
+    for (int k = 0; k < MOR_SETTLE_PERIODS; ++k) {
+        is_growing = is_growing && counts[k] > 0;
+        sums[k] /= counts[k] > 0 ? counts[k] : 1;
+        is_growing = is_growing && (k == 0 || sums[k] > sums[k - 1]);
+    }
+    speeds[0] = sums[0];
+    speeds[1] = sums[MOR_SETTLE_PERIODS - 1];
+    return is_growing;
 }

@@ -14,9 +14,10 @@ enum { MOR_SETTLE_SAMPLES = 256 };
 /** The soil at one time. */
 typedef struct mor_settle_sample {
     double time;           /* s */
-    double speed;          /* 99 % of the particles are slower, m/s */
+    double speed;          /* 99 % of the particles are slower; by relaxation that of the unrest that is left, m/s */
     double plastic_strain; /* mean over the particles, 1; NaN for a material that has none */
     double displacement;   /* 99 % of the particles have moved less since the start of settling, m */
+    double mean_speed;     /* of soil and free bodies by mass, m/s; where it is followed */
 } mor_settle_sample;
 
 /** The course of settling, thinned out evenly where there are more samples than room. Owner: the caller, who ends it
@@ -56,11 +57,10 @@ void mor_settle_watch_clear(mor_context *context, mor_settle_watch *watch);
 
 /** Adds a sample of the soil.
  *  @param set     [in]      the same particles in any order
- *  @param time    [in]      since the start of settling, s; rising
- *  @param speed   [in]      99 % of the particles are slower, m/s
+ *  @param sample  [in]      what is known of it but for plastic strain and displacement, which are found here
  *  Returns: MOR_OK; MOR_ERROR_MEMORY; MOR_ERROR_NUMERIC. */
-mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set, double time,
-                                double speed);
+mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set,
+                                const mor_settle_sample *sample);
 
 /** Keeps a sample, or leaves it out where samples are thinned. */
 void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sample);
@@ -69,5 +69,16 @@ void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sam
  *  @param limit    [in]   speed below which soil is at rest, m/s; > 0
  *  @param spacing  [in]   of particles, m */
 void mor_settle_watch_evaluate(const mor_settle_watch *watch, double limit, double spacing, mor_settle_result *result);
+
+/** Whether the soil gives way: over each of the last periods its mean speed was larger than over the one before, and it
+ *  has moved by a noticeable part of a spacing meanwhile. Soil that finds its rest does not: damping takes
+ *  most of the energy of any wave within a period.
+ *  @param period   [in]   of the longest elastic wave of the soil, s; > 0
+ *  @param spacing  [in]   of particles, m
+ *  @param speeds   [out]  shape [2]; mean speed over the first and the last of these periods, m/s */
+bool mor_settle_watch_gives_way(const mor_settle_watch *watch, double period, double spacing, double *speeds);
+
+/** Number of periods that mor_settle_watch_gives_way looks at. */
+enum { MOR_SETTLE_PERIODS = 4 };
 
 #endif

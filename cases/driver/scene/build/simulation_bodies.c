@@ -414,11 +414,13 @@ mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodie
         group->gravity_ramp = the_case->numerics.gravity_ramp;
         group->has_smooth_ramp = the_case->numerics.gravity_ramp_form == 1;
         group->damping = the_case->numerics.damping;
+        group->local_damping = the_case->numerics.local_damping;
+        group->damping_time = the_case->numerics.damping_time;
         MOR_TRY(context, add_body_field(context, group));
     }
     MOR_TRY(context, check_places(context, bodies, the_case, frame));
     MOR_TRY(context, make_contact(context, bodies, the_case, frame, first_bit));
-    return mor_simulation_bodies_settle(context, bodies, the_case, 0.0);
+    return mor_simulation_bodies_settle(context, bodies, the_case, NULL);
 }
 
 void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bodies)

@@ -30,7 +30,10 @@ typedef struct mor_settle_course {
     double longest;   /* after which it fails, s */
     uint64_t n_steps; /* so far */
     double speed;     /* 99 % of the soil are slower, m/s */
-    double limit;     /* the soil is at rest below this speed, m/s */
+    double limit;     /* by damping: the soil is at rest below this speed, m/s */
+    bool is_relaxed;  /* by relaxation: what follows counts, not the speed */
+    double force;     /* unbalanced forces and what motion is left over the weight, 1 */
+    double ratio;     /* the soil is at rest below this one, 1 */
 } mor_settle_course;
 
 /** Receives the progress of settling. */

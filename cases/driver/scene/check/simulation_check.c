@@ -95,7 +95,8 @@ static mor_status check_damping(mor_context *context, const mor_simulation *s)
     const double damping = c->numerics.damping;
     const double weight = mor_vector_length(c->gravity);
     const double way = weight * c->end / fmax(damping, 1.0 / c->end); /* at most */
-    MOR_CHECK(context, damping * c->end <= 1.0 || weight == 0.0 || way > least_displacement * c->spacing,
+    const bool ends = c->numerics.damping_time > 0.0 && c->numerics.damping_time < c->end;
+    MOR_CHECK(context, ends || damping * c->end <= 1.0 || weight == 0.0 || way > least_displacement * c->spacing,
               MOR_ERROR_CONFIG,
               "%s: found numerics.damping = %g 1/s, under which nothing can move: a free fall covers %.3g "
               "m until the end, %.3g spacings; it must cover at least a thousandth of a spacing (%.3g m); lower "

@@ -86,6 +86,31 @@ static void determinant_is_the_triple_product_of_the_rows(void **state)
     }
 }
 
+/* What is damped locally comes back: damping changes a rate by a share of its own size against the motion. */
+static void local_damping_is_undone(void **state)
+{
+    static const double motions[][3] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {-3.0, 2.0, 5.0}, {1e-9, -1e-9, 2e-9}};
+    static const double rates[][3] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {-4.0, 3.0, 12.0}, {2.0, -1.0, -3.0}};
+    (void)state;
+    for (int m = 0; m < 4; ++m) {
+        for (int r = 0; r < 4; ++r) {
+            double rate[3] = {rates[r][0], rates[r][1], rates[r][2]};
+            mor_damp_locally(0.8, motions[m], rate);
+            double taken[3];
+            for (int a = 0; a < 3; ++a) {
+                taken[a] = rates[r][a] - rate[a];
+            }
+            const double share = m == 0 ? 0.0 : 0.8;
+            assert_true(fabs(mor_vector_length(taken) - share * mor_vector_length(rates[r])) < 1e-14 * 13.0); /* ulp */
+            assert_true(mor_vector_dot(taken, motions[m]) >= 0.0);
+            mor_undamp_locally(0.8, motions[m], rate);
+            for (int a = 0; a < 3; ++a) {
+                assert_true(fabs(rate[a] - rates[r][a]) < 1e-13 * 13.0); /* rounding over 1 - 0.8^2 */
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -93,6 +118,7 @@ int main(void)
         cmocka_unit_test(adding_a_vector_product_adds_that_product),
         cmocka_unit_test(tensor_times_its_cofactors_is_its_determinant),
         cmocka_unit_test(determinant_is_the_triple_product_of_the_rows),
+        cmocka_unit_test(local_damping_is_undone),
     };
     return CLOUD_RUN(tests);
 }

@@ -29,7 +29,7 @@ static mor_settle_result evaluate(const course *c, double end, int n)
         const double t = end * k / n;
         const double way = c->decay > 0.0 ? c->speed * (1.0 - exp(-c->decay * t)) / c->decay : c->speed * t;
         const mor_settle_sample sample = {t, c->speed * exp(-c->decay * t) + c->amplitude * (1.0 + 0.5 * sin(40.0 * t)),
-                                          c->strain * way, way};
+                                          c->strain * way, way, 0.0};
         mor_settle_watch_keep(&watch, &sample);
         assert_true(watch.n <= MOR_SETTLE_SAMPLES);
     }
@@ -88,6 +88,35 @@ static void what_is_not_clear_is_left_open(void **state)
     assert_int_equal(evaluate(&flowing, 2.0, 4).outcome, MOR_SETTLE_OPEN);
 }
 
+/* Mean speed v = speed (1 + slope t) exp(-decay t), and the way that it makes. */
+static bool gives_way(double speed, double slope, double decay, double end, double *speeds)
+{
+    mor_settle_watch watch = {.stride = 1};
+    double way = 0.0;
+    const int n = 2000;
+    for (int k = 1; k <= n; ++k) {
+        const double t = end * k / n;
+        const double v = speed * (1.0 + slope * t) * exp(-decay * t);
+        way += v * end / n;
+        const mor_settle_sample sample = {.time = t, .displacement = way, .mean_speed = v};
+        mor_settle_watch_keep(&watch, &sample);
+    }
+    return mor_settle_watch_gives_way(&watch, 0.5, SPACING, speeds);
+}
+
+static void soil_that_gains_speed_under_damping_gives_way(void **state)
+{
+    (void)state;
+    double speeds[2];
+    assert_true(gives_way(0.01, 2.0, 0.0, 4.0, speeds));
+    assert_true(fabs(speeds[0] - 0.055) < 0.02 * 0.055);   /* v at 2.25 s, in the middle; thinned samples */
+    assert_true(fabs(speeds[1] - 0.085) < 0.02 * 0.085);   /* at 3.75 s */
+    assert_false(gives_way(0.01, 0.0, 0.5, 4.0, speeds));  /* slows down */
+    assert_false(gives_way(1e-4, 2.0, 0.0, 4.0, speeds));  /* has not moved noticeably */
+    assert_false(gives_way(0.01, 2.0, 0.0, 1.9, speeds));  /* fewer than four periods */
+    assert_false(gives_way(0.01, 50.0, 1.0, 4.0, speeds)); /* gained speed at first, and loses it */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -95,6 +124,7 @@ int main(void)
         cmocka_unit_test(soil_that_yields_less_and_less_needs_time),
         cmocka_unit_test(steady_flow_is_told_from_soil_that_needs_time),
         cmocka_unit_test(what_is_not_clear_is_left_open),
+        cmocka_unit_test(soil_that_gains_speed_under_damping_gives_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
