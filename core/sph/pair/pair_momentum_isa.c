@@ -208,6 +208,7 @@ INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const doubl
 
 /* A part of a cluster, as the momentum loop sees it. */
 typedef struct momentum_part {
+    int64_t first; /* particle */
     frame frame;
     momentum own;
     momentum_sums sums;
@@ -233,17 +234,12 @@ INLINE void add_extra(momentum_part *part, const geometry *geometries, const int
         for (int a = 0; a < 3; ++a) {
             kr[a] = geometries[q].k * r[a];
         }
-        if (form.extra & MOR_SPINS) {
-            sums.spin[0] -= kr[1] * s[2];
-            sums.spin[1] += kr[0] * s[2];
-        }
-        if ((form.extra & MOR_SPINS) && form.dimension == 3) {
+        sums.spin[0] -= kr[1] * s[2];
+        sums.spin[1] += kr[0] * s[2];
+        if (form.dimension == 3) {
             sums.spin[0] += kr[2] * s[1];
             sums.spin[1] -= kr[2] * s[0];
             sums.spin[2] += multiply_add(kr[1], broadcast(s[0]), -kr[0] * s[1]);
-        }
-        if (!(form.extra & MOR_HOURGLASSES)) {
-            continue;
         }
         if (form.several) {
             const double there = c->soils[(int)of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
@@ -269,57 +265,32 @@ INLINE void add_extra(momentum_part *part, const geometry *geometries, const int
 
 /* Artificial stress of a chunk of targets. */
 INLINE void add_artificial_chunk(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                                 const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
-                                 const int dimension)
+                                 const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
 {
     const double *artificial = arrays->artificial_stress;
     for (int q = 0; q < n; ++q) {
         add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), &part->frame, c,
-                            artificial + first * 6, artificial + (int64_t)near[q] * 6, dimension);
+                            artificial + part->first * 6, artificial + (int64_t)near[q] * 6, form.dimension);
     }
 }
 
 /* Out of the many copies of the momentum loop, which would all hold them; by what is added. */
-static void add_artificial_chunk_2d(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                                    const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
-{
-    add_artificial_chunk(part, geometries, near, n, c, arrays, first, 2);
-}
-
-static void add_artificial_chunk_3d(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                                    const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first)
-{
-    add_artificial_chunk(part, geometries, near, n, c, arrays, first, 3);
-}
-
-static void (*const artificial_adders[2])(momentum_part *, const geometry *, const int32_t *, int,
-                                          const mor_pair_constants *, const mor_pair_arrays *,
-                                          int64_t) = {add_artificial_chunk_2d, add_artificial_chunk_3d};
-
 typedef void (*adder)(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
                       const mor_pair_constants *c, const mor_pair_arrays *arrays);
-#define MOR_EXTRA_FUNCTION(name, dimension, several, extra)                                                            \
+#define MOR_EXTRA_FUNCTION(name, add, dimension, several)                                                              \
     __attribute__((noinline)) static void name(momentum_part *part, const geometry *geometries, const int32_t *near,   \
                                                int n, const mor_pair_constants *c, const mor_pair_arrays *arrays)      \
     {                                                                                                                  \
-        add_extra(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, (several), (extra)});       \
+        add(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, (several), 0});                   \
     }
-MOR_EXTRA_FUNCTION(spin_2d, 2, 0, MOR_SPINS)
-MOR_EXTRA_FUNCTION(spin_3d, 3, 0, MOR_SPINS)
-MOR_EXTRA_FUNCTION(hourglass_2d, 2, 0, MOR_HOURGLASSES)
-MOR_EXTRA_FUNCTION(hourglass_3d, 3, 0, MOR_HOURGLASSES)
-MOR_EXTRA_FUNCTION(both_2d, 2, 0, MOR_HOURGLASSES | MOR_SPINS)
-MOR_EXTRA_FUNCTION(both_3d, 3, 0, MOR_HOURGLASSES | MOR_SPINS)
-MOR_EXTRA_FUNCTION(several_hourglass_2d, 2, 1, MOR_HOURGLASSES)
-MOR_EXTRA_FUNCTION(several_hourglass_3d, 3, 1, MOR_HOURGLASSES)
-MOR_EXTRA_FUNCTION(several_both_2d, 2, 1, MOR_HOURGLASSES | MOR_SPINS)
-MOR_EXTRA_FUNCTION(several_both_3d, 3, 1, MOR_HOURGLASSES | MOR_SPINS)
-static const adder adders[2][4][2] = {
-    {{NULL, NULL}, {hourglass_2d, hourglass_3d}, {spin_2d, spin_3d}, {both_2d, both_3d}},
-    {{NULL, NULL},
-     {several_hourglass_2d, several_hourglass_3d},
-     {spin_2d, spin_3d},
-     {several_both_2d, several_both_3d}}};
+MOR_EXTRA_FUNCTION(both_2d, add_extra, 2, 0)
+MOR_EXTRA_FUNCTION(both_3d, add_extra, 3, 0)
+MOR_EXTRA_FUNCTION(several_both_2d, add_extra, 2, 1)
+MOR_EXTRA_FUNCTION(several_both_3d, add_extra, 3, 1)
+MOR_EXTRA_FUNCTION(artificial_2d, add_artificial_chunk, 2, 0)
+MOR_EXTRA_FUNCTION(artificial_3d, add_artificial_chunk, 3, 0)
+static const adder artificial_adders[2] = {artificial_2d, artificial_3d};
+static const adder adders[2][2] = {{both_2d, both_3d}, {several_both_2d, several_both_3d}};
 
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
@@ -327,6 +298,7 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     const double *own = arrays->records + first * MOR_RECORD_SIZE;
     momentum *m = &part->own;
     memset(part, 0, sizeof *part);
+    part->first = first;
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
     m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
     m->counts_opening -= c->dissipation != MOR_DISSIPATION_APPROACH;
@@ -356,7 +328,7 @@ INLINE void compiler_barrier(momentum_part *part)
 }
 
 INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor_pair_constants *c,
-                      const mor_pair_arrays *arrays, int64_t first, const momentum_form form)
+                      const mor_pair_arrays *arrays, const momentum_form form)
 {
     const frame *f = &part->frame;
     geometry geometries[CHUNK];
@@ -380,11 +352,10 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     part->sums = sums;
     compiler_barrier(part);
     if (form.extra & (MOR_HOURGLASSES | MOR_SPINS)) {
-        adders[form.several][form.extra & (MOR_HOURGLASSES | MOR_SPINS)][form.dimension - 2](part, geometries, near, n,
-                                                                                             c, arrays);
+        adders[form.several][form.dimension - 2](part, geometries, near, n, c, arrays);
     }
     if (c->has_artificial_stress) {
-        artificial_adders[form.dimension - 2](part, geometries, near, n, c, arrays, first);
+        artificial_adders[form.dimension - 2](part, geometries, near, n, c, arrays);
     }
 }
 
@@ -552,7 +523,7 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     for (int32_t entry = 0; entry < count;) {
         const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form);
         for (int part = 0; part < PARTS; ++part) {
-            add_chunk(parts + part, near + n_near, n, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
+            add_chunk(parts + part, near + n_near, n, c, arrays, form);
         }
         n_near += n;
     }
