@@ -211,7 +211,8 @@ static void relaxation_has_the_same_bits_for_any_number_of_threads(void **state)
 typedef struct stopping {
     atomic_int stop;
     double at;       /* s */
-    double residual; /* the last one, 1 */
+    double time;     /* the last one, s */
+    double residual; /* likewise, 1 */
     double ratio;    /* its limit, 1 */
 } stopping;
 
@@ -219,11 +220,26 @@ static void request_stop(void *user, const mor_settle_course *course)
 {
     stopping *it = user;
     assert_true(course->is_relaxed);
+    it->time = course->time;
     it->residual = course->force;
     it->ratio = course->ratio;
     if (course->time >= it->at) {
         atomic_store(&it->stop, 1);
     }
+}
+
+/* Also where the clock was made for times far beyond the run: the state is drawn with its time. */
+static void time_of_a_failed_settling_is_that_of_its_last_step(void **state)
+{
+    (void)state;
+    stopping last = {.at = INFINITY};
+    const mor_settle_observer watching = {.stop = &last.stop, .report = request_stop, .user = &last};
+    scene *it = build_slope(1.2 * critical_height, 1);
+    it->the_case.soils[0].settle_time = 1e5;
+    assert_int_equal(mor_simulation_settle(&it->context, &it->simulation, &watching), MOR_NOT_CONVERGED);
+    assert_true(last.time > 0.0);
+    assert_true(mor_schedule_time(&it->simulation.schedule) == last.time);
+    scene_free(it);
 }
 
 /* A settling that was stopped in its middle starts over, as the program does, to the same bits. */
@@ -294,6 +310,7 @@ int main(void)
         cmocka_unit_test(settling_tells_soil_that_needs_longer),
         cmocka_unit_test(soil_that_creeps_by_diffusion_is_told_from_soil_that_falls),
         cmocka_unit_test(relaxation_has_the_same_bits_for_any_number_of_threads),
+        cmocka_unit_test(time_of_a_failed_settling_is_that_of_its_last_step),
         cmocka_unit_test(relaxation_that_was_stopped_starts_over_to_the_same_bits),
         cmocka_unit_test(settled_rock_stays_and_bears_on_the_soil),
     };

@@ -257,7 +257,9 @@ static mor_status settle(mor_context *context, mor_simulation *simulation, mor_s
         status = run_settling(context, simulation, it, observer);
     }
     mor_settle_watch_clear(context, &it->watch);
-    simulation->schedule.tick = tick;
+    if (status == MOR_OK) {
+        simulation->schedule.tick = tick; /* else the time of the failure is still told */
+    }
     return status;
 }
 
