@@ -15,29 +15,27 @@ enum { FOUND_BYTES = 640, PLACE_BYTES = 256 };
 /* A settle_time that is proposed is longer than the one extrapolated. */
 #define TIME_MARGIN 1.2
 
-/* What moves fastest, in the frame of the case. */
-static void tell_fastest(const mor_simulation *simulation, char *text, size_t room)
+/* What has moved farthest, in the frame of the case, and a body that is faster. */
+static void tell_farthest(const mor_simulation *simulation, const mor_settle_watch *watch, char *text, size_t room)
 {
     const mor_set *set = &simulation->soil.set;
-    const double *velocity = set->data[MOR_FIELD_VELOCITY];
-    double fastest = -1.0;
     double place[3];
     int64_t found = 0;
-    for (int64_t i = 0; i < set->n_particles; ++i) {
-        const double speed = mor_vector_length(velocity + 3 * i);
-        found = speed > fastest ? i : found;
-        fastest = speed > fastest ? speed : fastest;
+    for (int64_t i = 1; i < set->n_particles; ++i) {
+        found = watch->moved[i] > watch->moved[found] ? i : found;
     }
     mor_simulation_take_point_back(simulation->the_case, set->data[MOR_FIELD_POSITION] + 3 * found, place);
-    snprintf(text, room, "the fastest soil, at (%.4g, %.4g, %.4g) m, moves at %.3g m/s", place[0], place[1], place[2],
-             fastest);
+    double fastest = mor_vector_length(set->data[MOR_FIELD_VELOCITY] + 3 * found);
+    const int n = snprintf(text, room,
+                           "the soil that moved farthest, by %.3g m, is at (%.4g, %.4g, %.4g) m and moves at %.3g m/s",
+                           watch->moved[found], place[0], place[1], place[2], fastest);
     for (int b = 0; b < simulation->the_case->n_bodies; ++b) {
         const mor_simulation_body *it = &simulation->bodies.of[b];
         const mor_body *body = &it->group->bodies[it->index];
         const double speed = mor_vector_length(body->velocity);
         if (!body->is_held && speed > fastest) {
             fastest = speed;
-            snprintf(text, room, "body '%s' moves at %.3g m/s, faster than any soil", body->name, speed);
+            snprintf(text + n, room - (size_t)n, ", body '%s' at %.3g m/s", body->name, speed);
         }
     }
 }
@@ -55,7 +53,7 @@ static void tell_reached(const mor_simulation *simulation, const mor_settling *i
         return;
     }
     char place[PLACE_BYTES];
-    tell_fastest(simulation, place, sizeof place);
+    tell_farthest(simulation, &it->watch, place, sizeof place);
     snprintf(text, room,
              "after relaxing for %.4g s in %llu steps unbalanced forces are %.3g of the weight in the mean, with what "
              "motion is left %.3g times the limit of %.3g; %s",
@@ -73,9 +71,11 @@ static mor_status report_failure(mor_context *context, const mor_simulation *sim
             "gains speed although its motion is damped, from %.3g to %.3g m/s in the mean over the last %d periods "
             "of its longest wave",
             it->speeds[0], it->speeds[1], MOR_SETTLE_PERIODS);
+    } else if (it->has_flowed && !isnan(it->watch.samples[it->watch.n - 1].strained)) {
+        snprintf(how, sizeof how, "has flowed: a hundredth of it has yielded by a plastic strain of %.3g or more",
+                 it->watch.samples[it->watch.n - 1].strained);
     } else if (it->has_flowed) {
-        snprintf(how, sizeof how,
-                 "keeps moving, where elastic soil of this depth and stiffness settles by about %.3g m",
+        snprintf(how, sizeof how, "has flowed: elastic soil of this depth and stiffness settles by about %.3g m",
                  it->settlement);
     } else {
         snprintf(how, sizeof how,

@@ -64,6 +64,7 @@ mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, c
 {
     mor_settle_sample sample = *known;
     sample.plastic_strain = NAN;
+    sample.strained = NAN;
     const double *position = set->data[MOR_FIELD_POSITION];
     const int field = mor_set_find_field(set, "plastic_strain");
     for (int64_t i = 0; i < set->n_particles; ++i) {
@@ -81,6 +82,8 @@ mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, c
             sum += set->data[field][i];
         }
         sample.plastic_strain = sum / (double)set->n_particles;
+        MOR_TRY(context,
+                mor_measure_percentile(context, set->data[field], NULL, set->n_particles, 99.0, &sample.strained));
     }
     mor_settle_watch_keep(watch, &sample);
     return MOR_OK;

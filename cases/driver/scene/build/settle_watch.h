@@ -18,6 +18,7 @@ typedef struct mor_settle_sample {
     double plastic_strain; /* mean over the particles, 1; NaN for a material that has none */
     double displacement;   /* 99 % of the particles have moved less since the start of settling, m */
     double mean_speed;     /* of soil and free bodies by mass, m/s; where it is followed */
+    double strained;       /* 99 % of the particles have yielded by less plastic strain, 1; NaN likewise */
 } mor_settle_sample;
 
 /** The course of settling, thinned out evenly where there are more samples than room. Owner: the caller, who ends it
@@ -57,7 +58,7 @@ void mor_settle_watch_clear(mor_context *context, mor_settle_watch *watch);
 
 /** Adds a sample of the soil.
  *  @param set     [in]      the same particles in any order
- *  @param sample  [in]      what is known of it but for plastic strain and displacement, which are found here
+ *  @param sample  [in]      what is known of it but for plastic strains and displacement, which are found here
  *  Returns: MOR_OK; MOR_ERROR_MEMORY; MOR_ERROR_NUMERIC. */
 mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set,
                                 const mor_settle_sample *sample);

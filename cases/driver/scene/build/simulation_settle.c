@@ -24,7 +24,9 @@ enum { SETTLE_CHECK = 50, RELAX_CHECK = 10 };
 /* Soil without stress is loaded over so many periods: a load at once overshoots, and yield by overshooting stays. */
 #define RAMP_PERIODS 1.0
 
-/* Soil that has moved by so many times its elastic settlement, and by a spacing, has flowed. */
+/* Soil that has moved by a spacing has flowed if a hundredth of it has yielded by this plastic strain; where a law does
+ * not tell that, if it has moved by so many times its elastic settlement. */
+#define FLOW_STRAIN 0.05
 #define FLOW_DISPLACEMENT 4.0
 
 /* A single body counts in the limit of relaxation as so much of what is left of it. */
@@ -187,8 +189,10 @@ static bool has_failed(const mor_simulation *simulation, mor_settling *it)
 {
     const double spacing = simulation->the_case->spacing;
     const double loaded = mor_schedule_time(&simulation->schedule) - it->ramp;
+    const mor_settle_sample *last = &it->watch.samples[it->watch.n - 1];
     it->has_flowed =
-        it->watch.samples[it->watch.n - 1].displacement > fmax(spacing, FLOW_DISPLACEMENT * it->settlement);
+        last->displacement > spacing && (isnan(last->strained) ? last->displacement > FLOW_DISPLACEMENT * it->settlement
+                                                               : last->strained > FLOW_STRAIN);
     it->gives_way = loaded > (KINETIC_PERIODS + MOR_SETTLE_PERIODS) * it->period &&
                     mor_settle_watch_gives_way(&it->watch, it->period, spacing, it->speeds);
     return it->has_flowed || it->gives_way;
@@ -253,7 +257,9 @@ static mor_status settle(mor_context *context, mor_simulation *simulation, mor_s
         status = run_settling(context, simulation, it, observer);
     }
     mor_settle_watch_clear(context, &it->watch);
-    simulation->schedule.tick = tick;
+    if (status == MOR_OK) {
+        simulation->schedule.tick = tick; /* else the time of the failure is still told */
+    }
     return status;
 }
 

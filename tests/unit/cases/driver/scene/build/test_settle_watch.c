@@ -28,8 +28,9 @@ static mor_settle_result evaluate(const course *c, double end, int n)
     for (int k = 1; k <= n; ++k) {
         const double t = end * k / n;
         const double way = c->decay > 0.0 ? c->speed * (1.0 - exp(-c->decay * t)) / c->decay : c->speed * t;
-        const mor_settle_sample sample = {t, c->speed * exp(-c->decay * t) + c->amplitude * (1.0 + 0.5 * sin(40.0 * t)),
-                                          c->strain * way, way, 0.0};
+        const mor_settle_sample sample = {
+            t,  c->speed * exp(-c->decay * t) + c->amplitude * (1.0 + 0.5 * sin(40.0 * t)), c->strain * way, way, 0.0,
+            NAN};
         mor_settle_watch_keep(&watch, &sample);
         assert_true(watch.n <= MOR_SETTLE_SAMPLES);
     }
