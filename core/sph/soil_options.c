@@ -172,7 +172,7 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
 }
 
 /* How far a gradient may stand for the motion around a particle, from its moments over the soil: as it is where at
- * least half of the kernel is filled, as below the surface of a half-space; not at all for a layer of single particles. */
+ * least half of the kernel is filled, as below the surface of a half-space; not at all for a layer of grains. */
 static double find_trust(const mor_soil *soil, const double *moments)
 {
     const double mean = mor_symmetric_trace(moments) / soil->settings.dimension;
