@@ -584,6 +584,7 @@ mor_status mor_soil_init_state(mor_context *context, mor_soil *soil)
     if (has_mean_stress(soil)) {
         memcpy(soil->set.data[MOR_FIELD_MEAN_STRESS], soil->set.data[MOR_FIELD_STRESS],
                (size_t)(6 * soil->set.n_particles) * sizeof(double));
+        memset(soil->set.data[MOR_FIELD_FLOW], 0, (size_t)soil->set.n_particles * sizeof(double));
     }
     return MOR_OK;
 }

@@ -181,6 +181,12 @@ mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
  *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
 void mor_soil_sort(mor_soil *soil);
 
+/** Divides kernel sums, and kernel gradients where the scheme asks for it, by their means over the particles that soil
+ *  surrounds in place of those of the lattice, for particles that stand on none. After mor_soil_sort, also before a
+ *  resume: what it finds is that of the start. Where soil surrounds no particle the numbers stay those of the lattice.
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_soil_normalize(mor_context *context, mor_soil *soil);
+
 /** Updates everything that depends on the number of particles of the set, which a restored state may have changed.
  *  @param soil [in,out]  set.n_particles is at most set.n_created
  *  Gives: the lists are rebuilt in the next step. */

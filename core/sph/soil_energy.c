@@ -110,7 +110,8 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
 {
     const double length = job->step->length;
     /* Of the steps, those in which stress diffuses. */
-    const double share = job->soil->constants.has_transient ? 0.5 : 1.0;
+    const double share = mor_soil_spares_diffusion(job->soil) ? 0.5 : 1.0;
+    const bool is_corrected = mor_soil_corrects_gradient(job->soil);
     double stress[N_STRESSES][BATCH * 6];
     double stored[N_STRESSES][BATCH];
     double middle[BATCH * 6];
@@ -136,6 +137,10 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
         sums[MOR_SOIL_ENERGY_DIFFUSION] -= share * volume * spread;
         sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * double_dot(middle + 6 * i, strains);
         sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * double_dot(middle + 6 * i, strains + 6);
+        if (is_corrected) {
+            const double boundary = double_dot(middle + 6 * i, strains) + double_dot(middle + 6 * i, strains + 6);
+            sums[MOR_SOIL_ENERGY_CORRECTION] += volume * (boundary - work);
+        }
     }
 }
 
@@ -163,12 +168,6 @@ static void find_stress_block(void *powers, int64_t first, int64_t last, double 
     }
     for (int64_t i = first; i < last && job->soil->regularization != NULL; ++i) {
         sums[MOR_SOIL_ENERGY_REGULARIZATION] += find_regularization(job, i);
-    }
-    for (int64_t i = first; i < last && mor_soil_corrects_gradient(job->soil); ++i) {
-        const double *record = job->records + i * MOR_RECORD_SIZE;
-        sums[MOR_SOIL_ENERGY_CORRECTION] -=
-            record[MOR_RECORD_VOLUME] *
-            mor_soil_stress_power(record + MOR_RECORD_STRESS, job->velocity_gradient + 9 * i);
     }
 }
 

@@ -137,11 +137,6 @@ static void find_motion_block(void *powers, int64_t first, int64_t last, double 
         }
         sums[MOR_SOIL_ENERGY_BOUNDARY] += taken[LOST];
         sums[MOR_SOIL_ENERGY_DRIVEN] += taken[GIVEN];
-        if (mor_soil_corrects_gradient(soil)) {
-            sums[MOR_SOIL_ENERGY_CORRECTION] +=
-                record[MOR_RECORD_VOLUME] *
-                mor_soil_stress_power(record + MOR_RECORD_STRESS, job->velocity_gradient + 9 * i);
-        }
     }
 }
 
@@ -170,7 +165,7 @@ static void find_hourglass_block(void *job, int64_t first, int64_t last, double 
     add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_HOURGLASS);
 }
 
-static void find_spin_block(void *job, int64_t first, int64_t last, double *sums)
+static void find_correction_block(void *job, int64_t first, int64_t last, double *sums)
 {
     add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_CORRECTION);
 }
@@ -187,13 +182,21 @@ static void strip_records(mor_context *context, const mor_soil_powers *job)
     }
 }
 
+/* The stress of the start of the step, beside the velocities that the momentum loop saw. */
+static void restore_stress(mor_context *context, const mor_soil_powers *job)
+{
+    MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
+        memcpy(job->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS, job->stress + 6 * i, 6 * sizeof *job->records);
+    }
+}
+
 static void restore_records(mor_context *context, const mor_soil_powers *job)
 {
     MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
         double *record = job->records + i * MOR_RECORD_SIZE;
         memcpy(record + MOR_RECORD_VELOCITY, job->velocity + 3 * i, 3 * sizeof *record);
-        memcpy(record + MOR_RECORD_STRESS, job->stress + 6 * i, 6 * sizeof *record);
     }
+    restore_stress(context, job);
 }
 
 /* Whether samples are at the longest interval, and this is one of three of four that reuse the last power of the
@@ -242,12 +245,13 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
         audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_HOURGLASS, find_hourglass_block);
     }
     if (soil->constants.has_spin) {
-        const double corrected = soil->energy->fresh[MOR_SOIL_ENERGY_CORRECTION];
-        soil->energy->fresh[MOR_SOIL_ENERGY_CORRECTION] = 0.0;
         one = none;
         one.has_spin = true;
-        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_CORRECTION, find_spin_block);
-        soil->energy->fresh[MOR_SOIL_ENERGY_CORRECTION] += corrected;
+        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_CORRECTION, find_correction_block);
+    }
+    if (mor_soil_corrects_gradient(soil)) {
+        restore_stress(context, job);
+        audit_switch(context, job, &arrays, &none, MOR_SOIL_ENERGY_CORRECTION, find_correction_block);
     }
     restore_records(context, job);
 }

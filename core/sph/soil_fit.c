@@ -81,11 +81,9 @@ static double fade(double value, double from, double to)
 static void invert_moment(const double *m, int dimension, double *inverse)
 {
     const double mean = dimension == 3 ? mor_symmetric_trace(m) / 3.0 : 0.5 * (m[MOR_XX] + m[MOR_YY]);
-    const double zz = dimension == 3 ? m[MOR_ZZ] : 1.0;
-    const double c[6] = {m[MOR_YY] * zz - m[MOR_YZ] * m[MOR_YZ],        m[MOR_XX] * zz - m[MOR_ZX] * m[MOR_ZX],
-                         m[MOR_XX] * m[MOR_YY] - m[MOR_XY] * m[MOR_XY], m[MOR_ZX] * m[MOR_YZ] - m[MOR_XY] * zz,
-                         m[MOR_XY] * m[MOR_ZX] - m[MOR_XX] * m[MOR_YZ], m[MOR_XY] * m[MOR_YZ] - m[MOR_YY] * m[MOR_ZX]};
-    const double determinant = m[MOR_XX] * c[MOR_XX] + m[MOR_XY] * c[MOR_XY] + m[MOR_ZX] * c[MOR_ZX];
+    const double solid[6] = {m[MOR_XX], m[MOR_YY], dimension == 3 ? m[MOR_ZZ] : 1.0, m[MOR_XY], m[MOR_YZ], m[MOR_ZX]};
+    double c[6];
+    const double determinant = mor_symmetric_cofactors(solid, c);
     const double cube = dimension == 3 ? mean * mean * mean : mean * mean;
     const double share = mean > SPARSE ? fade(mean, SPARSE, FEW) * fade(determinant / cube, FLAT, THIN) : 0.0;
     for (int a = 0; a < 6; ++a) {

@@ -125,7 +125,7 @@ static void find_rest_gradient(const mor_soil_kind *kind, double gravity, const 
 static void set_diffusion(mor_soil *soil, const mor_step *step, double *diffusion)
 {
     const bool is_due = mor_soil_diffuses(soil, step);
-    soil->constants.diffusion_factor = soil->constants.has_transient ? (is_due ? 2.0 : 0.0) : 1.0;
+    soil->constants.diffusion_factor = mor_soil_spares_diffusion(soil) ? (is_due ? 2.0 : 0.0) : 1.0;
     if (!is_due && diffusion != NULL) {
         memset(diffusion, 0, (size_t)(6 * soil->set.n_particles) * sizeof *diffusion);
     }

@@ -25,10 +25,8 @@ static void find_spin_stress(const double *m, const double *s, const double *lef
                                 s[MOR_XX] * m[MOR_ZX] - s[MOR_XY] * m[MOR_YZ] - s[MOR_ZX] * m[MOR_ZZ],
                             left[2] + m[MOR_XY] * s[MOR_XX] + m[MOR_YY] * s[MOR_XY] + m[MOR_YZ] * s[MOR_ZX] -
                                 s[MOR_XY] * m[MOR_XX] - s[MOR_YY] * m[MOR_XY] - s[MOR_YZ] * m[MOR_ZX]};
-    const double c[6] = {t[MOR_YY] * t[MOR_ZZ] - t[MOR_YZ] * t[MOR_YZ], t[MOR_XX] * t[MOR_ZZ] - t[MOR_ZX] * t[MOR_ZX],
-                         t[MOR_XX] * t[MOR_YY] - t[MOR_XY] * t[MOR_XY], t[MOR_ZX] * t[MOR_YZ] - t[MOR_XY] * t[MOR_ZZ],
-                         t[MOR_XY] * t[MOR_ZX] - t[MOR_XX] * t[MOR_YZ], t[MOR_XY] * t[MOR_YZ] - t[MOR_YY] * t[MOR_ZX]};
-    const double determinant = t[MOR_XX] * c[MOR_XX] + t[MOR_XY] * c[MOR_XY] + t[MOR_ZX] * c[MOR_ZX];
+    double c[6];
+    const double determinant = mor_symmetric_cofactors(t, c);
     spin[0] = spin[1] = spin[2] = 0.0;
     if (determinant > 0.0) {
         mor_symmetric_apply(c, side, spin);

@@ -123,6 +123,12 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
     const double reach = MOR_KERNEL_SUPPORT * constants->smoothing_length;
     assert_int_equal(mor_soil_contact_build(context, &f->wall, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &f->wall, table, constants, f->soil.records);
+    if (f->wall.normals != NULL) {
+        mor_contact_corner corners[ASSEMBLY_MAX] = {{.n_faces = 0}};
+        mor_soil_contact_project(context, &f->wall, f->soil.n, corners);
+        mor_soil_contact_solve_corners(context, f->soil.n, corners);
+        mor_soil_contact_close_corners(context, &f->wall, f->soil.n, corners);
+    }
     mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation);
     const mor_contact_soil seen = floor_soil(f, dissipation);
     mor_soil_contact_sum_forces(context, &f->wall, &seen, f->acceleration);

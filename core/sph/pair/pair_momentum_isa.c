@@ -243,7 +243,8 @@ INLINE void add_extra(momentum_part *part, const geometry *geometries, const int
         }
         if (form.several) {
             const double there = c->soils[(int)of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
-            const vec mean = 2.0 * itself * there / (itself + there);
+            const vec sum = itself + there;
+            const vec mean = select_lanes(sum > 0.0, 2.0 * itself * there / sum, broadcast(0.0));
             m *= mean;
             for (int a = 0; a < 3; ++a) {
                 kr[a] *= mean;

@@ -179,29 +179,11 @@ static mor_status check_barrier(const mor_case_reader *reader, const mor_case_no
                               c->numerics.barrier_radius, support);
 }
 
-/* The number by which kernel gradients are divided is that of the lattice. */
-static mor_status check_normalization(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
-{
-    for (int k = 0; k < c->n_soils && c->numerics.lattice_normalization; ++k) {
-        if (c->soils[k].is_relaxed) {
-            const mor_case_node *node =
-                mor_case_node_find(mor_case_node_find(root, "numerics"), "lattice_normalization");
-            return MOR_CASE_NODE_FAIL(reader->context, node,
-                                      "found numerics.lattice_normalization with soil '%s' of relaxed particles, which "
-                                      "have no lattice; allowed is one of them; remove the normalization or choose "
-                                      "particles = \"lattice\"",
-                                      c->soils[k].name);
-        }
-    }
-    return MOR_OK;
-}
-
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)
 {
     MOR_TRY(reader->context, check_ramp(reader, root, the_case));
     MOR_TRY(reader->context, check_series(reader, root, the_case));
     MOR_TRY(reader->context, check_barrier(reader, root, the_case));
-    MOR_TRY(reader->context, check_normalization(reader, root, the_case));
     warn_of_idle_settings(reader, root, the_case);
     return MOR_OK;
 }

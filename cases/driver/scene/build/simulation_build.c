@@ -318,7 +318,7 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation)
     MOR_TRY(context, add_walls(context, simulation));
     MOR_TRY(context, place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil)));
     mor_soil_sort(&simulation->soil);
-    return MOR_OK;
+    return mor_simulation_has_relaxed_soil(c) ? mor_soil_normalize(context, &simulation->soil) : MOR_OK;
 }
 
 static mor_status build_schedule(mor_context *context, mor_simulation *simulation)
