@@ -117,6 +117,15 @@ static bool is_stopping(const mor_settle_observer *observer)
     return observer != NULL && observer->stop != NULL && *observer->stop != 0;
 }
 
+/* A stop is no change of motion by forces: what tells these from the change over a step must not see it. */
+static void forget_motion(mor_body *body)
+{
+    for (int a = 0; a < 3; ++a) {
+        body->begin_velocity[a] -= body->velocity[a];
+        body->begin_angular_velocity[a] -= body->angular_velocity[a];
+    }
+}
+
 /* Stops all soil and bodies where they are. */
 static mor_status stop_motion(mor_context *context, mor_simulation *simulation, const mor_simulation_settling *settling)
 {
@@ -128,6 +137,11 @@ static mor_status stop_motion(mor_context *context, mor_simulation *simulation, 
         memset(soil->set.data[MOR_FIELD_STRAIN_RATE], 0, 6 * n * sizeof(double));
     }
     soil->largest_speed = 0.0;
+    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
+        for (int b = 0; b < simulation->bodies.groups[g]->n_bodies; ++b) {
+            forget_motion(&simulation->bodies.groups[g]->bodies[b]);
+        }
+    }
     return mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case, settling);
 }
 
