@@ -10,10 +10,14 @@
  *  core/scheme/scheme.def and one member here, with the same name; a case reads them into this record, and whoever
  *  carries out the scheme gets the whole of it. */
 
+/** The schemes, in the order of the words of the setting `scheme`. */
+typedef enum mor_scheme_kind { MOR_SCHEME_MORAINE, MOR_SCHEME_ZHANG2024 } mor_scheme_kind;
+
 /** All settings. Plain data in SI; meaning, unit, range and default of each: its row in scheme.def. A choice is the
  *  index of its word. */
 typedef struct mor_scheme {
-#define MOR_SETTING(type, storage, key, kind, unit, fallback, words, needs, computed, unit_plane, text, ...) type key;
+#define MOR_SETTING(type, storage, key, kind, unit, fallback, paper, words, needs, computed, unit_plane, text, ...)    \
+    type key;
 #include "core/scheme/scheme.def"
 #undef MOR_SETTING
 } mor_scheme;

@@ -329,7 +329,7 @@ static mor_status store_default(const mor_case_reader *reader, const mor_case_ke
         return MOR_OK;
     }
     for (int k = 0; k < schema.n_components; ++k) {
-        values[k] = schema.default_value;
+        values[k] = mor_case_key_default(key, reader->scheme);
     }
     if (!key->keeps_scale) {
         MOR_TRY(reader->context, mor_case_reader_scale(reader, schema.unit, values, schema.n_components, 1));

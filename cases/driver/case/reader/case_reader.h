@@ -18,6 +18,7 @@ typedef struct mor_case_reader {
     const mor_registry *registry;
     mor_case_probe_catalog probe_types; /* NULL: there are none */
     int dimension;                      /* 2 or 3 */
+    int scheme;                         /* index of the word of numerics.scheme */
     double spacing;                     /* m; 0 before it is read */
     mor_bounds domain;                  /* m; empty before it is read */
     double spread;                      /* largest over smallest size of what a shape is used for, 1; 0: of one size */

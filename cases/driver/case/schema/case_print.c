@@ -70,16 +70,35 @@ static void describe_range(const mor_schema *schema, char *text, size_t text_byt
     }
 }
 
-static void print_row(FILE *stream, const mor_schema *schema, const char *unit_plane, const char *computed)
+/* Adds the default of the other scheme where it is another one. */
+static void describe_other_default(const mor_case_key *key, char *text, size_t text_bytes)
 {
-    char fallback[CELL_BYTES];
+    if (key->computed != NULL || mor_case_key_default(key, MOR_SCHEME_ZHANG2024) == key->schema.default_value) {
+        return;
+    }
+    char other[CELL_BYTES];
+    mor_schema schema = key->schema;
+    schema.default_value = mor_case_key_default(key, MOR_SCHEME_ZHANG2024);
+    describe_default(&schema, NULL, other, sizeof other);
+    const size_t used = strlen(text);
+    snprintf(text + used, text_bytes - used, "; zhang2024: %s", other);
+}
+
+static void print_row(FILE *stream, const mor_schema *schema, const char *unit_plane, const char *fallback)
+{
     char range[CELL_BYTES];
-    describe_default(schema, computed, fallback, sizeof fallback);
     describe_range(schema, range, sizeof range);
     const bool has_unit = schema->kind != MOR_SCHEMA_TEXT && strcmp(schema->unit, "1") != 0;
     fprintf(stream, "| `%s` | %s | %s%s%s%s | %s | %s | %s |\n", schema->key, name_kind(schema),
             has_unit ? schema->unit : "", unit_plane == NULL ? "" : " (", unit_plane == NULL ? "" : unit_plane,
             unit_plane == NULL ? "" : ")", fallback, range, schema->text);
+}
+
+static void print_parameter(FILE *stream, const mor_schema *schema)
+{
+    char fallback[CELL_BYTES];
+    describe_default(schema, NULL, fallback, sizeof fallback);
+    print_row(stream, schema, NULL, fallback);
 }
 
 static void print_heading(FILE *stream, int level, const char *title, const char *name)
@@ -98,7 +117,12 @@ static void print_group(FILE *stream, int level, const mor_case_group *group, co
         fprintf(stream, "| `type` | word |  | **required** | %s | type of the shape |\n", extra);
     }
     for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
-        print_row(stream, &key->schema, key->unit_plane, key->computed);
+        char fallback[CELL_BYTES];
+        describe_default(&key->schema, key->computed, fallback, sizeof fallback);
+        if (key->has_schemes) {
+            describe_other_default(key, fallback, sizeof fallback);
+        }
+        print_row(stream, &key->schema, key->unit_plane, fallback);
     }
     for (const mor_case_part *part = group->parts; part != NULL && part->name != NULL; ++part) {
         fprintf(stream, "| `%s` | %s |  | %s |  | %s |\n", part->name, part->form,
@@ -143,7 +167,7 @@ static void print_interfaces(const mor_registry *registry, FILE *stream)
     for (int k = 0; (interface = mor_registry_interface(registry, k)) != NULL; ++k) {
         print_heading(stream, 3, interface->text, interface->name);
         for (const mor_schema *entry = interface->parameters; entry->key != NULL; ++entry) {
-            print_row(stream, entry, NULL, NULL);
+            print_parameter(stream, entry);
         }
     }
 }
@@ -155,7 +179,7 @@ static void print_models(const mor_registry *registry, FILE *stream)
         const mor_material *model = mor_registry_get(registry, k);
         print_heading(stream, 3, model->text, model->name);
         for (const mor_schema *entry = model->parameters; entry->key != NULL; ++entry) {
-            print_row(stream, entry, NULL, NULL);
+            print_parameter(stream, entry);
         }
     }
 }

@@ -125,12 +125,14 @@ static const mor_case_key scale_keys[] = {
 #define SUM MOR_CASE_NEEDS_SUM
 #define ANGULAR MOR_CASE_NEEDS_ANGULAR
 #define DAMPING MOR_CASE_NEEDS_DAMPING
-#define MOR_SETTING(type, storage, key, kind, unit, fallback, words, need, computed_default, plane, text, ...)         \
+#define MOR_SETTING(type, storage, key, kind, unit, fallback, paper, words, need, computed_default, plane, text, ...)  \
     {{#key, MOR_SCHEMA_##kind, 1, unit, DEFAULT(fallback), __VA_ARGS__, words, text},                                  \
      MOR_CASE_STORE_##storage,                                                                                         \
      AT(mor_case, numerics.key),                                                                                       \
      .computed = (computed_default),                                                                                   \
      .unit_plane = (plane),                                                                                            \
+     .has_schemes = true,                                                                                              \
+     .zhang2024 = (paper),                                                                                             \
      .needs = (need)},
 static const mor_case_key numerics_keys[] = {
 #include "core/scheme/scheme.def"
@@ -427,6 +429,11 @@ const mor_case_group mor_case_shape_groups[MOR_CASE_SHAPE_COUNT] = {
 };
 
 /* ---- Look-up ----------------------------------------------------------------------------------------------------- */
+
+double mor_case_key_default(const mor_case_key *key, int scheme)
+{
+    return key->has_schemes && scheme == MOR_SCHEME_ZHANG2024 ? key->zhang2024 : key->schema.default_value;
+}
 
 mor_schema mor_case_key_schema(const mor_case_key *key, int dimension)
 {

@@ -60,6 +60,8 @@ typedef struct mor_case_key {
     bool keeps_scale;       /* not simulated time, so that the scale of the case does not touch it */
     bool shares_member;     /* another key fills the same member: left alone when this one is not written */
     const char *former;     /* name in earlier versions, which works with a warning; NULL: none */
+    bool has_schemes;       /* the default depends on numerics.scheme: default_value, or zhang2024 */
+    double zhang2024;       /* default with scheme = "zhang2024" */
     const char *unit_plane; /* in plane strain, per meter of thickness; NULL: the same as in space */
     unsigned needs;         /* MOR_CASE_NEEDS_ bits without which it has no effect */
 } mor_case_key;
@@ -202,6 +204,10 @@ double mor_case_start_speed(const mor_case *the_case);
  *  @param body     [in]  of the case
  *  Returns: unit Pa; > 0. */
 double mor_case_contact_modulus(const mor_case *the_case, const mor_case_body *body);
+
+/** Returns the default of a key that is no text, unit: of its schema.
+ *  @param scheme [in]  index of a word of numerics.scheme */
+double mor_case_key_default(const mor_case_key *key, int scheme);
 
 /** Schema of a key with the unit it has in this dimension.
  *  @param dimension [in]  2 or 3 */

@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
+#include "core/material/params.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -73,6 +74,16 @@ static int peek_dimension(const mor_case_node *root)
 {
     const mor_case_node *node = mor_case_node_find(root, "dimension");
     return node != NULL && node->kind == MOR_CASE_NODE_INTEGER && node->integer == 2 ? 2 : 3;
+}
+
+/* Settings have the values of the scheme where they are not given; a wrong word is reported when the key is read. */
+static int peek_scheme(const mor_case_node *root)
+{
+    const mor_case_key *key = find_settings("numerics")->keys;
+    const mor_case_node *node = mor_case_node_find(mor_case_node_find(root, "numerics"), key->schema.key);
+    const int word =
+        node != NULL && node->kind == MOR_CASE_NODE_TEXT ? mor_params_choice(key->schema.choices, node->text) : -1;
+    return word < 0 ? (int)key->schema.default_value : word;
 }
 
 static mor_status check_domain(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)
@@ -161,6 +172,7 @@ static void complete_settings(mor_case *the_case)
 static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)
 {
     reader->dimension = peek_dimension(root);
+    reader->scheme = peek_scheme(root);
     snprintf(the_case->path, sizeof the_case->path, "%s", root->origin);
     MOR_TRY(reader->context, mor_case_reader_names(reader, root, &mor_case_root_group, NULL, NULL));
     MOR_TRY(reader->context, mor_case_reader_plugins(reader, root, the_case));

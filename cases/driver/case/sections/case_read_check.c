@@ -68,15 +68,16 @@ static bool is_default(const mor_case_reader *reader, const mor_case *c, const m
     const char *member = (const char *)record + key->offset;
     int whole = 0;
     double values[VALUES_MAX];
+    const double fallback = mor_case_key_default(key, c->numerics.scheme);
     if (key->storage == MOR_CASE_STORE_BOOL) {
-        return *(const bool *)member == (key->schema.default_value == 1.0);
+        return *(const bool *)member == (fallback == 1.0);
     }
     if (key->storage != MOR_CASE_STORE_REALS) {
         memcpy(&whole, member, sizeof whole);
-        return whole == (int)key->schema.default_value;
+        return whole == (int)fallback;
     }
     for (int k = 0; k < key->schema.n_components; ++k) {
-        values[k] = key->schema.default_value;
+        values[k] = fallback;
     }
     if (key->is_direction) { /* an axis: (0, 0, 1) */
         memcpy(values, (double[]){0.0, 0.0, 1.0}, 3 * sizeof *values);
