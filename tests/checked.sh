@@ -2,7 +2,7 @@
 # Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
 # SPDX-License-Identifier: Apache-2.0
 #
-# checked.sh MORAINE CHECKED: a few dozen steps of four cases in the checked program, which stops at the first stage or
+# checked.sh MORAINE CHECKED: a few dozen steps of five cases in the checked program, which stops at the first stage or
 # material that does not keep to what it declares. The state at the end is that of moraine, bit for bit.
 set -eu
 [ $# = 2 ] || { echo "usage: checked.sh MORAINE CHECKED, the two programs" >&2; exit 2; }
@@ -37,5 +37,8 @@ compare() { # compare NAME ARGUMENT...
 
 compare "soil in plane strain" cases/column-2d/case.cfg --set 'spacing=8 mm' --set 'end=0.02 s'
 compare "several soils" cases/layered-slope/case.cfg --set 'spacing=0.3 m' --set 'end=0.1 s'
+compare "options for soil at rest" cases/layered-slope/case.cfg --set 'spacing=0.3 m' --set 'end=0.1 s' \
+    --set numerics.soil_hourglass=0.25 --set numerics.stress_diffusion_limiter=transient \
+    --set numerics.wall_normals=geometry --set numerics.velocity_gradient=fit --set numerics.angular_momentum=true
 compare "soil, walls and elastic bodies" cases/srm-slope/case.cfg --set 'end=2 ms'
 compare "soil, walls and rigid rocks" cases/blocks/case.cfg --set 'end=1 ms'

@@ -38,14 +38,14 @@ static bool has_last_spin(const void *owner)
     return has_angular_momentum(owner) && !has_present_spin(owner);
 }
 
-static bool has_correction(const void *owner)
-{
-    return ((const mor_soil *)owner)->settings.scheme.gradient_correction;
-}
-
 static bool has_fit(const void *owner)
 {
     return ((const mor_soil *)owner)->continued != NULL;
+}
+
+static bool has_correction(const void *owner)
+{
+    return ((const mor_soil *)owner)->settings.scheme.gradient_correction && !has_fit(owner);
 }
 
 static bool has_strain_rate(const void *owner)
@@ -90,9 +90,9 @@ static const mor_stage soil_stages[] = {
      BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on", has_artificial_stress},
-    {"present skew stress", mor_soil_find_present_spin, SHARED(LISTS) | BIT(HOURGLASS_MOMENT),
-     SHARED(CLOSED) | BIT(SPIN_STRESS), SHARED(RECORDS),
-     "with which the forces of the soil have no moment, found in this step, when switched on", has_present_spin},
+    {"present skew stress", mor_soil_find_present_spin, SHARED(LISTS) | BIT(HOURGLASS_MOMENT), BIT(SPIN_STRESS),
+     SHARED(RECORDS), "with which the forces of the soil have no moment, found in this step, when switched on",
+     has_present_spin},
     {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS) | BIT(HOURGLASS_MOMENT), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
@@ -165,6 +165,7 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
     visit(job, MOR_RESOURCE_LISTS, soil->of_soil, n * MOR_PAIR_OF_SOIL_SIZE);
     visit(job, MOR_RESOURCE_MOMENTS, soil->moments, 6 * n);
     visit(job, MOR_RESOURCE_CLOSED, soil->closed, 6 * n);
+    visit(job, MOR_RESOURCE_CLOSED, soil->continued, 6 * n);
     visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
 }
 
@@ -304,7 +305,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (has_last_spin(soil) || s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
-    if (s->scheme.gradient_correction || s->scheme.velocity_gradient == 1 || has_present_spin(soil)) {
+    if (mor_soil_corrects_gradient(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->closed, padded * 6, "closed kernel-gradient moments"));
     }
     if (has_angular_momentum(soil) || has_hourglass(soil) || has_mean_stress(soil)) {

@@ -9,8 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { GRAIN = 16 };
-
 /* SPARSE: mean of the moment below which neighbors are too few for a fit; FEW: from where on it is taken as it is.
  * FLAT, THIN: determinant of the moment over the cube (square) of its mean, likewise. */
 #define SPARSE 0.1
@@ -28,49 +26,6 @@ typedef struct fit {
     double volume_factor; /* kernel's own moment over that of the gradients, 1 */
 } fit;
 
-/* Adds what one slot of a boundary closes of the moments. Across it velocities are mirrored; so they are along it where
- * the soil sticks. Where it slips, they continue along the boundary as in the soil. */
-static void add_slot_moments(const mor_soil *soil, const mor_soil_contact *contact, int64_t slot)
-{
-    const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
-    const int64_t n = soil->set.n_particles;
-    const int dimension = soil->settings.dimension;
-    for (int64_t lane = 0; lane < MOR_CLUSTER && first + lane < n; ++lane) {
-        const double *sums = contact->sums + (slot * MOR_CLUSTER + lane) * MOR_KERNEL_SUMS;
-        const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
-        const double length2 = mor_vector_dot(gradient, gradient);
-        double applied[3];
-        if (!(length2 > 0.0)) {
-            continue;
-        }
-        mor_symmetric_apply(sums + MOR_KERNEL_SUM_MOMENT, gradient, applied);
-        const double across = mor_vector_dot(applied, gradient) / length2;
-        const double along = (mor_symmetric_trace(sums + MOR_KERNEL_SUM_MOMENT) - across) / (dimension - 1);
-        const double stick = contact->stick[slot * MOR_CLUSTER + lane];
-        double *moment = soil->closed + 6 * (first + lane);
-        double *continued = soil->continued + 6 * (first + lane);
-        for (int a = 0; a < 6; ++a) {
-            const double square = gradient[a % 3] * gradient[a < 3 ? a : (a - 2) % 3] / length2;
-            const double flat = along * ((a < dimension ? 1.0 : 0.0) - square);
-            moment[a] += across * square + stick * flat;
-            continued[a] += (1.0 - stick) * flat;
-        }
-    }
-}
-
-static void add_wall_moments(mor_context *context, mor_soil *soil, mor_view *view)
-{
-    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        const mor_soil_contact *contact =
-            mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
-        MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
-            for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
-                add_slot_moments(soil, contact, slot);
-            }
-        }
-    }
-}
-
 /* Rises from 0 to 1 between two values. */
 static double fade(double value, double from, double to)
 {
@@ -81,9 +36,8 @@ static double fade(double value, double from, double to)
 static void invert_moment(const double *m, int dimension, double *inverse)
 {
     const double mean = dimension == 3 ? mor_symmetric_trace(m) / 3.0 : 0.5 * (m[MOR_XX] + m[MOR_YY]);
-    const double solid[6] = {m[MOR_XX], m[MOR_YY], dimension == 3 ? m[MOR_ZZ] : 1.0, m[MOR_XY], m[MOR_YZ], m[MOR_ZX]};
     double c[6];
-    const double determinant = mor_symmetric_cofactors(solid, c);
+    const double determinant = mor_soil_moment_cofactors(m, dimension, c);
     const double cube = dimension == 3 ? mean * mean * mean : mean * mean;
     const double share = mean > SPARSE ? fade(mean, SPARSE, FEW) * fade(determinant / cube, FLAT, THIN) : 0.0;
     for (int a = 0; a < 6; ++a) {
@@ -130,10 +84,17 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
                      .volume_factor = soil->settings.scheme.lattice_normalization ? soil->lattice_moment : 1.0};
     const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
     double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
+    double *continued = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->continued);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
-    memcpy(closed, moments, (size_t)(6 * n) * sizeof *closed);
-    memset(soil->continued, 0, (size_t)(6 * n) * sizeof *soil->continued);
-    add_wall_moments(context, soil, view);
+    MOR_PARALLEL_FOR (context, k, 6 * n, MOR_BLOCK) {
+        closed[k] = moments[k];
+        continued[k] = 0.0;
+    }
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        const mor_soil_contact *contact =
+            mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
+        mor_soil_contact_add_moments(context, contact, n, closed, continued);
+    }
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {
         fit_particle(&job, i);
     }

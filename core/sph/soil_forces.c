@@ -29,7 +29,7 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
 static void use_normals(mor_context *context, mor_soil *soil)
 {
     const int64_t n = soil->set.n_particles;
-    for (int64_t i = 0; i < n && soil->corners != NULL; ++i) {
+    MOR_PARALLEL_FOR (context, i, soil->corners != NULL ? n : 0, MOR_BLOCK) {
         soil->corners[i].n_faces = 0;
     }
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
@@ -122,12 +122,12 @@ static void find_rest_gradient(const mor_soil_kind *kind, double gravity, const 
 }
 
 /* Transient stress diffuses in every other step, twice as fast: it follows changes over several steps. */
-static void set_diffusion(mor_soil *soil, const mor_step *step, double *diffusion)
+static void set_diffusion(mor_context *context, mor_soil *soil, const mor_step *step, double *diffusion)
 {
     const bool is_due = mor_soil_diffuses(soil, step);
     soil->constants.diffusion_factor = mor_soil_spares_diffusion(soil) ? (is_due ? 2.0 : 0.0) : 1.0;
-    if (!is_due && diffusion != NULL) {
-        memset(diffusion, 0, (size_t)(6 * soil->set.n_particles) * sizeof *diffusion);
+    MOR_PARALLEL_FOR (context, k, !is_due && diffusion != NULL ? 6 * soil->set.n_particles : 0, MOR_BLOCK) {
+        diffusion[k] = 0.0;
     }
 }
 
@@ -148,7 +148,7 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
     arrays.hourglass_moment = mor_view_write(view, MOR_FIELD_HOURGLASS_MOMENT);
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
-    set_diffusion(soil, step, arrays.stress_diffusion);
+    set_diffusion(context, soil, step, arrays.stress_diffusion);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
     return MOR_OK;
 }

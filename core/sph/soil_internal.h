@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_SPH_SOIL_INTERNAL_H
 #define MOR_CORE_SPH_SOIL_INTERNAL_H
 
+#include "core/base/math.h"
 #include "core/sph/soil.h"
 
 /** @file
@@ -64,14 +65,28 @@ static inline bool mor_soil_diffuses(const mor_soil *soil, const mor_step *step)
     return !mor_soil_spares_diffusion(soil) || step->number % 2 == 0;
 }
 
-/** Takes the kernel sums over the soil of one particle, shape [MOR_KERNEL_SUMS], units of the enum. */
-typedef void (*mor_soil_kernel_use)(mor_soil *soil, int64_t i, const double *sums);
+/** Takes the kernel sums over the soil of particle i, shape [MOR_KERNEL_SUMS], units of the enum. */
+typedef void (*mor_soil_kernel_use)(void *job, int64_t i, const double *sums);
 
 /** Sums kernel values over the soil, particle by particle.
  *  @param records [in]  shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
- *  @param use     [in]  called once for each particle, by any thread */
+ *  @param use     [in]  called once for each particle, by any thread
+ *  @param job     [in]  its first argument */
 void mor_soil_sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, const double *records,
-                          mor_soil_kernel_use use);
+                          mor_soil_kernel_use use, void *job);
+
+/** Cofactors of a moment of the kernel gradient, whose out-of-plane entry counts as one in plane strain; the inverse is
+ *  that over the determinant.
+ *  @param moment    [in]   shape [6], unit 1
+ *  @param dimension [in]   2 or 3
+ *  @param cofactors [out]  shape [6], unit 1
+ *  Returns: the determinant, 1. */
+static inline double mor_soil_moment_cofactors(const double *moment, int dimension, double *cofactors)
+{
+    const double solid[6] = {moment[MOR_XX], moment[MOR_YY], dimension == 3 ? moment[MOR_ZZ] : 1.0,
+                             moment[MOR_XY], moment[MOR_YZ], moment[MOR_ZX]};
+    return mor_symmetric_cofactors(solid, cofactors);
+}
 
 /** Whether the velocity gradient is another than the sum whose counterpart the forces are. */
 static inline bool mor_soil_corrects_gradient(const mor_soil *soil)

@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Stages a case may switch on: density by summation, kernel-gradient correction, XSPH and shifting. */
+/* Stages a case may switch on: density by summation, kernel-gradient correction, strain rates for reconstruction, XSPH
+ * and shifting; and the kernel sums of the first two. */
 #include "core/sph/soil_internal.h"
 
 #include "core/base/eigen.h"
@@ -20,7 +21,7 @@ enum { CLUSTERS = 16 };
 #define HALF 0.6
 
 void mor_soil_sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, const double *records,
-                          mor_soil_kernel_use use)
+                          mor_soil_kernel_use use, void *job)
 {
     const int64_t n_particles = soil->set.n_particles;
     const int64_t n = soil->tree.n_clusters;
@@ -30,10 +31,10 @@ void mor_soil_sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, 
         double sums[CLUSTERS * MOR_CLUSTER * MOR_KERNEL_SUMS];
         const int64_t first = chunk * CLUSTERS;
         const int64_t last = first + CLUSTERS < n ? first + CLUSTERS : n;
-        const mor_pair_kernel_job job = {records, records, MOR_RECORD_SIZE, inner, sums, NULL};
-        soil->table->kernel(&soil->constants, &job, first, last);
+        const mor_pair_kernel_job sum = {records, records, MOR_RECORD_SIZE, inner, sums, NULL};
+        soil->table->kernel(&soil->constants, &sum, first, last);
         for (int64_t i = first * MOR_CLUSTER; i < last * MOR_CLUSTER && i < n_particles; ++i) {
-            use(soil, i, sums + (i - first * MOR_CLUSTER) * MOR_KERNEL_SUMS);
+            use(job, i, sums + (i - first * MOR_CLUSTER) * MOR_KERNEL_SUMS);
         }
     }
 }
@@ -61,9 +62,9 @@ static void add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view, 
     }
 }
 
-static void keep_density(mor_soil *soil, int64_t i, const double *sums)
+static void keep_density(void *job, int64_t i, const double *sums)
 {
-    soil->density_sums[i] = sums[MOR_KERNEL_SUM_VALUE];
+    ((double *)job)[i] = sums[MOR_KERNEL_SUM_VALUE];
 }
 
 bool mor_soil_has_density_sums(const void *owner)
@@ -90,7 +91,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
         const double divisor = soil->of_soil != NULL ? mor_soil_kind_of(soil, i)->reference_density : 1.0;
         records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i] / divisor;
     }
-    mor_soil_sum_kernels(context, soil, view, records, keep_density);
+    mor_soil_sum_kernels(context, soil, view, records, keep_density, soil->density_sums);
     for (int64_t i = 0; i < n && soil->of_soil != NULL; ++i) {
         sum[i] *= mor_soil_kind_of(soil, i)->reference_density;
     }
@@ -108,46 +109,25 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
     return MOR_OK;
 }
 
-static void keep_moments(mor_soil *soil, int64_t i, const double *sums)
+static void keep_moments(void *job, int64_t i, const double *sums)
 {
-    memcpy(soil->closed + 6 * i, sums + MOR_KERNEL_SUM_MOMENT, 6 * sizeof *sums);
-}
-
-/* Inverse of a symmetric matrix, [3,3] out; false when it is close to singular. In plane strain the out-of-plane
- * entry is set to one first. */
-static bool invert_moments(const double *m, int dimension, double *inverse)
-{
-    const double zz = dimension == 3 ? m[MOR_ZZ] : 1.0;
-    const double cxx = m[MOR_YY] * zz - m[MOR_YZ] * m[MOR_YZ];
-    const double cxy = m[MOR_ZX] * m[MOR_YZ] - m[MOR_XY] * zz;
-    const double czx = m[MOR_XY] * m[MOR_YZ] - m[MOR_YY] * m[MOR_ZX];
-    const double determinant = m[MOR_XX] * cxx + m[MOR_XY] * cxy + m[MOR_ZX] * czx;
-    if (!(determinant > SMALLEST_DETERMINANT)) {
-        return false;
-    }
-    const double d = 1.0 / determinant;
-    inverse[0] = d * cxx;
-    inverse[1] = inverse[3] = d * cxy;
-    inverse[2] = inverse[6] = d * czx;
-    inverse[4] = d * (m[MOR_XX] * zz - m[MOR_ZX] * m[MOR_ZX]);
-    inverse[5] = inverse[7] = d * (m[MOR_XY] * m[MOR_ZX] - m[MOR_XX] * m[MOR_YZ]);
-    inverse[8] = d * (m[MOR_XX] * m[MOR_YY] - m[MOR_XY] * m[MOR_XY]);
-    return true;
+    memcpy((double *)job + 6 * i, sums + MOR_KERNEL_SUM_MOMENT, 6 * sizeof *sums);
 }
 
 /* Hu et al. (2021), the correction matrix before their eq. 8, applied to the finished sums. */
 static void correct_particle(const mor_soil *soil, double density, int64_t i, double *gradient, double *density_rate)
 {
-    double inverse[9];
-    if (!invert_moments(soil->closed + 6 * i, soil->settings.dimension, inverse)) {
+    double inverse[6];
+    double corrected[9];
+    const double determinant = mor_soil_moment_cofactors(soil->closed + 6 * i, soil->settings.dimension, inverse);
+    if (!(determinant > SMALLEST_DETERMINANT)) {
         return;
     }
-    double corrected[9];
+    for (int a = 0; a < 6; ++a) {
+        inverse[a] /= determinant;
+    }
     for (int a = 0; a < 3; ++a) {
-        for (int b = 0; b < 3; ++b) {
-            corrected[3 * a + b] = gradient[3 * a] * inverse[b] + gradient[3 * a + 1] * inverse[3 + b] +
-                                   gradient[3 * a + 2] * inverse[6 + b];
-        }
+        mor_symmetric_apply(inverse, gradient + 3 * a, corrected + 3 * a);
     }
     const double change = corrected[0] + corrected[4] + corrected[8] - gradient[0] - gradient[4] - gradient[8];
     *density_rate -= density * change;
@@ -163,7 +143,7 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
     double *rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
     mor_soil_sum_kernels(context, soil, view, mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
-                         keep_moments);
+                         keep_moments, closed);
     add_wall_sums(context, soil, view, MOR_KERNEL_SUM_MOMENT, 6, NULL, closed);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         correct_particle(soil, density[i], i, gradient + 9 * i, rate + i);

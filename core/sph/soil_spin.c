@@ -36,10 +36,20 @@ static void find_spin_stress(const double *m, const double *s, const double *lef
     }
 }
 
-/* Moments of this step, by a loop of their own. */
-static void keep_moments(mor_soil *soil, int64_t i, const double *sums)
+/* What the stress of this step is found from, and where it goes. */
+typedef struct present_spin {
+    const double *records, *left;
+    double *spin, *extra;
+} present_spin;
+
+static void use_moments(void *job, int64_t i, const double *sums)
 {
-    memcpy(soil->closed + 6 * i, sums + MOR_KERNEL_SUM_MOMENT, 6 * sizeof *sums);
+    static const double none[3] = {0.0, 0.0, 0.0};
+    const present_spin *it = job;
+    double *spin = it->spin + 3 * i;
+    find_spin_stress(sums + MOR_KERNEL_SUM_MOMENT, it->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS,
+                     it->left != NULL ? it->left + 3 * i : none, spin);
+    memcpy(it->extra + i * MOR_EXTRA_SIZE + MOR_EXTRA_SPIN, spin, 3 * sizeof *spin);
 }
 
 /* What hourglass forces leave in this step is not known yet: that of the last step is taken up. */
@@ -47,17 +57,11 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
 {
     mor_soil *soil = owner;
     (void)step;
-    const double none[3] = {0.0, 0.0, 0.0};
-    double *records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records);
-    const double *moments = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
-    const double *left = mor_view_read(view, MOR_FIELD_HOURGLASS_MOMENT);
-    double *spin = mor_view_write(view, MOR_FIELD_SPIN_STRESS);
-    mor_soil_sum_kernels(context, soil, view, records, keep_moments);
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        find_spin_stress(moments + 6 * i, records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS,
-                         left != NULL ? left + 3 * i : none, spin + 3 * i);
-        memcpy(soil->extra + i * MOR_EXTRA_SIZE + MOR_EXTRA_SPIN, spin + 3 * i, 3 * sizeof *spin);
-    }
+    present_spin job = {.records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                        .left = mor_view_read(view, MOR_FIELD_HOURGLASS_MOMENT),
+                        .spin = mor_view_write(view, MOR_FIELD_SPIN_STRESS),
+                        .extra = soil->extra};
+    mor_soil_sum_kernels(context, soil, view, job.records, use_moments, &job);
     return MOR_OK;
 }
 

@@ -210,6 +210,15 @@ void mor_soil_contact_share_forces(mor_context *context, mor_soil_contact *conta
 void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *contact, const double *records,
                                    int64_t n_particles, double *velocity_gradient, double *density_rate);
 
+/** Adds what the boundary closes of the moments of the kernel gradient. Across it velocities are mirrored; so they are
+ *  along it where the soil sticks. Where it slips, they continue along the boundary as in the soil.
+ *  @param contact     [in]      sums and stick must be current
+ *  @param n_particles [in]      number of soil particles
+ *  @param closed      [in,out]  shape [n_particles, 6], unit 1; what is mirrored is added
+ *  @param continued   [in,out]  shape [n_particles, 6], unit 1; what continues is added */
+void mor_soil_contact_add_moments(mor_context *context, const mor_soil_contact *contact, int64_t n_particles,
+                                  double *closed, double *continued);
+
 /** Switches the barrier of a contact on or off.
  *  @param contact [in,out]  before the first step
  *  @param barrier [in]      copied

@@ -69,6 +69,23 @@ void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *con
     }
 }
 
+/* Splits the moment of a boundary's kernel gradient, seen by one particle, into the parts across it and along it, 1;
+ * false where it sees nothing. */
+static bool split_moment(const double *sums, int dimension, double *across, double *along)
+{
+    const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
+    const double *moment = sums + MOR_KERNEL_SUM_MOMENT;
+    const double length2 = mor_vector_dot(gradient, gradient);
+    double applied[3];
+    if (!(length2 > 0.0)) {
+        return false;
+    }
+    mor_symmetric_apply(moment, gradient, applied);
+    *across = mor_vector_dot(applied, gradient) / length2;
+    *along = (mor_symmetric_trace(moment) - *across) / (dimension - 1);
+    return true;
+}
+
 /* What the wall adds to a divergence when it carries a share of the kernel's moment and the soil the rest. */
 static double continuation(double share)
 {
@@ -82,16 +99,13 @@ static void add_continuation(const mor_soil_contact *contact, mor_wall_friction 
 {
     const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
     const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
-    const double *moment = sums + MOR_KERNEL_SUM_MOMENT;
     const double *divergence = contact->divergence + 6 * lane;
-    const double length2 = mor_vector_dot(gradient, gradient);
-    if (!(length2 > 0.0)) {
+    double across = 0.0;
+    double along = 0.0;
+    if (!split_moment(sums, contact->dimension, &across, &along)) {
         return;
     }
-    double moment_gradient[3];
-    mor_symmetric_apply(moment, gradient, moment_gradient);
-    const double across = mor_vector_dot(moment_gradient, gradient) / length2;
-    const double along = (mor_symmetric_trace(moment) - across) / (contact->dimension - 1);
+    const double length2 = mor_vector_dot(gradient, gradient);
     const double factor_along = continuation(along) / record[MOR_RECORD_DENSITY];
     const double factor_across =
         contact->stress == MOR_WALL_STRESS_LINEAR ? continuation(across) / record[MOR_RECORD_DENSITY] : 0.0;
@@ -293,6 +307,40 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
             add_slot_gradient(contact, slot, records, n_particles, velocity_gradient, density_rate);
+        }
+    }
+}
+
+static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int64_t n_particles, double *closed,
+                             double *continued)
+{
+    const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
+        const int64_t lane = slot * MOR_CLUSTER + k;
+        const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
+        const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
+        const double stick = contact->stick[lane];
+        double across = 0.0;
+        double along = 0.0;
+        if (!split_moment(sums, contact->dimension, &across, &along)) {
+            continue;
+        }
+        const double length2 = mor_vector_dot(gradient, gradient);
+        for (int a = 0; a < 6; ++a) {
+            const double square = gradient[a % 3] * gradient[a < 3 ? a : (a - 2) % 3] / length2;
+            const double flat = along * ((a < contact->dimension ? 1.0 : 0.0) - square);
+            closed[6 * (first + k) + a] += across * square + stick * flat;
+            continued[6 * (first + k) + a] += (1.0 - stick) * flat;
+        }
+    }
+}
+
+void mor_soil_contact_add_moments(mor_context *context, const mor_soil_contact *contact, int64_t n_particles,
+                                  double *closed, double *continued)
+{
+    MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
+        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+            add_slot_moments(contact, slot, n_particles, closed, continued);
         }
     }
 }

@@ -185,10 +185,9 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
         /* Exactly zero out of the plane, where the sum is zero. */
         store(arrays->velocity_gradient + first * 9, 9, a, n_lanes, c->gradient_factor * g.moment[a]);
     }
-    if (form.fits != 2) {
-        const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-        store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
-    }
+    /* Zero where the fit finds it later. */
+    const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
     for (int a = 0; a < 6 && form.fits && arrays->moments != NULL; ++a) {
         store(arrays->moments + first * 6, 6, a, n_lanes, c->gradient_factor * g.shape[a]);
     }
