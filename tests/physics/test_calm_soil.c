@@ -15,35 +15,19 @@
 #define TRANSIENT "stress_diffusion_limiter = 'transient';"
 #define HOURGLASS_AND_TRANSIENT "soil_hourglass = 0.25; " TRANSIENT
 
-static int64_t count(const scene *it)
-{
-    return it->simulation.soil.set.n_particles;
-}
-
-/* Moves particles off the lattice, so that nothing cancels by symmetry. */
-static void disorder(scene *it)
-{
-    for (int64_t k = 0; k < count(it); ++k) {
-        for (int a = 0; a < 2; ++a) {
-            free_block_field(it, MOR_FIELD_POSITION)[3 * k + a] +=
-                2e-3 * (mor_random_uniform(7, (uint64_t)k, (uint64_t)a) - 0.5);
-        }
-    }
-}
-
 /* Rotation, stretch and shear at once: no particle, at the surface neither, is displaced beside its neighbors. */
 static void linear_motion_has_no_hourglass_rate(void **state)
 {
     (void)state;
     scene *it = free_block_new(ONE, HOURGLASS "dissipation_factor = 0;");
-    disorder(it);
-    for (int64_t k = 0; k < count(it); ++k) {
+    free_block_disorder(it);
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const double *x = free_block_field(it, MOR_FIELD_POSITION) + 3 * k;
         free_block_field(it, MOR_FIELD_VELOCITY)[3 * k] = 0.3 + 0.2 * x[0] - 0.7 * x[1];
         free_block_field(it, MOR_FIELD_VELOCITY)[3 * k + 1] = -0.1 + 0.5 * x[0] - 0.1 * x[1];
     }
     scene_step(it, 1);
-    for (int64_t k = 0; k < 3 * count(it); ++k) {
+    for (int64_t k = 0; k < 3 * free_block_count(it); ++k) {
         /* m/s: rounding of velocities of 0.3 m/s, times the condition of the fit at a corner. */
         scene_expect_near("rate", free_block_field(it, MOR_FIELD_HOURGLASS_RATE)[k], 0.0, 1e-13);
     }
@@ -56,12 +40,12 @@ static void sliding_rows_are_seen_by_the_hourglass_rate(void **state)
     (void)state;
     scene *it = free_block_new(ONE, HOURGLASS "dissipation_factor = 0;");
     int n = 0;
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const int row = (int)floor(free_block_field(it, MOR_FIELD_POSITION)[3 * k + 1] / 0.01);
         free_block_field(it, MOR_FIELD_VELOCITY)[3 * k] = row % 2 == 0 ? 1e-3 : -1e-3;
     }
     scene_step(it, 1);
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const double *x = free_block_field(it, MOR_FIELD_POSITION) + 3 * k;
         if (x[0] > 0.05 && x[0] < 0.25 && x[1] > 0.05 && x[1] < 0.25) {
             const double sign = (int)floor(x[1] / 0.01) % 2 == 0 ? 1.0 : -1.0;
@@ -85,15 +69,15 @@ static void hourglass_forces_keep_momentum(void **state)
         scene *it = free_block_new(soils[s], HOURGLASS);
         double sum[2] = {0.0};
         double size = 0.0;
-        disorder(it);
-        for (int64_t k = 0; k < count(it); ++k) {
+        free_block_disorder(it);
+        for (int64_t k = 0; k < free_block_count(it); ++k) {
             for (int a = 0; a < 2; ++a) {
                 free_block_field(it, MOR_FIELD_HOURGLASS)[3 * k + a] =
                     1e-4 * (mor_random_uniform(3, (uint64_t)k, (uint64_t)a) - 0.5);
             }
         }
         scene_step(it, 1);
-        for (int64_t k = 0; k < count(it); ++k) {
+        for (int64_t k = 0; k < free_block_count(it); ++k) {
             for (int a = 0; a < 2; ++a) {
                 const double part =
                     free_block_field(it, MOR_FIELD_MASS)[k] * free_block_field(it, MOR_FIELD_ACCELERATION)[3 * k + a];
@@ -114,14 +98,14 @@ static void hourglass_displacement_is_limited_by_the_stress(void **state)
     (void)state;
     scene *it = free_block_new(ONE, HOURGLASS);
     const mor_soil *soil = &it->simulation.soil;
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         free_block_field(it, MOR_FIELD_HOURGLASS)[3 * k] = 1e-4;
         free_block_field(it, MOR_FIELD_STRESS)[6 * k + MOR_XX] =
             free_block_field(it, MOR_FIELD_POSITION)[3 * k] > 0.15 ? -1000.0 : 0.0;
     }
     scene_step(it, 1);
     int n = 0;
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const double *d = free_block_field(it, MOR_FIELD_HOURGLASS) + 3 * k;
         const double *s = free_block_field(it, MOR_FIELD_STRESS) + 6 * k;
         const double norm =
@@ -139,13 +123,13 @@ static void stress_at_rest_does_not_diffuse(void **state)
 {
     (void)state;
     scene *it = free_block_new(TWO, TRANSIENT);
-    disorder(it);
-    for (int64_t k = 0; k < 6 * count(it); ++k) {
+    free_block_disorder(it);
+    for (int64_t k = 0; k < 6 * free_block_count(it); ++k) {
         free_block_field(it, MOR_FIELD_STRESS)[k] = 1e4 * (mor_random_uniform(5, (uint64_t)k, 0) - 0.5);
         free_block_field(it, MOR_FIELD_MEAN_STRESS)[k] = free_block_field(it, MOR_FIELD_STRESS)[k];
     }
     scene_step(it, 1);
-    for (int64_t k = 0; k < 6 * count(it); ++k) {
+    for (int64_t k = 0; k < 6 * free_block_count(it); ++k) {
         /* Pa/s: rounding; the same stress diffuses at some 1e7 Pa/s where soil flows. */
         scene_expect_near("diffusion", free_block_field(it, MOR_FIELD_STRESS_DIFFUSION)[k], 0.0, 1e-5);
     }
@@ -158,18 +142,18 @@ static void stress_in_flow_diffuses_as_without_a_limiter(void **state)
     (void)state;
     scene *both[2] = {free_block_new(TWO, TRANSIENT "gravity_ramp = 0;"), free_block_new(TWO, "")};
     for (int s = 0; s < 2; ++s) {
-        disorder(both[s]);
-        for (int64_t k = 0; k < 6 * count(both[s]); ++k) {
+        free_block_disorder(both[s]);
+        for (int64_t k = 0; k < 6 * free_block_count(both[s]); ++k) {
             free_block_field(both[s], MOR_FIELD_STRESS)[k] = 1e4 * (mor_random_uniform(5, (uint64_t)k, 0) - 0.5);
         }
     }
-    for (int64_t k = 0; k < count(both[0]); ++k) {
+    for (int64_t k = 0; k < free_block_count(both[0]); ++k) {
         free_block_field(both[0], MOR_FIELD_FLOW)[k] = 1.0;
     }
     scene_step(both[0], 1);
     scene_step(both[1], 1);
     double size = 0.0;
-    for (int64_t k = 0; k < 6 * count(both[0]); ++k) {
+    for (int64_t k = 0; k < 6 * free_block_count(both[0]); ++k) {
         /* In every other step twice as fast, so that the mean of two is the same. */
         const double reference = 2.0 * free_block_field(both[1], MOR_FIELD_STRESS_DIFFUSION)[k];
         size = fmax(size, fabs(reference));
@@ -178,7 +162,7 @@ static void stress_in_flow_diffuses_as_without_a_limiter(void **state)
     }
     assert_true(size > 1e6);
     scene_step(both[0], 1);
-    for (int64_t k = 0; k < 6 * count(both[0]); ++k) {
+    for (int64_t k = 0; k < 6 * free_block_count(both[0]); ++k) {
         assert_true(free_block_field(both[0], MOR_FIELD_STRESS_DIFFUSION)[k] == 0.0); /* exact: the step between */
     }
     scene_free(both[0]);
@@ -193,12 +177,12 @@ static void transient_diffusion_is_stable_at_the_largest_factor_and_at_long_step
                                         TRANSIENT "stress_diffusion = 0.3; courant = 0.8;"};
     for (int way = 0; way < 2; ++way) {
         scene *it = free_block_new(TWO, ways[way]);
-        disorder(it);
-        for (int64_t k = 0; k < 6 * count(it); ++k) {
+        free_block_disorder(it);
+        for (int64_t k = 0; k < 6 * free_block_count(it); ++k) {
             free_block_field(it, MOR_FIELD_STRESS)[k] = 1e3 * (mor_random_uniform(5, (uint64_t)k, 0) - 0.5);
         }
         scene_step(it, 200);
-        for (int64_t k = 0; k < 6 * count(it); ++k) {
+        for (int64_t k = 0; k < 6 * free_block_count(it); ++k) {
             /* Pa: none of it is left but by chance; unstable noise is ten times the first after as many steps. */
             scene_expect_near("stress", free_block_field(it, MOR_FIELD_STRESS)[k], 0.0, 500.0);
         }
@@ -209,7 +193,7 @@ static void transient_diffusion_is_stable_at_the_largest_factor_and_at_long_step
 /* Puts a block back where it was, turning at 100 rad/s about its center, with a stress that has turned by an angle. */
 static void turn_block(scene *it, const double *places, double angle)
 {
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const double *x = places + 3 * it->simulation.soil.set.id[k];
         double *s = free_block_field(it, MOR_FIELD_STRESS) + 6 * k;
         memcpy(free_block_field(it, MOR_FIELD_POSITION) + 3 * k, x, 3 * sizeof *x);
@@ -227,7 +211,7 @@ static void mean_stress_and_hourglass_displacement_turn_with_the_soil(void **sta
     scene *it = free_block_new(ONE, HOURGLASS_AND_TRANSIENT "dissipation_factor = 0; lattice_normalization = true;");
     double places[3 * 1024];
     double angle = 0.0;
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         memcpy(places + 3 * it->simulation.soil.set.id[k], free_block_field(it, MOR_FIELD_POSITION) + 3 * k,
                3 * sizeof *places);
         free_block_field(it, MOR_FIELD_HOURGLASS)[3 * k] = 1e-7; /* m; half of its limit */
@@ -238,7 +222,7 @@ static void mean_stress_and_hourglass_displacement_turn_with_the_soil(void **sta
         angle += 100.0 * it->simulation.schedule.step_length;
     }
     int n = 0;
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const double *x = places + 3 * it->simulation.soil.set.id[k];
         if (hypot(x[0] - 0.15, x[1] - 0.15) < 0.08) {
             const double *mean = free_block_field(it, MOR_FIELD_MEAN_STRESS) + 6 * k;
@@ -276,18 +260,15 @@ static const char slope[] =
 /* Largest difference between a row's velocity and the mean of the rows beside it, m/s. */
 static double find_row_speed(const char *numerics)
 {
-    char text[FREE_BLOCK_TEXT_BYTES];
-    snprintf(text, sizeof text, slope, numerics);
-    const scene_request request = {.text = text};
-    scene *it = scene_new(&request);
+    scene *it = free_block_print(slope, numerics);
     int32_t rows[1 << 12] = {0};
     double speed[10] = {0.0};
     int members[10] = {0};
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         rows[it->simulation.soil.set.id[k]] = (int32_t)(free_block_field(it, MOR_FIELD_POSITION)[3 * k + 1] / 0.01);
     }
     scene_advance(it, 0.5);
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const int row = rows[it->simulation.soil.set.id[k]];
         const double x = free_block_field(it, MOR_FIELD_POSITION)[3 * k];
         if (x > 0.3 && x < 0.5) {
@@ -321,17 +302,11 @@ static void smooth_ramp_gives_its_impulse(void **state)
     static const char *const forms[2] = {"linear", "smooth"};
     static const double middle[2] = {0.125, 0.09375}; /* of x and of x^2 (3 - 2 x) from 0 to 1/2 */
     for (int k = 0; k < 2; ++k) {
-        char numerics[128];
-        char text[FREE_BLOCK_TEXT_BYTES];
-        snprintf(numerics, sizeof numerics, "stress_diffusion = 0; gravity_ramp = '0.02 s'; gravity_ramp_form = '%s';",
-                 forms[k]);
-        snprintf(text, sizeof text,
-                 "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, -10, 0); numerics = { %s };"
-                 "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; output = { pictures = false; }; soil = ( " ONE
-                 " );",
-                 numerics);
-        const scene_request request = {.text = text};
-        scene *it = scene_new(&request);
+        scene *it = free_block_print(
+            "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, -10, 0); output = { pictures = false; };"
+            "numerics = { stress_diffusion = 0; gravity_ramp = '0.02 s'; gravity_ramp_form = '%s'; };"
+            "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; soil = ( " ONE " );",
+            forms[k]);
         scene_advance(it, 0.01);
         /* m/s: the middle of each of a hundred steps stands for it, an error of the square of their length. */
         scene_expect_near("middle", free_block_field(it, MOR_FIELD_VELOCITY)[1], -0.2 * middle[k], 2e-5);

@@ -10,26 +10,10 @@
 #define ONE FREE_BLOCK_LAYER("soil", "0", "0.3", "2000", "5 MPa")
 #define FIT "velocity_gradient = 'fit'; dissipation_factor = 0; stress_diffusion = 0;"
 
-static int64_t count(const scene *it)
-{
-    return it->simulation.soil.set.n_particles;
-}
-
-/* Moves particles off the lattice by up to a tenth of the spacing. */
-static void disorder(scene *it)
-{
-    for (int64_t k = 0; k < count(it); ++k) {
-        for (int a = 0; a < it->the_case.dimension; ++a) {
-            free_block_field(it, MOR_FIELD_POSITION)[3 * k + a] +=
-                2e-3 * (mor_random_uniform(7, (uint64_t)k, (uint64_t)a) - 0.5);
-        }
-    }
-}
-
 /* Gives all particles the velocity of a linear field, shape [3,3], 1/s, and takes one step. */
 static void move_linearly(scene *it, const double *gradient)
 {
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         mor_matrix_apply(gradient, free_block_field(it, MOR_FIELD_POSITION) + 3 * k,
                          free_block_field(it, MOR_FIELD_VELOCITY) + 3 * k);
     }
@@ -42,9 +26,9 @@ static void shear_and_rotation_of_disordered_soil_are_seen_exactly(void **state)
     /* 1/s: so slow that it is the same in the middle of the step. */
     static const double gradient[9] = {0.4e-7, -0.7e-7, 0.0, 0.3e-7, -0.1e-7, 0.0, 0.0, 0.0, 0.0};
     scene *it = free_block_new(ONE, FIT);
-    disorder(it);
+    free_block_disorder(it);
     move_linearly(it, gradient);
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const double *l = free_block_field(it, MOR_FIELD_VELOCITY_GRADIENT) + 9 * k;
         /* 1/s: rounding of velocities of 2e-8 m/s over a spacing of 10 mm, and what the step changes. */
         scene_expect_near("xy", l[1], gradient[1], 1e-18);
@@ -65,9 +49,9 @@ static void change_of_volume_has_the_sign_of_that_of_the_sums(void **state)
     double largest = 0.0;
     for (int way = 0; way < 2; ++way) {
         scene *it = free_block_new(ONE, ways[way]);
-        disorder(it);
+        free_block_disorder(it);
         move_linearly(it, gradient);
-        n = count(it);
+        n = free_block_count(it);
         trace[way] = calloc((size_t)n, sizeof **trace);
         assert_non_null(trace[way]);
         for (int64_t k = 0; k < n; ++k) {
@@ -90,15 +74,12 @@ static void change_of_volume_has_the_sign_of_that_of_the_sums(void **state)
 /* A block in a box of smooth walls, or on a floor of one. */
 static scene *open_box(const char *walls, const char *numerics)
 {
-    static const char box[] =
+    return free_block_print(
         "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0, 0); output = { pictures = false; };"
         "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { wall_normals = 'geometry'; %s };"
         "soil = ( { name = 'soil'; shape = { type = 'box'; min = (0, 0); max = (0.2, 0.2); }; material = { model = "
-        "'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } ); walls = ( %s );";
-    char text[FREE_BLOCK_TEXT_BYTES];
-    snprintf(text, sizeof text, box, numerics, walls);
-    const scene_request request = {.text = text};
-    return scene_new(&request);
+        "'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } ); walls = ( %s );",
+        numerics, walls);
 }
 
 #define SIDE(name, point, normal)                                                                                      \
@@ -118,7 +99,7 @@ static void stretch_along_a_smooth_wall_keeps_its_volume(void **state)
     for (int way = 0; way < 2; ++way) {
         scene *it = open_box(FLOOR, ways[way]);
         move_linearly(it, stretch);
-        for (int64_t k = 0; k < count(it); ++k) {
+        for (int64_t k = 0; k < free_block_count(it); ++k) {
             const double *x = free_block_field(it, MOR_FIELD_POSITION) + 3 * k;
             const double *l = free_block_field(it, MOR_FIELD_VELOCITY_GRADIENT) + 9 * k;
             if (x[0] > 0.05 && x[0] < 0.15 && x[1] < 0.15) {
@@ -136,13 +117,13 @@ static void pressure_in_a_box_accelerates_nothing(void **state)
 {
     (void)state;
     scene *it = open_box(SIDES, "dissipation_factor = 0; stress_diffusion = 0;");
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         for (int a = 0; a < 3; ++a) {
             free_block_field(it, MOR_FIELD_STRESS)[6 * k + a] = -1e4;
         }
     }
     scene_step(it, 1);
-    for (int64_t k = 0; k < 3 * count(it); ++k) {
+    for (int64_t k = 0; k < 3 * free_block_count(it); ++k) {
         /* m/s2: rounding of p / (rho dp) = 500 m/s2. */
         scene_expect_near("acceleration", free_block_field(it, MOR_FIELD_ACCELERATION)[k], 0.0, 1e-9);
     }
@@ -153,16 +134,13 @@ static void pressure_in_a_box_accelerates_nothing(void **state)
 static void energy_is_accounted_for_with_a_fitted_gradient(void **state)
 {
     (void)state;
-    char text[FREE_BLOCK_TEXT_BYTES];
-    snprintf(
-        text, sizeof text,
+    scene *it = free_block_print(
         "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, -9.81, 0); output = { pictures = false; };"
         "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { wall_normals = 'geometry'; "
         "velocity_gradient = 'fit'; }; probes = ( { name = 'balance'; type = 'energy_balance'; } );"
         "soil = ( { name = 'soil'; shape = { type = 'box'; min = (0, 0); max = (0.3, 0.1); }; material = { model = "
         "'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } ); walls = ( %s );",
         FLOOR ", " SIDE("left", "(0, 0)", "(1, 0)"));
-    scene *it = scene_new(&(scene_request){.text = text});
     scene_advance(it, 0.05);
     /* The straight lines between samples; 2 % were left with the gradient's work alone. */
     scene_expect_near("balance", scene_probe(it, "balance"), 1.0, 5e-3);
@@ -173,7 +151,7 @@ static void energy_is_accounted_for_with_a_fitted_gradient(void **state)
 static double find_moment(scene *it)
 {
     double sum = 0.0;
-    for (int64_t k = 0; k < count(it); ++k) {
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         const double *x = free_block_field(it, MOR_FIELD_POSITION) + 3 * k;
         const double *a = free_block_field(it, MOR_FIELD_ACCELERATION) + 3 * k;
         sum += free_block_field(it, MOR_FIELD_MASS)[k] * (x[0] * a[1] - x[1] * a[0]);
@@ -185,8 +163,8 @@ static double find_moment(scene *it)
 static double twist(const char *numerics)
 {
     scene *it = free_block_new(ONE, numerics);
-    disorder(it);
-    for (int64_t k = 0; k < count(it); ++k) {
+    free_block_disorder(it);
+    for (int64_t k = 0; k < free_block_count(it); ++k) {
         for (int a = 0; a < 4; ++a) {
             free_block_field(it, MOR_FIELD_STRESS)[6 * k + a] = -1e4 * mor_random_uniform(3, (uint64_t)k, (uint64_t)a);
         }
