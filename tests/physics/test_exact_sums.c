@@ -270,7 +270,7 @@ static void soil_that_moves_with_a_rock_does_not_deform(void **state)
         move_with_rock(it, 0.0);
         for (int64_t k = 0; k < free_block_count(it); ++k) {
             const double *l = free_block_field(it, MOR_FIELD_VELOCITY_GRADIENT) + 9 * k;
-            /* 1/s: the velocity of a rock is its displacement, exact to 1e-17 m, over a step of 4e-5 s; over a spacing. */
+            /* 1/s: a rock has the velocity of its displacement, exact to 1e-17 m, in a step of 4e-5 s; over dp. */
             scene_expect_near("error", find_error(it, l, none), 0.0, 1e-9);
             scene_expect_near("trace", l[0] + l[4], 0.0, 1e-9);
         }
