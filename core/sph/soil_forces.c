@@ -30,7 +30,7 @@ static void use_normals(mor_context *context, mor_soil *soil)
 {
     const int64_t n = soil->set.n_particles;
     MOR_PARALLEL_FOR (context, i, soil->corners != NULL ? n : 0, MOR_BLOCK) {
-        soil->corners[i].n_faces = 0;
+        soil->corners[i].sees_any = false;
     }
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {

@@ -124,7 +124,7 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
     assert_int_equal(mor_soil_contact_build(context, &f->wall, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &f->wall, table, constants, f->soil.records);
     if (f->wall.normals != NULL) {
-        mor_contact_corner corners[ASSEMBLY_MAX] = {{.n_faces = 0}};
+        mor_contact_corner corners[ASSEMBLY_MAX] = {{.sees_any = false}};
         mor_soil_contact_project(context, &f->wall, f->soil.n, corners);
         mor_soil_contact_solve_corners(context, f->soil.n, corners);
         mor_soil_contact_close_corners(context, &f->wall, f->soil.n, corners);

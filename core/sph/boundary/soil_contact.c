@@ -156,7 +156,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->slots);
     MOR_FREE(context, &contact->patch_slots);
     MOR_FREE(context, &contact->mean_velocity);
-    MOR_FREE(context, &contact->seen_normals);
+    MOR_FREE(context, &contact->seen_faces);
     MOR_FREE(context, &contact->sums);
     MOR_FREE(context, &contact->stick);
     MOR_FREE(context, &contact->acceleration);
@@ -284,7 +284,7 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
     MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_borrowed * 3, "velocity of a boundary"));
     MOR_TRY(context,
-            MOR_NEW(context, &contact->seen_normals, contact->normals != NULL ? n_lanes * 3 : 0, "normals of a wall"));
+            MOR_NEW(context, &contact->seen_faces, contact->normals != NULL ? n_lanes * 6 : 0, "faces of a wall"));
     MOR_TRY(context, MOR_NEW(context, &contact->given, n_borrowed * MOR_SHARES, "force given to a boundary"));
     MOR_TRY(context, MOR_NEW(context, &contact->repulsion, n_barrier * 3, "barrier force"));
     MOR_TRY(context, MOR_NEW(context, &contact->barrier_steps, n_barrier / MOR_CLUSTER, "steps of the barrier"));

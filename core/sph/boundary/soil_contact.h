@@ -55,9 +55,9 @@ typedef struct mor_contact_soil {
 
 /** What a soil particle sees of faces with normals n, those of all boundaries together. */
 typedef struct mor_contact_corner {
-    double rest[3]; /* sum of kernel gradients, what is not along the own normal of each; then what corners add, 1/m */
-    double normals[6]; /* sum of n (x) n, symmetric tensor, 1 */
-    int64_t n_faces;   /* faces seen */
+    double rest[3]; /* sum of kernel gradients, what is not along the faces of each; then what corners add, 1/m4 (m3) */
+    double faces[6]; /* sum of V (1 - (q/2)^4) n (x) n, symmetric tensor, m3 (m2 in plane strain) */
+    bool sees_any;   /* the two are current */
 } mor_contact_corner;
 
 /** One boundary and its relation to the soil. Owner: the soil solver. */
@@ -68,7 +68,7 @@ typedef struct mor_soil_contact {
     bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
     double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
     double *normals;        /* shape [n_points, 3]; of a wall's faces, unit 1; NULL: as the points lie */
-    double *seen_normals;   /* shape [capacity * 8, 3]; their means as particles see them, 1; NULL without */
+    double *seen_faces;     /* shape [capacity * 8, 6]; sum of V (1 - (q/2)^4) n (x) n, m3 (m2); NULL without */
     double *built;          /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;       /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     mor_tree tree;
@@ -149,7 +149,7 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
  *  is the lattice's - except where several faces meet.
  *  @param contact     [in,out]  with normals; sums must be current
  *  @param n_particles [in]      number of soil particles
- *  @param corners     [in,out]  shape [n_particles]; added to, n_faces zero at first */
+ *  @param corners     [in,out]  shape [n_particles]; added to, sees_any false at first */
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
                               mor_contact_corner *corners);
 

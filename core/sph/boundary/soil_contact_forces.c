@@ -30,9 +30,8 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
         const int64_t last = first + GRAIN < n ? first + GRAIN : n;
         table->kernel(constants, &job, first, last);
         if (contact->normals != NULL) {
-            const mor_pair_mean_job mean = {records, points,         contact->normals,
-                                            3,       contact->slots, contact->seen_normals};
-            table->mean(constants, &mean, first, last);
+            const mor_pair_faces_job faces = {records, points, contact->normals, contact->slots, contact->seen_faces};
+            table->faces(constants, &faces, first, last);
         }
     }
     mor_soil_contact_update_velocity(context, contact, table, constants, records);
@@ -128,6 +127,7 @@ static double limited_speed(double closing, mor_dissipation dissipation)
 typedef struct boundary_terms {
     mor_dissipation dissipation;
     double limiter_rate;            /* eta / c0 of the particle's soil, s/m */
+    bool frees;                     /* dissipation does not pull at soil that is not pressed against the boundary */
     mor_boundary_friction friction; /* of that soil with the patch */
     const double *velocity;         /* of the boundary, m/s */
     const double *gradient;         /* sum V grad_i W, 1/m */
@@ -152,9 +152,13 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     }
     const double closing = -mor_vector_dot(relative, normal);
     const double slope = 2.0 * p->limiter_rate * limited_speed(closing, p->dissipation);
-    const double pressure = (slope < 1.0 ? slope : 1.0) * record[MOR_RECORD_IMPEDANCE] * closing;
+    double pressure = (slope < 1.0 ? slope : 1.0) * record[MOR_RECORD_IMPEDANCE] * closing;
     double traction[3];
     mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
+    if (p->frees) {
+        const double pressed = -mor_vector_dot(traction, normal);
+        pressure = fmax(pressure, -fmax(pressed, 0.0));
+    }
     const double factor = -2.0 * length / record[MOR_RECORD_DENSITY];
     const double own = factor * (mor_vector_dot(traction, normal) - pressure);
     const double continued = mor_vector_dot(acceleration, normal);
@@ -188,7 +192,8 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
     const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
-    boundary_terms p = {.dissipation = soil->dissipation, .limiter_rate = soil->limiter_rate};
+    boundary_terms p = {
+        .dissipation = soil->dissipation, .limiter_rate = soil->limiter_rate, .frees = contact->normals != NULL};
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const int64_t i = first + k;

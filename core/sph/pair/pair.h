@@ -182,6 +182,19 @@ typedef struct mor_pair_mean_job {
 typedef void (*mor_pair_mean_loop)(const mor_pair_constants *constants, const mor_pair_mean_job *job, int64_t first,
                                    int64_t last);
 
+/** Which faces of a boundary each particle sees: sum of V (1 - (q/2)^4) n (x) n over its points with normals n. The
+ *  weight is high up to the end of the support, for a face counts once its points have a part in kernel sums. */
+typedef struct mor_pair_faces_job {
+    const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
+    const double *normals;      /* shape [n_target, 3], unit 1 */
+    const mor_pair_slot *slots; /* shape [n_slots] */
+    double *out;                /* shape [n_slots * 8, 6], symmetric tensors, m3 (m2 in plane strain) */
+} mor_pair_faces_job;
+
+typedef void (*mor_pair_faces_loop)(const mor_pair_constants *constants, const mor_pair_faces_job *job, int64_t first,
+                                    int64_t last);
+
 /** Force of each particle of a slot on the points it sees. */
 enum {
     MOR_SHARE_FORCE = 0,     /* 3, to be distributed, N (N/m) */
@@ -212,6 +225,7 @@ typedef struct mor_pair_table {
     mor_pair_kernel_loop kernel;   /* kernel sums */
     mor_pair_tangent_loop tangent; /* stress divergence along and across a wall */
     mor_pair_mean_loop mean;       /* velocity of a boundary as particles see it */
+    mor_pair_faces_loop faces;     /* normals of a boundary as particles see them */
     mor_pair_share_loop share;     /* forces on the points of a boundary */
     mor_pair_loop diffuse;         /* rate of a field by diffusion, docs/theory/nonlocal.md */
 } mor_pair_table;

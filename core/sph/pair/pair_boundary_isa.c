@@ -151,6 +151,42 @@ void MOR_ISA_NAME(mor_pair_mean)(const mor_pair_constants *c, const mor_pair_mea
     }
 }
 
+/* Sum V (1 - (q/2)^4) n (x) n over the points of a slot. */
+INLINE void faces_part(const mor_pair_constants *c, const mor_pair_faces_job *job, const mor_pair_slot *slot,
+                       int64_t first, double *out)
+{
+    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    vec sum[6];
+    memset(sum, 0, sizeof sum);
+    for (int32_t entry = 0; entry < slot->count; ++entry) {
+        const double *target = job->target + (int64_t)slot->list[entry] * MOR_BOUNDARY_RECORD;
+        const double *n = job->normals + 3 * (int64_t)slot->list[entry];
+        const pair p = pair_of(&f, target, 3);
+        const vec far = (1.0 - p.reach) * (1.0 - p.reach);
+        const vec weight = (1.0 - far * far) * target[MOR_BOUNDARY_VOLUME];
+        for (int a = 0; a < 3; ++a) {
+            sum[a] += weight * (n[a] * n[a]);
+            sum[3 + a] += weight * (n[a] * n[(a + 1) % 3]);
+        }
+    }
+    for (int a = 0; a < 6; ++a) {
+        store(out, 6, a, LANES, sum[a]);
+    }
+}
+
+void MOR_ISA_NAME(mor_pair_faces)(const mor_pair_constants *c, const mor_pair_faces_job *job, int64_t first,
+                                  int64_t last)
+{
+    for (int64_t place = first; place < last; ++place) {
+        const mor_pair_slot *slot = job->slots + place;
+        for (int64_t part = 0; part < PARTS; ++part) {
+            const int64_t lane = part * LANES;
+            faces_part(c, job, slot, (int64_t)slot->cluster * MOR_CLUSTER + lane,
+                       job->out + (place * MOR_CLUSTER + lane) * 6);
+        }
+    }
+}
+
 /* Lanes are added one by one, so that a point's force does not depend on their number. */
 INLINE void share_part(const mor_pair_constants *c, const mor_pair_share_job *job, const mor_pair_slot *slot,
                        int64_t first, const double *given)

@@ -277,6 +277,9 @@ void MOR_ISA_NAME(mor_pair_tangent)(const mor_pair_constants *c, const mor_pair_
 /** Finds the mean velocities over a range of a job. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_mean)(const mor_pair_constants *c, const mor_pair_mean_job *job, int64_t first,
                                  int64_t last);
+/** Finds the faces that are seen over a range of a job. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_faces)(const mor_pair_constants *c, const mor_pair_faces_job *job, int64_t first,
+                                  int64_t last);
 /** Finds the forces on points over a range of a job. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_share)(const mor_pair_constants *c, const mor_pair_share_job *job, int64_t first,
                                   int64_t last);

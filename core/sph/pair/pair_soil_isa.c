@@ -334,6 +334,7 @@ const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
                                          MOR_ISA_NAME(mor_pair_kernel),
                                          MOR_ISA_NAME(mor_pair_tangent),
                                          MOR_ISA_NAME(mor_pair_mean),
+                                         MOR_ISA_NAME(mor_pair_faces),
                                          MOR_ISA_NAME(mor_pair_share),
                                          diffuse_range};
     return &table;
