@@ -162,6 +162,7 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
     const mor_contact_soil seen = {.dissipation = (mor_dissipation)soil->settings.scheme.wall_dissipation,
+                                   .coulomb_pulls = soil->settings.scheme.coulomb_tension == 0,
                                    .limiter_rate = soil->constants.limiter_rate,
                                    .of_soil = arrays.of_soil,
                                    .region = mor_soil_read_region(soil, view),

@@ -46,6 +46,7 @@ typedef struct mor_soil_barrier {
 /** The soil as the boundary forces see it. Everything is borrowed. */
 typedef struct mor_contact_soil {
     mor_dissipation dissipation; /* on which sign of the closing speed the limiter acts */
+    bool coulomb_pulls;          /* boundaries with Coulomb friction hold soil under tension */
     double limiter_rate;         /* eta / c0, s/m; of one material */
     const double *of_soil;       /* shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one material */
     const double *region;        /* shape [n_particles], number of the region a particle is of, 1; NULL: one region */

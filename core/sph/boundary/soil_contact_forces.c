@@ -126,6 +126,7 @@ static double limited_speed(double closing, mor_dissipation dissipation)
 /* What the boundary force on a particle depends on beside the particle. */
 typedef struct boundary_terms {
     mor_dissipation dissipation;
+    bool coulomb_pulls;             /* a boundary with Coulomb friction holds soil under tension */
     double limiter_rate;            /* eta / c0 of the particle's soil, s/m */
     bool frees;                     /* dissipation does not pull at soil that is not pressed against the boundary */
     mor_boundary_friction friction; /* of that soil with the patch */
@@ -134,9 +135,47 @@ typedef struct boundary_terms {
     const double *repulsion;        /* acceleration by the barrier, m/s2; NULL without */
 } boundary_terms;
 
+/* Friction of soil that slides faster than elastic waves explain: where its speed along the boundary exceeds that of a
+ * wave as large as the limit of friction, friction becomes the limit against the motion, fully so at twice that speed.
+ * The stress of the particle, which a strong soil keeps whatever its motion, then has no part in it. */
+static void resist_sliding(const double *slip, double limit, double wave_speed, double *tangential)
+{
+    const double speed = mor_vector_length(slip);
+    const double share = speed > wave_speed ? fmin(speed / wave_speed - 1.0, 1.0) : 0.0;
+    for (int a = 0; a < 3 && share > 0.0; ++a) {
+        tangential[a] += share * (-limit * slip[a] / speed - tangential[a]);
+    }
+}
+
+/* Limits the tangential acceleration at a Coulomb boundary; returns the part of the tangential motion that is mirrored.
+ * The limit holds for the whole tangential part, and the barrier contributes to the normal force.
+ * along: normal acceleration, m/s2; area: acceleration by a unit of traction, 1/(m kg/m3); slip: m/s */
+static double limit_friction(const boundary_terms *p, const double *record, double along, double area,
+                             const double *slip, double *tangential)
+{
+    const double *gradient = p->gradient;
+    const double impedance = record[MOR_RECORD_IMPEDANCE];
+    double pressing = along;
+    if (p->repulsion != NULL) {
+        const double length = mor_vector_length(gradient);
+        const double normal[3] = {-gradient[0] / length, -gradient[1] / length, -gradient[2] / length};
+        pressing += mor_vector_dot(p->repulsion, normal);
+    }
+    const double limit = p->friction.coefficient * (pressing > 0.0 ? pressing : 0.0);
+    const double trial = mor_vector_length(tangential);
+    const double noise = area * NOISE * impedance * impedance / record[MOR_RECORD_DENSITY];
+    const double hold = trial > limit ? limit / trial : 1.0;
+    for (int a = 0; a < 3; ++a) {
+        tangential[a] *= hold;
+    }
+    if (!p->coulomb_pulls) {
+        resist_sliding(slip, limit, limit / (area * impedance), tangential);
+    }
+    return trial > limit ? (limit + noise) / (trial + noise) : 1.0;
+}
+
 /* Adds the acceleration of one particle by the wall to what the continued stress gave; returns the part of the
- * tangential motion that is mirrored. At a Coulomb wall the friction limit holds for the whole tangential part, and the
- * barrier contributes to the normal force. */
+ * tangential motion that is mirrored. */
 static double find_boundary_acceleration(const boundary_terms *p, const double *record, double *acceleration)
 {
     const double *gradient = p->gradient;
@@ -162,26 +201,21 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     const double factor = -2.0 * length / record[MOR_RECORD_DENSITY];
     const double own = factor * (mor_vector_dot(traction, normal) - pressure);
     const double continued = mor_vector_dot(acceleration, normal);
-    const double along = own + continued;
-    const double own_part = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
+    const bool is_coulomb = p->friction.kind == MOR_WALL_COULOMB;
+    const double along = is_coulomb && !p->coulomb_pulls ? fmax(own + continued, 0.0) : own + continued;
+    double stick = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];
+    double slip[3];
     for (int a = 0; a < 3; ++a) {
-        tangential[a] = own_part * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]) + acceleration[a] -
+        tangential[a] = stick * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]) + acceleration[a] -
                         continued * normal[a];
+        slip[a] = relative[a] + closing * normal[a];
     }
-    double hold = 1.0;
-    double stick = own_part;
-    if (p->friction.kind == MOR_WALL_COULOMB) {
-        const double pressing = p->repulsion != NULL ? along + mor_vector_dot(p->repulsion, normal) : along;
-        const double limit = p->friction.coefficient * (pressing > 0.0 ? pressing : 0.0);
-        const double trial = mor_vector_length(tangential);
-        const double noise =
-            -factor * NOISE * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
-        hold = trial > limit ? limit / trial : 1.0;
-        stick = trial > limit ? (limit + noise) / (trial + noise) : 1.0;
+    if (is_coulomb) {
+        stick = limit_friction(p, record, along, -factor, slip, tangential);
     }
     for (int a = 0; a < 3; ++a) {
-        acceleration[a] = along * normal[a] + hold * tangential[a];
+        acceleration[a] = along * normal[a] + tangential[a];
     }
     return stick;
 }
@@ -192,8 +226,10 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
     const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
-    boundary_terms p = {
-        .dissipation = soil->dissipation, .limiter_rate = soil->limiter_rate, .frees = contact->normals != NULL};
+    boundary_terms p = {.dissipation = soil->dissipation,
+                        .coulomb_pulls = soil->coulomb_pulls,
+                        .limiter_rate = soil->limiter_rate,
+                        .frees = contact->normals != NULL};
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const int64_t i = first + k;
