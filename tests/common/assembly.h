@@ -18,13 +18,22 @@ enum { ASSEMBLY_MAX = 128, ASSEMBLY_SIDE_MAX = 16, ASSEMBLY_RECORDS = ASSEMBLY_M
 /** Ways to damp and to diffuse: modes of dissipation, with and without reconstruction and limited diffusion. */
 enum { ASSEMBLY_FORMS = 3 * 2 * 2 };
 
+/** Parts of the scheme beside those, bits of a number, and how many numbers there are. */
+enum { ASSEMBLY_TRANSIENT = 1, ASSEMBLY_HOURGLASS = 2, ASSEMBLY_SPIN = 4, ASSEMBLY_FIT = 8, ASSEMBLY_PARTS = 16 };
+
 #define ASSEMBLY_SPACING 0.01
 #define ASSEMBLY_SOUND 50.0
 #define ASSEMBLY_ETA 40.0
 #define ASSEMBLY_DENSITY 2000.0
 #define ASSEMBLY_WEIGHT (ASSEMBLY_DENSITY * 9.81)
 #define ASSEMBLY_LATERAL 0.45
+#define ASSEMBLY_HOURGLASS_STIFFNESS 1.3e6
 #define ASSEMBLY_CANARY 1.2345e67
+
+/** Of a second soil, over the same of the first: sound speed, stiffness of the hourglass control, weight. */
+#define ASSEMBLY_OTHER_SOUND 1.7
+#define ASSEMBLY_OTHER_HOURGLASS 4.6
+#define ASSEMBLY_OTHER_WEIGHT 0.6
 
 typedef struct assembly {
     mor_context context;
@@ -32,10 +41,15 @@ typedef struct assembly {
     mor_pair_constants constants;
     mor_tree tree;
     mor_relation relation;
-    double records[ASSEMBLY_RECORDS];     /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    double artificial[6 * ASSEMBLY_MAX];  /* shape [n padded to 8, 6], Pa */
-    double strain_rate[6 * ASSEMBLY_MAX]; /* shape [n padded to 8, 6], 1/s */
-    bool has_reconstruction;              /* strain_rate is handed to the loops */
+    double records[ASSEMBLY_RECORDS];                     /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    double artificial[6 * ASSEMBLY_MAX];                  /* shape [n padded to 8, 6], Pa */
+    double strain_rate[6 * ASSEMBLY_MAX];                 /* shape [n padded to 8, 6], 1/s */
+    bool has_reconstruction;                              /* strain_rate is handed to the loops */
+    int parts;                                            /* bits of ASSEMBLY_TRANSIENT and so on */
+    mor_pair_soil soils[2];                               /* see assembly_split */
+    double extra[MOR_EXTRA_SIZE * ASSEMBLY_MAX];          /* shape [n padded to 8, 16]; units of MOR_EXTRA_... */
+    double of_soil[MOR_PAIR_OF_SOIL_SIZE * ASSEMBLY_MAX]; /* shape [n padded to 8, ...]; units of the enum */
+    int8_t one_soil[ASSEMBLY_MAX / MOR_CLUSTER];          /* shape [n_clusters]; soil that each sees, or -1; 1 */
 } assembly;
 
 /** What the loops write; behind the last particle stands ASSEMBLY_CANARY. */
@@ -45,6 +59,9 @@ typedef struct assembly_sums {
     double velocity_gradient[9 * ASSEMBLY_MAX];    /* 1/s */
     double density_rate[ASSEMBLY_MAX];             /* kg/m3/s */
     double regularization[6 * ASSEMBLY_MAX];       /* m/s and 1 */
+    double hourglass_rate[3 * ASSEMBLY_MAX];       /* m/s */
+    double hourglass_moment[3 * ASSEMBLY_MAX];     /* Pa */
+    double moments[6 * ASSEMBLY_MAX];              /* 1 */
     double kernel[MOR_KERNEL_SUMS * ASSEMBLY_MAX]; /* units of MOR_KERNEL_SUM_... */
 } assembly_sums;
 
@@ -83,6 +100,7 @@ static inline mor_pair_constants assembly_constants(int dimension)
                             .diffusion_rate = 2.0 * 0.1 * h * ASSEMBLY_SOUND,
                             .gravity_direction = {0.28, -0.96, 0.0},
                             .artificial_exponent = 2.55,
+                            .hourglass = ASSEMBLY_HOURGLASS_STIFFNESS,
                             .spacing_kernel = mor_kernel_value(ASSEMBLY_SPACING, h, dimension),
                             .kernel_normalization = mor_kernel_normalization(h, dimension),
                             .shift_diameter = 1.1 * ASSEMBLY_SPACING};
@@ -95,6 +113,24 @@ static inline mor_pair_constants assembly_constants(int dimension)
         c.rest_gradient[3 + a] = ASSEMBLY_WEIGHT * (1.0 - ASSEMBLY_LATERAL) * g[a] * g[(a + 1) % 3];
     }
     return c;
+}
+
+/** Gives particle i what the parts of the scheme read beside its record; id tells it from others. */
+static inline void assembly_fill_extra(assembly *a, int i, uint64_t id)
+{
+    double *extra = a->extra + MOR_EXTRA_SIZE * i;
+    const int dimension = a->constants.dimension;
+    for (int k = 0; k < 6; ++k) {
+        const bool is_out_of_plane = dimension == 2 && (k == MOR_YZ || k == MOR_ZX);
+        extra[MOR_EXTRA_MEAN + k] = is_out_of_plane ? 0.0 : cloud_number(id, 80 + (uint64_t)k, -2e4, 1e4);
+    }
+    for (int k = 0; k < 3; ++k) {
+        extra[MOR_EXTRA_HOURGLASS + k] = k < dimension ? cloud_number(id, 90 + (uint64_t)k, -1e-4, 1e-4) : 0.0;
+        extra[MOR_EXTRA_SPIN + k] = dimension == 3 || k == 2 ? cloud_number(id, 95 + (uint64_t)k, -2e3, 2e3) : 0.0;
+    }
+    /* A third at rest, a third flows. */
+    extra[MOR_EXTRA_FLOW] = fmin(fmax(cloud_number(id, 100, -1.0, 2.0), 0.0), 1.0);
+    a->of_soil[MOR_PAIR_OF_SOIL_SIZE * i + MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * a->constants.limiter_rate;
 }
 
 /** Gives particle i, whose position is set, a random state; id tells it from others. */
@@ -119,6 +155,7 @@ static inline void assembly_fill(assembly *a, int i, uint64_t id)
     for (int k = 0; k < dimension; ++k) {
         record[MOR_RECORD_VELOCITY + k] = cloud_number(id, 40 + (uint64_t)k, -1.0, 1.0);
     }
+    assembly_fill_extra(a, i, id);
     record[MOR_RECORD_PRESSURE] = -mor_symmetric_trace(record + MOR_RECORD_STRESS) / 3.0;
 }
 
@@ -130,11 +167,15 @@ static inline void assembly_list(assembly *a, double skin)
     for (int i = a->n; i < padded; ++i) {
         memcpy(a->records + i * MOR_RECORD_SIZE, a->records + (a->n - 1) * MOR_RECORD_SIZE,
                MOR_RECORD_SIZE * sizeof(double));
+        memcpy(a->extra + i * MOR_EXTRA_SIZE, a->extra + (a->n - 1) * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE * sizeof(double));
+        memcpy(a->of_soil + i * MOR_PAIR_OF_SOIL_SIZE, a->of_soil + (a->n - 1) * MOR_PAIR_OF_SOIL_SIZE,
+               MOR_PAIR_OF_SOIL_SIZE * sizeof(double));
     }
     const mor_relation_points points = {&a->tree, a->records, MOR_RECORD_SIZE};
     mor_tree_fit(&a->tree, a->records, MOR_RECORD_SIZE);
     const double reach = MOR_KERNEL_SUPPORT * a->constants.smoothing_length + skin;
     assert_int_equal(mor_relation_build(&a->context, &a->relation, &points, &points, reach), MOR_OK);
+    mor_pair_find_one_soil(&a->relation, a->of_soil, 0, a->tree.n_clusters, a->one_soil);
 }
 
 /** Makes an assembly of particles at given points, shape [n, 3], unit m, in tree order and random states. */
@@ -194,6 +235,48 @@ static inline void assembly_choose(assembly *a, int form)
     a->constants.has_limited_diffusion = form / 6 % 2;
 }
 
+/** Switches parts of the scheme on, bits of ASSEMBLY_TRANSIENT and so on, and the others off. */
+static inline void assembly_choose_parts(assembly *a, int parts)
+{
+    a->parts = parts;
+    a->constants.has_transient = parts & ASSEMBLY_TRANSIENT;
+    a->constants.has_hourglass = parts & ASSEMBLY_HOURGLASS;
+    a->constants.has_spin = parts & ASSEMBLY_SPIN;
+    a->constants.has_fit = parts & ASSEMBLY_FIT;
+}
+
+/** Sound speed of the soil of particle i, m/s. */
+static inline double assembly_sound(const assembly *a, int i)
+{
+    const bool is_other = a->of_soil[MOR_PAIR_OF_SOIL_SIZE * i + MOR_PAIR_OF_SOIL_INDEX] > 0.0;
+    return is_other ? ASSEMBLY_OTHER_SOUND * ASSEMBLY_SOUND : ASSEMBLY_SOUND;
+}
+
+/** Makes particles beyond x, in m, those of a second soil. */
+static inline void assembly_split(assembly *a, double x)
+{
+    const mor_pair_constants *c = &a->constants;
+    for (int s = 0; s < 2; ++s) {
+        const double sound = s == 0 ? 1.0 : ASSEMBLY_OTHER_SOUND;
+        a->soils[s] = (mor_pair_soil){.limiter_rate = c->limiter_rate / sound,
+                                      .hourglass = c->hourglass * (s == 0 ? 1.0 : ASSEMBLY_OTHER_HOURGLASS),
+                                      .diffusion_rate = c->diffusion_rate * sound};
+        for (int k = 0; k < 6; ++k) {
+            a->soils[s].rest_gradient[k] = c->rest_gradient[k] * (s == 0 ? 1.0 : ASSEMBLY_OTHER_WEIGHT);
+        }
+    }
+    for (int i = 0; i < a->n; ++i) {
+        double *record = a->records + i * MOR_RECORD_SIZE;
+        double *of_soil = a->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
+        const int s = record[MOR_RECORD_POSITION] > x;
+        of_soil[MOR_PAIR_OF_SOIL_INDEX] = s;
+        of_soil[MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * a->soils[s].limiter_rate;
+        record[MOR_RECORD_IMPEDANCE] = record[MOR_RECORD_DENSITY] * assembly_sound(a, i);
+    }
+    a->constants.soils = a->soils;
+    assembly_list(a, 0.2 * ASSEMBLY_SPACING);
+}
+
 /** Calls check(assembly, table) for mixed assemblies in two and three dimensions, each form and each table. */
 static inline void assembly_for_mixed(void (*check)(assembly *a, const mor_pair_table *table))
 {
@@ -228,6 +311,10 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
         numbers[k] = ASSEMBLY_CANARY;
     }
     const bool diffuses = a->constants.diffusion_rate > 0.0;
+    const bool has_two_soils = a->constants.soils != NULL;
+    const bool has_extra = a->parts & (ASSEMBLY_TRANSIENT | ASSEMBLY_HOURGLASS | ASSEMBLY_SPIN);
+    const bool has_hourglass = a->constants.has_hourglass;
+    const bool has_moments = a->parts & (ASSEMBLY_FIT | ASSEMBLY_SPIN);
     const mor_pair_arrays arrays = {.n_particles = a->n,
                                     .records = a->records,
                                     .inner = &a->relation,
@@ -237,6 +324,12 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
                                     .velocity_gradient = sums->velocity_gradient,
                                     .density_rate = sums->density_rate,
                                     .regularization = sums->regularization,
+                                    .extra = has_extra ? a->extra : NULL,
+                                    .hourglass_rate = has_hourglass ? sums->hourglass_rate : NULL,
+                                    .hourglass_moment = has_hourglass ? sums->hourglass_moment : NULL,
+                                    .moments = has_moments ? sums->moments : NULL,
+                                    .of_soil = has_two_soils ? a->of_soil : NULL,
+                                    .one_soil = has_two_soils ? a->one_soil : NULL,
                                     .strain_rate = a->has_reconstruction ? a->strain_rate : NULL};
     const int n_clusters = (int)a->tree.n_clusters;
     const int plane = a->constants.dimension - 2;

@@ -3,6 +3,7 @@
 /* The pair loops of every instruction set against plain double loops over all particles, written from Zhang et al.
  * (2024) eqs. 15-31 and Hu et al. (2021) eqs. 13, 16 without a thought of speed. */
 #include "tests/common/assembly.h"
+#include "tests/common/linear_fit.h"
 
 #include <float.h>
 #include <math.h>
@@ -21,12 +22,13 @@ typedef struct couple {
     double r[3], distance, n[3]; /* r_i - r_j */
     double slope[3];             /* grad_i W */
     double volume;               /* of j */
+    bool is_alike;               /* of one soil */
     double impedance_i, impedance_j;
     double speed_i, speed_j;  /* along n */
     double roughness;         /* largest speed of either, which bounds what cancels in the closing speed */
     double closing;           /* speed at which the limiter sees them close: at the middle, with reconstruction */
     double closing_roughness; /* as roughness, for closing */
-    double sound;             /* mean speed */
+    double limiter_rate;      /* eta over the sound speed, the mean of both, s/m */
 } couple;
 
 /* Speed along n that a particle's strain rate adds on the way to the middle of a pair, and what that is made of. */
@@ -55,6 +57,12 @@ static void find_closing(const assembly *a, int i, int j, couple *c)
     }
 }
 
+/* Number of the soil of a particle. */
+static int soil_of(const assembly *a, int i)
+{
+    return (int)a->of_soil[MOR_PAIR_OF_SOIL_SIZE * i + MOR_PAIR_OF_SOIL_INDEX];
+}
+
 /* False for particles in one place or out of reach, which give nothing. */
 static bool make_couple(const assembly *a, int i, int j, couple *c)
 {
@@ -74,13 +82,14 @@ static bool make_couple(const assembly *a, int i, int j, couple *c)
         c->slope[k] = derivative * c->r[k] / c->distance;
     }
     c->volume = c->j[MOR_RECORD_VOLUME];
-    c->impedance_i = c->i[MOR_RECORD_DENSITY] * ASSEMBLY_SOUND;
-    c->impedance_j = c->j[MOR_RECORD_DENSITY] * ASSEMBLY_SOUND;
+    c->is_alike = soil_of(a, i) == soil_of(a, j);
+    c->impedance_i = c->i[MOR_RECORD_DENSITY] * assembly_sound(a, i);
+    c->impedance_j = c->j[MOR_RECORD_DENSITY] * assembly_sound(a, j);
     c->speed_i = mor_vector_dot(c->i + MOR_RECORD_VELOCITY, c->n);
     c->speed_j = mor_vector_dot(c->j + MOR_RECORD_VELOCITY, c->n);
     c->roughness =
         fmax(assembly_largest(c->i + MOR_RECORD_VELOCITY, 3), assembly_largest(c->j + MOR_RECORD_VELOCITY, 3));
-    c->sound = (c->impedance_i + c->impedance_j) / (c->i[MOR_RECORD_DENSITY] + c->j[MOR_RECORD_DENSITY]);
+    c->limiter_rate = 0.5 * ASSEMBLY_ETA * (1.0 / assembly_sound(a, i) + 1.0 / assembly_sound(a, j));
     find_closing(a, i, j, c);
     return true;
 }
@@ -92,20 +101,21 @@ static void add(tally *t, const double *sum, double term, double magnitude)
     ((double *)&t->magnitude)[place] += fabs(magnitude);
 }
 
-/* Riemann pressure, eqs. 20, 23, with the sign of the setting. */
+/* Riemann pressure, eqs. 20, 23, with the sign of the setting; the mean pressure where soils meet. */
 static double star_pressure(const couple *c, mor_dissipation mode, double *magnitude)
 {
     const double closing = c->closing;
     const double counted = mode == MOR_DISSIPATION_BOTH       ? fabs(closing)
                            : mode == MOR_DISSIPATION_APPROACH ? fmax(closing, 0.0)
                                                               : fmax(-closing, 0.0);
-    const double limiter = fmin(ASSEMBLY_ETA * counted / c->sound, 1.0);
+    const double limiter = fmin(c->limiter_rate * counted, 1.0);
     const double sum = c->impedance_i + c->impedance_j;
     const double product = c->impedance_i * c->impedance_j;
     const double p_i = c->i[MOR_RECORD_PRESSURE];
     const double p_j = c->j[MOR_RECORD_PRESSURE];
     *magnitude = fabs(p_i) + fabs(p_j) + product / sum * c->closing_roughness;
-    return (c->impedance_i * p_j + c->impedance_j * p_i + limiter * product * closing) / sum;
+    const double mean = c->is_alike ? (c->impedance_i * p_j + c->impedance_j * p_i) / sum : 0.5 * (p_i + p_j);
+    return mean + limiter * product * closing / sum;
 }
 
 /* Eqs. 18, 27: the stress between two particles, and what it is made of. */
@@ -144,31 +154,45 @@ static void add_momentum(const assembly *a, int i, int j, const couple *c, tally
     }
 }
 
+/* Share of a pair by which stress diffuses that has not been for long, of what flows (S11a); the rest is how much of
+ * it has changed. */
+static double flowing_share(const assembly *a, int i, int j)
+{
+    const double *w = a->extra + MOR_EXTRA_FLOW;
+    return a->constants.has_transient ? 0.5 * (w[MOR_EXTRA_SIZE * i] + w[MOR_EXTRA_SIZE * j]) : 1.0;
+}
+
 /* Eqs. 25, 26 for gravity in any direction, of a limited pair the share by which the Riemann solver would limit. */
-static void add_diffusion(const assembly *a, int i, const couple *c, tally *t)
+static void add_diffusion(const assembly *a, int i, int j, const couple *c, tally *t)
 {
     const mor_pair_constants *k = &a->constants;
     const double h = k->smoothing_length;
     const double decline = mor_vector_dot(c->r, c->slope) / (c->distance * c->distance + 0.01 * h * h);
-    const double factor = k->diffusion_rate * c->volume * decline;
+    const double rate = k->diffusion_rate * k->diffusion_factor * assembly_sound(a, i) / ASSEMBLY_SOUND;
+    const double factor = c->is_alike ? rate * c->volume * decline : 0.0;
+    const double weight = soil_of(a, i) == 0 ? ASSEMBLY_WEIGHT : ASSEMBLY_OTHER_WEIGHT * ASSEMBLY_WEIGHT;
     const double height = -mor_vector_dot(k->gravity_direction, c->r);
-    const double motion = ASSEMBLY_ETA * fabs(c->speed_i - c->speed_j) / c->sound;
-    const bool is_partial = k->has_limited_diffusion && motion < 1.0;
+    const double motion = c->limiter_rate * fabs(c->speed_i - c->speed_j);
+    const bool is_partial = k->has_limited_diffusion && !k->has_transient && motion < 1.0;
     const double share = is_partial ? motion : 1.0;
-    const double share_magnitude = is_partial ? motion + ASSEMBLY_ETA * c->roughness / c->sound : 1.0;
+    const double share_magnitude = is_partial ? motion + c->limiter_rate * c->roughness : 1.0;
+    const double flow = flowing_share(a, i, j);
     for (int b = 0; b < 6; ++b) {
         const double s_i = c->i[MOR_RECORD_STRESS + b];
         const double s_j = c->j[MOR_RECORD_STRESS + b];
+        const double m_i = k->has_transient ? a->extra[MOR_EXTRA_SIZE * i + MOR_EXTRA_MEAN + b] : 0.0;
+        const double m_j = k->has_transient ? a->extra[MOR_EXTRA_SIZE * j + MOR_EXTRA_MEAN + b] : 0.0;
         const double g_a = k->gravity_direction[b % 3];
         const double g_b = k->gravity_direction[b < 3 ? b : (b + 1) % 3];
         const double identity = b < 3 ? 1.0 : 0.0;
-        const double rest = (ASSEMBLY_LATERAL * (identity - g_a * g_b) + g_a * g_b) * ASSEMBLY_WEIGHT * height;
-        add(t, t->value.stress_diffusion + 6 * i + b, share * factor * (s_i - s_j - rest),
-            share_magnitude * factor * (fabs(s_i) + fabs(s_j) + ASSEMBLY_WEIGHT * c->distance));
+        const double rest = (ASSEMBLY_LATERAL * (identity - g_a * g_b) + g_a * g_b) * weight * height;
+        const double difference = flow * (s_i - s_j - rest) + (1.0 - flow) * (s_i - m_i - (s_j - m_j));
+        add(t, t->value.stress_diffusion + 6 * i + b, share * factor * difference,
+            share_magnitude * factor * (fabs(s_i) + fabs(s_j) + fabs(m_i) + fabs(m_j) + weight * c->distance));
     }
 }
 
-/* Eqs. 15, 17, 19, 24. */
+/* Eqs. 15, 17, 19, 24; the mean of both velocities where soils meet. A fit finds the density rate later. */
 static void add_gradient(const assembly *a, int i, const couple *c, tally *t)
 {
     const double *v_i = c->i + MOR_RECORD_VELOCITY;
@@ -180,15 +204,93 @@ static void add_gradient(const assembly *a, int i, const couple *c, tally *t)
     const double sum = c->impedance_i + c->impedance_j;
     const double p_i = a->constants.has_pressure_term ? c->i[MOR_RECORD_PRESSURE] : 0.0;
     const double p_j = a->constants.has_pressure_term ? c->j[MOR_RECORD_PRESSURE] : 0.0;
-    const double star = (c->impedance_i * c->speed_i + c->impedance_j * c->speed_j + p_i - p_j) / sum;
+    const double mean = 0.5 * (c->speed_i + c->speed_j);
+    const double star =
+        c->is_alike ? (c->impedance_i * c->speed_i + c->impedance_j * c->speed_j + p_i - p_j) / sum : mean;
     double rate = 0.0;
     for (int b = 0; b < 3; ++b) {
-        const double star_velocity = 0.5 * (v_i[b] + v_j[b]) + (star - 0.5 * (c->speed_i + c->speed_j)) * c->n[b];
+        const double star_velocity = 0.5 * (v_i[b] + v_j[b]) + (star - mean) * c->n[b];
         rate += (v_i[b] - star_velocity) * c->slope[b];
     }
     const double magnitude = (4.0 * c->roughness + (fabs(p_i) + fabs(p_j)) / sum) * mor_vector_length(c->slope);
     const double factor = 2.0 * c->i[MOR_RECORD_DENSITY] * c->volume;
-    add(t, t->value.density_rate + i, factor * rate, factor * magnitude);
+    if (!a->constants.has_fit) {
+        add(t, t->value.density_rate + i, factor * rate, factor * magnitude);
+    }
+}
+
+/* Skew stresses, each the cross product with its axial vector. */
+static void add_spin(const assembly *a, int i, int j, const couple *c, tally *t)
+{
+    const double *s_i = a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_SPIN;
+    const double *s_j = a->extra + MOR_EXTRA_SIZE * j + MOR_EXTRA_SPIN;
+    const double factor = c->volume / c->i[MOR_RECORD_DENSITY];
+    for (int b = 0; b < a->constants.dimension; ++b) {
+        const int d = (b + 1) % 3;
+        const int e = (b + 2) % 3;
+        const double term = (s_i[d] + s_j[d]) * c->slope[e] - (s_i[e] + s_j[e]) * c->slope[d];
+        const double magnitude =
+            (fabs(s_i[d]) + fabs(s_j[d])) * fabs(c->slope[e]) + (fabs(s_i[e]) + fabs(s_j[e])) * fabs(c->slope[d]);
+        add(t, t->value.acceleration + 3 * i + b, factor * term, factor * magnitude);
+    }
+}
+
+static double hourglass_of(const assembly *a, int i)
+{
+    return a->constants.hourglass * (soil_of(a, i) == 0 ? 1.0 : ASSEMBLY_OTHER_HOURGLASS);
+}
+
+/* (S12a), and half of the moment of a pair's forces, per volume. */
+static void add_hourglass(const assembly *a, int i, int j, const couple *c, tally *t)
+{
+    const double *d_i = a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_HOURGLASS;
+    const double *d_j = a->extra + MOR_EXTRA_SIZE * j + MOR_EXTRA_HOURGLASS;
+    const double m_i = hourglass_of(a, i);
+    const double m_j = hourglass_of(a, j);
+    const double stiffness = 2.0 * m_i * m_j / (m_i + m_j);
+    const double spring = -c->volume * stiffness * mor_vector_dot(c->r, c->slope) / (c->distance * c->distance);
+    double force[3];
+    double size[3];
+    for (int b = 0; b < 3; ++b) {
+        force[b] = -spring * (d_i[b] - d_j[b]);
+        size[b] = spring * (fabs(d_i[b]) + fabs(d_j[b]));
+        add(t, t->value.acceleration + 3 * i + b, force[b] / c->i[MOR_RECORD_DENSITY],
+            size[b] / c->i[MOR_RECORD_DENSITY]);
+    }
+    for (int b = 0; b < 3; ++b) {
+        const int d = (b + 1) % 3;
+        const int e = (b + 2) % 3;
+        add(t, t->value.hourglass_moment + 3 * i + b, 0.5 * (c->r[d] * force[e] - c->r[e] * force[d]),
+            0.5 * (fabs(c->r[d]) * size[e] + fabs(c->r[e]) * size[d]));
+    }
+}
+
+/* (S12b): the motion of a particle that is left of the linear field which fits its neighbors best. */
+static void add_hourglass_rate(const assembly *a, int i, tally *t)
+{
+    const int dimension = a->constants.dimension;
+    linear_fit fit;
+    double rest[3];
+    double size[3];
+    memset(&fit, 0, sizeof fit);
+    for (int j = 0; j < a->n; ++j) {
+        couple c;
+        if (make_couple(a, i, j, &c)) {
+            const double weight = c.volume * pow(1.0 - 0.5 * c.distance / a->constants.smoothing_length, 3.0);
+            double jump[3];
+            for (int b = 0; b < 3; ++b) {
+                jump[b] = c.i[MOR_RECORD_VELOCITY + b] - c.j[MOR_RECORD_VELOCITY + b];
+            }
+            linear_fit_add(&fit, weight, jump, 2.0 * c.roughness, c.r);
+        }
+    }
+    linear_fit_find_rest(&fit, dimension, rest, size);
+    /* The loop takes the particle's own weight off again. */
+    const double volume = a->records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME];
+    const double own = fit.sum.weight > 0.0 ? 1.0 + volume / fit.sum.weight : 1.0;
+    for (int b = 0; b < dimension; ++b) {
+        add(t, t->value.hourglass_rate + 3 * i + b, rest[b], own * size[b]);
+    }
 }
 
 /* Hu et al. (2021) eqs. 13 and 16, with 3, 1 and -0.1 for the parameters of the shift. */
@@ -218,6 +320,8 @@ static void add_kernel(int i, const couple *c, double kernel, tally *t)
         add(t, sums + MOR_KERNEL_SUM_GRADIENT + b, slope, slope);
         add(t, sums + MOR_KERNEL_SUM_MOMENT + b, diagonal, diagonal);
         add(t, sums + MOR_KERNEL_SUM_MOMENT + 3 + b, mixed, mixed);
+        add(t, t->value.moments + 6 * i + b, diagonal, diagonal);
+        add(t, t->value.moments + 6 * i + 3 + b, mixed, mixed);
     }
 }
 
@@ -233,6 +337,11 @@ static void add_self(const assembly *a, int i, tally *t)
         const double magnitude = k->diffusion_rate * decline * fabs(record[MOR_RECORD_STRESS + b]);
         add(t, t->value.stress_diffusion + 6 * i + b, 0.0, 2.0 * magnitude);
     }
+    for (int b = 0; b < 3 && k->has_hourglass; ++b) {
+        const double spring = k->gradient_factor * record[MOR_RECORD_VOLUME] * hourglass_of(a, i);
+        const double d = a->extra[MOR_EXTRA_SIZE * i + MOR_EXTRA_HOURGLASS + b];
+        add(t, t->value.acceleration + 3 * i + b, 0.0, 2.0 * spring * d / record[MOR_RECORD_DENSITY]);
+    }
 }
 
 static void add_up(const assembly *a, tally *t)
@@ -247,13 +356,22 @@ static void add_up(const assembly *a, tally *t)
             }
             add_momentum(a, i, j, &c, t);
             if (k->diffusion_rate > 0.0) {
-                add_diffusion(a, i, &c, t);
+                add_diffusion(a, i, j, &c, t);
+            }
+            if (k->has_spin) {
+                add_spin(a, i, j, &c, t);
+            }
+            if (k->has_hourglass) {
+                add_hourglass(a, i, j, &c, t);
             }
             add_gradient(a, i, &c, t);
             add_regularization(a, i, &c, t);
             add_kernel(i, &c, mor_kernel_value(c.distance, k->smoothing_length, k->dimension), t);
         }
         add_self(a, i, t);
+        if (k->has_hourglass) {
+            add_hourglass_rate(a, i, t);
+        }
     }
 }
 
@@ -280,6 +398,9 @@ static void assert_sums(const assembly *a, const tally *t, const assembly_sums *
     assert_close(a, t, sums, t->value.velocity_gradient, 9, true);
     assert_close(a, t, sums, t->value.density_rate, 1, true);
     assert_close(a, t, sums, t->value.regularization, 6, true);
+    assert_close(a, t, sums, t->value.hourglass_rate, 3, a->constants.has_hourglass);
+    assert_close(a, t, sums, t->value.hourglass_moment, 3, a->constants.has_hourglass);
+    assert_close(a, t, sums, t->value.moments, 6, a->parts & (ASSEMBLY_FIT | ASSEMBLY_SPIN));
     /* Kernel sums go into a scratch array that has room for whole clusters. */
     for (int k = 0; k < MOR_KERNEL_SUMS * a->n; ++k) {
         const double difference = sums->kernel[k] - t->value.kernel[k];
@@ -320,13 +441,41 @@ static void every_option_agrees_with_the_equations(void **state)
     }
 }
 
+/* Of one soil, or of two, whose border clusters see both. */
+static void every_part_of_the_scheme_agrees_with_the_equations(void **state)
+{
+    (void)state;
+    for (int option = 0; option < ASSEMBLY_PARTS * ASSEMBLY_FORMS * 2 * 2; ++option) {
+        const bool has_two_soils = option / 2 % 2;
+        assembly a;
+        assembly_open_mixed(&a, 2 + option % 2);
+        assembly_choose(&a, option / 4 % ASSEMBLY_FORMS);
+        assembly_choose_parts(&a, option / 4 / ASSEMBLY_FORMS);
+        a.constants.diffusion_factor = a.constants.has_transient ? 2.0 : 1.0;
+        if (has_two_soils) {
+            int n_whole = 0;
+            int n_mixed = 0;
+            assembly_split(&a, a.constants.dimension == 2 ? 6.5 * ASSEMBLY_SPACING : 3.5 * ASSEMBLY_SPACING);
+            for (int cluster = 0; cluster < a.tree.n_clusters; ++cluster) {
+                n_whole += a.one_soil[cluster] >= 0;
+                n_mixed += a.one_soil[cluster] < 0;
+            }
+            assert_true(n_mixed > 0 && (n_whole > 0 || a.constants.dimension == 3));
+        }
+        compare_all_tables(&a);
+        assembly_close(&a);
+    }
+}
+
 static void number_of_particles_need_not_fill_clusters(void **state)
 {
     (void)state;
     for (int n_left_out = 0; n_left_out <= 8; ++n_left_out) {
-        for (int dimension = 2; dimension <= 3; ++dimension) {
+        for (int option = 0; option < 2 * 2; ++option) {
+            const int dimension = 2 + option % 2;
             assembly a;
             assembly_open_lattice(&a, dimension, dimension == 2 ? 4 : 3, n_left_out, 0.3);
+            assembly_choose_parts(&a, option < 2 ? 0 : ASSEMBLY_PARTS - 1);
             compare_all_tables(&a);
             assembly_close(&a);
         }
@@ -336,9 +485,11 @@ static void number_of_particles_need_not_fill_clusters(void **state)
 static void one_particle_alone_feels_nothing(void **state)
 {
     (void)state;
-    for (int dimension = 2; dimension <= 3; ++dimension) {
+    for (int option = 0; option < 2 * ASSEMBLY_PARTS; ++option) {
+        const int dimension = 2 + option % 2;
         assembly a;
         assembly_open(&a, dimension, ((const double[3]){0.3, -0.2, dimension == 3 ? 0.1 : 0.0}), 1);
+        assembly_choose_parts(&a, option / 2);
         compare_all_tables(&a);
         assembly_close(&a);
     }
@@ -397,6 +548,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_option_agrees_with_the_equations),
+        cmocka_unit_test(every_part_of_the_scheme_agrees_with_the_equations),
         cmocka_unit_test(number_of_particles_need_not_fill_clusters),
         cmocka_unit_test(one_particle_alone_feels_nothing),
         cmocka_unit_test(far_from_the_origin_the_sums_are_as_good_as_the_positions),
