@@ -10,11 +10,12 @@
 #include <math.h>
 #include <string.h>
 
-/* MEMORY: time over which the recent mean follows the stress, over h / c0: a few periods of the waves that single
- * particles make, which diffusion is to remove, and short beside those of the soil.
+/* MEMORY: time over which the recent mean follows the stress, over h / c0. A wave of length l is diffused by y^2 /
+ * (1 + y^2) of what diffusion does without the mean, y = 2 pi MEMORY h / l: one as long as the support, 4 h, by 0.91,
+ * one of three supports by half. For the waves of the soil y is small, and their error of order two in h.
  * NOISE: the part of the stress that noise may be in flow. Strain at a rate g leaves noise at about g of the stress,
  * and diffusion removes it at zeta c0 / h. */
-#define MEMORY 5.0
+#define MEMORY 2.0
 #define NOISE 0.01
 
 /* Turns a mean stress with the soil and lets it follow the stress by a part of their difference. */
