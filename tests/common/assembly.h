@@ -252,9 +252,10 @@ static inline double assembly_sound(const assembly *a, int i)
     return is_other ? ASSEMBLY_OTHER_SOUND * ASSEMBLY_SOUND : ASSEMBLY_SOUND;
 }
 
-/** Makes particles beyond x, in m, those of a second soil. */
-static inline void assembly_split(assembly *a, double x)
+/** Makes particles of a mixed assembly on one side of a plane those of a second soil. */
+static inline void assembly_split(assembly *a)
 {
+    const double x = (a->constants.dimension == 2 ? 6.5 : 3.5) * ASSEMBLY_SPACING;
     const mor_pair_constants *c = &a->constants;
     for (int s = 0; s < 2; ++s) {
         const double sound = s == 0 ? 1.0 : ASSEMBLY_OTHER_SOUND;
@@ -288,6 +289,26 @@ static inline void assembly_for_mixed(void (*check)(assembly *a, const mor_pair_
         assembly_open_mixed(a, 2 + option % 2);
         assembly_choose(a, option / 2);
         check(a, tables[option / (2 * ASSEMBLY_FORMS)]);
+        assembly_close(a);
+        free(a);
+    }
+}
+
+/** As assembly_for_mixed, with all parts of the scheme, or all but one, in one soil and in two. */
+static inline void assembly_for_parts(void (*check)(assembly *a, const mor_pair_table *table))
+{
+    static const int left_out[] = {0, ASSEMBLY_TRANSIENT, ASSEMBLY_FIT};
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    for (int option = 0; option < 2 * 2 * 3 * n_tables; ++option) {
+        assembly *a = malloc(sizeof *a);
+        assert_non_null(a);
+        assembly_open_mixed(a, 2 + option % 2);
+        assembly_choose_parts(a, (ASSEMBLY_PARTS - 1) & ~left_out[option / 4 % 3]);
+        if (option / 2 % 2) {
+            assembly_split(a);
+        }
+        check(a, tables[option / (2 * 2 * 3)]);
         assembly_close(a);
         free(a);
     }

@@ -12,8 +12,9 @@ typedef struct momentum_form {
     int extra;    /* what is read beside the records, bits of the enum; not constant */
 } momentum_form;
 
-/* What the momentum loop reads beside the records. */
-enum { MOR_HOURGLASSES = 1, MOR_SPINS = 2, MOR_MEANS = 4 };
+/* What the momentum loop reads beside the records. MOR_STIFFNESSES: unlike ones of hourglass controls, wherever there
+ * are several soils: what a cluster lists beyond its reach must not change the rounding of its sums. */
+enum { MOR_HOURGLASSES = 1, MOR_SPINS = 2, MOR_MEANS = 4, MOR_STIFFNESSES = 8 };
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
 INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
@@ -221,7 +222,8 @@ INLINE void add_extra(momentum_part *part, const geometry *geometries, const int
 {
     vec itself = broadcast(c->hourglass);
     for (int lane = 0; lane < LANES && form.several; ++lane) {
-        itself[lane] = c->soils[(int)part->own.soil[lane]].hourglass;
+        const double *of_soil = arrays->of_soil + (part->first + lane) * MOR_PAIR_OF_SOIL_SIZE;
+        itself[lane] = c->soils[(int)of_soil[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
     }
     momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
@@ -353,7 +355,7 @@ INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor
     part->sums = sums;
     compiler_barrier(part);
     if (form.extra & (MOR_HOURGLASSES | MOR_SPINS)) {
-        adders[form.several][form.dimension - 2](part, geometries, near, n, c, arrays);
+        adders[(form.extra & MOR_STIFFNESSES) != 0][form.dimension - 2](part, geometries, near, n, c, arrays);
     }
     if (c->has_artificial_stress) {
         artificial_adders[form.dimension - 2](part, geometries, near, n, c, arrays);
@@ -443,8 +445,9 @@ __attribute__((noinline)) static void finish_hourglass(const momentum_sums *m, c
                                                        const momentum_form form)
 {
     const double *own = arrays->extra + first * MOR_EXTRA_SIZE;
-    const double stiffness = form.several ? 1.0 : c->hourglass;
-    const vec *lever = form.several ? m->lever : m->weight;
+    const bool has_several = form.extra & MOR_STIFFNESSES;
+    const double stiffness = has_several ? 1.0 : c->hourglass;
+    const vec *lever = has_several ? m->lever : m->weight;
     vec d[3];
     for (int a = 0; a < 3; ++a) {
         d[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_HOURGLASS + a);
@@ -539,8 +542,9 @@ INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arr
                          const int dimension, int diffuses, int several)
 {
     const int linear = arrays->strain_rate != NULL;
+    const int hourglass = c->soils != NULL ? MOR_HOURGLASSES | MOR_STIFFNESSES : MOR_HOURGLASSES;
     const int extra =
-        (c->has_hourglass ? MOR_HOURGLASSES : 0) | (c->has_spin ? MOR_SPINS : 0) | (diffuses == 3 ? MOR_MEANS : 0);
+        (c->has_hourglass ? hourglass : 0) | (c->has_spin ? MOR_SPINS : 0) | (diffuses == 3 ? MOR_MEANS : 0);
 #define MOR_MOMENTUM_CASE(d, l, s)                                                                                     \
     if (diffuses == (d) && linear == (l) && several == (s)) {                                                          \
         for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \

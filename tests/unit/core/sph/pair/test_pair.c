@@ -455,7 +455,7 @@ static void every_part_of_the_scheme_agrees_with_the_equations(void **state)
         if (has_two_soils) {
             int n_whole = 0;
             int n_mixed = 0;
-            assembly_split(&a, a.constants.dimension == 2 ? 6.5 * ASSEMBLY_SPACING : 3.5 * ASSEMBLY_SPACING);
+            assembly_split(&a);
             for (int cluster = 0; cluster < a.tree.n_clusters; ++cluster) {
                 n_whole += a.one_soil[cluster] >= 0;
                 n_mixed += a.one_soil[cluster] < 0;

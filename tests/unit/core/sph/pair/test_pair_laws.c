@@ -35,6 +35,7 @@ static void forces_add_up_to_nothing(void **state)
 {
     (void)state;
     assembly_for_mixed(check_momentum);
+    assembly_for_parts(check_momentum);
 }
 
 /* Two particles with states that have nothing in common. */
@@ -175,30 +176,62 @@ static void sums_depend_neither_on_ranges_nor_on_strangers_in_the_lists(void **s
 {
     (void)state;
     assembly_for_mixed(check_ranges);
+    assembly_for_parts(check_ranges);
+}
+
+static void check_wide_registers(assembly *a, const mor_pair_table *table)
+{
+    assembly_sums narrow;
+    assembly_sums wide;
+    (void)table;
+    assembly_run(a, mor_pair_select("avx2"), 1000, &narrow);
+    assembly_run(a, mor_pair_select("avx512"), 1000, &wide);
+    assert_same(&narrow, &wide, (size_t)(MOR_KERNEL_SUMS * a->n));
 }
 
 static void wide_registers_give_the_same_bits_as_wider_ones(void **state)
 {
     (void)state;
-    const mor_pair_table *avx2 = mor_pair_select("avx2");
-    const mor_pair_table *avx512 = mor_pair_select("avx512");
-    if (avx2 == NULL || avx512 == NULL) {
+    if (mor_pair_select("avx2") == NULL || mor_pair_select("avx512") == NULL) {
         skip();
     }
     for (int option = 0; option < 2 * ASSEMBLY_FORMS * 2 * 2 * 2; ++option) {
         assembly a;
-        assembly_sums narrow;
-        assembly_sums wide;
         assembly_open_mixed(&a, 2 + option % 2);
         const int others = option / 2 / ASSEMBLY_FORMS;
         assembly_choose(&a, option / 2);
         a.constants.diffusion_rate *= others % 2;
         a.constants.has_artificial_stress = others / 2 % 2;
         a.constants.has_pressure_term = others / 4 % 2;
-        assembly_run(&a, avx2, 1000, &narrow);
-        assembly_run(&a, avx512, 1000, &wide);
-        assert_same(&narrow, &wide, (size_t)(MOR_KERNEL_SUMS * a.n));
+        check_wide_registers(&a, NULL);
         assembly_close(&a);
+    }
+    assembly_for_parts(check_wide_registers);
+}
+
+static void scale(double *values, int n, int exponent)
+{
+    for (int k = 0; k < n; ++k) {
+        values[k] = ldexp(values[k], exponent);
+    }
+}
+
+/* Multiplies what is read beside the records by the powers of two of length, time and stress. */
+static void change_units_of_parts(assembly *a, int length, int time, int stress)
+{
+    scale(&a->constants.hourglass, 1, stress);
+    for (int s = 0; s < 2; ++s) {
+        scale(&a->soils[s].limiter_rate, 1, time - length);
+        scale(&a->soils[s].hourglass, 1, stress);
+        scale(&a->soils[s].diffusion_rate, 1, 2 * length - time);
+        scale(a->soils[s].rest_gradient, 6, stress - length);
+    }
+    for (int i = 0; i < a->n; ++i) {
+        double *extra = a->extra + MOR_EXTRA_SIZE * i;
+        scale(extra + MOR_EXTRA_MEAN, 6, stress);
+        scale(extra + MOR_EXTRA_HOURGLASS, 3, length);
+        scale(extra + MOR_EXTRA_SPIN, 3, stress);
+        scale(a->of_soil + MOR_PAIR_OF_SOIL_SIZE * i + MOR_PAIR_OF_SOIL_LIMITER, 1, time - length);
     }
 }
 
@@ -235,6 +268,7 @@ static void change_units(assembly *a, int length, int time, int mass)
         record[MOR_RECORD_PRESSURE] = ldexp(record[MOR_RECORD_PRESSURE], stress);
         record[MOR_RECORD_DENSITY] = ldexp(record[MOR_RECORD_DENSITY], density);
     }
+    change_units_of_parts(a, length, time, stress);
     assembly_list(a, ldexp(0.2 * ASSEMBLY_SPACING, length));
 }
 
@@ -258,6 +292,11 @@ static void check_units(assembly *a, const mor_pair_table *table)
     assert_scaled(before.stress_diffusion, after.stress_diffusion, 6 * n, MASS - LENGTH - 3 * TIME);
     assert_scaled(before.velocity_gradient, after.velocity_gradient, 9 * n, -TIME);
     assert_scaled(before.density_rate, after.density_rate, n, MASS - 3 * LENGTH - TIME);
+    if (a->constants.has_hourglass) {
+        assert_scaled(before.hourglass_rate, after.hourglass_rate, 3 * n, LENGTH - TIME);
+        assert_scaled(before.hourglass_moment, after.hourglass_moment, 3 * n, MASS - LENGTH - 2 * TIME);
+        assert_scaled(before.moments, after.moments, 6 * n, 0);
+    }
     for (int i = 0; i < n; ++i) {
         assert_scaled(before.regularization + 6 * i, after.regularization + 6 * i, 3, LENGTH - TIME);
         assert_scaled(before.regularization + 6 * i + 3, after.regularization + 6 * i + 3, 3, 0);
@@ -273,6 +312,7 @@ static void units_changed_by_powers_of_two_change_no_bit(void **state)
 {
     (void)state;
     assembly_for_mixed(check_units);
+    assembly_for_parts(check_units);
 }
 
 /* Quarter turns about z and, in space, about x: all entries are 0 or 1, so that states turn without rounding. */
@@ -323,6 +363,8 @@ static void check_turn(assembly *a, const mor_pair_table *table)
         assembly_run(a, table, 1000, &before);
         turn_vector(rotation, a->constants.gravity_direction);
         turn_symmetric(rotation, a->constants.rest_gradient);
+        turn_symmetric(rotation, a->soils[0].rest_gradient);
+        turn_symmetric(rotation, a->soils[1].rest_gradient);
         for (int i = 0; i < n; ++i) {
             double *record = a->records + i * MOR_RECORD_SIZE;
             turn_vector(rotation, record);
@@ -330,9 +372,15 @@ static void check_turn(assembly *a, const mor_pair_table *table)
             turn_symmetric(rotation, record + MOR_RECORD_STRESS);
             turn_symmetric(rotation, a->artificial + 6 * i);
             turn_symmetric(rotation, a->strain_rate + 6 * i);
+            turn_symmetric(rotation, a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_MEAN);
+            turn_vector(rotation, a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_HOURGLASS);
+            turn_vector(rotation, a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_SPIN);
             turn_vector(rotation, before.acceleration + 3 * i);
             turn_symmetric(rotation, before.stress_diffusion + 6 * i);
             turn_matrix(rotation, before.velocity_gradient + 9 * i);
+            turn_vector(rotation, before.hourglass_rate + 3 * i);
+            turn_vector(rotation, before.hourglass_moment + 3 * i);
+            turn_symmetric(rotation, before.moments + 6 * i);
             turn_vector(rotation, before.regularization + 6 * i);
             turn_vector(rotation, before.regularization + 6 * i + 3);
             turn_vector(rotation, before.kernel + MOR_KERNEL_SUMS * i + MOR_KERNEL_SUM_GRADIENT);
@@ -346,6 +394,12 @@ static void check_turn(assembly *a, const mor_pair_table *table)
         assert_near(before.velocity_gradient, after.velocity_gradient, 9 * n,
                     assembly_largest(before.velocity_gradient, 9 * n));
         assert_near(before.density_rate, after.density_rate, n, assembly_largest(before.density_rate, n));
+        if (a->constants.has_hourglass) {
+            const double most = assembly_largest(before.hourglass_moment, 3 * n);
+            assert_near(before.hourglass_rate, after.hourglass_rate, 3 * n, 1.0); /* m/s: of the velocities */
+            assert_near(before.hourglass_moment, after.hourglass_moment, 3 * n, most);
+            assert_near(before.moments, after.moments, 6 * n, 1.0);
+        }
         assert_near(before.regularization, after.regularization, 6 * n, assembly_largest(before.regularization, 6 * n));
         assert_near(before.kernel, after.kernel, MOR_KERNEL_SUMS * n, 1.0 / ASSEMBLY_SPACING);
     }
@@ -355,6 +409,7 @@ static void sums_turn_with_the_axes(void **state)
 {
     (void)state;
     assembly_for_mixed(check_turn);
+    assembly_for_parts(check_turn);
 }
 
 static void check_common_velocity(assembly *a, const mor_pair_table *table)
