@@ -22,6 +22,7 @@ typedef struct floor_case {
     mor_soil_contact wall;
     double points[3 * FLOOR_MAX]; /* shape [n_points, 3], m */
     int n_points;
+    bool presses_only;                          /* with Coulomb friction: it does not hold soil under tension */
     double acceleration[3 * ASSEMBLY_MAX];      /* of the soil by the wall, m/s2 */
     double velocity_gradient[9 * ASSEMBLY_MAX]; /* the wall's part, 1/s */
     double density_rate[ASSEMBLY_MAX];          /* the wall's part, kg/m3/s */
@@ -37,6 +38,7 @@ static inline double floor_cell(int dimension)
 static inline void floor_fill(floor_case *f, int dimension)
 {
     f->n_points = 0;
+    f->presses_only = false;
     for (int x = 0; x < FLOOR_SIDE; ++x) {
         for (int y = 0; y < (dimension == 3 ? FLOOR_SIDE : 1); ++y) {
             for (int layer = 0; layer < FLOOR_LAYERS; ++layer) {
@@ -103,7 +105,8 @@ static inline double *floor_record(floor_case *f)
 /** The soil as the wall sees it. */
 static inline mor_contact_soil floor_soil(const floor_case *f, mor_dissipation dissipation)
 {
-    return (mor_contact_soil){.dissipation = dissipation,
+    return (mor_contact_soil){.coulomb_pulls = !f->presses_only,
+                              .dissipation = dissipation,
                               .limiter_rate = f->soil.constants.limiter_rate,
                               .records = f->soil.records,
                               .n_particles = f->soil.n};

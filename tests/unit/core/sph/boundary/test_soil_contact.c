@@ -183,6 +183,9 @@ static void coulomb_wall_holds_nothing_under_tension(void **state)
     assert_true(normal < 0.0);                                                /* the mirror still pulls */
     assert_true(mor_vector_length(tangential) <= 64 * DBL_EPSILON * -normal); /* the normal tilts by some ulp */
     const double stick = sticking_part(&f, 0.0, 1e3);
+    f.presses_only = true;
+    floor_run(&f, MOR_DISSIPATION_BOTH);
+    assert_true(mor_vector_length(f.acceleration) == 0.0); /* exact: nothing pulls, and nothing rubs without pressure */
     assert_true(stick < 1e-5 && fabs(f.wall.stick[0] - stick) <= 1e-12 * stick); /* normals tilt by some ulp */
     floor_close(&f);
 }
