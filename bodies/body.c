@@ -249,6 +249,8 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group)
     MOR_FREE(context, &group->piece_stray);
     MOR_FREE(context, &group->reference_centers);
     MOR_FREE(context, &group->reference_spreads);
+    MOR_FREE(context, &group->reference_normals);
+    MOR_FREE(context, &group->boundary.normals);
     MOR_FREE(context, &group->boundary.records);
     MOR_FREE(context, &group->boundary.patches);
     MOR_FREE(context, &group->boundary.force);
@@ -272,6 +274,9 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
     }
     MOR_PARALLEL_FOR (&team, p, group->is_unseen ? 0 : group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
+        if (group->reference_normals != NULL) {
+            mor_body_group_turn_normals(group, piece);
+        }
         for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
             double *record = group->boundary.records + i * MOR_BOUNDARY_RECORD + MOR_BOUNDARY_POSITION;
             for (int a = 0; a < 3; ++a) {

@@ -129,6 +129,9 @@ typedef struct mor_body_group {
     mor_set set;        /* particles in the order (body, cluster); never permuted. Fields in use: POSITION, VELOCITY,
                             * MASS, DENSITY, and those the solver adds */
     double *reference;  /* shape [n_particles, 3], reference positions, m */
+    double *reference_normals; /* shape [n_particles, 3]; of the face nearest to each, 1, zero where none is near; NULL:
+                                * soil sees faces as the particles lie */
+    int field_gradient;        /* index of the field deformation_gradient [9] in the set; deformable bodies only */
     double *volume;   /* shape [n_particles], in the reference configuration, m3 (m2); each body's add up to its own */
     int32_t *body_of; /* shape [n_particles], index of the body */
     double *contact_force; /* shape [n_particles, 3]; of contact in this sub-step, N (N/m); NULL unless deformable */
@@ -205,11 +208,18 @@ mor_status mor_body_group_init(mor_context *context, mor_body_group *group, cons
                                const mor_body_operations *operations, void *owner, int dimension, double spacing,
                                const mor_body_request *requests, int n_bodies, uint64_t field_mask);
 
+/** Lets soil see the faces of the bodies by their normals, from the level sets of their shapes; in a body that deforms
+ *  they follow its deformation. Before the boundary is added to a soil.
+ *  @param group [in,out]  initialized
+ *  @param reach [in]      of soil into a body: points deeper than this have no normal, unit m
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: some distances for each particle; allocates. */
+mor_status mor_body_group_use_normals(mor_context *context, mor_body_group *group, double reach);
+
 /** Frees what the group owns; accepts a zeroed one. */
 void mor_body_group_clear(mor_context *context, mor_body_group *group);
 
 /** Sets the positions that the soil sees to those in the middle of the coming common step, and stores the present ones
- *  and the motion of the bodies.
+ *  and the motion of the bodies; normals are those of the start of the step.
  *  Velocities stay those that the last common step ended with (at the start: the initial ones).
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);

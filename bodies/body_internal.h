@@ -35,6 +35,9 @@ static inline mor_body_team mor_body_team_for(const mor_context *context, int64_
 mor_status mor_body_order(mor_context *context, const mor_body_request *request, int dimension, double spacing,
                           int32_t *order);
 
+/** Brings the normals of a piece's faces to where its body is; for a group that uses normals. */
+void mor_body_group_turn_normals(mor_body_group *group, const mor_body_piece *piece);
+
 /** Inverse of a matrix, shape [3,3]; false, and zero, when it is singular: its determinant is less than 1e-9 of that of
  *  a multiple of I of the same norm. */
 static inline bool mor_matrix_invert(const double *m, double *inverse)

@@ -65,6 +65,7 @@ static mor_status add_fields(mor_context *context, mor_elastic *elastic)
                                         "rate of the deformation gradient"};
     mor_set *set = &elastic->group.set;
     MOR_TRY(context, mor_set_add_field(context, set, &gradient, &elastic->field_gradient));
+    elastic->group.field_gradient = elastic->field_gradient;
     MOR_TRY(context, mor_set_add_field(context, set, &rate, &elastic->field_rate));
     return mor_set_add_state(context, set, elastic->material->material->state, elastic->material->n_state,
                              elastic->work->state_fields);

@@ -404,6 +404,13 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     memset(soil, 0, sizeof *soil);
 }
 
+/* Room for the faces that particles see, once for all boundaries. */
+static mor_status make_corners(mor_context *context, mor_soil *soil)
+{
+    return soil->corners != NULL ? MOR_OK
+                                 : MOR_NEW(context, &soil->corners, soil->set.n_particles, "faces that particles see");
+}
+
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request)
 {
     MOR_CHECK(context, soil->n_walls < MOR_SOIL_WALLS_MAX, MOR_ERROR_ARGUMENT,
@@ -411,10 +418,7 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
               MOR_SOIL_WALLS_MAX);
     MOR_TRY(context, mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, soil->tree.n_clusters));
     soil->n_walls += 1;
-    if (request->normals != NULL && soil->corners == NULL) {
-        MOR_TRY(context, MOR_NEW(context, &soil->corners, soil->set.n_particles, "faces that particles see"));
-    }
-    return MOR_OK;
+    return request->normals != NULL ? make_corners(context, soil) : MOR_OK;
 }
 
 mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_boundary *boundary, mor_wall_stress stress)
@@ -426,7 +430,7 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
                                              soil->settings.dimension, soil->tree.n_clusters));
     soil->n_boundaries += 1;
     soil->has_lists = false;
-    return MOR_OK;
+    return boundary->normals != NULL ? make_corners(context, soil) : MOR_OK;
 }
 
 mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_boundary *boundary,

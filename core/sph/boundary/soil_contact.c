@@ -141,6 +141,7 @@ mor_status mor_soil_contact_borrow(mor_context *context, mor_soil_contact *conta
     memcpy(contact->name, boundary->name, sizeof contact->name);
     contact->n_points = boundary->n_points;
     contact->boundary = boundary;
+    contact->normals = boundary->normals;
     contact->stress = stress;
     contact->dimension = dimension;
     const mor_status status = prepare_contact(context, contact, n_soil_clusters);
@@ -173,8 +174,8 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
         MOR_FREE(context, &contact->boundary->records);
         MOR_FREE(context, &contact->boundary->patches);
         MOR_FREE(context, &contact->boundary);
+        MOR_FREE(context, &contact->normals);
     }
-    MOR_FREE(context, &contact->normals);
     MOR_FREE(context, &contact->base);
     MOR_FREE(context, &contact->built);
     MOR_FREE(context, &contact->farthest);

@@ -68,10 +68,10 @@ typedef struct mor_soil_contact {
     mor_boundary *boundary; /* a wall's own, otherwise borrowed */
     bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
     double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
-    double *normals;        /* shape [n_points, 3]; of a wall's faces, unit 1; NULL: as the points lie */
-    double *seen_faces;     /* shape [capacity * 8, 6]; sum of V (1 - (q/2)^4) n (x) n, m3 (m2); NULL without */
-    double *built;          /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
-    double *farthest;       /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
+    double *normals;    /* shape [n_points, 3]; of faces, 1; a wall's own, otherwise borrowed; NULL: as points lie */
+    double *seen_faces; /* shape [capacity * 8, 6]; sum of V (1 - (q/2)^4) n (x) n, m3 (m2); NULL without */
+    double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
+    double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     mor_tree tree;
     mor_relation relation;   /* soil -> boundary */
     mor_pair_slot *slots;    /* shape [capacity]; by rising cluster, then patch */
@@ -104,7 +104,7 @@ mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact
                                  int64_t n_soil_clusters);
 
 /** Makes the relation of the soil to a boundary that is moved by another solver.
- *  @param boundary        [in,out]  borrowed
+ *  @param boundary        [in,out]  borrowed; with normals or without, as it will stay
  *  @param stress          [in]      stress that a particle sees in it
  *  @param dimension       [in]      2 or 3
  *  @param n_soil_clusters [in]      clusters of the soil set
@@ -148,7 +148,8 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
 
 /** Keeps of kernel gradients what lies along the normals of faces, for the points of a wall form a lattice and the rest
  *  is the lattice's - except where several faces meet.
- *  @param contact     [in,out]  with normals; sums must be current
+ *  @param contact     [in,out]  with normals; sums must be current; the whole gradients of a borrowed boundary are kept
+ *                              in given for mor_soil_contact_share_forces
  *  @param n_particles [in]      number of soil particles
  *  @param corners     [in,out]  shape [n_particles]; added to, sees_any false at first */
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles,

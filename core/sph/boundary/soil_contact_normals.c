@@ -123,8 +123,11 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
                 const int64_t lane = slot * MOR_CLUSTER + k;
-                project_lane(contact->seen_faces + 6 * lane,
-                             contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT, corners + first + k);
+                double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+                if (contact->given != NULL) {
+                    memcpy(contact->given + lane * MOR_SHARES + MOR_SHARE_DIRECTION, gradient, 3 * sizeof *gradient);
+                }
+                project_lane(contact->seen_faces + 6 * lane, gradient, corners + first + k);
             }
         }
     }

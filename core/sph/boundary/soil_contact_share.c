@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { GRAIN = MOR_CONTACT_GRAIN };
@@ -19,24 +20,29 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
  * its points lie on a line. */
 #define SMALLEST_INERTIA 1.0e-9
 
-/* How each particle of a slot gives its force: in proportion to V grad W . n, as in eqs. 48 and 50. */
+/* How each particle of a slot gives its force: in proportion to V grad W . n, as in eqs. 48 and 50. Where the kernel
+ * gradient was directed by faces, the sum of these is that of the points times it. */
 static void prepare_slot(const mor_soil_contact *contact, double smoothing_length, int64_t slot, const double *records,
                          int64_t n_particles)
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+    const int64_t n_lanes = mor_soil_contact_lanes(&contact->slots[slot], n_particles);
     double *given = contact->given + slot * MOR_CLUSTER * MOR_SHARES;
-    memset(given, 0, MOR_CLUSTER * MOR_SHARES * sizeof *given);
-    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
+    memset(given + n_lanes * MOR_SHARES, 0, (size_t)((MOR_CLUSTER - n_lanes) * MOR_SHARES) * sizeof *given);
+    for (int64_t k = 0; k < n_lanes; ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const double *record = records + (first + k) * MOR_RECORD_SIZE;
         const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
         const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
         const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
         const double value = sums[MOR_KERNEL_SUM_VALUE];
-        const double length2 = mor_vector_dot(gradient, gradient);
         double *own = given + k * MOR_SHARES;
-        if (!(value > 0.0) || !(length2 > 0.0)) {
-            continue; /* out of reach: no force */
+        const double *whole = contact->normals != NULL ? own + MOR_SHARE_DIRECTION : gradient;
+        const double length2 = fmax(mor_vector_dot(whole, gradient), 0.0);
+        const bool has_force = value > 0.0 && mor_vector_dot(gradient, gradient) > 0.0;
+        memset(own, 0, MOR_SHARES * sizeof *own);
+        if (!has_force) {
+            continue; /* out of reach */
         }
         const bool is_facing = sqrt(length2) * smoothing_length > SMALLEST_GRADIENT * value;
         own[MOR_SHARE_VALUE] = is_facing ? 0.0 : 1.0 / value;

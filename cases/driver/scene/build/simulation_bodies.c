@@ -13,6 +13,7 @@
 #include "core/geometry/shape_analytic.h"
 #include "core/geometry/shape_moments.h"
 #include "core/material/checked.h"
+#include "core/particle/kernel.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -440,9 +441,14 @@ void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bo
     memset(bodies, 0, sizeof *bodies);
 }
 
-static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil *soil, mor_boundary *boundary)
+static mor_status show_to_soil(mor_context *context, const mor_case *c, mor_soil *soil, mor_body_group *group)
 {
     const mor_soil_barrier barrier = {true, c->numerics.barrier_stiffness, c->numerics.barrier_radius};
+    mor_boundary *boundary = &group->boundary;
+    if (c->numerics.wall_normals == 1) {
+        MOR_TRY(context,
+                mor_body_group_use_normals(context, group, MOR_KERNEL_SUPPORT * soil->constants.smoothing_length));
+    }
     MOR_TRY(context, mor_soil_add_boundary(context, soil, boundary, (mor_wall_stress)c->numerics.body_stress));
     return barrier.stiffness > 0.0 ? mor_soil_set_barrier(context, soil, boundary, &barrier) : MOR_OK;
 }
@@ -477,7 +483,7 @@ mor_status mor_simulation_bodies_join(mor_context *context, mor_simulation_bodie
         MOR_TRY(context, mor_schedule_add(context, schedule, &stepper, evolving));
         bodies->groups[g]->is_unseen = soil == NULL;
         if (soil != NULL) {
-            MOR_TRY(context, show_to_soil(context, the_case, soil, &bodies->groups[g]->boundary));
+            MOR_TRY(context, show_to_soil(context, the_case, soil, bodies->groups[g]));
         }
     }
     if (soil != NULL) {
