@@ -10,8 +10,8 @@
 #define SCALE (1e4 / (DENSITY * SPACING)) /* m/s2, what 10 kPa do to one spacing of soil */
 #define DENSITY 2000.0                    /* kg/m3 */
 
-/* Soil of one shape and a block of rock 0.4 m by 0.1 m, the middle of whose upper face is the origin; its relaxed points
- * lie at 17 degrees to its faces. */
+/* Soil of one shape and a block of rock 0.4 m by 0.1 m, the middle of whose upper face is the origin. Its points are
+ * relaxed at 17 degrees to its faces. */
 static scene *soil_and_block(const char *soil, const char *material, const char *normals)
 {
     static const char form[] =
