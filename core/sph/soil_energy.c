@@ -110,7 +110,7 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
 {
     const double length = job->step->length;
     /* Of the steps, those in which stress diffuses. */
-    const double share = mor_soil_spares_diffusion(job->soil) ? 0.5 : 1.0;
+    const double share = 1.0 / mor_soil_diffusion_interval(job->soil);
     const bool is_corrected = mor_soil_corrects_gradient(job->soil);
     double stress[N_STRESSES][BATCH * 6];
     double stored[N_STRESSES][BATCH];

@@ -121,11 +121,11 @@ static void find_rest_gradient(const mor_soil_kind *kind, double gravity, const 
     }
 }
 
-/* Transient stress diffuses in every other step, twice as fast: it follows changes over several steps. */
+/* Transient stress diffuses in one of some steps, for all of them: it follows changes over several steps. */
 static void set_diffusion(mor_context *context, mor_soil *soil, const mor_step *step, double *diffusion)
 {
     const bool is_due = mor_soil_diffuses(soil, step);
-    soil->constants.diffusion_factor = mor_soil_spares_diffusion(soil) ? (is_due ? 2.0 : 0.0) : 1.0;
+    soil->constants.diffusion_factor = is_due ? mor_soil_diffusion_interval(soil) : 0.0;
     MOR_PARALLEL_FOR (context, k, !is_due && diffusion != NULL ? 6 * soil->set.n_particles : 0, MOR_BLOCK) {
         diffusion[k] = 0.0;
     }

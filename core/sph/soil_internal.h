@@ -50,19 +50,21 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
 /** Whether the density is reinitialized by summation at an interval. */
 bool mor_soil_has_density_sums(const void *owner);
 
-/** Whether stress diffuses in every other step only, twice as fast: where only what changes does, and as long as the
- *  diffusion number zeta times courant stays far below where that is unstable, between 0.16 and 0.18. */
-static inline bool mor_soil_spares_diffusion(const mor_soil *soil)
+/** Steps of which stress diffuses in one, for all of them, 1: where only what changes diffuses, as many as keep the
+ *  diffusion number, zeta times courant times these steps, far below where that is unstable, 0.33; at most four, which
+ *  is less than a period of the fastest waves. */
+static inline int mor_soil_diffusion_interval(const mor_soil *soil)
 {
-    const double largest_number = 0.1;
+    const double largest_number = 0.2;
     const mor_scheme *scheme = &soil->settings.scheme;
-    return soil->constants.has_transient && scheme->stress_diffusion * scheme->courant <= largest_number;
+    const double steps = largest_number / (scheme->stress_diffusion * scheme->courant);
+    return !soil->constants.has_transient || steps < 2.0 ? 1 : (steps < 4.0 ? (int)steps : 4);
 }
 
 /** Whether stress diffuses in this step. */
 static inline bool mor_soil_diffuses(const mor_soil *soil, const mor_step *step)
 {
-    return !mor_soil_spares_diffusion(soil) || step->number % 2 == 0;
+    return step->number % (uint64_t)mor_soil_diffusion_interval(soil) == 0;
 }
 
 /** Takes the kernel sums over the soil of particle i, shape [MOR_KERNEL_SUMS], units of the enum. */
