@@ -29,7 +29,7 @@ typedef struct fit {
 /* Rises from 0 to 1 between two values. */
 static double fade(double value, double from, double to)
 {
-    return fmin(fmax((value - from) / (to - from), 0.0), 1.0);
+    return value >= to ? 1.0 : (value <= from ? 0.0 : (value - from) / (to - from));
 }
 
 /* Inverse of a moment, symmetric, blended with the unit tensor where neighbors are few or lie in a plane. */
@@ -40,8 +40,9 @@ static void invert_moment(const double *m, int dimension, double *inverse)
     const double determinant = mor_soil_moment_cofactors(m, dimension, c);
     const double cube = dimension == 3 ? mean * mean * mean : mean * mean;
     const double share = mean > SPARSE ? fade(mean, SPARSE, FEW) * fade(determinant / cube, FLAT, THIN) : 0.0;
+    const double part = share > 0.0 ? share / determinant : 0.0;
     for (int a = 0; a < 6; ++a) {
-        inverse[a] = (a < 3 ? 1.0 - share : 0.0) + (share > 0.0 ? share * c[a] / determinant : 0.0);
+        inverse[a] = (a < 3 ? 1.0 - share : 0.0) + part * c[a];
     }
 }
 
@@ -63,7 +64,7 @@ static void fit_particle(const fit *it, int64_t i)
               c[MOR_XY] * (fitted[1] + fitted[3]) + c[MOR_YZ] * (fitted[5] + fitted[7]) +
               c[MOR_ZX] * (fitted[2] + fitted[6]);
     const double closed = (mor_symmetric_trace(m) + mor_symmetric_trace(c)) / dimension;
-    const double scale = 1.0 / fmax(closed, LEAST_CLOSED);
+    const double scale = 1.0 / (closed > LEAST_CLOSED ? closed : LEAST_CLOSED);
     const double change = (scale * volume - fitted[0] - fitted[4] - fitted[8]) / dimension;
     for (int a = 0; a < dimension; ++a) {
         fitted[4 * a] += change;

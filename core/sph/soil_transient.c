@@ -76,9 +76,11 @@ mor_status mor_soil_follow_stress(mor_context *context, void *owner, mor_view *v
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
             const follow *it = &of[mor_soil_kind_of(soil, i) - soil->kinds];
-            const double now = soil->is_relaxing ? 0.0 : fmin(it->fade * find_shear_rate(gradient + 9 * i), 1.0);
+            const double rate = soil->is_relaxing ? 0.0 : it->fade * find_shear_rate(gradient + 9 * i);
+            const double now = rate < 1.0 ? rate : 1.0;
             follow_stress(mean + 6 * i, stress + 6 * i, gradient + 9 * i, step->length, it->part);
-            flow[i] = fmax(now, it->kept * flow[i]);
+            const double left = it->kept * flow[i];
+            flow[i] = now > left ? now : left;
         }
     }
     return MOR_OK;
