@@ -170,15 +170,28 @@ static void find_correction_block(void *job, int64_t first, int64_t last, double
     add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_CORRECTION);
 }
 
-/* Records as the momentum loop saw them, but without stress. */
+/* Records as the momentum loop saw them, but without stress; a skew part stays. */
 static void strip_records(mor_context *context, const mor_soil_powers *job)
 {
     MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
         double *record = job->records + i * MOR_RECORD_SIZE;
+        double *extra = job->soil->extra != NULL ? job->soil->extra + i * MOR_EXTRA_SIZE : NULL;
+        for (int a = 0; a < 3 && extra != NULL; ++a) {
+            extra[MOR_EXTRA_LOWER + a] -= record[MOR_RECORD_STRESS + MOR_XY + a];
+            extra[MOR_EXTRA_UPPER + a % 2] = -extra[MOR_EXTRA_LOWER + a % 2];
+        }
         for (int a = 0; a < 3; ++a) {
             record[MOR_RECORD_VELOCITY + a] -= job->step->length * job->acceleration[3 * i + a];
         }
         memset(record + MOR_RECORD_STRESS, 0, 6 * sizeof *record);
+    }
+}
+
+/* Takes away the skew part, too. */
+static void strip_skew(mor_context *context, const mor_soil *soil)
+{
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        memset(soil->extra + i * MOR_EXTRA_SIZE + MOR_EXTRA_LOWER, 0, 5 * sizeof *soil->extra);
     }
 }
 
@@ -239,15 +252,16 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
         one.has_artificial_stress = true;
         audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_ARTIFICIAL, find_artificial_block);
     }
-    if (soil->constants.has_hourglass) {
-        one = none;
-        one.has_hourglass = true;
-        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_HOURGLASS, find_hourglass_block);
-    }
     if (soil->constants.has_spin) {
         one = none;
         one.has_spin = true;
         audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_CORRECTION, find_correction_block);
+    }
+    if (soil->constants.has_hourglass) {
+        strip_skew(context, soil);
+        one = none;
+        one.has_hourglass = true;
+        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_HOURGLASS, find_hourglass_block);
     }
     if (mor_soil_corrects_gradient(soil)) {
         restore_stress(context, job);

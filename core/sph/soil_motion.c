@@ -156,25 +156,21 @@ typedef struct packing {
 /* What the momentum loop reads beside the records; what a scheme does not have stays zero. */
 static void pack_extra(mor_context *context, mor_soil *soil, mor_view *view)
 {
-    static const struct {
-        int field, place, size;
-    } parts[] = {{MOR_FIELD_MEAN_STRESS, MOR_EXTRA_MEAN, 6},
-                 {MOR_FIELD_FLOW, MOR_EXTRA_FLOW, 1},
-                 {MOR_FIELD_HOURGLASS, MOR_EXTRA_HOURGLASS, 3},
-                 {MOR_FIELD_SPIN_STRESS, MOR_EXTRA_SPIN, 3}};
-    enum { PARTS = sizeof parts / sizeof *parts };
-    const double *data[PARTS];
+    const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
+    const double *spin = mor_view_read(view, MOR_FIELD_SPIN_STRESS);
+    const double *hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
+    const double *mean = mor_view_read(view, MOR_FIELD_MEAN_STRESS);
+    const double *flow = mor_view_read(view, MOR_FIELD_FLOW);
+    const double none[3] = {0.0, 0.0, 0.0};
     const int64_t n = soil->set.n_particles;
-    for (int p = 0; p < PARTS; ++p) {
-        data[p] = mor_view_read(view, parts[p].field);
-    }
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
             double *extra = soil->extra + i * MOR_EXTRA_SIZE;
-            for (int p = 0; p < PARTS; ++p) {
-                for (int a = 0; a < parts[p].size && data[p] != NULL; ++a) {
-                    extra[parts[p].place + a] = data[p][i * parts[p].size + a];
-                }
+            mor_pair_pack_shears(stress + 6 * i, spin != NULL ? spin + 3 * i : none, extra);
+            memcpy(extra + MOR_EXTRA_HOURGLASS, hourglass != NULL ? hourglass + 3 * i : none, sizeof none);
+            if (mean != NULL) {
+                extra[MOR_EXTRA_FLOW] = flow[i];
+                memcpy(extra + MOR_EXTRA_MEAN, mean + 6 * i, 6 * sizeof *extra);
             }
         }
     }

@@ -31,7 +31,7 @@ static void find_spin_stress(const double *m, const double *s, const double *lef
     if (determinant > 0.0) {
         mor_symmetric_apply(c, side, spin);
         for (int a = 0; a < 3; ++a) {
-            spin[a] /= determinant;
+            spin[a] *= 1.0 / determinant;
         }
     }
 }
@@ -47,9 +47,9 @@ static void use_moments(void *job, int64_t i, const double *sums)
     static const double none[3] = {0.0, 0.0, 0.0};
     const present_spin *it = job;
     double *spin = it->spin + 3 * i;
-    find_spin_stress(sums + MOR_KERNEL_SUM_MOMENT, it->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS,
-                     it->left != NULL ? it->left + 3 * i : none, spin);
-    memcpy(it->extra + i * MOR_EXTRA_SIZE + MOR_EXTRA_SPIN, spin, 3 * sizeof *spin);
+    const double *stress = it->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS;
+    find_spin_stress(sums + MOR_KERNEL_SUM_MOMENT, stress, it->left != NULL ? it->left + 3 * i : none, spin);
+    mor_pair_pack_shears(stress, spin, it->extra + i * MOR_EXTRA_SIZE);
 }
 
 /* What hourglass forces leave in this step is not known yet: that of the last step is taken up. */

@@ -48,6 +48,7 @@ typedef struct assembly {
     int parts;                                            /* bits of ASSEMBLY_TRANSIENT and so on */
     mor_pair_soil soils[2];                               /* see assembly_split */
     double extra[MOR_EXTRA_SIZE * ASSEMBLY_MAX];          /* shape [n padded to 8, 16]; units of MOR_EXTRA_... */
+    double spin[3 * ASSEMBLY_MAX];                        /* shape [n padded to 8, 3]; of the skew stress, Pa */
     double of_soil[MOR_PAIR_OF_SOIL_SIZE * ASSEMBLY_MAX]; /* shape [n padded to 8, ...]; units of the enum */
     int8_t one_soil[ASSEMBLY_MAX / MOR_CLUSTER];          /* shape [n_clusters]; soil that each sees, or -1; 1 */
 } assembly;
@@ -126,11 +127,23 @@ static inline void assembly_fill_extra(assembly *a, int i, uint64_t id)
     }
     for (int k = 0; k < 3; ++k) {
         extra[MOR_EXTRA_HOURGLASS + k] = k < dimension ? cloud_number(id, 90 + (uint64_t)k, -1e-4, 1e-4) : 0.0;
-        extra[MOR_EXTRA_SPIN + k] = dimension == 3 || k == 2 ? cloud_number(id, 95 + (uint64_t)k, -2e3, 2e3) : 0.0;
+        a->spin[3 * i + k] = dimension == 3 || k == 2 ? cloud_number(id, 95 + (uint64_t)k, -2e3, 2e3) : 0.0;
     }
     /* A third at rest, a third flows. */
     extra[MOR_EXTRA_FLOW] = fmin(fmax(cloud_number(id, 100, -1.0, 2.0), 0.0), 1.0);
     a->of_soil[MOR_PAIR_OF_SOIL_SIZE * i + MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * a->constants.limiter_rate;
+}
+
+/** Finds what the loops read beside the records, shape [n padded to 8, 16], units of MOR_EXTRA_...: that of the
+ *  assembly with the stresses as they are now. */
+static inline void assembly_pack_extra(const assembly *a, double *extra)
+{
+    static const double none[3] = {0.0, 0.0, 0.0};
+    memcpy(extra, a->extra, sizeof a->extra);
+    for (int i = 0; i < ASSEMBLY_MAX; ++i) {
+        mor_pair_pack_shears(a->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS,
+                             a->constants.has_spin ? a->spin + 3 * i : none, extra + i * MOR_EXTRA_SIZE);
+    }
 }
 
 /** Gives particle i, whose position is set, a random state; id tells it from others. */
@@ -168,6 +181,7 @@ static inline void assembly_list(assembly *a, double skin)
         memcpy(a->records + i * MOR_RECORD_SIZE, a->records + (a->n - 1) * MOR_RECORD_SIZE,
                MOR_RECORD_SIZE * sizeof(double));
         memcpy(a->extra + i * MOR_EXTRA_SIZE, a->extra + (a->n - 1) * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE * sizeof(double));
+        memcpy(a->spin + i * 3, a->spin + (a->n - 1) * 3, 3 * sizeof(double));
         memcpy(a->of_soil + i * MOR_PAIR_OF_SOIL_SIZE, a->of_soil + (a->n - 1) * MOR_PAIR_OF_SOIL_SIZE,
                MOR_PAIR_OF_SOIL_SIZE * sizeof(double));
     }
@@ -333,6 +347,8 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
     }
     const bool diffuses = a->constants.diffusion_rate > 0.0;
     const bool has_two_soils = a->constants.soils != NULL;
+    double extra[MOR_EXTRA_SIZE * ASSEMBLY_MAX];
+    assembly_pack_extra(a, extra);
     const bool has_extra = a->parts & (ASSEMBLY_TRANSIENT | ASSEMBLY_HOURGLASS | ASSEMBLY_SPIN);
     const bool has_hourglass = a->constants.has_hourglass;
     const bool has_moments = a->parts & (ASSEMBLY_FIT | ASSEMBLY_SPIN);
@@ -345,7 +361,7 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
                                     .velocity_gradient = sums->velocity_gradient,
                                     .density_rate = sums->density_rate,
                                     .regularization = sums->regularization,
-                                    .extra = has_extra ? a->extra : NULL,
+                                    .extra = has_extra ? extra : NULL,
                                     .hourglass_rate = has_hourglass ? sums->hourglass_rate : NULL,
                                     .hourglass_moment = has_hourglass ? sums->hourglass_moment : NULL,
                                     .moments = has_moments ? sums->moments : NULL,

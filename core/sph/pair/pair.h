@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_SPH_PAIR_PAIR_H
 #define MOR_CORE_SPH_PAIR_PAIR_H
 
+#include "core/base/math.h"
 #include "core/particle/relation.h"
 
 #include <stdbool.h>
@@ -52,12 +53,26 @@ enum {
 /** What the momentum loop reads of a particle beside its record where the scheme needs it, in one record of 16 doubles:
  *  two cache lines. */
 enum {
-    MOR_EXTRA_MEAN = 0,      /* 6, recent mean of the stress, Pa */
-    MOR_EXTRA_FLOW = 6,      /* 0: at rest, 1: flows; 1 */
-    MOR_EXTRA_HOURGLASS = 7, /* 3, displacement that no velocity gradient sees, m */
-    MOR_EXTRA_SPIN = 10,     /* 3, axial vector of the skew stress, Pa */
+    MOR_EXTRA_LOWER = 0,     /* 3, components yx, zy, xz of the stress with its skew part, Pa */
+    MOR_EXTRA_UPPER = 3,     /* 2, components xy, yz, Pa; zx follows from xz and the stress */
+    MOR_EXTRA_HOURGLASS = 5, /* 3, displacement that no velocity gradient sees, m; the last of the first cache line */
+    MOR_EXTRA_FLOW = 8,      /* 0: at rest, 1: flows; 1; from here on for stress diffusion only */
+    MOR_EXTRA_MEAN = 9,      /* 6, recent mean of the stress, Pa */
     MOR_EXTRA_SIZE = 16
 };
+
+/** Packs what the momentum loop reads of a stress with a skew part.
+ *  @param stress [in]   shape [6], unit Pa
+ *  @param spin   [in]   shape [3]; axial vector of the skew part, unit Pa
+ *  @param extra  [out]  shape [MOR_EXTRA_SIZE], units of MOR_EXTRA_...; the components beside the diagonal */
+static inline void mor_pair_pack_shears(const double *stress, const double *spin, double *extra)
+{
+    for (int a = 0; a < 3; ++a) {
+        extra[MOR_EXTRA_LOWER + a] = stress[MOR_XY + a] + spin[(a + 2) % 3];
+    }
+    extra[MOR_EXTRA_UPPER] = stress[MOR_XY] - spin[2];
+    extra[MOR_EXTRA_UPPER + 1] = stress[MOR_YZ] - spin[0];
+}
 
 /** What is read of a particle to diffuse a field. */
 enum {

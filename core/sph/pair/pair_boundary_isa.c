@@ -89,13 +89,16 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
     memset(sum, 0, sizeof sum);
     const int32_t *near = mor_relation_near(job->inner, first / MOR_CLUSTER);
     const int32_t count = job->inner->near_counts[first / MOR_CLUSTER];
-    geometry geometries[CHUNK];
+    geometries chunk;
     for (int32_t entry = 0; entry < count; entry += CHUNK) {
         const int size = count - entry < CHUNK ? count - entry : CHUNK;
-        find_geometry(geometries, job->records, near + entry, size, &f, 3);
+        for (int q = 0; q < size; ++q) {
+            find_geometry(&chunk, q, job->records + (int64_t)near[entry + q] * MOR_RECORD_SIZE, &f, 3, 0);
+        }
         for (int q = 0; q < size; ++q) {
             const double *target = job->records + (int64_t)near[entry + q] * MOR_RECORD_SIZE;
-            add_divergence(sum, geometries + q, target, &f, s, n, inverse);
+            const geometry g = geometry_at(&chunk, q, 0);
+            add_divergence(sum, &g, target, &f, s, n, inverse);
         }
     }
     for (int a = 0; a < 6; ++a) {

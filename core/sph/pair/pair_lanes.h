@@ -153,6 +153,12 @@ typedef struct geometry {
     vec k;         /* (1 - q/2)^3 V, m3 (m2) */
 } geometry;
 
+/** That of a chunk, shape [CHUNK] each, units as above. Each number has an array of its own: those that a loop does not
+ *  need take no room in the nearest cache. */
+typedef struct geometries {
+    vec distance[CHUNK], k[CHUNK], distance2[CHUNK];
+} geometries;
+
 /** Returns the vector from a target, shape [3], unit m, to the particles of a frame. */
 INLINE void separate(vec *r, const frame *f, const double *target, const int dimension)
 {
@@ -180,18 +186,23 @@ INLINE pair pair_of(const frame *f, const double *target, const int dimension)
     return p;
 }
 
-/** Finds the geometry of n targets, shape [n], and the lanes of a frame; records: shape [n_records,
- *  MOR_RECORD_SIZE], units of MOR_RECORD_.... */
-INLINE void find_geometry(geometry *g, const double *records, const int32_t *targets, int n, const frame *f,
-                          const int dimension)
+/** Finds the geometry of target q of a chunk, shape [MOR_RECORD_SIZE], units of MOR_RECORD_..., and the lanes of a
+ *  frame; with_square: distance2, too. */
+INLINE void find_geometry(geometries *g, int q, const double *target, const frame *f, const int dimension,
+                          const int with_square)
 {
-    for (int q = 0; q < n; ++q) {
-        const double *target = records + (int64_t)targets[q] * MOR_RECORD_SIZE;
-        const pair p = pair_of(f, target, dimension);
-        g[q].distance2 = p.distance2;
-        g[q].distance = p.distance;
-        g[q].k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+    const pair p = pair_of(f, target, dimension);
+    if (with_square) {
+        g->distance2[q] = p.distance2;
     }
+    g->distance[q] = p.distance;
+    g->k[q] = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+}
+
+/** Returns what was found of target q. */
+INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
+{
+    return (geometry){with_square ? g->distance2[q] : broadcast(0.0), g->distance[q], g->k[q]};
 }
 
 /** Returns the record of a target, shape [MOR_RECORD_SIZE], units of MOR_RECORD_.... */

@@ -1,20 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* The momentum loop. Compiled once per instruction set; MOR_ISA is its name. */
-#include "core/sph/pair/pair_lanes.h"
-
-/* What a copy of the momentum loop does; constant in each copy, so that there is no branch per pair. */
-typedef struct momentum_form {
-    int dimension;
-    int diffuses; /* stress diffusion: none, always (1), as far as pairs move (2), or what changes (3) */
-    int linear;   /* velocities reconstructed at the middle of a pair */
-    int several;  /* soils of unlike constants */
-    int extra;    /* what is read beside the records, bits of the enum; not constant */
-} momentum_form;
-
-/* What the momentum loop reads beside the records. MOR_STIFFNESSES: unlike ones of hourglass controls, wherever there
- * are several soils: what a cluster lists beyond its reach must not change the rounding of its sums. */
-enum { MOR_HOURGLASSES = 1, MOR_SPINS = 2, MOR_MEANS = 4, MOR_STIFFNESSES = 8 };
+#include "core/sph/pair/pair_momentum.h"
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
 INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
@@ -36,50 +23,43 @@ INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, co
 /* The jump that is left between a value and one reconstructed: never larger than the value, never of its other sign. */
 INLINE vec limited_jump(vec jump, vec reconstructed)
 {
-    const vec least = smaller(jump, broadcast(0.0));
-    const vec most = positive_part(jump);
-    return select_lanes(reconstructed < least, least, smaller(reconstructed, most));
+    return larger(smaller(reconstructed, positive_part(jump)), smaller(jump, broadcast(0.0)));
 }
 
-/* What the momentum loop keeps of its own particles. */
-typedef struct momentum {
-    mask counts_closing, counts_opening; /* all bits where the dissipation acts on a pair that closes, opens */
-    vec v[3], impedance, pressure;       /* own state */
-    vec minus_twice_impedance;
-    vec strain_rate[6]; /* own, with reconstruction */
-    vec limiter, soil;  /* own, with several soils */
-    vec flow;           /* own, where what changes diffuses */
-} momentum;
+/* The components of a stress beside its diagonal, xy, yz, zx and their mirror images, Pa. */
+typedef struct shears {
+    vec upper[3], lower[3];
+} shears;
 
-/* Its sums. */
-typedef struct momentum_sums {
-    vec force[3];         /* sum k (stress_j + extra + f^n (R_i + R_j)) r */
-    vec weight[3];        /* sum k r */
-    vec spread_stress[6]; /* sum kd stress_j */
-    vec spread_weight;    /* sum kd */
-    vec spread_way[3];    /* sum kd r, of what flows */
-    vec spread_mean[6];   /* sum kd (1 - w) mean_j, w: how far the pair flows */
-    vec spread_rest;      /* sum kd (1 - w) */
-    vec stiffness;        /* sum k m, m the stiffness of the hourglass control, Pa */
-    vec hourglass[3];     /* sum k m d_j */
-    vec lever[3];         /* sum k m r; with several soils */
-    vec moment[3];        /* sum k m r x d_j */
-    vec spin[3];          /* sum k s_j x r, s the axial vector of the skew stress */
-} momentum_sums;
+/* Those of a target; with a skew part zx is twice that without less xz. */
+INLINE shears shears_of(const double *stress, const double *extra, const momentum_form form)
+{
+    shears t;
+    for (int a = 0; a < 3; ++a) {
+        t.upper[a] = t.lower[a] = broadcast(stress[MOR_XY + a]);
+        if (form.extra) {
+            t.lower[a] = broadcast(extra[MOR_EXTRA_LOWER + a]);
+            t.upper[a] =
+                a < 2 ? broadcast(extra[MOR_EXTRA_UPPER + a]) : multiply_add(t.upper[a], broadcast(2.0), -t.lower[a]);
+        }
+    }
+    return t;
+}
 
-INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const double *s, const int dimension)
+INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const double *s, const shears *t,
+                       const int dimension)
 {
     const vec kr[3] = {k * p->r[0], k * p->r[1], k * p->r[2]};
     m->weight[0] += kr[0];
     m->weight[1] += kr[1];
     /* Each is summed before it is added: only the last addition waits for that of the pair before. */
-    vec x = multiply_add(kr[0], s[MOR_XX] + extra, kr[1] * s[MOR_XY]);
-    vec y = multiply_add(kr[0], broadcast(s[MOR_XY]), kr[1] * (s[MOR_YY] + extra));
+    vec x = multiply_add(kr[0], s[MOR_XX] + extra, kr[1] * t->upper[0]);
+    vec y = multiply_add(kr[0], t->lower[0], kr[1] * (s[MOR_YY] + extra));
     if (dimension == 3) {
         m->weight[2] += kr[2];
-        x = multiply_add(kr[2], broadcast(s[MOR_ZX]), x);
-        y = multiply_add(kr[2], broadcast(s[MOR_YZ]), y);
-        const vec z = multiply_add(kr[0], broadcast(s[MOR_ZX]), kr[1] * s[MOR_YZ]);
+        x = multiply_add(kr[2], t->lower[2], x);
+        y = multiply_add(kr[2], t->upper[1], y);
+        const vec z = multiply_add(kr[0], t->upper[2], kr[1] * t->lower[1]);
         m->force[2] += multiply_add(kr[2], s[MOR_ZZ] + extra, z);
     }
     m->force[0] += x;
@@ -88,10 +68,40 @@ INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const 
 
 /* What is found of a pair before it is added. */
 typedef struct momentum_pair {
-    vec kd;    /* weight of stress diffusion */
-    vec rest;  /* of kd, what is at rest */
-    vec extra; /* isotropic part beside the stresses, Pa */
+    vec kd;        /* weight of stress diffusion */
+    vec rest;      /* of kd, what is at rest */
+    vec extra;     /* isotropic part beside the stresses, Pa */
+    vec stiffness; /* of the hourglass control over the own one; with several soils, 1 */
 } momentum_pair;
+
+/* That of a chunk. */
+typedef struct momentum_pairs {
+    vec extra[CHUNK], stiffness[CHUNK], kd[CHUNK], rest[CHUNK];
+} momentum_pairs;
+
+INLINE void keep_pair(momentum_pairs *pairs, int q, const momentum_pair *it, const momentum_form form)
+{
+    pairs->extra[q] = it->extra;
+    if (form.extra && form.several) {
+        pairs->stiffness[q] = it->stiffness;
+    }
+    if (form.diffuses) {
+        pairs->kd[q] = it->kd;
+    }
+    if (form.diffuses && form.extra) {
+        pairs->rest[q] = it->rest;
+    }
+}
+
+INLINE momentum_pair pair_at(const momentum_pairs *pairs, int q, const momentum_form form)
+{
+    momentum_pair it;
+    it.extra = pairs->extra[q];
+    it.stiffness = form.extra && form.several ? pairs->stiffness[q] : broadcast(0.0);
+    it.kd = form.diffuses ? pairs->kd[q] : broadcast(0.0);
+    it.rest = form.diffuses && form.extra ? pairs->rest[q] : broadcast(0.0);
+    return it;
+}
 
 INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *it, const double *s,
                           const double *extra, const momentum_form form)
@@ -101,9 +111,9 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
     }
     m->spread_weight += it->kd;
     for (int a = 0; a < form.dimension; ++a) {
-        m->spread_way[a] += (form.diffuses == 3 ? it->kd - it->rest : it->kd) * p->r[a];
+        m->spread_way[a] += (form.extra ? it->kd - it->rest : it->kd) * p->r[a];
     }
-    if (form.diffuses == 3) {
+    if (form.extra) {
         for (int a = 0; a < 6; ++a) {
             m->spread_mean[a] += it->rest * extra[MOR_EXTRA_MEAN + a];
         }
@@ -132,6 +142,14 @@ INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_const
     }
 }
 
+/* The stiffness between two soils, the harmonic mean, over the own one. Exactly 1 in one soil, so that what a cluster
+ * lists beyond its reach does not change the rounding of its sums. */
+INLINE vec relative_stiffness(vec own, double other)
+{
+    const vec sum = own + other;
+    return select_lanes(sum > 0.0, 2.0 * other / sum, broadcast(0.0));
+}
+
 INLINE void find_extra(momentum_pair *it, const geometry *g, const double *target, const momentum *m, const frame *f,
                        const mor_pair_constants *c, const double *strain_rate, const double *of_soil,
                        const double *extra, const momentum_form form)
@@ -144,12 +162,12 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     /* Division is slow: both quotients share one. */
     const vec inverse = 1.0 / (g->distance * impedance_sum);
     const vec inverse_distance = inverse * impedance_sum;
-    const vec speed =
-        dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension) * inverse_distance;
+    const vec way = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension);
+    const vec speed = way * inverse_distance;
     vec closing = speed;
     if (form.linear) {
         const vec smooth = smooth_closing(&p, m->strain_rate, strain_rate, form.dimension);
-        closing = limited_jump(speed, speed + 0.5 * smooth * inverse_distance);
+        closing = limited_jump(way, multiply_add(smooth, broadcast(0.5), way)) * inverse_distance;
     }
     /* Closing speed on which the limiter acts, eq. 23. */
     const vec limiter_rate = form.several ? m->limiter + of_soil[MOR_PAIR_OF_SOIL_LIMITER] : broadcast(c->limiter_rate);
@@ -167,15 +185,36 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     if (form.diffuses) {
         it->kd = g->k * g->distance2 / (g->distance2 + 0.01 * h * h);
     }
-    if (form.diffuses == 2) {
+    if (form.diffuses == 2 || (form.diffuses && form.extra && c->has_limited_diffusion && !c->has_transient)) {
         it->kd *= smaller(magnitude(speed) * limiter_rate, broadcast(1.0));
     }
     if (form.diffuses && form.several) {
         /* Stress jumps where soils meet, and must not spread across. */
         it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
     }
-    if (form.diffuses == 3) {
-        it->rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
+    if (form.diffuses && form.extra) {
+        const vec rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
+        it->rest = c->has_transient ? rest : broadcast(0.0);
+    }
+    if (form.extra && form.several) {
+        it->stiffness = relative_stiffness(m->stiffness, c->soils[(int)of_soil[MOR_PAIR_OF_SOIL_INDEX]].hourglass);
+    }
+}
+
+/* The hourglass control: forces between particles that are displaced unlike, whichever way they lie. */
+INLINE void add_hourglass(momentum_sums *m, const pair *p, vec k, vec stiffness, const double *d,
+                          const momentum_form form)
+{
+    const vec km = form.several ? k * stiffness : k;
+    m->stiffness += km;
+    for (int a = 0; a < form.dimension; ++a) {
+        m->hourglass[a] = multiply_add(km, broadcast(d[a]), m->hourglass[a]);
+        if (form.several) {
+            /* Rounded as the sum of k r is. */
+            vec kr = k * p->r[a];
+            __asm__("" : "+m"(kr));
+            m->lever[a] = multiply_add(kr, stiffness, m->lever[a]);
+        }
     }
 }
 
@@ -184,8 +223,12 @@ INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *
 {
     pair p;
     separate(p.r, f, target, form.dimension);
-    add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, form.dimension);
-    if (form.diffuses) {
+    const shears t = shears_of(target + MOR_RECORD_STRESS, extra, form);
+    add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, &t, form.dimension);
+    if (form.extra) {
+        add_hourglass(m, &p, g->k, it->stiffness, extra + MOR_EXTRA_HOURGLASS, form);
+    }
+    if (form.diffuses && !form.extra) {
         add_diffusion(m, &p, it, target + MOR_RECORD_STRESS, extra, form);
     }
 }
@@ -215,85 +258,30 @@ typedef struct momentum_part {
     momentum_sums sums;
 } momentum_part;
 
-/* The hourglass control: forces between particles that are displaced unlike, whichever way they lie. And the forces by
- * the skew stresses of the neighbors, each the cross product with an axial vector. */
-INLINE void add_extra(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
-                      const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
-{
-    vec itself = broadcast(c->hourglass);
-    for (int lane = 0; lane < LANES && form.several; ++lane) {
-        const double *of_soil = arrays->of_soil + (part->first + lane) * MOR_PAIR_OF_SOIL_SIZE;
-        itself[lane] = c->soils[(int)of_soil[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
-    }
-    momentum_sums sums = part->sums;
-    for (int q = 0; q < n; ++q) {
-        const double *d = extra_of(arrays, near[q]) + MOR_EXTRA_HOURGLASS;
-        const double *s = extra_of(arrays, near[q]) + MOR_EXTRA_SPIN;
-        vec r[3];
-        vec kr[3];
-        vec m = geometries[q].k;
-        separate(r, &part->frame, target_of(arrays, near[q]), form.dimension);
-        for (int a = 0; a < 3; ++a) {
-            kr[a] = geometries[q].k * r[a];
-        }
-        sums.spin[0] -= kr[1] * s[2];
-        sums.spin[1] += kr[0] * s[2];
-        if (form.dimension == 3) {
-            sums.spin[0] += kr[2] * s[1];
-            sums.spin[1] -= kr[2] * s[0];
-            sums.spin[2] += multiply_add(kr[1], broadcast(s[0]), -kr[0] * s[1]);
-        }
-        if (form.several) {
-            const double there = c->soils[(int)of_soil_of(arrays, near[q], 1)[MOR_PAIR_OF_SOIL_INDEX]].hourglass;
-            const vec sum = itself + there;
-            const vec mean = select_lanes(sum > 0.0, 2.0 * itself * there / sum, broadcast(0.0));
-            m *= mean;
-            for (int a = 0; a < 3; ++a) {
-                kr[a] *= mean;
-                sums.lever[a] += kr[a];
-            }
-        }
-        sums.stiffness += m;
-        for (int a = 0; a < form.dimension; ++a) {
-            sums.hourglass[a] += m * d[a];
-        }
-        if (form.dimension == 3) {
-            sums.moment[0] += multiply_add(kr[1], broadcast(d[2]), -kr[2] * d[1]);
-            sums.moment[1] += multiply_add(kr[2], broadcast(d[0]), -kr[0] * d[2]);
-        }
-        sums.moment[2] += multiply_add(kr[0], broadcast(d[1]), -kr[1] * d[0]);
-    }
-    part->sums = sums;
-}
-
 /* Artificial stress of a chunk of targets. */
-INLINE void add_artificial_chunk(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+INLINE void add_artificial_chunk(momentum_part *part, const geometries *chunk, const int32_t *near, int n,
                                  const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
 {
     const double *artificial = arrays->artificial_stress;
     for (int q = 0; q < n; ++q) {
-        add_artificial_pair(&part->sums, geometries + q, target_of(arrays, near[q]), &part->frame, c,
-                            artificial + part->first * 6, artificial + (int64_t)near[q] * 6, form.dimension);
+        const geometry g = geometry_at(chunk, q, 0);
+        add_artificial_pair(&part->sums, &g, target_of(arrays, near[q]), &part->frame, c, artificial + part->first * 6,
+                            artificial + (int64_t)near[q] * 6, form.dimension);
     }
 }
 
-/* Out of the many copies of the momentum loop, which would all hold them; by what is added. */
-typedef void (*adder)(momentum_part *part, const geometry *geometries, const int32_t *near, int n,
+/* Out of the many copies of the momentum loop, which would all hold them. */
+typedef void (*adder)(momentum_part *part, const geometries *chunk, const int32_t *near, int n,
                       const mor_pair_constants *c, const mor_pair_arrays *arrays);
-#define MOR_EXTRA_FUNCTION(name, add, dimension, several)                                                              \
-    __attribute__((noinline)) static void name(momentum_part *part, const geometry *geometries, const int32_t *near,   \
+#define MOR_ARTIFICIAL_FUNCTION(name, dimension)                                                                       \
+    __attribute__((noinline)) static void name(momentum_part *part, const geometries *chunk, const int32_t *near,      \
                                                int n, const mor_pair_constants *c, const mor_pair_arrays *arrays)      \
     {                                                                                                                  \
-        add(part, geometries, near, n, c, arrays, (momentum_form){(dimension), 0, 0, (several), 0});                   \
+        add_artificial_chunk(part, chunk, near, n, c, arrays, (momentum_form){(dimension), 0, 0, 0, 0});               \
     }
-MOR_EXTRA_FUNCTION(both_2d, add_extra, 2, 0)
-MOR_EXTRA_FUNCTION(both_3d, add_extra, 3, 0)
-MOR_EXTRA_FUNCTION(several_both_2d, add_extra, 2, 1)
-MOR_EXTRA_FUNCTION(several_both_3d, add_extra, 3, 1)
-MOR_EXTRA_FUNCTION(artificial_2d, add_artificial_chunk, 2, 0)
-MOR_EXTRA_FUNCTION(artificial_3d, add_artificial_chunk, 3, 0)
+MOR_ARTIFICIAL_FUNCTION(artificial_2d, 2)
+MOR_ARTIFICIAL_FUNCTION(artificial_3d, 3)
 static const adder artificial_adders[2] = {artificial_2d, artificial_3d};
-static const adder adders[2][2] = {{both_2d, both_3d}, {several_both_2d, several_both_3d}};
 
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
@@ -314,13 +302,16 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     for (int a = 0; a < 6 && form.linear; ++a) {
         m->strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
     }
-    if (form.diffuses == 3) {
+    if (form.extra) {
         m->flow = load(arrays->extra + first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, MOR_EXTRA_FLOW);
     }
     if (form.several) {
         const double *of_soil = arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE;
         m->limiter = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_LIMITER);
         m->soil = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_INDEX);
+    }
+    for (int lane = 0; lane < LANES && form.several && form.extra; ++lane) {
+        m->stiffness[lane] = c->soils[(int)m->soil[lane]].hourglass;
     }
 }
 
@@ -330,57 +321,87 @@ INLINE void compiler_barrier(momentum_part *part)
     __asm__ volatile("" : "+m"(*part));
 }
 
+/* With means there are more sums of the diffusion than registers beside those of the forces. */
+INLINE void add_diffusions(momentum_part *part, const momentum_pairs *pairs, const int32_t *near, int n,
+                           const mor_pair_arrays *arrays, const momentum_form form)
+{
+    momentum_sums sums = part->sums;
+    for (int q = 0; q < n; ++q) {
+        const double *target = target_of(arrays, near[q]);
+        const momentum_pair it = pair_at(pairs, q, form);
+        pair p;
+        separate(p.r, &part->frame, target, form.dimension);
+        add_diffusion(&sums, &p, &it, target + MOR_RECORD_STRESS, extra_of(arrays, near[q]), form);
+    }
+    part->sums = sums;
+    compiler_barrier(part);
+}
+
+/* Prefetches what is read of a target in reach after its position. */
+INLINE void prefetch_rest(const mor_pair_arrays *arrays, int32_t j, const momentum_form form)
+{
+    __builtin_prefetch(target_of(arrays, j) + MOR_RECORD_STRESS);
+    if (form.extra) {
+        __builtin_prefetch(extra_of(arrays, j));
+    }
+    if (form.extra && form.diffuses) {
+        __builtin_prefetch(extra_of(arrays, j) + MOR_EXTRA_FLOW);
+    }
+    if (form.linear) {
+        __builtin_prefetch(arrays->strain_rate + (int64_t)j * 6);
+    }
+}
+
 INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor_pair_constants *c,
                       const mor_pair_arrays *arrays, const momentum_form form)
 {
     const frame *f = &part->frame;
-    geometry geometries[CHUNK];
-    momentum_pair pairs[CHUNK];
+    geometries chunk;
+    momentum_pairs pairs;
     compiler_barrier(part);
-    find_geometry(geometries, arrays->records, near, n, f, form.dimension);
+    for (int q = 0; q < n; ++q) {
+        prefetch_rest(arrays, near[q], form);
+        find_geometry(&chunk, q, target_of(arrays, near[q]), f, form.dimension, form.diffuses);
+    }
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
         const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
         const double *of_soil = of_soil_of(arrays, near[q], form.several);
-        const double *extra = form.diffuses == 3 ? extra_of(arrays, near[q]) : NULL;
-        find_extra(pairs + q, geometries + q, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra,
-                   form);
+        const double *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
+        const geometry g = geometry_at(&chunk, q, form.diffuses);
+        momentum_pair it;
+        find_extra(&it, &g, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra, form);
+        keep_pair(&pairs, q, &it, form);
     }
     compiler_barrier(part);
     momentum_sums sums = part->sums;
     for (int q = 0; q < n; ++q) {
-        const double *extra = form.diffuses == 3 ? extra_of(arrays, near[q]) : NULL;
-        add_pair(&sums, pairs + q, geometries + q, target_of(arrays, near[q]), extra, f, form);
+        const double *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
+        const geometry g = geometry_at(&chunk, q, form.diffuses);
+        const momentum_pair it = pair_at(&pairs, q, form);
+        add_pair(&sums, &it, &g, target_of(arrays, near[q]), extra, f, form);
     }
     part->sums = sums;
     compiler_barrier(part);
-    if (form.extra & (MOR_HOURGLASSES | MOR_SPINS)) {
-        adders[(form.extra & MOR_STIFFNESSES) != 0][form.dimension - 2](part, geometries, near, n, c, arrays);
+    if (form.diffuses && form.extra) {
+        add_diffusions(part, &pairs, near, n, arrays, form);
     }
     if (c->has_artificial_stress) {
-        artificial_adders[form.dimension - 2](part, geometries, near, n, c, arrays);
+        artificial_adders[form.dimension - 2](part, &chunk, near, n, c, arrays);
     }
 }
 
 /* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
 INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, const int32_t *list, int32_t count,
-                     int32_t *entry, int32_t *near, const momentum_form form)
+                     int32_t *entry, int32_t *near, const int dimension)
 {
-    const int dimension = form.dimension;
     /* Slightly wider, so that rounding omits no pair within the support. */
     const double half = parts[0].frame.half_inverse_h;
     const double reach2 = (1.0 + 0x1p-40) / (half * half);
     int32_t k = *entry;
     int n = 0;
     for (; k < count && n < CHUNK; ++k) {
-        const double *ahead = target_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]);
-        __builtin_prefetch(ahead);
-        __builtin_prefetch(ahead + MOR_RECORD_STRESS);
-        if (form.extra) {
-            const double *extra = extra_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]);
-            __builtin_prefetch(extra);
-            __builtin_prefetch(extra + MOR_EXTRA_HOURGLASS);
-        }
+        __builtin_prefetch(target_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]));
         int any = 0;
         for (int part = 0; part < PARTS; ++part) {
             vec r[3];
@@ -392,125 +413,6 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
     }
     *entry = k;
     return n;
-}
-
-/* The constants of stress diffusion, lane by lane. */
-typedef struct diffusion {
-    vec rate; /* m2/s */
-    vec rest_gradient[6];
-} diffusion;
-
-INLINE void load_diffusion(diffusion *d, const mor_pair_constants *c, vec soil, const momentum_form form)
-{
-    double of_lanes[LANES * 7];
-    d->rate = broadcast(c->diffusion_rate * c->diffusion_factor);
-    for (int a = 0; a < 6; ++a) {
-        d->rest_gradient[a] = broadcast(c->rest_gradient[a]);
-    }
-    if (!form.several) {
-        return;
-    }
-    for (int lane = 0; lane < LANES; ++lane) {
-        const mor_pair_soil *own = &c->soils[(int)soil[lane]];
-        of_lanes[7 * lane] = own->diffusion_rate * c->diffusion_factor;
-        memcpy(of_lanes + 7 * lane + 1, own->rest_gradient, sizeof own->rest_gradient);
-    }
-    d->rate = load(of_lanes, 7, 0);
-    for (int a = 0; a < 6; ++a) {
-        d->rest_gradient[a] = load(of_lanes, 7, 1 + a);
-    }
-}
-
-/* Eq. 25 with the operator of eq. 26 for any direction of gravity: deviations from the profile at rest diffuse. */
-INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const diffusion *d, const vec *s,
-                             const double *own_extra, double *out, int n_lanes)
-{
-    const vec rate = -c->gradient_factor * d->rate;
-    const double *g = c->gravity_direction;
-    const vec *way = m->spread_way;
-    const vec height = multiply_add(broadcast(g[2]), way[2], multiply_add(broadcast(g[0]), way[0], g[1] * way[1]));
-    for (int a = 0; a < 6; ++a) {
-        /* Height is -g . r, hence the plus. */
-        vec sum = s[a] * m->spread_weight - m->spread_stress[a] + d->rest_gradient[a] * height;
-        if (own_extra != NULL) {
-            sum -= load(own_extra, MOR_EXTRA_SIZE, MOR_EXTRA_MEAN + a) * m->spread_rest - m->spread_mean[a];
-        }
-        store(out, 6, a, n_lanes, rate * sum);
-    }
-}
-
-/* Half of the moment of a pair's forces is taken as that of each of its particles. */
-__attribute__((noinline)) static void finish_hourglass(const momentum_sums *m, const mor_pair_constants *c,
-                                                       const mor_pair_arrays *arrays, int64_t first, vec *force,
-                                                       const momentum_form form)
-{
-    const double *own = arrays->extra + first * MOR_EXTRA_SIZE;
-    const bool has_several = form.extra & MOR_STIFFNESSES;
-    const double stiffness = has_several ? 1.0 : c->hourglass;
-    const vec *lever = has_several ? m->lever : m->weight;
-    vec d[3];
-    for (int a = 0; a < 3; ++a) {
-        d[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_HOURGLASS + a);
-        force[a] += stiffness * (m->stiffness * d[a] - m->hourglass[a]);
-    }
-    for (int a = 0; a < 3 && arrays->hourglass_moment != NULL; ++a) {
-        const int b = (a + 1) % 3;
-        const int e = (a + 2) % 3;
-        const vec moment = lever[b] * d[e] - lever[e] * d[b] - m->moment[a];
-        store(arrays->hourglass_moment + first * 3, 3, a, lanes_of(first, arrays->n_particles),
-              -0.5 * c->gradient_factor * stiffness * moment);
-    }
-}
-
-__attribute__((noinline)) static void finish_spin(const momentum_sums *m, const mor_pair_arrays *arrays, int64_t first,
-                                                  vec *force)
-{
-    const double *own = arrays->extra + first * MOR_EXTRA_SIZE;
-    const vec *w = m->weight;
-    vec s[3];
-    for (int a = 0; a < 3; ++a) {
-        s[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_SPIN + a);
-    }
-    for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3;
-        const int e = (a + 2) % 3;
-        force[a] += m->spin[a] + s[b] * w[e] - s[e] * w[b];
-    }
-}
-
-INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
-                            vec soil, int64_t first, const momentum_form form)
-{
-    const double *own = arrays->records + first * MOR_RECORD_SIZE;
-    const int n_lanes = lanes_of(first, arrays->n_particles);
-    vec s[6];
-    for (int a = 0; a < 6; ++a) {
-        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
-    }
-    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-    const vec *w = m->weight;
-    double *out = arrays->acceleration + first * 3;
-    vec force[3] = {m->force[0] + s[MOR_XX] * w[0] + s[MOR_XY] * w[1] + s[MOR_ZX] * w[2],
-                    m->force[1] + s[MOR_XY] * w[0] + s[MOR_YY] * w[1] + s[MOR_YZ] * w[2],
-                    m->force[2] + s[MOR_ZX] * w[0] + s[MOR_YZ] * w[1] + s[MOR_ZZ] * w[2]};
-    if (form.extra & MOR_HOURGLASSES) {
-        finish_hourglass(m, c, arrays, first, force, form);
-    }
-    if (form.extra & MOR_SPINS) {
-        finish_spin(m, arrays, first, force);
-    }
-    for (int a = 0; a < form.dimension; ++a) {
-        store(out, 3, a, n_lanes, factor * force[a]);
-    }
-    if (form.dimension == 2) {
-        store(out, 3, 2, n_lanes, broadcast(0.0));
-    }
-    if (form.diffuses) {
-        diffusion d;
-        load_diffusion(&d, c, soil, form);
-        finish_diffusion(m, c, &d, s, form.diffuses == 3 ? arrays->extra + first * MOR_EXTRA_SIZE : NULL,
-                         arrays->stress_diffusion + first * 6, n_lanes);
-    }
 }
 
 INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t cluster,
@@ -525,7 +427,7 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     int32_t *near = mor_relation_near(arrays->inner, cluster);
     int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
-        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form);
+        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form.dimension);
         for (int part = 0; part < PARTS; ++part) {
             add_chunk(parts + part, near + n_near, n, c, arrays, form);
         }
@@ -539,23 +441,20 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 
 /* The choices are hoisted out of the loops: each combination is its own copy of the inlined body. */
 INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
-                         const int dimension, int diffuses, int several)
+                         const int dimension, const momentum_form form)
 {
-    const int linear = arrays->strain_rate != NULL;
-    const int hourglass = c->soils != NULL ? MOR_HOURGLASSES | MOR_STIFFNESSES : MOR_HOURGLASSES;
-    const int extra =
-        (c->has_hourglass ? hourglass : 0) | (c->has_spin ? MOR_SPINS : 0) | (diffuses == 3 ? MOR_MEANS : 0);
-#define MOR_MOMENTUM_CASE(d, l, s)                                                                                     \
-    if (diffuses == (d) && linear == (l) && several == (s)) {                                                          \
+#define MOR_MOMENTUM_CASE(d, l, s, e)                                                                                  \
+    if (form.diffuses == (d) && form.linear == (l) && form.several == (s) && form.extra == (e)) {                      \
         for (int64_t cluster = first; cluster < last; ++cluster) {                                                     \
-            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, l, s, extra});                          \
+            momentum_cluster(c, arrays, cluster, (momentum_form){dimension, d, l, s, e});                              \
         }                                                                                                              \
     }
 #define MOR_MOMENTUM_CASES(l, s)                                                                                       \
-    MOR_MOMENTUM_CASE(0, l, s)                                                                                         \
-    MOR_MOMENTUM_CASE(1, l, s)                                                                                         \
-    MOR_MOMENTUM_CASE(2, l, s)                                                                                         \
-    MOR_MOMENTUM_CASE(3, l, s)
+    MOR_MOMENTUM_CASE(0, l, s, 0)                                                                                      \
+    MOR_MOMENTUM_CASE(1, l, s, 0)                                                                                      \
+    MOR_MOMENTUM_CASE(2, l, s, 0)                                                                                      \
+    MOR_MOMENTUM_CASE(0, l, s, 1)                                                                                      \
+    MOR_MOMENTUM_CASE(1, l, s, 1)
     MOR_MOMENTUM_CASES(0, 0)
     MOR_MOMENTUM_CASES(1, 0)
     MOR_MOMENTUM_CASES(0, 1)
@@ -565,8 +464,9 @@ INLINE void momentum_run(const mor_pair_constants *c, const mor_pair_arrays *arr
 INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
                            const int dimension)
 {
-    const int limited = c->has_transient ? 3 : (c->has_limited_diffusion ? 2 : 1);
-    const int diffuses = c->diffusion_rate * c->diffusion_factor > 0.0 ? limited : 0;
+    const int spreads = c->diffusion_rate * c->diffusion_factor > 0.0;
+    const int extra = c->has_hourglass || c->has_spin || (spreads && c->has_transient);
+    const int diffuses = spreads && c->has_limited_diffusion && !extra ? 2 : spreads;
     mor_pair_constants of_run;
     const mor_pair_constants *constants = c;
     int64_t end = last;
@@ -576,7 +476,8 @@ INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *a
             end = find_run(arrays, c, first, last, &of_run, &several);
             constants = &of_run;
         }
-        momentum_run(constants, arrays, first, end, dimension, diffuses, several);
+        momentum_run(constants, arrays, first, end, dimension,
+                     (momentum_form){dimension, diffuses, arrays->strain_rate != NULL, several, extra});
     }
 }
 

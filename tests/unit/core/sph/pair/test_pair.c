@@ -222,8 +222,8 @@ static void add_gradient(const assembly *a, int i, const couple *c, tally *t)
 /* Skew stresses, each the cross product with its axial vector. */
 static void add_spin(const assembly *a, int i, int j, const couple *c, tally *t)
 {
-    const double *s_i = a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_SPIN;
-    const double *s_j = a->extra + MOR_EXTRA_SIZE * j + MOR_EXTRA_SPIN;
+    const double *s_i = a->spin + 3 * i;
+    const double *s_j = a->spin + 3 * j;
     const double factor = c->volume / c->i[MOR_RECORD_DENSITY];
     for (int b = 0; b < a->constants.dimension; ++b) {
         const int d = (b + 1) % 3;
@@ -240,7 +240,7 @@ static double hourglass_of(const assembly *a, int i)
     return a->constants.hourglass * (soil_of(a, i) == 0 ? 1.0 : ASSEMBLY_OTHER_HOURGLASS);
 }
 
-/* (S12a), and half of the moment of a pair's forces, per volume. */
+/* (S12a), and the moment, per volume, of what the particle's own displacement adds to a pair's forces. */
 static void add_hourglass(const assembly *a, int i, int j, const couple *c, tally *t)
 {
     const double *d_i = a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_HOURGLASS;
@@ -249,19 +249,15 @@ static void add_hourglass(const assembly *a, int i, int j, const couple *c, tall
     const double m_j = hourglass_of(a, j);
     const double stiffness = 2.0 * m_i * m_j / (m_i + m_j);
     const double spring = -c->volume * stiffness * mor_vector_dot(c->r, c->slope) / (c->distance * c->distance);
-    double force[3];
-    double size[3];
     for (int b = 0; b < 3; ++b) {
-        force[b] = -spring * (d_i[b] - d_j[b]);
-        size[b] = spring * (fabs(d_i[b]) + fabs(d_j[b]));
-        add(t, t->value.acceleration + 3 * i + b, force[b] / c->i[MOR_RECORD_DENSITY],
-            size[b] / c->i[MOR_RECORD_DENSITY]);
+        add(t, t->value.acceleration + 3 * i + b, -spring * (d_i[b] - d_j[b]) / c->i[MOR_RECORD_DENSITY],
+            spring * (fabs(d_i[b]) + fabs(d_j[b])) / c->i[MOR_RECORD_DENSITY]);
     }
     for (int b = 0; b < 3; ++b) {
         const int d = (b + 1) % 3;
         const int e = (b + 2) % 3;
-        add(t, t->value.hourglass_moment + 3 * i + b, 0.5 * (c->r[d] * force[e] - c->r[e] * force[d]),
-            0.5 * (fabs(c->r[d]) * size[e] + fabs(c->r[e]) * size[d]));
+        add(t, t->value.hourglass_moment + 3 * i + b, -spring * (c->r[d] * d_i[e] - c->r[e] * d_i[d]),
+            spring * (fabs(c->r[d] * d_i[e]) + fabs(c->r[e] * d_i[d])));
     }
 }
 

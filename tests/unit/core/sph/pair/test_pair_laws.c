@@ -230,7 +230,7 @@ static void change_units_of_parts(assembly *a, int length, int time, int stress)
         double *extra = a->extra + MOR_EXTRA_SIZE * i;
         scale(extra + MOR_EXTRA_MEAN, 6, stress);
         scale(extra + MOR_EXTRA_HOURGLASS, 3, length);
-        scale(extra + MOR_EXTRA_SPIN, 3, stress);
+        scale(a->spin + 3 * i, 3, stress);
         scale(a->of_soil + MOR_PAIR_OF_SOIL_SIZE * i + MOR_PAIR_OF_SOIL_LIMITER, 1, time - length);
     }
 }
@@ -374,7 +374,7 @@ static void check_turn(assembly *a, const mor_pair_table *table)
             turn_symmetric(rotation, a->strain_rate + 6 * i);
             turn_symmetric(rotation, a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_MEAN);
             turn_vector(rotation, a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_HOURGLASS);
-            turn_vector(rotation, a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_SPIN);
+            turn_vector(rotation, a->spin + 3 * i);
             turn_vector(rotation, before.acceleration + 3 * i);
             turn_symmetric(rotation, before.stress_diffusion + 6 * i);
             turn_matrix(rotation, before.velocity_gradient + 9 * i);

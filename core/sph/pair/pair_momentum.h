@@ -1,0 +1,163 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_PAIR_PAIR_MOMENTUM_H
+#define MOR_CORE_SPH_PAIR_PAIR_MOMENTUM_H
+
+#include "core/sph/pair/pair_lanes.h"
+
+/** @file
+ *  What the momentum loop sums, and what is found from its sums. For pair_momentum_isa.c only. */
+
+/** What a copy of the momentum loop does; constant in each copy, so that there is no branch per pair. */
+typedef struct momentum_form {
+    int dimension;
+    int diffuses; /* stress diffusion: none, always (1), or as far as pairs move (2); with extra, 1: any kind */
+    int linear;   /* velocities reconstructed at the middle of a pair */
+    int several;  /* soils of unlike constants */
+    int extra;    /* reads MOR_EXTRA_...: hourglass control, skew stress, diffusion of what changes */
+} momentum_form;
+
+/** What the momentum loop keeps of its own particles. */
+typedef struct momentum {
+    mask counts_closing, counts_opening; /* all bits where the dissipation acts on a pair that closes, opens */
+    vec v[3], impedance, pressure;       /* own state */
+    vec minus_twice_impedance;
+    vec strain_rate[6]; /* own, with reconstruction */
+    vec limiter, soil;  /* own, with several soils */
+    vec flow;           /* own, where what changes diffuses */
+    vec stiffness;      /* own, of the hourglass control, Pa; with several soils */
+} momentum;
+
+/** Its sums. */
+typedef struct momentum_sums {
+    vec force[3];         /* sum k (stress_j + extra + f^n (R_i + R_j)) r */
+    vec weight[3];        /* sum k r */
+    vec spread_stress[6]; /* sum kd stress_j */
+    vec spread_weight;    /* sum kd */
+    vec spread_way[3];    /* sum kd r, of what flows */
+    vec spread_mean[6];   /* sum kd (1 - w) mean_j, w: how far the pair flows */
+    vec spread_rest;      /* sum kd (1 - w) */
+    vec stiffness;        /* sum k m, m: stiffness of the hourglass control over the own one, 1 with one soil */
+    vec hourglass[3];     /* sum k m d_j */
+    vec lever[3];         /* sum k m r; with several soils */
+} momentum_sums;
+
+/** The constants of stress diffusion, lane by lane. */
+typedef struct diffusion {
+    vec rate; /* m2/s */
+    vec rest_gradient[6];
+} diffusion;
+
+/** Finds the constants of stress diffusion for the lanes of a part; soil: numbers of their soils, 1. */
+INLINE void load_diffusion(diffusion *d, const mor_pair_constants *c, vec soil, const momentum_form form)
+{
+    double of_lanes[LANES * 7];
+    d->rate = broadcast(c->diffusion_rate * c->diffusion_factor);
+    for (int a = 0; a < 6; ++a) {
+        d->rest_gradient[a] = broadcast(c->rest_gradient[a]);
+    }
+    if (!form.several) {
+        return;
+    }
+    for (int lane = 0; lane < LANES; ++lane) {
+        const mor_pair_soil *own = &c->soils[(int)soil[lane]];
+        of_lanes[7 * lane] = own->diffusion_rate * c->diffusion_factor;
+        memcpy(of_lanes + 7 * lane + 1, own->rest_gradient, sizeof own->rest_gradient);
+    }
+    d->rate = load(of_lanes, 7, 0);
+    for (int a = 0; a < 6; ++a) {
+        d->rest_gradient[a] = load(of_lanes, 7, 1 + a);
+    }
+}
+
+/** Writes the stress diffusion of n_lanes particles: eq. 25 with the operator of eq. 26 for any direction of gravity,
+ *  so that deviations from the profile at rest diffuse.
+ *  @param s         [in]   shape [6]; own stress, unit Pa
+ *  @param own_extra [in]   shape [LANES, MOR_EXTRA_SIZE], units of MOR_EXTRA_...; NULL: no means
+ *  @param out       [out]  shape [n_lanes, 6], unit Pa/s
+ *  @param n_lanes   [in]   particles of the set among the lanes, 1 */
+INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c, const diffusion *d, const vec *s,
+                             const double *own_extra, double *out, int n_lanes)
+{
+    const vec rate = -c->gradient_factor * d->rate;
+    const double *g = c->gravity_direction;
+    const vec *way = m->spread_way;
+    const vec height = multiply_add(broadcast(g[2]), way[2], multiply_add(broadcast(g[0]), way[0], g[1] * way[1]));
+    for (int a = 0; a < 6; ++a) {
+        /* Height is -g . r, hence the plus. */
+        vec sum = s[a] * m->spread_weight - m->spread_stress[a] + d->rest_gradient[a] * height;
+        if (own_extra != NULL) {
+            sum -= load(own_extra, MOR_EXTRA_SIZE, MOR_EXTRA_MEAN + a) * m->spread_rest - m->spread_mean[a];
+        }
+        store(out, 6, a, n_lanes, rate * sum);
+    }
+}
+
+/** Adds the hourglass control to the sums of forces, shape [3], unit Pa times that of V r, and writes the moment it
+ *  leaves: of the force between two particles, the part by either's own displacement has its moment in that one.
+ *  soil: numbers of the soils of the particles from first on, 1; where there are several. */
+INLINE void finish_hourglass(const momentum_sums *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                             vec soil, int64_t first, vec *force, const momentum_form form)
+{
+    const double *own = arrays->extra + first * MOR_EXTRA_SIZE;
+    vec stiffness = broadcast(c->hourglass);
+    for (int lane = 0; lane < LANES && form.several; ++lane) {
+        stiffness[lane] = c->soils[(int)soil[lane]].hourglass;
+    }
+    const vec *lever = form.several ? m->lever : m->weight;
+    vec d[3];
+    for (int a = 0; a < 3; ++a) {
+        d[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_HOURGLASS + a);
+        force[a] += stiffness * multiply_add(m->stiffness, d[a], -m->hourglass[a]);
+    }
+    for (int a = 0; a < 3 && arrays->hourglass_moment != NULL; ++a) {
+        const int b = (a + 1) % 3;
+        const int e = (a + 2) % 3;
+        store(arrays->hourglass_moment + first * 3, 3, a, lanes_of(first, arrays->n_particles),
+              -c->gradient_factor * stiffness * (lever[b] * d[e] - lever[e] * d[b]));
+    }
+}
+
+/** Writes acceleration, stress diffusion and moments of the part of a cluster from first on; soil: numbers of their
+ *  soils, 1. */
+INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                            vec soil, int64_t first, const momentum_form form)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const int n_lanes = lanes_of(first, arrays->n_particles);
+    vec s[6];
+    for (int a = 0; a < 6; ++a) {
+        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
+    }
+    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    const vec *w = m->weight;
+    double *out = arrays->acceleration + first * 3;
+    vec upper[3] = {s[MOR_XY], s[MOR_YZ], s[MOR_ZX]};
+    vec lower[3] = {s[MOR_XY], s[MOR_YZ], s[MOR_ZX]};
+    for (int a = 0; a < 3 && form.extra; ++a) {
+        const double *extra = arrays->extra + first * MOR_EXTRA_SIZE;
+        lower[a] = load(extra, MOR_EXTRA_SIZE, MOR_EXTRA_LOWER + a);
+        upper[a] = a < 2 ? load(extra, MOR_EXTRA_SIZE, MOR_EXTRA_UPPER + a)
+                         : multiply_add(upper[a], broadcast(2.0), -lower[a]);
+    }
+    vec force[3] = {m->force[0] + s[MOR_XX] * w[0] + upper[0] * w[1] + lower[2] * w[2],
+                    m->force[1] + lower[0] * w[0] + s[MOR_YY] * w[1] + upper[1] * w[2],
+                    m->force[2] + upper[2] * w[0] + lower[1] * w[1] + s[MOR_ZZ] * w[2]};
+    if (form.extra && c->has_hourglass) {
+        finish_hourglass(m, c, arrays, soil, first, force, form);
+    }
+    for (int a = 0; a < form.dimension; ++a) {
+        store(out, 3, a, n_lanes, factor * force[a]);
+    }
+    if (form.dimension == 2) {
+        store(out, 3, 2, n_lanes, broadcast(0.0));
+    }
+    if (form.diffuses) {
+        diffusion d;
+        load_diffusion(&d, c, soil, form);
+        finish_diffusion(m, c, &d, s, form.extra ? arrays->extra + first * MOR_EXTRA_SIZE : NULL,
+                         arrays->stress_diffusion + first * 6, n_lanes);
+    }
+}
+
+#endif
