@@ -46,8 +46,9 @@ void mor_soil_restart_energy(mor_soil *soil)
         mor_soil_energy *energy = soil->energy;
         memset(energy->integral, 0, sizeof energy->integral);
         memset(energy->power, 0, sizeof energy->power);
-        energy->span = energy->turnover = 0.0;
-        energy->stride = energy->next = 0;
+        memset(energy->collected, 0, sizeof energy->collected);
+        energy->span = energy->turnover = energy->width = 0.0;
+        energy->stride = energy->next = energy->n_collected = 0;
     }
 }
 
@@ -61,8 +62,7 @@ double mor_soil_energy_taken(const mor_soil *soil, mor_soil_energy_part part)
 
 bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step)
 {
-    /* A sample stands for steps without diffusion, too. */
-    return soil->energy != NULL && (int64_t)step->number >= soil->energy->next && mor_soil_diffuses(soil, step);
+    return soil->energy != NULL && (int64_t)step->number >= soil->energy->next;
 }
 
 void mor_soil_energy_add(mor_context *context, mor_soil_powers *job, mor_reduce_block block)
@@ -109,8 +109,6 @@ enum { START, END, LOW, HIGH, N_STRESSES };
 static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t n, double *sums)
 {
     const double length = job->step->length;
-    /* Of the steps, those in which stress diffuses. */
-    const double share = 1.0 / mor_soil_diffusion_interval(job->soil);
     const bool is_corrected = mor_soil_corrects_gradient(job->soil);
     double stress[N_STRESSES][BATCH * 6];
     double stored[N_STRESSES][BATCH];
@@ -134,7 +132,7 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
         const double *strains = job->soil->energy->strains + 12 * (first + i);
         const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
         sums[MOR_SOIL_ENERGY_PLASTIC] += volume * (work + spread - (stored[END][i] - stored[START][i]) / length);
-        sums[MOR_SOIL_ENERGY_DIFFUSION] -= share * volume * spread;
+        sums[MOR_SOIL_ENERGY_DIFFUSION] -= volume * spread;
         sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * double_dot(middle + 6 * i, strains);
         sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * double_dot(middle + 6 * i, strains + 6);
         if (is_corrected) {
@@ -171,15 +169,25 @@ static void find_stress_block(void *powers, int64_t first, int64_t last, double 
     }
 }
 
-/* A sample stands for the middle of its step. The first one reaches back to the start. Where the straight line to a
+/* A sample stands for the middle of its steps. The first one reaches back to the start. Where the straight line to a
  * sample may be wrong by more than a share of the energy converted so far, the next sample comes sooner. */
-static void integrate(mor_soil_energy *energy, const mor_step *step)
+static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_steps)
 {
-    const double reach = energy->span + 0.5 * step->length;
+    energy->width += step->length;
+    energy->n_collected += 1;
+    for (int part = 0; part < PARTS; ++part) {
+        energy->collected[part] += energy->fresh[part];
+    }
+    if (energy->n_collected < n_steps) {
+        energy->span += step->length;
+        energy->next = (int64_t)step->number + 1;
+        return;
+    }
+    const double reach = energy->span + step->length - 0.5 * energy->width;
     const bool is_first = energy->stride == 0;
     double change = 0.0;
     for (int part = 0; part < PARTS; ++part) {
-        const double now = energy->fresh[part];
+        const double now = energy->collected[part] / (double)n_steps;
         const double before = is_first ? now : energy->power[part];
         energy->integral[part] += 0.5 * (before + now) * reach;
         energy->turnover += 0.5 * (fabs(before) + fabs(now)) * reach;
@@ -188,7 +196,10 @@ static void integrate(mor_soil_energy *energy, const mor_step *step)
     }
     const int64_t wanted = change > LARGEST_ERROR * energy->turnover ? energy->stride / 2 : 2 * energy->stride;
     const int64_t bounded = wanted < MOR_SOIL_ENERGY_INTERVAL ? wanted : MOR_SOIL_ENERGY_INTERVAL;
-    energy->span = 0.5 * step->length;
+    energy->span = 0.5 * energy->width;
+    energy->width = 0.0;
+    energy->n_collected = 0;
+    memset(energy->collected, 0, sizeof energy->collected);
     energy->stride = bounded > 1 ? bounded : 1;
     energy->next = (int64_t)step->number + energy->stride;
 }
@@ -204,6 +215,9 @@ mor_status mor_soil_list_energy(mor_context *context, mor_soil *soil, mor_state_
     MOR_TRY(context, mor_state_add(context, list, own, "power", MOR_STATE_DOUBLE, PARTS, energy->power));
     MOR_TRY(context, mor_state_add(context, list, own, "span", MOR_STATE_DOUBLE, 1, &energy->span));
     MOR_TRY(context, mor_state_add(context, list, own, "turnover", MOR_STATE_DOUBLE, 1, &energy->turnover));
+    MOR_TRY(context, mor_state_add(context, list, own, "collected", MOR_STATE_DOUBLE, PARTS, energy->collected));
+    MOR_TRY(context, mor_state_add(context, list, own, "width", MOR_STATE_DOUBLE, 1, &energy->width));
+    MOR_TRY(context, mor_state_add(context, list, own, "n_collected", MOR_STATE_INT64, 1, &energy->n_collected));
     MOR_TRY(context, mor_state_add(context, list, own, "stride", MOR_STATE_INT64, 1, &energy->stride));
     return mor_state_add(context, list, own, "next", MOR_STATE_INT64, 1, &energy->next);
 }
@@ -230,6 +244,6 @@ mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *vi
     mor_view_read_shared(view, MOR_RESOURCE_REGULARIZATION, soil->regularization);
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
     mor_soil_energy_add(context, &job, find_stress_block);
-    integrate(energy, step);
+    integrate(energy, step, mor_soil_diffusion_interval(soil));
     return mor_checked_report(context, soil->material, soil->set.name, step->time + step->length);
 }

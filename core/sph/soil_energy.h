@@ -10,7 +10,9 @@
 /** @file
  *  Where the energy of the soil goes, each part by itself. An audit is optional: without one nothing is computed, and
  *  with one no bit of the run changes. It samples the power of each part, in each step while powers change fast and at
- *  a longer interval while they do not; integrals over time are those of straight lines between the samples.
+ *  a longer interval while they do not; a sample is the mean of as many consecutive steps as stress diffuses in one
+ *  of, because what differs from step to step would be mistaken for what lasts. Integrals over time are those of
+ *  straight lines between the samples.
  *  Theory: docs/theory/energy.md, whose equations are cited as (E...). */
 
 enum { MOR_SOIL_ENERGY_INTERVAL = 16 /* most steps from one sample to the next; a power of two */ };
@@ -37,17 +39,20 @@ struct mor_soil;
 
 /** One audit. Owner: the soil. */
 typedef struct mor_soil_energy {
-    double integral[MOR_SOIL_ENERGY_PARTS]; /* of each part up to the last sample, J (J/m) */
-    double power[MOR_SOIL_ENERGY_PARTS];    /* of each part in the last sample, W (W/m) */
-    double span;                            /* time since the last sample, s */
-    double turnover;                        /* of sizes of powers, integral up to the last sample, J (J/m) */
-    int64_t stride;                         /* steps from the last sample to the next; 0 before the first */
-    int64_t next;                           /* number of the step of the next sample */
-    double fresh[MOR_SOIL_ENERGY_PARTS];    /* powers of the present sample, W (W/m) */
-    double *scratch;                        /* shape [n_particles, 3]; accelerations [m/s2] or powers [W (W/m)] */
-    double *strains;                        /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
+    double integral[MOR_SOIL_ENERGY_PARTS];  /* of each part up to the last sample, J (J/m) */
+    double power[MOR_SOIL_ENERGY_PARTS];     /* of each part in the last sample, W (W/m) */
+    double span;                             /* time since the last sample, s */
+    double turnover;                         /* of sizes of powers, integral up to the last sample, J (J/m) */
+    double collected[MOR_SOIL_ENERGY_PARTS]; /* sums over the steps of the present sample so far, W (W/m) */
+    double width;                            /* time of these steps, s */
+    int64_t n_collected;                     /* number of these steps, 1 */
+    int64_t stride;                          /* steps from the last sample to the next; 0 before the first */
+    int64_t next;                            /* number of the step of the next sample */
+    double fresh[MOR_SOIL_ENERGY_PARTS];     /* powers of the present step, W (W/m) */
+    double *scratch;                         /* shape [n_particles, 3]; accelerations [m/s2] or powers [W (W/m)] */
+    double *strains;                         /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
                                           * those that slip, 1/s */
-    double *block_sums;                     /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
+    double *block_sums;                      /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
 } mor_soil_energy;
 
 /** Switches the audit of a soil on.
