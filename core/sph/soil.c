@@ -90,9 +90,9 @@ static const mor_stage soil_stages[] = {
      BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on", has_artificial_stress},
-    {"present skew stress", mor_soil_find_present_spin, SHARED(LISTS) | BIT(HOURGLASS_MOMENT), BIT(SPIN_STRESS),
-     SHARED(RECORDS), "with which the forces of the soil have no moment, found in this step, when switched on",
-     has_present_spin},
+    {"present skew stress", mor_soil_find_present_spin, SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT),
+     BIT(SPIN_STRESS) | SHARED(CLOSED), SHARED(RECORDS),
+     "with which the forces of the soil have no moment, found in this step, when switched on", has_present_spin},
     {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS) | BIT(HOURGLASS_MOMENT), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
@@ -133,8 +133,9 @@ static const mor_stage soil_stages[] = {
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
      BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
-    {"skew stress", mor_soil_find_spin_stress, SHARED(MOMENTS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), BIT(SPIN_STRESS),
-     0, "with which the forces of the soil will have no moment in the next step, when switched on", has_last_spin},
+    {"skew stress", mor_soil_find_spin_stress,
+     SHARED(MOMENTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), BIT(SPIN_STRESS) | SHARED(CLOSED), 0,
+     "with which the forces of the soil will have no moment in the next step, when switched on", has_last_spin},
     {"transient mean", mor_soil_follow_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0, BIT(MEAN_STRESS) | BIT(FLOW),
      "recent mean of the stress, when switched on", has_mean_stress},
     {"hourglass", mor_soil_advance_hourglass, BIT(HOURGLASS_RATE) | BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0,
@@ -305,7 +306,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (has_last_spin(soil) || s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
-    if (mor_soil_corrects_gradient(soil)) {
+    if (mor_soil_corrects_gradient(soil) || has_angular_momentum(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->closed, padded * 6, "closed kernel-gradient moments"));
     }
     if (has_angular_momentum(soil) || has_hourglass(soil) || has_mean_stress(soil)) {

@@ -70,6 +70,20 @@ static inline bool mor_soil_diffuses(const mor_soil *soil, const mor_step *step)
 /** Takes the kernel sums over the soil of particle i, shape [MOR_KERNEL_SUMS], units of the enum. */
 typedef void (*mor_soil_kernel_use)(void *job, int64_t i, const double *sums);
 
+/** What of the kernel sums over boundaries is added to a field of the soil. */
+typedef struct mor_soil_wall_sums {
+    int first_sum;       /* of MOR_KERNEL_SUM_... */
+    int n_sums;          /* from that one on, 1 */
+    const double *scale; /* shape [n_particles]; factor on the sums of each particle, any unit; NULL: 1 */
+    bool of_walls_only;  /* not of rocks */
+} mor_soil_wall_sums;
+
+/** Adds sums over walls and rocks to a field: out[i, a] += scale[i] * sum a of particle i.
+ *  @param what [in]      which sums
+ *  @param out  [in,out]  shape [n_particles, what->n_sums]; unit: of the sums times that of the scale */
+void mor_soil_add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view, const mor_soil_wall_sums *what,
+                            double *out);
+
 /** Sums kernel values over the soil, particle by particle.
  *  @param records [in]  shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param use     [in]  called once for each particle, by any thread

@@ -39,19 +39,24 @@ void mor_soil_sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, 
     }
 }
 
-/* Adds a run of the sums over walls and rocks to a field: out[i * n + a] += scale(i) * sums[first_sum + a]. */
-static void add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view, int first_sum, int n_sums,
-                          const double *scale, double *out)
+void mor_soil_add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view, const mor_soil_wall_sums *what,
+                            double *out)
 {
+    const int n_sums = what->n_sums;
+    const double *scale = what->scale;
     const int64_t n_particles = soil->set.n_particles;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         const mor_soil_contact *contact =
             mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
+        if (what->of_walls_only && !contact->is_wall) {
+            continue;
+        }
         MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, CLUSTERS) {
             for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
                 const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
                 for (int64_t lane = 0; lane < MOR_CLUSTER && first + lane < n_particles; ++lane) {
-                    const double *sums = contact->sums + (slot * MOR_CLUSTER + lane) * MOR_KERNEL_SUMS + first_sum;
+                    const double *sums =
+                        contact->sums + (slot * MOR_CLUSTER + lane) * MOR_KERNEL_SUMS + what->first_sum;
                     const double factor = scale != NULL ? scale[first + lane] : 1.0;
                     for (int a = 0; a < n_sums; ++a) {
                         out[(first + lane) * n_sums + a] += factor * sums[a];
@@ -95,7 +100,9 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
     for (int64_t i = 0; i < n && soil->of_soil != NULL; ++i) {
         sum[i] *= mor_soil_kind_of(soil, i)->reference_density;
     }
-    add_wall_sums(context, soil, view, MOR_KERNEL_SUM_VALUE, 1, density, sum);
+    mor_soil_add_wall_sums(context, soil, view,
+                           &(mor_soil_wall_sums){.first_sum = MOR_KERNEL_SUM_VALUE, .n_sums = 1, .scale = density},
+                           sum);
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {
         const double reference = mor_soil_kind_of(soil, i)->reference_density;
         const double summed = sum[i] / soil->lattice_sum;
@@ -144,7 +151,8 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
     double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
     mor_soil_sum_kernels(context, soil, view, mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
                          keep_moments, closed);
-    add_wall_sums(context, soil, view, MOR_KERNEL_SUM_MOMENT, 6, NULL, closed);
+    mor_soil_add_wall_sums(context, soil, view, &(mor_soil_wall_sums){.first_sum = MOR_KERNEL_SUM_MOMENT, .n_sums = 6},
+                           closed);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         correct_particle(soil, density[i], i, gradient + 9 * i, rate + i);
     }
