@@ -11,11 +11,12 @@
 #include <string.h>
 
 /* MEMORY: time over which the recent mean follows the stress, over h / c0. A wave of length l is diffused by y^2 /
- * (1 + y^2) of what diffusion does without the mean, y = 2 pi MEMORY h / l: one as long as the support, 4 h, by 0.91,
- * one of three supports by half. For the waves of the soil y is small, and their error of order two in h.
+ * (1 + y^2) of what diffusion does without the mean, y = 2 pi MEMORY h / l: one as long as the support, 4 h, by 0.98,
+ * one of eight supports by half. For waves much longer y is small, and their error of order two in h. Three and less
+ * leave a rock on sand, with hourglass control, to swing ever more.
  * NOISE: the part of the stress that noise may be in flow. Strain at a rate g leaves noise at about g of the stress,
  * and diffusion removes it at zeta c0 / h. */
-#define MEMORY 2.0
+#define MEMORY 5.0
 #define NOISE 0.01
 
 /* Turns a mean stress with the soil and lets it follow the stress by a part of their difference. */

@@ -29,7 +29,7 @@ static const char bed[] =
     "  shape = { type = 'box'; min = ('-0.2 m', '-0.15 m'); max = ('0.2 m', '0.15 m'); };"
     "  friction = 'coulomb'; friction_coefficient = 0.5;"
     "  material = { model = 'rigid'; density = '2400 kg/m3'; }; } );"
-    "numerics = { smoothing_ratio = 1.5; };" /* see docs/validation/column-at-rest.md */
+    "numerics = { scheme = 'zhang2024'; smoothing_ratio = 1.5; };" /* see docs/validation/column-at-rest.md */
     "probes = ("
     "  { name = 'height'; type = 'body_position'; body = 'rock'; direction = (0, 1, 0); },"
     "  { name = 'sideways'; type = 'body_position'; body = 'rock'; direction = (1, 0, 0);"
@@ -39,6 +39,12 @@ static const char bed[] =
     "  { name = 'force'; type = 'body_force_soil'; body = 'rock'; direction = (0, 1, 0); } );";
 
 static const char *const nothing[] = {NULL};
+#define CALM "numerics={scheme='moraine';}", "soil[0].initial_stress={type='settled';}"
+static const char *const calm[] = {CALM, NULL};
+static const char *const calm_soft[] = {CALM, "soil[0].material.youngs_modulus=10 MPa", NULL};
+static const char *const calm_elastic[] = {CALM, "bodies[0].material.model=neo_hookean",
+                                           "bodies[0].material.youngs_modulus=300 MPa",
+                                           "bodies[0].material.poissons_ratio=0.25", NULL};
 static const char *const elastic[] = {"bodies[0].material.model=neo_hookean",
                                       "bodies[0].material.youngs_modulus=300 MPa",
                                       "bodies[0].material.poissons_ratio=0.25", NULL};
@@ -189,6 +195,19 @@ static void every_stress_of_a_body_carries_the_weight(void **state)
 
 /* Diffusion takes out what stress departs from that of level ground, also what carries a load; the soil then gives way
  * until the load is carried again. So a rock creeps, and in proportion to the factor of the diffusion. */
+/* Whatever the stiffness of sand and rock: no term of the scheme takes away what carries a load. */
+static void a_rock_stands_still_where_soil_does(void **state)
+{
+    (void)state;
+    const char *const *const all[] = {calm, calm_soft, calm_elastic};
+    for (int k = 0; k < 3; ++k) {
+        const rest found = watch(all[k]);
+        scene_expect_near("sinking in spacings", found.sinking, 0.0, 0.002);       /* 0.001 spacings a second */
+        scene_expect_near("mean force / weight", found.force, 1.0, 0.001);         /* equilibrium */
+        scene_expect_near("swing of the force / weight", found.swing, 0.0, 0.001); /* likewise, at any time */
+    }
+}
+
 static void a_rock_creeps_as_stress_diffuses(void **state)
 {
     const rest *full = *state;
@@ -235,6 +254,7 @@ int main(void)
         cmocka_unit_test(a_rigid_rock_stays_and_is_carried),
         cmocka_unit_test(an_elastic_rock_does_what_a_rigid_one_does),
         cmocka_unit_test(every_stress_of_a_body_carries_the_weight),
+        cmocka_unit_test(a_rock_stands_still_where_soil_does),
         cmocka_unit_test(a_rock_creeps_as_stress_diffuses),
         cmocka_unit_test(a_rock_creeps_faster_on_softer_sand),
         cmocka_unit_test(limited_diffusion_carries_a_rock_on_soft_sand),
