@@ -170,7 +170,7 @@ typedef struct mor_case_soil {
 
 /** How soil is brought to rest before the start. */
 typedef enum mor_case_settle_method {
-    MOR_CASE_SETTLE_AUTO, /* relaxation where the scheme lets soil rest, else damping */
+    MOR_CASE_SETTLE_AUTO, /* relaxation where the scheme lets soil rest and no speed ratio is given, else damping */
     MOR_CASE_SETTLE_DAMPING,
     MOR_CASE_SETTLE_RELAXATION
 } mor_case_settle_method;

@@ -270,7 +270,8 @@ static const mor_case_key stress_keys[] = {
      AT(mor_case_soil, settle_speed_ratio)},
     {{"settle_method", CHOICE, "1", DEFAULT(0.0), ANY, "auto|damping|relaxation",
       "damping: velocities are damped until soil is slow; relaxation: local damping until forces balance, which is "
-      "faster; auto: relaxation with stress_diffusion_limiter = \"transient\", which lets soil rest, else damping"},
+      "faster; auto: relaxation with stress_diffusion_limiter = \"transient\", which lets soil rest, else damping; "
+      "damping, too, where settle_speed_ratio is given"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_soil, settle_method)},
     {{"settle_from", CHOICE, "1", DEFAULT(0.0), ANY, "k0|none",

@@ -117,7 +117,8 @@ static mor_status read_stress(const mor_case_reader *reader, const mor_case_node
     }
     if (soil->settle_method == MOR_CASE_SETTLE_AUTO) {
         const bool can_rest = the_case->numerics.stress_diffusion_limiter == 2;
-        soil->settle_method = can_rest ? MOR_CASE_SETTLE_RELAXATION : MOR_CASE_SETTLE_DAMPING;
+        const bool has_speed = mor_case_node_find(node, "settle_speed_ratio") != NULL;
+        soil->settle_method = can_rest && !has_speed ? MOR_CASE_SETTLE_RELAXATION : MOR_CASE_SETTLE_DAMPING;
     }
     MOR_TRY(reader->context, check_stress_keys(reader, node, soil->initial_stress));
     MOR_TRY(reader->context, check_settle_keys(reader, node, soil));
