@@ -42,7 +42,8 @@ static const char body_plane[] =
     "    position = ('0.29 m', '0.03 m', '0 m'); velocity = ('-0.3 m/s', '0 m/s', '0 m/s'); motion = 'prescribed';"
     "    contact_modulus = '20 MPa'; material = { model = 'rigid'; density = '2600 kg/m3'; }; } );"
     "contact = { friction_coefficient = 0.4; restitution = 0.5; };"
-    "numerics = { narrow_gaps = 'allow'; density_reinitialization = 9; sort_interval = 13; lattice_normalization = "
+    "numerics = { scheme = 'zhang2024';"
+    "  narrow_gaps = 'allow'; density_reinitialization = 9; sort_interval = 13; lattice_normalization = "
     "false;"
     "  wall_stress = 'uniform'; };";
 
@@ -74,10 +75,11 @@ static const char body_space[] =
     "    material = { model = 'saint_venant_kirchhoff'; density = '2400 kg/m3'; youngs_modulus = '30 MPa';"
     "      poissons_ratio = 0.2; }; } );"
     "contact = { friction_coefficient = 0.4; restitution = 0.5; };"
-    "numerics = { density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
+    "numerics = { scheme = 'zhang2024';"
+    "  density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
-enum { BODY_VARIANTS = 13 };
+enum { BODY_VARIANTS = 15 };
 
 static const scene_variant body_variants[BODY_VARIANTS] = {
     {"as it comes", {NULL}},
@@ -96,6 +98,8 @@ static const scene_variant body_variants[BODY_VARIANTS] = {
     {"settled stress",
      {"soil[0].initial_stress.type=settled", "soil[0].initial_stress.settle_speed_ratio=1",
       "soil[0].velocity=(0, 0, 0)", NULL}},
+    {"scheme moraine", {"numerics.scheme=moraine", NULL}},
+    {"moraine on its lattice", {"numerics.scheme=moraine", "numerics.lattice_normalization=true", NULL}},
 };
 
 #endif

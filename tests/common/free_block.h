@@ -37,7 +37,7 @@ static inline scene *free_block_new(const char *layers, const char *numerics)
     return free_block_print(
         "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0, 0);"
         "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; soil = ( %s ); output = { pictures = false; };"
-        "numerics = { %s };",
+        "numerics = { scheme = 'zhang2024'; %s };",
         layers, numerics);
 }
 

@@ -23,7 +23,8 @@ static const char scene_plane[] =
     "    shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (0, 1, 0); }; },"
     "  { name = 'back'; friction = 'rough';"
     "    shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (1, 0, 0); }; } );"
-    "numerics = { density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
+    "numerics = { scheme = 'zhang2024';"
+    "  density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
 static const char scene_space[] =
@@ -39,10 +40,11 @@ static const char scene_space[] =
     "    shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (0, 0, 1); }; },"
     "  { name = 'back'; friction = 'rough';"
     "    shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (1, 0, 0); }; } );"
-    "numerics = { density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
+    "numerics = { scheme = 'zhang2024';"
+    "  density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
-enum { SCENE_VARIANT_SETTINGS = 4, SCENE_VARIANTS = 28 };
+enum { SCENE_VARIANT_SETTINGS = 4, SCENE_VARIANTS = 33 };
 
 /** One way to run the scenes. */
 typedef struct scene_variant {
@@ -87,6 +89,15 @@ static const scene_variant scene_variants[SCENE_VARIANTS] = {
       NULL}},
     {"no friction", {"soil[0].material.friction_angle=0", "soil[0].material.dilation_angle=0", NULL}},
     {"no cohesion", {"soil[0].material.cohesion=0", NULL}},
+    {"scheme moraine", {"numerics.scheme=moraine", NULL}},
+    {"moraine on its lattice", {"numerics.scheme=moraine", "numerics.lattice_normalization=true", NULL}},
+    {"moraine by present moments", {"numerics.scheme=moraine", "numerics.angular_momentum_by=present", NULL}},
+    {"moraine with coulomb walls",
+     {"numerics.scheme=moraine", "walls[0].friction=coulomb", "walls[0].friction_coefficient=0.2",
+      "walls[1].friction=smooth", NULL}},
+    {"moraine settled",
+     {"numerics.scheme=moraine", "soil[0].initial_stress.type=settled", "soil[0].initial_stress.settle_force_ratio=1",
+      "soil[0].velocity=(0, 0, 0)", NULL}},
 };
 
 #endif

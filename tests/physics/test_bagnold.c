@@ -37,10 +37,12 @@ static const char layer[] =
     "    static_friction = 0.3819; limiting_friction = 0.6435; inertial_number = 0.279; grain_diameter = '2 mm';"
     "    grain_density = 2500; }; } );"
     "walls = ( { name = 'base'; friction = 'rough';"
-    "  shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 1, 0); }; } );";
+    "  shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 1, 0); }; } );"
+    "numerics = { scheme = 'zhang2024'; };";
 
 /* Settings of the scheme. */
 static const char *const as_it_is[] = {NULL};
+static const char *const calm[] = {"numerics.scheme=moraine", NULL};
 static const char *const reconstructed[] = {"numerics.reconstruction=linear", NULL};
 static const char *const exact_gradient[] = {"numerics.reconstruction=linear", "numerics.lattice_normalization=true",
                                              NULL};
@@ -189,6 +191,17 @@ static double find_damped_number(double angle, double spacing)
     return low;
 }
 
+/* All terms that let soil stand still act in a flow, too: hourglass control and skew stress more than others. */
+static void scheme_keeps_the_profile_of_bagnold(void **state)
+{
+    (void)state;
+    const profile found = run_flow(&(flow){24.0, ROWS, 1.0, 2.0, calm});
+    /* Of hourglass control at most 0.03 of the stress, of which a tenth was measured: a change of 0.003 in the ratio of
+     * stresses, 0.063 above that of rest, changes the speed by 0.05. */
+    scene_expect_near("error of the profile", found.error, 0.0, 0.05);
+    scene_expect_near("error of the stress ratio", found.stress_error, 0.0, 0.015); /* likewise, and truncation */
+}
+
 static void riemann_dissipation_slows_the_flow_by_its_closed_form(void **state)
 {
     (void)state;
@@ -287,6 +300,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reconstructed_flow_keeps_the_profile_of_bagnold),
+        cmocka_unit_test(scheme_keeps_the_profile_of_bagnold),
         cmocka_unit_test(riemann_dissipation_slows_the_flow_by_its_closed_form),
         cmocka_unit_test(flow_stops_below_the_angle_of_static_friction),
         cmocka_unit_test(differences_over_the_depth_approach_the_closed_form),

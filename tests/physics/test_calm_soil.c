@@ -257,7 +257,7 @@ static const char slope[] =
     "  { name = 'ends'; friction = 'smooth'; shape = { type = 'difference';"
     "    from = { type = 'box'; min = (-0.1, -0.1); max = (0.9, 0.3); };"
     "    minus = { type = 'box'; min = (0, -0.2); max = (0.8, 0.4); }; }; } );"
-    "numerics = { gravity_ramp = '0.1 s'; %s }; output = { pictures = false; };";
+    "numerics = { scheme = 'zhang2024'; gravity_ramp = '0.1 s'; %s }; output = { pictures = false; };";
 
 /* Largest difference between a row's velocity and the mean of the rows beside it, m/s. */
 static double find_row_speed(const char *numerics)
@@ -306,7 +306,8 @@ static void smooth_ramp_gives_its_impulse(void **state)
     for (int k = 0; k < 2; ++k) {
         scene *it = free_block_print(
             "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, -10, 0); output = { pictures = false; };"
-            "numerics = { stress_diffusion = 0; gravity_ramp = '0.02 s'; gravity_ramp_form = '%s'; };"
+            "numerics = { scheme = 'zhang2024'; stress_diffusion = 0; gravity_ramp = '0.02 s'; gravity_ramp_form = "
+            "'%s'; };"
             "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; soil = ( " ONE " );",
             forms[k]);
         scene_advance(it, 0.01);

@@ -12,7 +12,8 @@
 #define GRAVITY 9.81         /* m/s2 */
 #define REST 45e-3           /* by then the ball has stopped, s */
 
-static const char *const small_bed[] = {"lattice.origin=('-60 mm', '-60 mm', '-60 mm')",
+static const char *const small_bed[] = {"numerics.scheme=zhang2024",
+                                        "lattice.origin=('-60 mm', '-60 mm', '-60 mm')",
                                         "soil[0].shape.min=('-60 mm', '-60 mm', '-60 mm')",
                                         "soil[0].shape.max=('60 mm', '60 mm', '0 mm')",
                                         "soil[0].material.friction_angle=26.5651 deg",

@@ -55,19 +55,22 @@ static const char *const thrown[] = {
     "walls=({name='floor'; friction='smooth'; shape={type='half_space'; point=(0, 0, 0); normal=(0, 1, 0);};})",
     NULL};
 
-/* An elastic block bounces off a smooth wall: energy goes to and fro. */
-static void elastic_bounce_loses_nothing(void **state)
+/* An elastic block bounces off a smooth wall: energy goes to and fro, but for a part that the scheme takes or adds. */
+static void follow_bounce(const char *scheme, double numerical)
 {
-    (void)state;
-    scene *it = make(block, thrown);
+    const char *const numerics[] = {scheme, NULL};
+    const scene_request request = {block, (const char *const *[]){thrown, numerics}, 2, 1};
+    scene *it = scene_new(&request);
     const double start = scene_probe(it, "kinetic_energy");
     double stored = 0.0;
     for (int k = 1; k <= 40; ++k) {
         scene_advance(it, 0.0005 * k);
         stored = fmax(stored, scene_probe(it, "elastic_energy"));
         scene_expect_near("plastic", scene_probe(it, "plastic_energy"), 0.0, 1e-12 * start); /* rounding */
-        /* Of (S7), what pressure and impedance do together is left: a part of density's change, here 1 %. */
-        scene_expect_near("numerical", scene_probe(it, "numerical_dissipation"), 0.0, 1e-3 * start);
+        scene_expect_near("numerical", scene_probe(it, "numerical_dissipation"), 0.0, numerical * start);
+        /* Velocity and stress stand half a step apart, and the wall's mirror image gives and takes a part of the energy
+         * of the first of ten layers: half of a layer's. */
+        assert_true(scene_probe(it, "kinetic_energy") + scene_probe(it, "elastic_energy") < (1.0 + 0.05) * start);
         /* Velocity and stress stand half a step apart, which shows while next to nothing has changed hands. */
         if (stored > 0.25 * start) {
             scene_expect_near("balance", scene_probe(it, "energy_balance"), 1.0, share_astray);
@@ -75,6 +78,16 @@ static void elastic_bounce_loses_nothing(void **state)
     }
     assert_true(stored > 0.5 * start);
     scene_free(it);
+}
+
+static void elastic_bounce_loses_nothing(void **state)
+{
+    (void)state;
+    /* Of (S7), what pressure and impedance do together is left: a part of density's change, here 1 %. */
+    follow_bounce("numerics.scheme=zhang2024", 1e-3);
+    /* Hourglass displacements store energy and, at their limit, lose it; the fit strains the layers at surfaces, two of
+     * ten, by what sums over half of the neighbors do not exert. */
+    follow_bounce("numerics.scheme=moraine", 0.2);
 }
 
 static const char *const thrown_and_smoothed[] = {
@@ -104,11 +117,29 @@ static const char *const sliding[] = {
     "soil[0].material.cohesion=2 kPa",
     NULL};
 
-/* A block that slides is slowed by the floor alone: what friction takes is what the block loses. */
+/* A block that slides is slowed by the floor alone, at a constant rate. */
+static void sliding_block_keeps_the_energy_that_friction_leaves(void **state)
+{
+    (void)state;
+    const char *const calm[] = {"numerics.scheme=moraine", NULL};
+    const scene_request request = {block, (const char *const *[]){sliding, calm}, 2, 1};
+    scene *it = scene_new(&request);
+    const double mass = scene_probe(it, "mass");
+    const double speed = 1.0 - 0.2 * 9.81 * 0.3;
+    scene_advance(it, 0.3);
+    /* J: the block rattles. */
+    scene_expect_near("kinetic", scene_probe(it, "kinetic_energy"), 0.5 * mass * speed * speed, 0.01 * 0.5 * mass);
+    scene_expect_near("balance", scene_probe(it, "energy_balance"), 1.0, share_astray);
+    scene_free(it);
+}
+
+/* What friction takes is what the block loses, where the friction of each grain is by its own stress. */
 static void friction_of_a_sliding_block_is_lost_at_the_floor(void **state)
 {
     (void)state;
-    scene *it = make(block, sliding);
+    const char *const source[] = {"numerics.scheme=zhang2024", NULL};
+    const scene_request request = {block, (const char *const *[]){sliding, source}, 2, 1};
+    scene *it = scene_new(&request);
     const double mass = scene_probe(it, "mass");
     double center[2] = {0.0, 0.0};
     const double *x = it->simulation.soil.set.data[MOR_FIELD_POSITION];
@@ -257,6 +288,7 @@ int main(void)
         cmocka_unit_test(free_fall_turns_height_into_speed_and_nothing_else),
         cmocka_unit_test(elastic_bounce_loses_nothing),
         cmocka_unit_test(stress_diffusion_of_elastic_soil_is_no_plastic_strain),
+        cmocka_unit_test(sliding_block_keeps_the_energy_that_friction_leaves),
         cmocka_unit_test(friction_of_a_sliding_block_is_lost_at_the_floor),
         cmocka_unit_test(piston_gives_what_its_force_does_along_its_way),
         cmocka_unit_test(energy_of_a_collapse_is_accounted_for),

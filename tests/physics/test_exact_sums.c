@@ -28,7 +28,7 @@ static scene *new_cube(const char *layers, const char *numerics)
 {
     return free_block_print(
         "dimension = 3; spacing = '10 mm'; end = '1 s'; gravity = (0, 0, 0); output = { pictures = false; };"
-        "domain = { min = (-1, -1, -1); max = (2, 2, 2); }; soil = ( %s ); numerics = { %s };",
+        "domain = { min = (-1, -1, -1); max = (2, 2, 2); }; soil = ( %s ); numerics = { scheme = 'zhang2024'; %s };",
         layers, numerics);
 }
 
@@ -150,7 +150,8 @@ static scene *open_box(const char *walls, const char *numerics)
 {
     return free_block_print(
         "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0, 0); output = { pictures = false; };"
-        "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { wall_normals = 'geometry'; %s };"
+        "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { scheme = 'zhang2024'; wall_normals = "
+        "'geometry'; %s };"
         "soil = ( { name = 'soil'; shape = { type = 'box'; min = (0, 0); max = (0.2, 0.2); }; material = { model = "
         "'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } ); walls = ( %s );",
         numerics, walls);
@@ -238,7 +239,7 @@ static scene *new_block_with_rock(const char *friction, double spin)
 {
     return free_block_print(
         "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0, 0); output = { pictures = false; };"
-        "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { " FIT " };"
+        "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { scheme = 'zhang2024'; " FIT " };"
         "soil = ( " TWO " ); bodies = ( { name = 'rock'; position = (0.15, 0.15); velocity = (0.1, 0.2);"
         "  angular_velocity = (0, 0, %g); friction = %s; material = { model = 'rigid'; density = 2500; };"
         "  shape = { type = 'box'; min = (-0.05, -0.05); max = (0.05, 0.05); }; } );",
@@ -325,7 +326,8 @@ static void energy_is_accounted_for_with_a_fitted_gradient(void **state)
     (void)state;
     scene *it = free_block_print(
         "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, -9.81, 0); output = { pictures = false; };"
-        "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { wall_normals = 'geometry'; "
+        "domain = { min = (-1, -1, -1); max = (2, 2, 1); }; numerics = { scheme = 'zhang2024'; wall_normals = "
+        "'geometry'; "
         "velocity_gradient = 'fit'; }; probes = ( { name = 'balance'; type = 'energy_balance'; } );"
         "soil = ( { name = 'soil'; shape = { type = 'box'; min = (0, 0); max = (0.3, 0.1); }; material = { model = "
         "'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } ); walls = ( %s );",

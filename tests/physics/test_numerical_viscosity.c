@@ -31,7 +31,8 @@ static const char block[] =
     "soil = ( { name = 'soil'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('1 m', '1 m'); };"
     "  material = { model = 'hypoelastic'; density = '2000 kg/m3'; youngs_modulus = '50 MPa';"
     "    poissons_ratio = 0.3; }; } );"
-    "numerics = { stress_diffusion = 0.0; density_reinitialization = 0; smoothing_ratio = 2.0; courant = 0.01;"
+    "numerics = { scheme = 'zhang2024'; stress_diffusion = 0.0; density_reinitialization = 0; smoothing_ratio = 2.0; "
+    "courant = 0.01;"
     "  lattice_normalization = true; dissipation = 'both'; dissipation_factor = 40.0; };";
 
 static const char *const none[] = {"numerics.reconstruction=none", NULL};

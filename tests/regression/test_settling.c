@@ -18,7 +18,7 @@ static const char slope[] =
     "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); }; },"
     "  { name = 'back'; friction = 'smooth';"
     "    shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (1, 0); }; } );"
-    "numerics = { stress_diffusion = 0; };"
+    "numerics = { scheme = 'zhang2024'; stress_diffusion = 0; };"
     "probes = ( { type = 'run_out'; }, { type = 'wall_force'; wall = 'floor'; direction = (0, -1); } ); output = { "
     "pictures = false; snapshots = 1; };";
 
