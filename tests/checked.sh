@@ -38,7 +38,6 @@ compare() { # compare NAME ARGUMENT...
 compare "soil in plane strain" cases/column-2d/case.cfg --set 'spacing=8 mm' --set 'end=0.02 s'
 compare "several soils" cases/layered-slope/case.cfg --set 'spacing=0.3 m' --set 'end=0.1 s'
 compare "options for soil at rest" cases/layered-slope/case.cfg --set 'spacing=0.3 m' --set 'end=0.1 s' \
-    --set numerics.soil_hourglass=0.25 --set numerics.stress_diffusion_limiter=transient \
-    --set numerics.wall_normals=geometry --set numerics.velocity_gradient=fit --set numerics.angular_momentum=true
+    --set numerics.scheme=moraine
 compare "soil, walls and elastic bodies" cases/srm-slope/case.cfg --set 'end=2 ms'
 compare "soil, walls and rigid rocks" cases/blocks/case.cfg --set 'end=1 ms'

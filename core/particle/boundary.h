@@ -60,7 +60,7 @@ typedef struct mor_boundary {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_points;
     double *records; /* shape [n_points padded to 8, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
-    double *normals; /* shape [n_points, 3]; of the face nearest to each in the middle of the soil's step, 1, zero where
+    double *normals; /* shape [n_points, 3]; of the face nearest to each at the start of the soil's step, 1, zero where
                       * none is near; NULL: as the points lie */
     mor_boundary_patch *patches; /* shape [n_patches]; by rising range, without gaps */
     int n_patches;

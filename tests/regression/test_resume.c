@@ -28,7 +28,7 @@ static const variant variants[] = {
       "numerics.artificial_stress=true", "numerics.gravity_ramp=40 ms"},
      5},
     {"reconstructed", {"numerics.reconstruction=linear", "numerics.stress_diffusion_limiter=motion"}, 2},
-    {"source", {"numerics.scheme=zhang2024"}, 1},
+    {"moraine", {"numerics.scheme=moraine"}, 1},
     {"calm",
      {"numerics.soil_hourglass=0.25", "numerics.stress_diffusion_limiter=transient", "numerics.wall_normals=geometry"},
      3},

@@ -70,18 +70,22 @@ static void describe_range(const mor_schema *schema, char *text, size_t text_byt
     }
 }
 
-/* Adds the default of the other scheme where it is another one. */
-static void describe_other_default(const mor_case_key *key, char *text, size_t text_bytes)
+/* The default of the scheme that is chosen where none is, then that of the other one where it is another. */
+static void describe_defaults(const mor_case_key *key, const mor_schema *schemes, char *text, size_t text_bytes)
 {
-    if (key->computed != NULL || mor_case_key_default(key, MOR_SCHEME_ZHANG2024) == key->schema.default_value) {
-        return;
-    }
-    char other[CELL_BYTES];
+    const int standard = (int)schemes->default_value;
     mor_schema schema = key->schema;
-    schema.default_value = mor_case_key_default(key, MOR_SCHEME_ZHANG2024);
-    describe_default(&schema, NULL, other, sizeof other);
-    const size_t used = strlen(text);
-    snprintf(text + used, text_bytes - used, "; zhang2024: %s", other);
+    char other[CELL_BYTES];
+    char scheme[CELL_BYTES];
+    schema.default_value = mor_case_key_default(key, standard);
+    describe_default(&schema, key->computed, text, text_bytes);
+    if (key->computed == NULL && mor_case_key_default(key, 1 - standard) != schema.default_value) {
+        const size_t used = strlen(text);
+        schema.default_value = mor_case_key_default(key, 1 - standard);
+        describe_default(&schema, NULL, other, sizeof other);
+        mor_params_word(schemes->choices, 1 - standard, scheme, sizeof scheme);
+        snprintf(text + used, text_bytes - used, "; %s: %s", scheme, other);
+    }
 }
 
 static void print_row(FILE *stream, const mor_schema *schema, const char *unit_plane, const char *fallback)
@@ -118,9 +122,10 @@ static void print_group(FILE *stream, int level, const mor_case_group *group, co
     }
     for (const mor_case_key *key = group->keys; key->schema.key != NULL; ++key) {
         char fallback[CELL_BYTES];
-        describe_default(&key->schema, key->computed, fallback, sizeof fallback);
         if (key->has_schemes) {
-            describe_other_default(key, fallback, sizeof fallback);
+            describe_defaults(key, &group->keys[0].schema, fallback, sizeof fallback);
+        } else {
+            describe_default(&key->schema, key->computed, fallback, sizeof fallback);
         }
         print_row(stream, &key->schema, key->unit_plane, fallback);
     }

@@ -180,11 +180,23 @@ static mor_status check_barrier(const mor_case_reader *reader, const mor_case_no
                               c->numerics.barrier_radius, support);
 }
 
+/* Forces by sums are not adjoint to a gradient by a fit: what it gains at surfaces, only diffusion takes away. */
+static void warn_of_fit(const mor_case_reader *reader, const mor_case *c)
+{
+    if (c->n_soils > 0 && c->numerics.velocity_gradient == 1 && !(c->numerics.stress_diffusion > 0.0)) {
+        mor_context_log(
+            reader->context, MOR_LOG_WARNING,
+            "numerics.velocity_gradient = \"fit\" without stress diffusion: waves at surfaces and walls gain "
+            "energy and grow; set numerics.stress_diffusion above 0, or velocity_gradient = \"sum\"");
+    }
+}
+
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)
 {
     MOR_TRY(reader->context, check_ramp(reader, root, the_case));
     MOR_TRY(reader->context, check_series(reader, root, the_case));
     MOR_TRY(reader->context, check_barrier(reader, root, the_case));
     warn_of_idle_settings(reader, root, the_case);
+    warn_of_fit(reader, the_case);
     return MOR_OK;
 }
