@@ -51,8 +51,8 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
 bool mor_soil_has_density_sums(const void *owner);
 
 /** Steps of which stress diffuses in one, for all of them, 1: where only what changes diffuses, as many as keep the
- *  diffusion number, zeta times courant times these steps, far below where that is unstable, 0.33; at most four, which
- *  is less than a period of the fastest waves. */
+ *  diffusion number, zeta times courant times these steps, below 0.32 to 0.36, where two steps are unstable; at most
+ *  four, which is less than a period of the fastest waves. */
 static inline int mor_soil_diffusion_interval(const mor_soil *soil)
 {
     const double largest_number = 0.2;

@@ -56,7 +56,7 @@ static const char *const thrown[] = {
     NULL};
 
 /* An elastic block bounces off a smooth wall: energy goes to and fro, but for a part that the scheme takes or adds. */
-static void follow_bounce(const char *scheme, double numerical)
+static void follow_bounce(const char *scheme, double least, double most)
 {
     const char *const numerics[] = {scheme, NULL};
     const scene_request request = {block, (const char *const *[]){thrown, numerics}, 2, 1};
@@ -67,7 +67,8 @@ static void follow_bounce(const char *scheme, double numerical)
         scene_advance(it, 0.0005 * k);
         stored = fmax(stored, scene_probe(it, "elastic_energy"));
         scene_expect_near("plastic", scene_probe(it, "plastic_energy"), 0.0, 1e-12 * start); /* rounding */
-        scene_expect_near("numerical", scene_probe(it, "numerical_dissipation"), 0.0, numerical * start);
+        const double numerical = scene_probe(it, "numerical_dissipation");
+        assert_true(numerical >= least * start && numerical <= most * start);
         /* Velocity and stress stand half a step apart, and the wall's mirror image gives and takes a part of the energy
          * of the first of ten layers: half of a layer's. */
         assert_true(scene_probe(it, "kinetic_energy") + scene_probe(it, "elastic_energy") < (1.0 + 0.05) * start);
@@ -84,10 +85,9 @@ static void elastic_bounce_gains_nothing(void **state)
 {
     (void)state;
     /* Of (S7), what pressure and impedance do together is left: a part of density's change, here 1 %. */
-    follow_bounce("numerics.scheme=zhang2024", 1e-3);
-    /* Hourglass displacements store energy and, at their limit, lose it; the fit strains the layers at surfaces, two of
-     * ten, by what sums over half of the neighbors do not exert. */
-    follow_bounce("numerics.scheme=moraine", 0.2);
+    follow_bounce("numerics.scheme=zhang2024", -1e-3, 1e-3);
+    /* Golden: at most 0.03 were given and 0.11 taken, by hourglass control at its limit and by the fit at surfaces. */
+    follow_bounce("numerics.scheme=moraine", -0.05, 0.15);
     /* Later it does without any dissipation, see docs/theory/soil.md: not with the diffusion of the scheme. */
     static const char *const diffusing[] = {"numerics.scheme=moraine", "numerics.stress_diffusion=0.1", NULL};
     const scene_request request = {block, (const char *const *[]){thrown, diffusing}, 2, 1};
