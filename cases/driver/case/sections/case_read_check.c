@@ -180,8 +180,8 @@ static mor_status check_barrier(const mor_case_reader *reader, const mor_case_no
                               c->numerics.barrier_radius, support);
 }
 
-/* Forces by sums are not adjoint to a gradient by a fit: what it gains at surfaces, only diffusion takes away. An elastic
- * cube gained energy with 0.01 of it and lost it with 0.1, blocks in plane strain with 0.02: docs/theory/soil.md. */
+/* Forces by sums are not adjoint to a gradient by a fit: what it gains at surfaces, only diffusion takes away. An
+ * elastic cube gained energy with 0.01 of it and lost it with 0.1, blocks in plane strain with 0.02: soil.md. */
 static const double least_diffusion_of_fit = 0.03;
 
 static void warn_of_fit(const mor_case_reader *reader, const mor_case *c)
