@@ -16,7 +16,7 @@ static const char rocks[] =
     "dimension = 3; spacing = 0.05; end = 0.1; gravity = (0, 0, -10);"
     "domain = { min = (-1, -1, -1); max = (3, 3, 3); };"
     "soil = ( { name = 'soil'; shape = { type = 'box'; min = (0, 0, 0); max = (0.8, 0.8, 0.6); };"
-    "  initial_stress = { type = 'settled'; settle_time = 2; settle_speed_ratio = 0.01; };"
+    "  initial_stress = { type = 'settled'; settle_time = 2; settle_method = 'relaxation'; };"
     "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = 5e6; poissons_ratio = 0.3;"
     "               friction_angle = 0.5; cohesion = 5e4; }; } );"
     "rocks = ( { name = 'rock'; region = { type = 'box'; min = (0, 0, 0); max = (0.8, 0.8, 0.6); }; content = 0.2;"

@@ -36,10 +36,11 @@ mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation
 
 /** Largest relative error by which a ball sinks too little into dry sand, for a number of particles from its center to
  *  its side.
- *  Source: docs/validation/crater.md, Spacing.
+ *  Source: docs/validation/crater.md, Spacing; with linear reconstruction docs/theory/scheme.md.
  *  @param n [in]  radius / spacing, 1
+ *  @param is_reconstructed [in]  whether the velocities of the Riemann problem are
  *  Returns: 1; 0 from where on the depth is within its tolerance. */
-double mor_simulation_depth_error(double n);
+double mor_simulation_depth_error(double n, bool is_reconstructed);
 
 /** Logs a warning for each soil region whose particles weigh more than 1 % more or less than its shape, with what would
  *  fit, and one for bodies that are too coarse for the soil they move through.

@@ -41,7 +41,7 @@ static const char full_text[] =
     "    friction_with = ( { soil = \"second\"; friction = \"smooth\"; },\n"
     "      { soil = \"column\"; friction = \"coulomb\"; friction_coefficient = 0.7; } ); } );\n"
     "numerics = { dissipation = \"both\"; damping = \"2 1/s\"; gravity_ramp = \"10 ms\"; artificial_stress = true;\n"
-    "  reconstruction = \"linear\"; stress_diffusion_limiter = \"motion\";\n"
+    "  reconstruction = \"none\"; stress_diffusion_limiter = \"motion\";\n"
     "  density_reinitialization = 0; dissipation_factor = 50; };\n"
     "probes = ( { type = \"run_out\"; }, { name = \"front\"; type = \"run_out\"; measure = \"thickness\";\n"
     "    thickness = \"3 mm\"; direction = (3, 0, 4); origin = (0.1, 0, 0); },\n"
@@ -96,7 +96,7 @@ static void values_arrive_in_si(void **state)
     assert_int_equal(c->numerics.wall_dissipation, 0);
     assert_true(c->numerics.dissipation_factor == 50.0 && c->numerics.damping == 2.0); /* exact */
     assert_true(c->numerics.artificial_stress);
-    assert_int_equal(c->numerics.reconstruction, 1);
+    assert_int_equal(c->numerics.reconstruction, 0);
     assert_int_equal(c->numerics.stress_diffusion_limiter, 1);
     assert_int_equal(c->numerics.density_reinitialization, 0);
     assert_true(c->output.checkpoint_seconds == 60.0); /* exact */
@@ -115,8 +115,11 @@ static void what_is_not_written_gets_its_default(void **state)
     assert_true(c->numerics.dissipation_factor == 40.0);                           /* exact: 20 * dimension */
     assert_int_equal(c->numerics.dissipation, 0);
     assert_int_equal(c->numerics.wall_dissipation, 0);
-    assert_int_equal(c->numerics.reconstruction, 0);
-    assert_int_equal(c->numerics.stress_diffusion_limiter, 0);
+    assert_int_equal(c->numerics.scheme, 0);                   /* moraine */
+    assert_int_equal(c->numerics.reconstruction, 1);           /* linear */
+    assert_int_equal(c->numerics.stress_diffusion_limiter, 2); /* transient */
+    assert_int_equal(c->numerics.velocity_gradient, 1);        /* fit */
+    assert_true(c->numerics.soil_hourglass == 0.25);           /* exact */
     assert_int_equal(c->numerics.density_reinitialization, 20);
     assert_int_equal(c->numerics.sort_interval, 100);
     assert_true(c->output.series_interval == 1.0 / 200.0); /* exact: the same operation */

@@ -33,38 +33,41 @@ static void keep_warning(void *user, mor_log_level level, const char *text)
 
 typedef struct idle_row {
     const char *text;
-    const char *setting;
-    const char *also;    /* a second setting; NULL: none */
-    const char *warning; /* NULL: none */
+    const char *settings[4]; /* the first is the one in question; up to three */
+    const char *warning;     /* NULL: none */
 } idle_row;
 
 static const idle_row rows[] = {
-    {soil_text, NULL, NULL, NULL},
-    {rock_text, NULL, NULL, NULL},
-    {soil_text, "numerics.artificial_stress_factor=0.3", NULL, "with artificial_stress = true"},
-    {soil_text, "numerics.artificial_stress_factor=0.3", "numerics.artificial_stress=true", NULL},
-    {soil_text, "numerics.artificial_stress_factor=0.5", NULL, NULL}, /* its default: nobody is deceived */
-    {soil_text, "numerics.stress_diffusion_limiter=motion", "numerics.stress_diffusion=0",
+    {soil_text, {NULL}, NULL},
+    {rock_text, {NULL}, NULL},
+    {soil_text, {"numerics.artificial_stress_factor=0.3"}, "with artificial_stress = true"},
+    {soil_text, {"numerics.artificial_stress_factor=0.3", "numerics.artificial_stress=true"}, NULL},
+    {soil_text, {"numerics.artificial_stress_factor=0.5"}, NULL}, /* its default: nobody is deceived */
+    {soil_text,
+     {"numerics.stress_diffusion_limiter=motion", "numerics.stress_diffusion=0", "numerics.scheme=zhang2024"},
      "with stress_diffusion above 0"},
-    {soil_text, "numerics.stress_diffusion_limiter=motion", NULL, NULL},
-    {soil_text, "numerics.reconstruction=linear", "numerics.dissipation_factor=0", "with dissipation_factor above 0"},
-    {soil_text, "numerics.dissipation_factor=40", NULL, NULL},
-    {soil_text, "numerics.barrier_radius=0.3", NULL, "in a case with bodies"},
-    {soil_text, "numerics.body_courant=0.2", NULL, "with elastic bodies"},
-    {soil_text, "numerics.single_rate=true", NULL, "in a case with bodies"},
-    {soil_text, "numerics.gravity_ramp=0.5", "gravity=(0, 0)", "with gravity"},
-    {soil_text, "numerics.gravity_ramp=0.5", NULL, NULL},
-    {soil_text, "placement.axis=(0, 0, -2)", NULL, "with an angle other than 0"},
-    {soil_text, "placement.axis=(0, 0, -2)", "placement.angle=0.5", NULL},
-    {rock_text, "numerics.courant=0.2", NULL, "'numerics.courant' has no effect here; it has one in a case with soil"},
-    {rock_text, "lattice.jitter=0.1", NULL, "in a case with soil"},
+    {soil_text, {"numerics.stress_diffusion_limiter=motion"}, NULL},
+    {soil_text, {"numerics.reconstruction=none", "numerics.dissipation_factor=0"}, "with dissipation_factor above 0"},
+    {soil_text,
+     {"numerics.reconstruction=linear", "numerics.dissipation_factor=0", "numerics.scheme=zhang2024"},
+     "with dissipation_factor above 0"},
+    {soil_text, {"numerics.dissipation_factor=40"}, NULL},
+    {soil_text, {"numerics.barrier_radius=0.3"}, "in a case with bodies"},
+    {soil_text, {"numerics.body_courant=0.2"}, "with elastic bodies"},
+    {soil_text, {"numerics.single_rate=true"}, "in a case with bodies"},
+    {soil_text, {"numerics.gravity_ramp=0.5", "gravity=(0, 0)"}, "with gravity"},
+    {soil_text, {"numerics.gravity_ramp=0.5"}, NULL},
+    {soil_text, {"placement.axis=(0, 0, -2)"}, "with an angle other than 0"},
+    {soil_text, {"placement.axis=(0, 0, -2)", "placement.angle=0.5"}, NULL},
+    {rock_text, {"numerics.courant=0.2"}, "'numerics.courant' has no effect here; it has one in a case with soil"},
+    {rock_text, {"lattice.jitter=0.1"}, "in a case with soil"},
     /* Whoever writes this believes that the ball slides on the floor without friction. */
-    {rock_text, "walls[0].friction=smooth", NULL, "'walls[0].friction' has no effect here"},
-    {rock_text, "bodies[0].friction=smooth", NULL, "'bodies[0].friction' has no effect here"},
-    {rock_text, "bodies[0].axis=(0, 0, -1)", NULL, "with an angle other than 0"},
-    {rock_text, "bodies[0].axis=(0, 0, -1)", "bodies[0].angle=0.1", NULL},
-    {rock_text, "bodies[0].spring.length=0.5", NULL, "with a stiffness above 0"},
-    {rock_text, "bodies[0].spring.length=0.5", "bodies[0].spring.stiffness=5", NULL},
+    {rock_text, {"walls[0].friction=smooth"}, "'walls[0].friction' has no effect here"},
+    {rock_text, {"bodies[0].friction=smooth"}, "'bodies[0].friction' has no effect here"},
+    {rock_text, {"bodies[0].axis=(0, 0, -1)"}, "with an angle other than 0"},
+    {rock_text, {"bodies[0].axis=(0, 0, -1)", "bodies[0].angle=0.1"}, NULL},
+    {rock_text, {"bodies[0].spring.length=0.5"}, "with a stiffness above 0"},
+    {rock_text, {"bodies[0].spring.length=0.5", "bodies[0].spring.stiffness=5"}, NULL},
 };
 
 static void settings_without_effect_are_warned_of(void **state)
@@ -74,13 +77,43 @@ static void settings_without_effect_are_warned_of(void **state)
         char log[LOG_BYTES] = "";
         f->context.log_sink = keep_warning;
         f->context.log_user = log;
-        case_reading_read(f, rows[k].text, (const char *[]){rows[k].setting, rows[k].also, NULL}, &f->first);
+        case_reading_read(f, rows[k].text, rows[k].settings, &f->first);
         f->context.log_sink = NULL;
         if (rows[k].warning == NULL ? log[0] != '\0' : strstr(log, rows[k].warning) == NULL) {
-            fail_msg("row %zu, '%s': warned: %s", k, rows[k].setting, log);
+            fail_msg("row %zu, '%s': warned: %s", k, rows[k].settings[0], log);
         }
         if (rows[k].warning != NULL && (strstr(log, ":") == NULL || strchr(log, '\n') != strrchr(log, '\n'))) {
-            fail_msg("row %zu, '%s': one warning with its place is due, not: %s", k, rows[k].setting, log);
+            fail_msg("row %zu, '%s': one warning with its place is due, not: %s", k, rows[k].settings[0], log);
+        }
+    }
+}
+
+/* A fitted gradient gains energy at surfaces and walls, which too little diffusion does not take away. */
+static void a_fitted_gradient_needs_diffusion(void **state)
+{
+    case_reading *f = *state;
+    static const struct {
+        const char *text;
+        const char *settings[3];
+        bool is_warned;
+    } cases[] = {
+        {soil_text, {NULL}, false},
+        {soil_text, {"numerics.stress_diffusion=0"}, true},
+        {soil_text, {"numerics.stress_diffusion=0.01"}, true},
+        {soil_text, {"numerics.stress_diffusion=0.029"}, true},
+        {soil_text, {"numerics.stress_diffusion=0.03"}, false},
+        {soil_text, {"numerics.stress_diffusion=0", "numerics.velocity_gradient=sum"}, false},
+        {soil_text, {"numerics.stress_diffusion=0", "numerics.scheme=zhang2024"}, false},
+        {rock_text, {NULL}, false},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        char log[LOG_BYTES] = "";
+        f->context.log_sink = keep_warning;
+        f->context.log_user = log;
+        case_reading_read(f, cases[k].text, cases[k].settings, &f->first);
+        f->context.log_sink = NULL;
+        if ((strstr(log, "with stress_diffusion below 0.03") != NULL) != cases[k].is_warned) {
+            fail_msg("case %zu, '%s': warned: %s", k, cases[k].settings[0], log);
         }
     }
 }
@@ -138,6 +171,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(settings_without_effect_are_warned_of, case_reading_set_up,
                                         case_reading_tear_down),
+        cmocka_unit_test_setup_teardown(a_fitted_gradient_needs_diffusion, case_reading_set_up, case_reading_tear_down),
         cmocka_unit_test_setup_teardown(settings_of_the_method_need_something_to_work_on, case_reading_set_up,
                                         case_reading_tear_down),
         cmocka_unit_test_setup_teardown(a_barrier_beyond_the_kernel_is_refused, case_reading_set_up,
