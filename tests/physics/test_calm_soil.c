@@ -96,7 +96,7 @@ static void hourglass_forces_keep_momentum(void **state)
 static void hourglass_displacement_is_limited_by_the_stress(void **state)
 {
     (void)state;
-    scene *it = free_block_new(ONE, HOURGLASS);
+    scene *it = free_block_new(ONE, HOURGLASS "soil_hourglass_limit = 0.03;");
     const mor_soil *soil = &it->simulation.soil;
     for (int64_t k = 0; k < free_block_count(it); ++k) {
         free_block_field(it, MOR_FIELD_HOURGLASS)[3 * k] = 1e-4;
@@ -210,7 +210,8 @@ static void turn_block(scene *it, const double *places, double angle)
 static void mean_stress_and_hourglass_displacement_turn_with_the_soil(void **state)
 {
     (void)state;
-    scene *it = free_block_new(ONE, HOURGLASS_AND_TRANSIENT "dissipation_factor = 0; lattice_normalization = true;");
+    scene *it = free_block_new(ONE, HOURGLASS_AND_TRANSIENT
+                               "dissipation_factor = 0; lattice_normalization = true; soil_hourglass_limit = 0.03;");
     double places[3 * 1024];
     double angle = 0.0;
     for (int64_t k = 0; k < free_block_count(it); ++k) {
