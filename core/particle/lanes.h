@@ -39,6 +39,13 @@ INLINE vec load(const double *records, int stride, int component)
 /** Writes the first n_lanes lanes to one component of records, shape [n_lanes, stride]; any unit. */
 INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
 {
+    if (n_lanes == LANES) {
+        /* Straight from the register, whose lanes a loop of unknown length would look up in memory. */
+        for (int lane = 0; lane < LANES; ++lane) {
+            out[lane * stride + component] = a[lane];
+        }
+        return;
+    }
     for (int lane = 0; lane < n_lanes; ++lane) {
         out[lane * stride + component] = a[lane];
     }

@@ -33,11 +33,6 @@ static bool has_present_spin(const void *owner)
     return has_angular_momentum(owner) && ((const mor_soil *)owner)->settings.scheme.angular_momentum_by == 0;
 }
 
-static bool has_last_spin(const void *owner)
-{
-    return has_angular_momentum(owner) && !has_present_spin(owner);
-}
-
 static bool has_fit(const void *owner)
 {
     return ((const mor_soil *)owner)->continued != NULL;
@@ -50,7 +45,7 @@ static bool has_correction(const void *owner)
 
 static bool has_strain_rate(const void *owner)
 {
-    return ((const mor_soil *)owner)->set.data[MOR_FIELD_STRAIN_RATE] != NULL;
+    return ((const mor_soil *)owner)->set.data[MOR_FIELD_STRAIN_RATE] != NULL && !has_fit(owner);
 }
 
 static bool has_hourglass(const void *owner)
@@ -90,9 +85,10 @@ static const mor_stage soil_stages[] = {
      BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, when switched on", has_artificial_stress},
-    {"present skew stress", mor_soil_find_present_spin, SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT),
-     BIT(SPIN_STRESS) | SHARED(CLOSED), SHARED(RECORDS),
-     "with which the forces of the soil have no moment, found in this step, when switched on", has_present_spin},
+    {"present skew stress", mor_soil_find_present_spin,
+     SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), BIT(SPIN_STRESS) | SHARED(CLOSED),
+     SHARED(RECORDS), "with which the forces of the soil have no moment, found in this step, when switched on",
+     has_present_spin},
     {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS) | BIT(HOURGLASS_MOMENT), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
@@ -119,11 +115,11 @@ static const mor_stage soil_stages[] = {
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "corrects both to be exact for linear fields, when switched on",
      has_correction},
     {"velocity gradient fit", mor_soil_fit_gradient,
-     SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(MOMENTS) | BIT(DENSITY), SHARED(CLOSED),
+     SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(MOMENTS) | BIT(DENSITY), SHARED(CLOSED) | BIT(STRAIN_RATE),
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
-     "makes both those of the linear field that fits the neighbors, when switched on", has_fit},
-    {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT) | SHARED(MOMENTS), BIT(STRAIN_RATE), 0,
-     "strain rate, stored for the reconstruction of the next step, when switched on", has_strain_rate},
+     "makes both those of the linear field that fits the neighbors, when switched on; stores the strain rate", has_fit},
+    {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), BIT(STRAIN_RATE), 0,
+     "strain rate, stored for the reconstruction of the next step, when switched on without a fit", has_strain_rate},
     {"regularization", mor_soil_regularize, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(VELOCITY_GRADIENT),
      SHARED(REGULARIZATION), BIT(POSITION) | BIT(VELOCITY) | SHARED(BOUNDS), "XSPH and shifting, when switched on",
      has_regularization},
@@ -133,14 +129,12 @@ static const mor_stage soil_stages[] = {
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
      BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
-    {"skew stress", mor_soil_find_spin_stress,
-     SHARED(MOMENTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), BIT(SPIN_STRESS) | SHARED(CLOSED), 0,
-     "with which the forces of the soil will have no moment in the next step, when switched on", has_last_spin},
-    {"transient mean", mor_soil_follow_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0, BIT(MEAN_STRESS) | BIT(FLOW),
-     "recent mean of the stress, when switched on", has_mean_stress},
-    {"hourglass", mor_soil_advance_hourglass, BIT(HOURGLASS_RATE) | BIT(VELOCITY_GRADIENT) | BIT(STRESS), 0,
-     BIT(HOURGLASS), "displacement that no velocity gradient sees, limited by the stress, when switched on",
-     has_hourglass},
+    {"memory", mor_soil_remember,
+     BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT) | SHARED(MOMENTS) |
+         SHARED(WALL_SUMS),
+     SHARED(CLOSED), BIT(SPIN_STRESS) | BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS),
+     "skew stress, recent mean of the stress and hourglass displacement for the next step, when switched on",
+     mor_soil_has_memory},
     {"energy of stress", mor_soil_audit_stress,
      SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
          BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
@@ -157,7 +151,7 @@ static const uint64_t evolving_fields =
     SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
- * reallocated with the lists, and have lanes without particles. */
+ * reallocated with the lists, and have lanes without particles; nor what is closed for clusters at walls only. */
 static void visit_shared(void *owner, mor_shared_visit visit, void *job)
 {
     mor_soil *soil = owner;
@@ -165,8 +159,6 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
     visit(job, MOR_RESOURCE_RECORDS, soil->records, n * MOR_RECORD_SIZE);
     visit(job, MOR_RESOURCE_LISTS, soil->of_soil, n * MOR_PAIR_OF_SOIL_SIZE);
     visit(job, MOR_RESOURCE_MOMENTS, soil->moments, 6 * n);
-    visit(job, MOR_RESOURCE_CLOSED, soil->closed, 6 * n);
-    visit(job, MOR_RESOURCE_CLOSED, soil->continued, 6 * n);
     visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
 }
 
@@ -293,6 +285,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     const int64_t padded = soil->tree.n_clusters * MOR_CLUSTER;
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
+    MOR_TRY(context, MOR_NEW(context, &soil->at_wall, soil->tree.n_clusters, "clusters at walls"));
     if (mor_composite_is(soil->material)) {
         MOR_TRY(context, MOR_NEW(context, &soil->of_soil, padded * MOR_PAIR_OF_SOIL_SIZE, "soils of the particles"));
         MOR_TRY(context, MOR_NEW(context, &soil->one_soil, soil->tree.n_clusters, "soils of the clusters"));
@@ -303,7 +296,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->continued, padded * 6, "moments continued into walls"));
     }
-    if (has_last_spin(soil) || s->scheme.velocity_gradient == 1) {
+    if (mor_soil_has_last_spin(soil) || s->scheme.velocity_gradient == 1) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
     if (mor_soil_corrects_gradient(soil) || has_angular_momentum(soil)) {
@@ -343,6 +336,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     soil->settings = *settings;
     soil->material = material;
     soil->table = mor_pair_select(NULL);
+    soil->lanes = mor_soil_lanes_select(NULL);
     MOR_CHECK(
         context, n_particles >= 1, MOR_ERROR_ARGUMENT,
         "soil '%s' has no particles; its shape must hold at least one lattice point: make the shape larger or the "
@@ -394,6 +388,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->moments);
     MOR_FREE(context, &soil->corners);
     MOR_FREE(context, &soil->continued);
+    MOR_FREE(context, &soil->at_wall);
     MOR_FREE(context, &soil->closed);
     MOR_FREE(context, &soil->extra);
     MOR_FREE(context, &soil->regularization);
@@ -555,6 +550,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->continued != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    bytes += (double)soil->tree.n_clusters * sizeof *soil->at_wall;
     bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
     bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;

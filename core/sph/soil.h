@@ -11,6 +11,7 @@
 #include "core/scheme/scheme.h"
 #include "core/sph/boundary/soil_contact.h"
 #include "core/sph/soil_energy.h"
+#include "core/sph/soil_lanes.h"
 #include "core/time/stepper.h"
 
 /** @file
@@ -86,14 +87,17 @@ typedef struct mor_soil {
     int diffusing[MOR_COMPOSITE_PARTS_MAX];   /* shape [n_diffusing]; state variables that are fields */
     int n_diffusing;
     const mor_pair_table *table;
+    const mor_soil_lanes *lanes;
     mor_pair_constants constants;
     double *records;        /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
     double *of_soil;        /* shape [n_particles padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; or NULL */
     int8_t *one_soil;       /* shape [clusters]; the one soil that a cluster sees, or -1; NULL: one soil */
     double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1; or NULL */
-    double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; or NULL */
+    double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; or NULL; with moments,
+                             * as the next, of clusters at walls only */
     double *continued;      /* shape [n_particles, 6]; what boundaries continue of them along themselves, 1; or NULL */
+    int8_t *at_wall;        /* shape [clusters]; 1 where the lists hold a boundary's points, else 0 */
     double *extra;          /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
     double *field_records;  /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
     double *diffusion;      /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */

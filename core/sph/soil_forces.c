@@ -29,17 +29,21 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
 static void use_normals(mor_context *context, mor_soil *soil)
 {
     const int64_t n = soil->set.n_particles;
-    MOR_PARALLEL_FOR (context, i, soil->corners != NULL ? n : 0, MOR_BLOCK) {
-        soil->corners[i].sees_any = false;
+    if (soil->corners == NULL) {
+        return;
+    }
+    MOR_PARALLEL_FOR (context, cluster, soil->tree.n_clusters, MOR_BLOCK) {
+        const int64_t first = cluster * MOR_CLUSTER;
+        for (int64_t i = first; soil->at_wall[cluster] && i < first + MOR_CLUSTER && i < n; ++i) {
+            soil->corners[i].sees_any = false;
+        }
     }
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {
             mor_soil_contact_project(context, mor_soil_contact_at(soil, k), n, soil->corners);
         }
     }
-    if (soil->corners != NULL) {
-        mor_soil_contact_solve_corners(context, n, soil->corners);
-    }
+    mor_soil_contact_solve_corners(context, n, soil->at_wall, soil->corners);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {
             mor_soil_contact_close_corners(context, mor_soil_contact_at(soil, k), n, soil->corners);

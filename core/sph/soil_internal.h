@@ -18,7 +18,6 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view,
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_view *view, const mor_step *step);
-mor_status mor_soil_find_spin_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step);
@@ -30,8 +29,7 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view
 mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_diffuse_fields(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
-mor_status mor_soil_follow_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
-mor_status mor_soil_advance_hourglass(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_remember(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step);
@@ -51,8 +49,8 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
 bool mor_soil_has_density_sums(const void *owner);
 
 /** Steps of which stress diffuses in one, for all of them, 1: where only what changes diffuses, as many as keep the
- *  diffusion number, zeta times courant times these steps, below 0.32 to 0.36, where two steps are unstable. At most two:
- *  four were unstable at 0.16 around rocks, three stable at 0.19. */
+ *  diffusion number, zeta times courant times these steps, below 0.32 to 0.36, where two steps are unstable. At most
+ *  two: four were unstable at 0.16 around rocks, three stable at 0.19. */
 static inline int mor_soil_diffusion_interval(const mor_soil *soil)
 {
     const double largest_number = 0.2;
@@ -103,6 +101,19 @@ static inline double mor_soil_moment_cofactors(const double *moment, int dimensi
                              moment[MOR_XY], moment[MOR_YZ], moment[MOR_ZX]};
     return mor_symmetric_cofactors(solid, cofactors);
 }
+
+/** Copies moments of the particles of clusters that list a boundary; those of others are read where they are.
+ *  @param moments   [in]   shape [n_particles padded to 8, 6], unit 1
+ *  @param closed    [out]  same shape; the copy
+ *  @param continued [out]  same shape; zero for the same particles; NULL: not wanted */
+void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, double *closed,
+                           double *continued);
+
+/** Whether forces conserve angular momentum by a skew stress that was found in the last step. */
+bool mor_soil_has_last_spin(const void *owner);
+
+/** Whether there is anything that the next step takes over, see soil_memory.c. */
+bool mor_soil_has_memory(const void *owner);
 
 /** Whether the velocity gradient is another than the sum whose counterpart the forces are. */
 static inline bool mor_soil_corrects_gradient(const mor_soil *soil)

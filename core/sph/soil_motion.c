@@ -101,6 +101,18 @@ static void pack_soils(mor_context *context, const mor_soil *soil, const double 
     }
 }
 
+/* Which clusters list points of boundaries. */
+static void find_clusters_at_walls(mor_soil *soil)
+{
+    memset(soil->at_wall, 0, (size_t)soil->tree.n_clusters);
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        const mor_relation *relation = &mor_soil_contact_at(soil, k)->relation;
+        for (int64_t place = 0; place < relation->n_occupied; ++place) {
+            soil->at_wall[relation->occupied[place]] = 1;
+        }
+    }
+}
+
 static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view)
 {
     const double reach =
@@ -122,6 +134,7 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
         MOR_TRY(context, mor_soil_contact_build(context, contact, &points, reach));
         contact->relation.generation = soil->set.generation;
     }
+    find_clusters_at_walls(soil);
     soil->drift = 0.0;
     soil->has_lists = true;
     return MOR_OK;
@@ -153,13 +166,14 @@ typedef struct packing {
     double *records;
 } packing;
 
-/* What the momentum loop reads beside the records; what a scheme does not have stays zero. */
-static void pack_extra(mor_context *context, mor_soil *soil, mor_view *view)
+/* What the momentum loop reads beside the records; what a scheme does not have stays zero, and means are read in steps
+ * in which stress diffuses. */
+static void pack_extra(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step)
 {
     const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
     const double *spin = mor_view_read(view, MOR_FIELD_SPIN_STRESS);
     const double *hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
-    const double *mean = mor_view_read(view, MOR_FIELD_MEAN_STRESS);
+    const double *mean = mor_soil_diffuses(soil, step) ? mor_view_read(view, MOR_FIELD_MEAN_STRESS) : NULL;
     const double *flow = mor_view_read(view, MOR_FIELD_FLOW);
     const double none[3] = {0.0, 0.0, 0.0};
     const int64_t n = soil->set.n_particles;
@@ -229,7 +243,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
                         (long long)((chunk + 1) * GRAIN - 1), soil->set.name, step->time);
     }
     if (soil->extra != NULL) {
-        pack_extra(context, soil, view);
+        pack_extra(context, soil, view, step);
     }
     /* The lanes behind the last particle repeat it; their sums are discarded. */
     for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {

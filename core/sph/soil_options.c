@@ -16,10 +16,6 @@ enum { CLUSTERS = 16 };
 /* A moment matrix with a smaller determinant belongs to a particle with too few neighbors to be corrected. */
 #define SMALLEST_DETERMINANT 0.1
 
-/* Mean of the kernel's moment: of a layer of single particles, and about that at the surface of a half-space. */
-#define SINGLE 0.4
-#define HALF 0.6
-
 void mor_soil_sum_kernels(mor_context *context, mor_soil *soil, mor_view *view, const double *records,
                           mor_soil_kernel_use use, void *job)
 {
@@ -159,20 +155,10 @@ mor_status mor_soil_correct_gradient(mor_context *context, void *owner, mor_view
     return MOR_OK;
 }
 
-/* How far a gradient may stand for the motion around a particle, from its moments over the soil: as it is where at
- * least half of the kernel is filled, as below the surface of a half-space; not at all for a layer of grains. */
-static double find_trust(const mor_soil *soil, const double *moments)
-{
-    const double mean = mor_symmetric_trace(moments) / soil->settings.dimension;
-    return fmin(fmax((mean - SINGLE) / (HALF - SINGLE), 0.0), 1.0);
-}
-
 mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
     (void)step;
-    const double *moments =
-        soil->constants.has_fit ? mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments) : NULL;
     double *kept = mor_view_write(view, MOR_FIELD_STRAIN_RATE);
     const double *gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
@@ -183,10 +169,6 @@ mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_vie
             /* Adding zero clears the sign of a zero, which could depend on whether a wall is listed. */
             d[a] = l[4 * a] + 0.0;
             d[3 + a] = 0.5 * (l[3 * a + b] + l[3 * b + a]) + 0.0;
-        }
-        const double trust = moments != NULL ? find_trust(soil, moments + 6 * i) : 1.0;
-        for (int a = 0; a < 6 && trust < 1.0; ++a) {
-            d[a] *= trust;
         }
     }
     return MOR_OK;

@@ -154,18 +154,16 @@ static void stress_in_flow_diffuses_as_without_a_limiter(void **state)
     scene_step(both[1], 1);
     double size = 0.0;
     for (int64_t k = 0; k < 6 * free_block_count(both[0]); ++k) {
-        /* In one of four steps four times as fast, so that the mean of four is the same. */
-        const double reference = 4.0 * free_block_field(both[1], MOR_FIELD_STRESS_DIFFUSION)[k];
+        /* In every other step twice as fast, so that the mean of two is the same. */
+        const double reference = 2.0 * free_block_field(both[1], MOR_FIELD_STRESS_DIFFUSION)[k];
         size = fmax(size, fabs(reference));
         scene_expect_near("diffusion", free_block_field(both[0], MOR_FIELD_STRESS_DIFFUSION)[k], reference,
                           1e-4); /* rounding */
     }
     assert_true(size > 1e6);
-    for (int n = 1; n < 4; ++n) {
-        scene_step(both[0], 1);
-        for (int64_t k = 0; k < 6 * free_block_count(both[0]); ++k) {
-            assert_true(free_block_field(both[0], MOR_FIELD_STRESS_DIFFUSION)[k] == 0.0); /* exact: between */
-        }
+    scene_step(both[0], 1);
+    for (int64_t k = 0; k < 6 * free_block_count(both[0]); ++k) {
+        assert_true(free_block_field(both[0], MOR_FIELD_STRESS_DIFFUSION)[k] == 0.0); /* exact: between */
     }
     scene_free(both[0]);
     scene_free(both[1]);

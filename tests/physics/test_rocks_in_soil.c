@@ -23,8 +23,8 @@ static void soil_around_free_rocks_stays_at_rest(void **state)
     const scene_request request = {.text = mixture, .n_threads = 2};
     scene *it = scene_new(&request);
     scene_advance(it, it->the_case.end);
-    /* J: 0.8 t at 0.05 mm/s. With stress that diffuses in one of four steps it is 1e-4 by now and grows tenfold in 20 ms;
-     * 3e-8 in every other step, what settling leaves. */
+    /* J: 0.8 t at 0.05 mm/s. With stress that diffuses in one of four steps it is 1e-4 by now and grows tenfold in
+     * 20 ms; 3e-8 in every other step, what settling leaves. */
     scene_expect_near("kinetic energy", scene_probe(it, "kinetic_energy"), 0.0, 1e-6);
     scene_free(it);
 }

@@ -157,8 +157,10 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
 
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
  *  @param n_particles [in]  number of soil particles
+ *  @param at_wall     [in]  shape [clusters]; 0 where no boundary is listed: left as it is; NULL: all are solved
  *  @param corners [in,out]  shape [n_particles] */
-void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, mor_contact_corner *corners);
+void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *at_wall,
+                                    mor_contact_corner *corners);
 
 /** Gives the faces that meet their part of the rest, each along its normal, so that kernel gradients over soil and all
  *  boundaries together still cancel.

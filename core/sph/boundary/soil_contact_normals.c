@@ -133,11 +133,16 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
     }
 }
 
-void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, mor_contact_corner *corners)
+void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *at_wall,
+                                    mor_contact_corner *corners)
 {
-    MOR_PARALLEL_FOR (context, i, n_particles, MOR_BLOCK) {
-        if (corners[i].sees_any) {
-            solve_corner(corners + i);
+    MOR_PARALLEL_FOR (context, cluster, (n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER, MOR_BLOCK / MOR_CLUSTER) {
+        const bool is_at_wall = at_wall == NULL || at_wall[cluster];
+        const int64_t first = cluster * MOR_CLUSTER;
+        for (int64_t i = first; is_at_wall && i < first + MOR_CLUSTER && i < n_particles; ++i) {
+            if (corners[i].sees_any) {
+                solve_corner(corners + i);
+            }
         }
     }
 }

@@ -4,62 +4,15 @@
 #define MOR_CORE_SPH_PAIR_PAIR_LANES_H
 
 #include "core/base/math.h"
-#include "core/particle/lanes.h"
+#include "core/sph/pair/lane_math.h"
 #include "core/sph/pair/pair.h"
 
 #include <math.h>
 #include <string.h>
-#if defined(__AVX__)
-#include <immintrin.h>
-#endif
 
 /** @file
  *  What the files of the pair loops share among themselves: choices between lanes and the separation of a pair. Not for
  *  others. */
-
-/** A mask for each of LANES particles: all bits or none. */
-typedef int64_t mask __attribute__((vector_size(LANES * sizeof(int64_t))));
-
-/** Returns one number, any unit, in all lanes. */
-INLINE vec broadcast(double a)
-{
-    return a - (vec){0.0};
-}
-
-/** Returns a where the mask is set, b elsewhere; any unit. */
-INLINE vec select_lanes(mask where, vec a, vec b)
-{
-    return (vec)(((mask)a & where) | ((mask)b & ~where));
-}
-
-/* The names of the instructions that fill a register, where there are any. */
-#if defined(__AVX512F__)
-#define WIDE(operation) _mm512_##operation
-typedef __m512d wide;
-#elif defined(__AVX__) && defined(__FMA__)
-#define WIDE(operation) _mm256_##operation
-typedef __m256d wide;
-#endif
-
-/** Returns the larger of two lanes, the second when one is no number; any unit. */
-INLINE vec larger(vec a, vec b)
-{
-#if defined(WIDE)
-    return (vec)WIDE(max_pd)((wide)a, (wide)b);
-#else
-    return select_lanes(a > b, a, b);
-#endif
-}
-
-/** Returns the smaller of two lanes, the second when one is no number; any unit. */
-INLINE vec smaller(vec a, vec b)
-{
-#if defined(WIDE)
-    return (vec)WIDE(min_pd)((wide)a, (wide)b);
-#else
-    return select_lanes(a < b, a, b);
-#endif
-}
 
 /** Returns a b + c with one rounding where the processor has it; any unit. Written out where a sum has two products,
  *  for a compiler may fuse either, and not the same one for every instruction set. */
@@ -100,23 +53,6 @@ INLINE vec magnitude(vec a)
     return (vec)((mask)a & INT64_MAX);
 }
 
-/** Returns the square roots; any unit. */
-INLINE vec square_root(vec a)
-{
-    vec root;
-    for (int lane = 0; lane < LANES; ++lane) {
-        root[lane] = sqrt(a[lane]);
-    }
-    return root;
-}
-
-/** Returns the number of lanes from a first particle on that hold particles of the set, 1. */
-INLINE int lanes_of(int64_t first, int64_t n_particles)
-{
-    const int64_t left = n_particles - first;
-    return left < LANES ? (left > 0 ? (int)left : 0) : LANES;
-}
-
 /** Where a cluster is and the constants of the kernel. */
 typedef struct frame {
     vec x[3];
@@ -128,8 +64,9 @@ typedef struct frame {
 INLINE frame frame_of(const mor_pair_constants *constants, const double *records, int stride)
 {
     const double h = constants->smoothing_length;
-    return (frame){
-        {load(records, stride, 0), load(records, stride, 1), load(records, stride, 2)}, 0.5 / h, h * h * 0x1p-100};
+    frame f = {.half_inverse_h = 0.5 / h, .tiny = h * h * 0x1p-100};
+    load_first(records, stride, 3, f.x);
+    return f;
 }
 
 /** Separation of a pair. */

@@ -83,14 +83,20 @@ INLINE void finish_diffusion(const momentum_sums *m, const mor_pair_constants *c
     const double *g = c->gravity_direction;
     const vec *way = m->spread_way;
     const vec height = multiply_add(broadcast(g[2]), way[2], multiply_add(broadcast(g[0]), way[0], g[1] * way[1]));
+    vec mean[6];
+    vec rates[6];
+    if (own_extra != NULL) {
+        load_first(own_extra + MOR_EXTRA_MEAN, MOR_EXTRA_SIZE, 6, mean);
+    }
     for (int a = 0; a < 6; ++a) {
         /* Height is -g . r, hence the plus. */
-        vec sum = s[a] * m->spread_weight - m->spread_stress[a] + d->rest_gradient[a] * height;
+        vec sum = multiply_add(d->rest_gradient[a], height, multiply_add(s[a], m->spread_weight, -m->spread_stress[a]));
         if (own_extra != NULL) {
-            sum -= load(own_extra, MOR_EXTRA_SIZE, MOR_EXTRA_MEAN + a) * m->spread_rest - m->spread_mean[a];
+            sum -= multiply_add(mean[a], m->spread_rest, -m->spread_mean[a]);
         }
-        store(out, 6, a, n_lanes, rate * sum);
+        rates[a] = rate * sum;
     }
+    store_first(out, 6, 6, n_lanes, rates);
 }
 
 /** Adds the hourglass control to the sums of forces, shape [3], unit Pa times that of V r, and writes the moment it
@@ -106,15 +112,18 @@ INLINE void finish_hourglass(const momentum_sums *m, const mor_pair_constants *c
     }
     const vec *lever = form.several ? m->lever : m->weight;
     vec d[3];
+    vec moment[3];
+    load_first(own + MOR_EXTRA_HOURGLASS, MOR_EXTRA_SIZE, 3, d);
     for (int a = 0; a < 3; ++a) {
-        d[a] = load(own, MOR_EXTRA_SIZE, MOR_EXTRA_HOURGLASS + a);
         force[a] += stiffness * multiply_add(m->stiffness, d[a], -m->hourglass[a]);
     }
-    for (int a = 0; a < 3 && arrays->hourglass_moment != NULL; ++a) {
+    for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3;
         const int e = (a + 2) % 3;
-        store(arrays->hourglass_moment + first * 3, 3, a, lanes_of(first, arrays->n_particles),
-              -c->gradient_factor * stiffness * (lever[b] * d[e] - lever[e] * d[b]));
+        moment[a] = -c->gradient_factor * stiffness * multiply_add(lever[b], d[e], -lever[e] * d[b]);
+    }
+    if (arrays->hourglass_moment != NULL) {
+        store_first(arrays->hourglass_moment + first * 3, 3, 3, lanes_of(first, arrays->n_particles), moment);
     }
 }
 
@@ -125,20 +134,19 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
 {
     const double *own = arrays->records + first * MOR_RECORD_SIZE;
     const int n_lanes = lanes_of(first, arrays->n_particles);
-    vec s[6];
-    for (int a = 0; a < 6; ++a) {
-        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
-    }
-    const vec factor = -c->gradient_factor / load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    vec s[8]; /* stress, pressure, density */
+    load_first(own + MOR_RECORD_STRESS, MOR_RECORD_SIZE, 8, s);
+    const vec factor = -c->gradient_factor / s[MOR_RECORD_DENSITY - MOR_RECORD_STRESS];
     const vec *w = m->weight;
     double *out = arrays->acceleration + first * 3;
     vec upper[3] = {s[MOR_XY], s[MOR_YZ], s[MOR_ZX]};
     vec lower[3] = {s[MOR_XY], s[MOR_YZ], s[MOR_ZX]};
-    for (int a = 0; a < 3 && form.extra; ++a) {
-        const double *extra = arrays->extra + first * MOR_EXTRA_SIZE;
-        lower[a] = load(extra, MOR_EXTRA_SIZE, MOR_EXTRA_LOWER + a);
-        upper[a] = a < 2 ? load(extra, MOR_EXTRA_SIZE, MOR_EXTRA_UPPER + a)
-                         : multiply_add(upper[a], broadcast(2.0), -lower[a]);
+    if (form.extra) {
+        vec shears[5];
+        load_first(arrays->extra + first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, 5, shears);
+        memcpy(lower, shears + MOR_EXTRA_LOWER, sizeof lower);
+        memcpy(upper, shears + MOR_EXTRA_UPPER, 2 * sizeof *upper);
+        upper[2] = multiply_add(upper[2], broadcast(2.0), -lower[2]);
     }
     vec force[3] = {m->force[0] + s[MOR_XX] * w[0] + upper[0] * w[1] + lower[2] * w[2],
                     m->force[1] + lower[0] * w[0] + s[MOR_YY] * w[1] + upper[1] * w[2],
@@ -146,12 +154,10 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
     if (form.extra && c->has_hourglass) {
         finish_hourglass(m, c, arrays, soil, first, force, form);
     }
-    for (int a = 0; a < form.dimension; ++a) {
-        store(out, 3, a, n_lanes, factor * force[a]);
+    for (int a = 0; a < 3; ++a) {
+        force[a] = a < form.dimension ? factor * force[a] : broadcast(0.0);
     }
-    if (form.dimension == 2) {
-        store(out, 3, 2, n_lanes, broadcast(0.0));
-    }
+    store_first(out, 3, 3, n_lanes, force);
     if (form.diffuses) {
         diffusion d;
         load_diffusion(&d, c, soil, form);

@@ -293,14 +293,14 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
     m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
     m->counts_opening -= c->dissipation != MOR_DISSIPATION_APPROACH;
-    for (int a = 0; a < 3; ++a) {
-        m->v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
-    }
-    m->impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
+    vec motion[4];
+    load_first(own + MOR_RECORD_VELOCITY, MOR_RECORD_SIZE, 4, motion);
+    memcpy(m->v, motion, sizeof m->v);
+    m->impedance = motion[MOR_RECORD_IMPEDANCE - MOR_RECORD_VELOCITY];
     m->minus_twice_impedance = -2.0 * m->impedance;
     m->pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
-    for (int a = 0; a < 6 && form.linear; ++a) {
-        m->strain_rate[a] = load(arrays->strain_rate + first * 6, 6, a);
+    if (form.linear) {
+        load_first(arrays->strain_rate + first * 6, 6, 6, m->strain_rate);
     }
     if (form.extra) {
         m->flow = load(arrays->extra + first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, MOR_EXTRA_FLOW);

@@ -129,12 +129,43 @@ INLINE void find_hourglass_rate(const gradient *g, vec own_weight, double *out, 
     const mask is_solid = determinant > flat * scale;
     const vec inverse = 1.0 / select_lanes(is_solid, determinant, broadcast(1.0));
     const vec mean = 1.0 / (g->weight - own_weight);
+    vec rates[3];
     for (int a = 0; a < 3; ++a) {
         vec rest = g->jump[a];
         for (int b = 0; b < dimension; ++b) {
             rest -= g->moment[3 * a + b] * along[b] * inverse;
         }
-        store(out, 3, a, n_lanes, (vec)((mask)(rest * mean) & is_solid));
+        rates[a] = (vec)((mask)(rest * mean) & is_solid);
+    }
+    store_first(out, 3, 3, n_lanes, rates);
+}
+
+/* Writes what the sums of a part of a cluster give, from particle first on. */
+INLINE void gradient_finish(gradient *g, const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                            const gradient_form form)
+{
+    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const int n_lanes = lanes_of(first, arrays->n_particles);
+    if (form.fits && arrays->hourglass_rate != NULL) {
+        /* The own particle is in its list. */
+        find_hourglass_rate(g, load(own, MOR_RECORD_SIZE, MOR_RECORD_VOLUME), arrays->hourglass_rate + first * 3,
+                            n_lanes, form.dimension);
+    }
+    for (int a = 0; a < 9; ++a) {
+        /* Exactly zero out of the plane, where the sum is zero. */
+        g->moment[a] *= c->gradient_factor;
+    }
+    store_first(arrays->velocity_gradient + first * 9, 9, 8, n_lanes, g->moment);
+    store(arrays->velocity_gradient + first * 9, 9, 8, n_lanes, g->moment[8]);
+    /* Zero where the fit finds it later. */
+    const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
+    store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g->rate);
+    if (form.fits && arrays->moments != NULL) {
+        vec moments[6];
+        for (int a = 0; a < 6; ++a) {
+            moments[a] = c->gradient_factor * g->shape[a];
+        }
+        store_first(arrays->moments + first * 6, 6, 6, n_lanes, moments);
     }
 }
 
@@ -148,10 +179,10 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
     gradient g;
     memset(&g, 0, sizeof g);
-    for (int a = 0; a < 3; ++a) {
-        g.v[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_VELOCITY + a);
-    }
-    g.impedance = load(own, MOR_RECORD_SIZE, MOR_RECORD_IMPEDANCE);
+    vec motion[4];
+    load_first(own + MOR_RECORD_VELOCITY, MOR_RECORD_SIZE, 4, motion);
+    memcpy(g.v, motion, sizeof g.v);
+    g.impedance = motion[MOR_RECORD_IMPEDANCE - MOR_RECORD_VELOCITY];
     g.pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
     if (form.several) {
         g.soil = load(arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_INDEX);
@@ -180,22 +211,7 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     for (; q < count; ++q) {
         add_gradient(&g, ring + q % RING, target_of(arrays, near[q]), &f, form);
     }
-    const int n_lanes = lanes_of(first, arrays->n_particles);
-    for (int a = 0; a < 9; ++a) {
-        /* Exactly zero out of the plane, where the sum is zero. */
-        store(arrays->velocity_gradient + first * 9, 9, a, n_lanes, c->gradient_factor * g.moment[a]);
-    }
-    /* Zero where the fit finds it later. */
-    const vec density = load(own, MOR_RECORD_SIZE, MOR_RECORD_DENSITY);
-    store(arrays->density_rate + first, 1, 0, n_lanes, -2.0 * c->gradient_factor * density * g.rate);
-    for (int a = 0; a < 6 && form.fits && arrays->moments != NULL; ++a) {
-        store(arrays->moments + first * 6, 6, a, n_lanes, c->gradient_factor * g.shape[a]);
-    }
-    if (form.fits && arrays->hourglass_rate != NULL) {
-        /* The own particle is in its list. */
-        find_hourglass_rate(&g, load(own, MOR_RECORD_SIZE, MOR_RECORD_VOLUME), arrays->hourglass_rate + first * 3,
-                            n_lanes, form.dimension);
-    }
+    gradient_finish(&g, c, arrays, first, form);
 }
 
 INLINE void gradient_run(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last,
@@ -327,15 +343,11 @@ const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void);
 
 const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
 {
-    static const mor_pair_table table = {MOR_ISA_TEXT(MOR_ISA),
-                                         {MOR_ISA_NAME(mor_pair_momentum_2d), MOR_ISA_NAME(mor_pair_momentum_3d)},
-                                         {gradient_2d, gradient_3d},
-                                         regularize_range,
-                                         MOR_ISA_NAME(mor_pair_kernel),
-                                         MOR_ISA_NAME(mor_pair_tangent),
-                                         MOR_ISA_NAME(mor_pair_mean),
-                                         MOR_ISA_NAME(mor_pair_faces),
-                                         MOR_ISA_NAME(mor_pair_share),
-                                         diffuse_range};
+    static const mor_pair_table table = {
+        MOR_ISA_TEXT(MOR_ISA),         {MOR_ISA_NAME(mor_pair_momentum_2d), MOR_ISA_NAME(mor_pair_momentum_3d)},
+        {gradient_2d, gradient_3d},    regularize_range,
+        MOR_ISA_NAME(mor_pair_kernel), MOR_ISA_NAME(mor_pair_tangent),
+        MOR_ISA_NAME(mor_pair_mean),   MOR_ISA_NAME(mor_pair_faces),
+        MOR_ISA_NAME(mor_pair_share),  diffuse_range};
     return &table;
 }

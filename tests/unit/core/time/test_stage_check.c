@@ -20,10 +20,9 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     static const double grains[] = {1e6, 0.3, 0.38, 0.64, 0.278, 1e-3, 2650.0, 0.48, 1e-4, 1e-3, 0.0};
     rock_scene *scene = &it->scene;
     const bool has_field = stage != NULL && strcmp(stage, "nonlocal field") == 0;
-    const bool is_transient = stage != NULL && strncmp(stage, "transient", 9) == 0;
+    const bool is_transient = stage != NULL && strcmp(stage, "memory") == 0;
     /* Stages that only a fitted gradient and the moments of the last step need, or that do more with them. */
-    const bool is_fitted = stage != NULL && (strncmp(stage, "velocity gradient", 17) == 0 ||
-                                             strcmp(stage, "strain rate") == 0 || strcmp(stage, "skew stress") == 0);
+    const bool is_fitted = is_transient || (stage != NULL && strncmp(stage, "velocity gradient", 17) == 0);
     const int sides[3] = {SIDE, SIDE, 1};
     const int floor[3] = {SIDE + 4, 3, 1};
     rock_scene_open(scene, 2, 0.01, 2);

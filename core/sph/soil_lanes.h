@@ -1,0 +1,67 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_SOIL_LANES_H
+#define MOR_CORE_SPH_SOIL_LANES_H
+
+#include <stdint.h>
+
+/** @file
+ *  Passes over the particles of a soil that are computed in lanes, eight particles at once, and compiled for several
+ *  instruction sets. Nothing is fused: all sets give the same bits. */
+
+/** The fit of the velocity gradient. All arrays are borrowed. */
+typedef struct mor_soil_fit_job {
+    int64_t n_particles;
+    int dimension;           /* 2 or 3 */
+    double volume_factor;    /* kernel's own moment over that of the gradients, 1 */
+    const int8_t *at_wall;   /* shape [clusters]; 1 where a boundary is listed, else 0 */
+    const double *moments;   /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1 */
+    const double *closed;    /* shape [n_particles, 6]; with what boundaries close of them, 1; read at walls */
+    const double *continued; /* shape [n_particles, 6]; what boundaries continue of them, 1; likewise */
+    const double *density;   /* shape [n_particles], kg/m3 */
+    double *gradient;        /* shape [n_particles, 9], 1/s; the sums, then the fit */
+    double *density_rate;    /* shape [n_particles], kg/m3/s */
+    double *strain_rate;     /* shape [n_particles, 6], 1/s; for the reconstruction; NULL: not needed */
+} mor_soil_fit_job;
+
+/** What the memory of a particle takes of its soil in a step. */
+typedef struct mor_soil_memory_kind {
+    double fade;   /* time over which flow is forgotten, s; 0: nothing counts as flow */
+    double kept;   /* part of the flow that is left after the step, 1 */
+    double part;   /* of the difference to the stress by which the mean follows, 1 */
+    double limit2; /* largest hourglass displacement over the size of the stress, squared, m2/Pa2 */
+} mor_soil_memory_kind;
+
+/** What the next step takes over from this one, beside positions, velocities and stresses: the skew stress, the recent
+ *  mean of the stress, the hourglass displacement, each if its array is there. All arrays are borrowed. */
+typedef struct mor_soil_memory_job {
+    int64_t n_particles;
+    int dimension;          /* 2 or 3 */
+    double length;          /* of the step, s */
+    const double *gradient; /* shape [n_particles, 9], 1/s; NULL: neither mean nor displacement */
+    const double *stress;   /* shape [n_particles, 6], Pa */
+    const double *of_soil;  /* shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: first kind */
+    const mor_soil_memory_kind *kinds; /* shape [n_kinds] */
+    const int8_t *at_wall;             /* shape [clusters]; 1 where a boundary is listed, else 0; NULL: nowhere */
+    const double *moments;             /* shape [n_particles, 6], 1; for the skew stress, as are the next two */
+    const double *closed;              /* shape [n_particles, 6], 1; with those over walls; read of clusters at walls */
+    const double *left;                /* shape [n_particles, 3], Pa; moment of hourglass forces; NULL: none */
+    double *spin;                      /* shape [n_particles, 3]; skew stress, Pa; NULL: none */
+    double *mean;                      /* shape [n_particles, 6]; recent mean of the stress, Pa; NULL: none */
+    double *flow;                      /* shape [n_particles]; 0: at rest, 1: flows; 1; with the mean */
+    const double *hourglass_rate;      /* shape [n_particles, 3], m/s */
+    double *hourglass;                 /* shape [n_particles, 3], m; NULL: none */
+} mor_soil_memory_job;
+
+/** The passes of one instruction set, over clusters [first, last) of a job. Static, shared. */
+typedef struct mor_soil_lanes {
+    void (*fit)(const mor_soil_fit_job *job, int64_t first, int64_t last);
+    void (*remember)(const mor_soil_memory_job *job, int64_t first, int64_t last);
+} mor_soil_lanes;
+
+/** Returns those of the best instruction set this processor has, or of the one asked for.
+ *  @param name [in]  zero-terminated: "avx512", "avx2", "baseline"; nullable: the best
+ *  Returns: a static table; NULL when the set asked for is unknown or not on this processor. */
+const mor_soil_lanes *mor_soil_lanes_select(const char *name);
+
+#endif
