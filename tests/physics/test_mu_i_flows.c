@@ -50,14 +50,15 @@ static double find_rate(scene *it, double low, double high)
     return (n * sum_tm - sum_t * sum_m) / (n * sum_tt - sum_t * sum_t);
 }
 
-static scene *open_silo(double width)
+static scene *open_silo(const char *scheme, double width)
 {
     char left[160], right[160];
     snprintf(left, sizeof left, "walls[0].shape.points=((-0.15,0),(%.17g,0),(%.17g,-0.02),(-0.15,-0.02))", -0.5 * width,
              -0.5 * width - 0.02);
     snprintf(right, sizeof right, "walls[1].shape.points=((0.15,0),(%.17g,0),(%.17g,-0.02),(0.15,-0.02))", 0.5 * width,
              0.5 * width + 0.02);
-    const char *const settings[] = {"spacing=4 mm",
+    const char *const settings[] = {scheme,
+                                    "spacing=4 mm",
                                     "soil[0].material.youngs_modulus=0.2 MPa",
                                     "soil[0].shape.min=(-0.124,0)",
                                     "soil[0].shape.max=(0.124,0.16)",
@@ -69,14 +70,12 @@ static scene *open_silo(double width)
     return scene_new(&(scene_request){MOR_SOURCE_DIR "/cases/silo/case.cfg", (const char *const *[]){settings}, 1, 1});
 }
 
-static void silo_discharges_at_a_rate_of_the_slot_to_three_halves(void **state)
+/* Rates through slots of 8 and 16 spacings, kg/(m s); the first also later, which must make no difference. */
+static void find_rates(const char *scheme, const double *widths, double *rates)
 {
-    (void)state;
-    static const double widths[2] = {0.032, 0.064}; /* 8 and 16 spacings, m */
-    const double filling = density * 0.248 * 0.16;  /* kg/m */
-    double rates[2];
+    const double filling = density * 0.248 * 0.16; /* kg/m */
     for (int k = 0; k < 2; ++k) {
-        scene *it = open_silo(widths[k]);
+        scene *it = open_silo(scheme, widths[k]);
         rates[k] = find_rate(it, 0.05 * filling, 0.2 * filling);
         if (k == 0) {
             const double later = find_rate(it, 0.2 * filling, 0.35 * filling);
@@ -84,12 +83,32 @@ static void silo_discharges_at_a_rate_of_the_slot_to_three_halves(void **state)
         }
         scene_free(it);
         if (getenv("MOR_TEST_SHOW") != NULL) {
-            printf("%g m: %g kg/(m s), %g of density root g width^1.5\n", widths[k], rates[k],
+            printf("%s, %g m: %g kg/(m s), %g of density root g width^1.5\n", scheme, widths[k], rates[k],
                    rates[k] / (density * sqrt(gravity) * pow(widths[k], 1.5)));
         }
     }
+}
+
+static void silo_discharges_at_a_rate_of_the_slot_to_three_halves(void **state)
+{
+    (void)state;
+    static const double widths[2] = {0.032, 0.064}; /* m */
+    double rates[2];
+    find_rates("numerics.scheme=zhang2024", widths, rates);
     scene_expect_near("exponent of the width", log(rates[1] / rates[0]) / log(widths[1] / widths[0]), 1.5,
                       0.1); /* slots of few particles */
+}
+
+/* The wider slot takes a quarter of this silo's width and starts more slowly: with little numerical viscosity its rate
+ * has not come to that of the law when a fifth of the soil has left. It is the same at half the spacing. */
+static void faster_silo_discharges_no_faster_than_the_law(void **state)
+{
+    (void)state;
+    static const double widths[2] = {0.032, 0.064}; /* m */
+    double rates[2];
+    find_rates("numerics.scheme=moraine", widths, rates);
+    const double exponent = log(rates[1] / rates[0]) / log(widths[1] / widths[0]);
+    assert_true(exponent < 1.5 && exponent > 1.0); /* neither faster than the law nor as a slot sees the weight above */
 }
 
 int main(void)
@@ -97,6 +116,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(withdrawn_gate_leaves_the_slope_of_the_static_friction),
         cmocka_unit_test(silo_discharges_at_a_rate_of_the_slot_to_three_halves),
+        cmocka_unit_test(faster_silo_discharges_no_faster_than_the_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

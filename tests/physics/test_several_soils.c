@@ -161,16 +161,22 @@ static const char layers[] =
     "    shape = { type = 'box'; min = ('-0.06 m', '0 m'); max = ('0 m', '0.5 m'); }; },"
     "  { name = 'right'; friction = 'smooth';"
     "    shape = { type = 'box'; min = ('0.4 m', '0 m'); max = ('0.46 m', '0.5 m'); }; } );"
-    "numerics = { lattice_normalization = true; }; output = { pictures = false; };";
+    "numerics = { scheme = '%s'; lattice_normalization = true; }; output = { pictures = false; };";
+
+/* Rows at walls, surface and interface see a kernel that is cut off: 20 spacings a layer. */
+static const double uneven = 0.02;
+/* Without diffusion at rest such rows keep what they have at the start: six tenths of the weight of a row of the heavier
+ * soil, a 22nd of the stress at the base; 0.023 at the floor, 0.022 at the interface were measured. */
+static const double kept = 0.6 / 22.0;
 
 /* Density and stiffness of the layers differ tenfold. */
-static void expect_layers_at_rest(double lower, double upper)
+static void expect_layers_at_rest(const char *scheme, double lower, double upper, double tolerance)
 {
     enum { ROWS = 40, PER_ROW = 40 };
     char text[TEXT_BYTES];
     double sums[ROWS] = {0.0};
     const double modulus = 50e6 / 2600.0;
-    snprintf(text, sizeof text, layers, lower, lower * modulus, upper, upper * modulus);
+    snprintf(text, sizeof text, layers, lower, lower * modulus, upper, upper * modulus, scheme);
     const scene_request request = {.text = text, .n_threads = 2};
     scene *it = scene_new(&request);
     scene_advance(it, it->the_case.end);
@@ -195,21 +201,22 @@ static void expect_layers_at_rest(double lower, double upper)
     if (getenv("MOR_TEST_SHOW") != NULL) {
         printf("worst row: %.4f of the stress at the base; fastest %.3g m/s\n", worst, fastest);
     }
-    /* Rows at walls, surface and interface see a kernel that is cut off: 20 spacings a layer. */
-    scene_expect_near("error of the mean stress of a row over that at the base", worst, 0.0, 0.02);
+    scene_expect_near("error of the mean stress of a row over that at the base", worst, 0.0, tolerance);
     scene_free(it);
 }
 
 static void a_light_soft_layer_rests_on_a_heavy_stiff_one(void **state)
 {
     (void)state;
-    expect_layers_at_rest(2600.0, 260.0);
+    expect_layers_at_rest("zhang2024", 2600.0, 260.0, uneven);
+    expect_layers_at_rest("moraine", 2600.0, 260.0, kept);
 }
 
 static void a_heavy_stiff_layer_rests_on_a_light_soft_one(void **state)
 {
     (void)state;
-    expect_layers_at_rest(260.0, 2600.0);
+    expect_layers_at_rest("zhang2024", 260.0, 2600.0, uneven);
+    expect_layers_at_rest("moraine", 260.0, 2600.0, kept);
 }
 
 /* ---- Waves ------------------------------------------------------------------------------------------------------- */
