@@ -196,8 +196,8 @@ static void scheme_keeps_the_profile_of_bagnold(void **state)
 {
     (void)state;
     const profile found = run_flow(&(flow){24.0, ROWS, 1.0, 2.0, calm});
-    /* Of hourglass control at most 0.03 of the stress, of which a tenth was measured: a change of 0.003 in the ratio of
-     * stresses, 0.063 above that of rest, changes the speed by 0.05. */
+    /* Of hourglass control at most 0.01 of the stress, of which a third acts along the flow: a change of 0.003 in the
+     * ratio of stresses, 0.063 above that of rest, changes the speed by 0.05. */
     scene_expect_near("error of the profile", found.error, 0.0, 0.05);
     scene_expect_near("error of the stress ratio", found.stress_error, 0.0, 0.015); /* likewise, and truncation */
 }

@@ -108,7 +108,7 @@ static void faster_silo_discharges_no_faster_than_the_law(void **state)
     double rates[2];
     find_rates("numerics.scheme=moraine", widths, rates);
     const double exponent = log(rates[1] / rates[0]) / log(widths[1] / widths[0]);
-    assert_true(exponent < 1.5 && exponent > 1.0); /* neither faster than the law nor as a slot sees the weight above */
+    assert_true(exponent < 1.5 && exponent > 1.3); /* golden: 1.37 at 4 mm, 1.40 at 2 mm */
 }
 
 int main(void)

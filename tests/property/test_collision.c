@@ -270,7 +270,8 @@ static void energy_never_grows_where_forces_and_gradient_are_adjoint(void **stat
     for (int s = 0; s < N_SCENES; ++s) {
         for (int way = 0; way < N_WAYS; ++way) {
             const bool is_fitted = way == MORAINE || way == MORAINE_HALF_STEPS;
-            assert_true(is_fitted || found->of[s][way].gain <= 1e-8); /* stress and velocity: half a step apart */
+            /* Stress and velocity: half a step apart. Fitted: golden, three times what was measured. */
+            assert_true(found->of[s][way].gain <= (is_fitted ? 2e-6 : 1e-8));
         }
     }
 }
