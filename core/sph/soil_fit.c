@@ -36,7 +36,7 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
                                   .dimension = soil->settings.dimension,
                                   .volume_factor =
                                       soil->settings.scheme.lattice_normalization ? soil->lattice_moment : 1.0,
-                                  .at_wall = soil->at_wall,
+                                  .at_wall = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->at_wall),
                                   .moments = moments,
                                   .closed = closed,
                                   .continued = continued,

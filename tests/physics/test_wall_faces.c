@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/math.h"
+#include "core/sph/soil_internal.h"
 #include "tests/common/free_block.h"
 
 /* Walls seen through the normals of their faces (docs/theory/walls.md): corners, edges, and soil that leaves a wall. */
@@ -131,12 +132,48 @@ static void soil_that_is_not_pressed_against_a_wall_falls_free(void **state)
     }
 }
 
+/* Vertical force of the soil on a wall or a body over the weight of the soil, downward. */
+static double find_load(scene *it, const char *name, double weight)
+{
+    for (int k = 0; k < mor_soil_contact_count(&it->simulation.soil); ++k) {
+        const mor_soil_contact *contact = mor_soil_contact_at(&it->simulation.soil, k);
+        if (strcmp(contact->name, name) == 0) {
+            return -contact->force[1] / weight;
+        }
+    }
+    fail_msg("no boundary is named %s", name);
+    return NAN;
+}
+
+/* What is smooth carries no weight, be it a wall or a body, though their sums are cut off where they meet the floor. */
+static void smooth_sides_carry_no_weight(void **state)
+{
+    (void)state;
+    scene *it = soil_among(
+        "'box'; min = (0, 0); max = (0.2, 0.4); }; initial_stress = { type = 'k0'",
+        "{ name = 'floor'; friction = 'rough'; shape = { type = 'box'; min = (-0.2, -0.1); max = (0.4, 0); }; }, " WALL(
+            "right", "'box'; min = (0.2, -0.1); max = (0.3, 0.5)"),
+        "gravity = (0, -9.81, 0); bodies = ( { name = 'left'; friction = 'smooth'; motion = 'prescribed';"
+        "material = { model = 'rigid'; density = 2000; };"
+        "shape = { type = 'box'; min = (-0.1, 0); max = (0, 0.5); }; } );");
+    const double weight = DENSITY * 9.81 * 0.2 * 0.4;
+    scene_advance(it, 0.1);
+    /* Rows of one of 40 at surface and floor; 0.011 if what the sums give along the wall goes to the floor. */
+    scene_expect_near("right", find_load(it, "right", weight), 0.0, 0.001);
+    /* The body ends at the floor. A particle in the corner sees its lower face, too, and a smooth edge bears the normal
+     * part of a stress that is half as large sideways: a tenth of one of 20 particles in a row. */
+    scene_expect_near("left", find_load(it, "rigid", weight), 0.0, 0.005);
+    scene_expect_near("floor", find_load(it, "floor", weight), 1.0, 0.006);
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(force_is_continuous_on_the_way_into_a_corner),
         cmocka_unit_test(pressure_around_a_post_accelerates_nothing),
         cmocka_unit_test(soil_that_is_not_pressed_against_a_wall_falls_free),
+        cmocka_unit_test(smooth_sides_carry_no_weight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

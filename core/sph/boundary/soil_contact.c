@@ -158,6 +158,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->patch_slots);
     MOR_FREE(context, &contact->mean_velocity);
     MOR_FREE(context, &contact->seen_faces);
+    MOR_FREE(context, &contact->transfer);
     MOR_FREE(context, &contact->sums);
     MOR_FREE(context, &contact->stick);
     MOR_FREE(context, &contact->acceleration);
@@ -274,6 +275,7 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     const int64_t capacity = needed + needed / 4;
     const int64_t n_lanes = capacity * MOR_CLUSTER;
     const int64_t n_borrowed = contact->is_wall ? 0 : n_lanes;
+    const int64_t n_directed = contact->normals != NULL ? n_lanes : 0;
     const int64_t n_barrier = contact->barrier.is_on ? n_lanes : 0;
     const int64_t n_continued = contact->stress != MOR_WALL_STRESS_UNIFORM ? n_lanes : 0;
     free_slots(context, contact);
@@ -284,8 +286,8 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->acceleration, n_lanes * 3, "boundary forces"));
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
     MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_borrowed * 3, "velocity of a boundary"));
-    MOR_TRY(context,
-            MOR_NEW(context, &contact->seen_faces, contact->normals != NULL ? n_lanes * 6 : 0, "faces of a wall"));
+    MOR_TRY(context, MOR_NEW(context, &contact->seen_faces, n_directed * 6, "faces of a wall"));
+    MOR_TRY(context, MOR_NEW(context, &contact->transfer, n_directed * 3, "corners of a wall"));
     MOR_TRY(context, MOR_NEW(context, &contact->given, n_borrowed * MOR_SHARES, "force given to a boundary"));
     MOR_TRY(context, MOR_NEW(context, &contact->repulsion, n_barrier * 3, "barrier force"));
     MOR_TRY(context, MOR_NEW(context, &contact->barrier_steps, n_barrier / MOR_CLUSTER, "steps of the barrier"));

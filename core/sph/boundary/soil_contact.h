@@ -57,7 +57,8 @@ typedef struct mor_contact_soil {
 /** What a soil particle sees of faces with normals n, those of all boundaries together. */
 typedef struct mor_contact_corner {
     double rest[3]; /* sum of kernel gradients, what is not along the faces of each; then what corners add, 1/m4 (m3) */
-    double faces[6]; /* sum of V (1 - (q/2)^4) n (x) n, symmetric tensor, m3 (m2 in plane strain) */
+    double faces[6]; /* sum of V (1 - (q/2)^4) n (x) n, symmetric tensor, m3 (m2 in plane strain); then what projects on
+                      * the directions in which several faces bear, 1; zero where one does */
     bool sees_any;   /* the two are current */
 } mor_contact_corner;
 
@@ -69,6 +70,8 @@ typedef struct mor_soil_contact {
     bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
     double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
     double *normals;    /* shape [n_points, 3]; of faces, 1; a wall's own, otherwise borrowed; NULL: as points lie */
+    double *transfer;   /* shape [capacity * 8, 3]; what corners of the kernel gradient are its own, less what it has
+                         * been given of them, 1/m; NULL without */
     double *seen_faces; /* shape [capacity * 8, 6]; sum of V (1 - (q/2)^4) n (x) n, m3 (m2); NULL without */
     double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
@@ -83,7 +86,8 @@ typedef struct mor_soil_contact {
     double *mean_velocity;   /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: wall */
     double *sums;            /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
     double *stick;           /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *acceleration;    /* shape [capacity * 8, 3]; acceleration of the soil by the patch, m/s2 */
+    double *acceleration;    /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
+                              * patch has its own part in, m/s2 */
     double *divergence;      /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
                                * NULL with uniform stress */
     double *given;           /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
@@ -163,7 +167,7 @@ void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, c
                                     mor_contact_corner *corners);
 
 /** Gives the faces that meet their part of the rest, each along its normal, so that kernel gradients over soil and all
- *  boundaries together still cancel.
+ *  boundaries together still cancel. What each has brought to the rest itself is kept for the forces on it.
  *  @param contact     [in,out]  projected
  *  @param n_particles [in]      number of soil particles
  *  @param corners     [in]      shape [n_particles]; solved */

@@ -220,6 +220,17 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     return stick;
 }
 
+/* In a corner the normals of all walls direct what the sums of one give along another. The stress acts on the wall whose
+ * points these sums are of: what neighboring walls hand over adds up to nothing. */
+static void attribute_corner(const double *transfer, const double *record, double *acceleration)
+{
+    double traction[3];
+    mor_symmetric_apply(record + MOR_RECORD_STRESS, transfer, traction);
+    for (int a = 0; a < 3; ++a) {
+        acceleration[a] += 2.0 / record[MOR_RECORD_DENSITY] * traction[a];
+    }
+}
+
 /* Finds the boundary forces of one slot and adds them to the acceleration of its particles. */
 static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_soil *soil, int64_t slot,
                                   double *acceleration)
@@ -254,6 +265,9 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         contact->stick[lane] = find_boundary_acceleration(&p, record, own);
         for (int a = 0; a < 3; ++a) {
             acceleration[i * 3 + a] += contact->barrier.is_on ? own[a] + repulsion[a] : own[a];
+        }
+        if (contact->transfer != NULL) {
+            attribute_corner(contact->transfer + 3 * lane, record, own);
         }
     }
 }

@@ -54,18 +54,29 @@ static void find_normal(const double *faces, double *normal)
     }
 }
 
-/* Part of a vector in the directions in which faces bear, its components divided by the principal values if asked. */
-static void filter(const double *faces, double trace, bool is_divided, double *vector)
-{
+/* Principal directions of the faces seen: values, axes in columns, and how far each is one that faces bear in, 0 to 1. */
+typedef struct bearing {
     double values[3];
     double axes[9];
-    double kept[3] = {0.0, 0.0, 0.0};
-    mor_symmetric_eigen(faces, values, axes);
-    const double largest = fmax(fmax(values[0], values[1]), values[2]);
+    double shares[3];
+} bearing;
+
+static void find_bearing(const double *faces, double trace, bearing *b)
+{
+    mor_symmetric_eigen(faces, b->values, b->axes);
+    const double largest = fmax(fmax(b->values[0], b->values[1]), b->values[2]);
     for (int k = 0; k < 3; ++k) {
-        const double axis[3] = {axes[k], axes[3 + k], axes[6 + k]};
-        const double share = values[k] == largest ? 1.0 : fade(values[k] / trace);
-        const double scale = share > 0.0 && is_divided ? share / values[k] : share;
+        b->shares[k] = b->values[k] == largest ? 1.0 : fade(b->values[k] / trace);
+    }
+}
+
+/* Part of a vector in the directions in which faces bear, its components divided by the principal values if asked. */
+static void filter(const bearing *b, bool is_divided, double *vector)
+{
+    double kept[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < 3; ++k) {
+        const double axis[3] = {b->axes[k], b->axes[3 + k], b->axes[6 + k]};
+        const double scale = b->shares[k] > 0.0 && is_divided ? b->shares[k] / b->values[k] : b->shares[k];
         const double part = scale * mor_vector_dot(vector, axis);
         for (int a = 0; a < 3; ++a) {
             kept[a] += part * axis[a];
@@ -75,9 +86,10 @@ static void filter(const double *faces, double trace, bool is_divided, double *v
 }
 
 /* Keeps of the kernel gradient of a lane what its own faces bear, and notes the rest for corners. */
-static void project_lane(const double *faces, double *gradient, mor_contact_corner *corner)
+static void project_lane(const double *faces, double *gradient, double *rest, mor_contact_corner *corner)
 {
     const double trace = mor_symmetric_trace(faces);
+    memset(rest, 0, 3 * sizeof *rest);
     if (!(trace > 0.0)) {
         return;
     }
@@ -93,10 +105,13 @@ static void project_lane(const double *faces, double *gradient, mor_contact_corn
             kept[a] = along * normal[a];
         }
     } else {
-        filter(faces, trace, false, kept);
+        bearing own;
+        find_bearing(faces, trace, &own);
+        filter(&own, false, kept);
     }
     for (int a = 0; a < 3; ++a) {
-        corner->rest[a] += gradient[a] - kept[a];
+        rest[a] = gradient[a] - kept[a];
+        corner->rest[a] += rest[a];
         gradient[a] = kept[a];
     }
     for (int a = 0; a < 6; ++a) {
@@ -104,14 +119,23 @@ static void project_lane(const double *faces, double *gradient, mor_contact_corn
     }
 }
 
-/* What the rest of several faces weighs along each: the least that sums up to it, y with F y = rest. */
+/* What the rest of several faces weighs along each: the least that sums up to it, y with F y = P(F) rest. */
 static void solve_corner(mor_contact_corner *corner)
 {
     const double trace = mor_symmetric_trace(corner->faces);
     if (is_flat(corner->faces, trace, FLAT)) {
         memset(corner->rest, 0, sizeof corner->rest);
-    } else {
-        filter(corner->faces, trace, true, corner->rest);
+        memset(corner->faces, 0, sizeof corner->faces);
+        return;
+    }
+    bearing b;
+    find_bearing(corner->faces, trace, &b);
+    filter(&b, true, corner->rest);
+    for (int a = 0; a < 6; ++a) {
+        const double *row = b.axes + 3 * (a % 3);
+        const double *column = b.axes + 3 * (a < 3 ? a : (a - 2) % 3);
+        corner->faces[a] =
+            b.shares[0] * row[0] * column[0] + b.shares[1] * row[1] * column[1] + b.shares[2] * row[2] * column[2];
     }
 }
 
@@ -127,7 +151,8 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                 if (contact->given != NULL) {
                     memcpy(contact->given + lane * MOR_SHARES + MOR_SHARE_DIRECTION, gradient, 3 * sizeof *gradient);
                 }
-                project_lane(contact->seen_faces + 6 * lane, gradient, corners + first + k);
+                project_lane(contact->seen_faces + 6 * lane, gradient, contact->transfer + 3 * lane,
+                             corners + first + k);
             }
         }
     }
@@ -156,11 +181,15 @@ void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *cont
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
                 const int64_t lane = slot * MOR_CLUSTER + k;
                 double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+                double *transfer = contact->transfer + 3 * lane;
                 double more[3];
+                double brought[3];
                 if (own[k].sees_any) {
                     mor_symmetric_apply(contact->seen_faces + 6 * lane, own[k].rest, more);
+                    mor_symmetric_apply(own[k].faces, transfer, brought);
                     for (int a = 0; a < 3; ++a) {
                         gradient[a] += more[a];
+                        transfer[a] = brought[a] - more[a];
                     }
                 }
             }

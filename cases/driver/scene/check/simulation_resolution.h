@@ -36,7 +36,7 @@ mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation
 
 /** Largest relative error by which a ball sinks too little into dry sand, for a number of particles from its center to
  *  its side.
- *  Source: docs/validation/crater.md, Spacing; with linear reconstruction docs/theory/scheme.md.
+ *  Source: docs/validation/crater.md, Spacing; with linear reconstruction its section on the scheme moraine.
  *  @param n [in]  radius / spacing, 1
  *  @param is_reconstructed [in]  whether the velocities of the Riemann problem are
  *  Returns: 1; 0 from where on the depth is within its tolerance. */

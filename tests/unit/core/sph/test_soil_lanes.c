@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/isa.h"
 #include "core/base/random.h"
+#include "core/sph/pair/pair.h"
 #include "core/sph/soil_lanes.h"
 
 #include <setjmp.h>
@@ -37,10 +38,14 @@ static void fill(world *w)
     }
 }
 
-static void run(const mor_soil_lanes *lanes, int dimension, world *w)
+/* Soils of two kinds in turn, unlike within each register. */
+static void run(const mor_soil_lanes *lanes, int dimension, const mor_soil_memory_kind kinds[2], world *w)
 {
     static const int8_t at_wall[CLUSTERS] = {0, 1, 0};
-    const mor_soil_memory_kind kind = {.fade = 2.0, .kept = 0.9, .part = 0.1, .limit2 = 0.4};
+    double of_soil[PADDED * MOR_PAIR_OF_SOIL_SIZE] = {0.0};
+    for (int i = 0; i < PADDED; ++i) {
+        of_soil[i * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_INDEX] = i % 2;
+    }
     const mor_soil_fit_job fit = {N,           dimension,       0.97,          at_wall,
                                   w->moments,  w->closed,       w->continued,  w->density,
                                   w->gradient, w->density_rate, w->strain_rate};
@@ -49,7 +54,8 @@ static void run(const mor_soil_lanes *lanes, int dimension, world *w)
                                         .length = 0.01,
                                         .gradient = w->gradient,
                                         .stress = w->stress,
-                                        .kinds = &kind,
+                                        .of_soil = of_soil,
+                                        .kinds = kinds,
                                         .at_wall = at_wall,
                                         .moments = w->moments,
                                         .closed = w->closed,
@@ -64,17 +70,21 @@ static void run(const mor_soil_lanes *lanes, int dimension, world *w)
     lanes->remember(&memory, 0, CLUSTERS);
 }
 
+static const mor_soil_memory_kind first_kind = {.fade = 2.0, .kept = 0.9, .part = 0.1, .limit2 = 0.4};
+static const mor_soil_memory_kind second_kind = {.fade = 1e-3, .kept = 0.5, .part = 0.3, .limit2 = 1e-6};
+
 static void passes_give_the_same_bits_in_every_instruction_set(void **state)
 {
     (void)state;
     static world plain;
     static world other;
+    const mor_soil_memory_kind kinds[2] = {first_kind, second_kind};
     for (int dimension = 2; dimension <= 3; ++dimension) {
-        run(mor_soil_lanes_select("baseline"), dimension, &plain);
+        run(mor_soil_lanes_select("baseline"), dimension, kinds, &plain);
         for (int isa = MOR_ISA_BASELINE + 1; isa < MOR_ISA_COUNT; ++isa) {
             const mor_soil_lanes *lanes = mor_soil_lanes_select(mor_isa_name(isa));
             if (lanes != NULL) {
-                run(lanes, dimension, &other);
+                run(lanes, dimension, kinds, &other);
                 assert_memory_equal(&other, &plain, sizeof other); /* exact: nothing is fused */
             }
         }
@@ -82,23 +92,59 @@ static void passes_give_the_same_bits_in_every_instruction_set(void **state)
     assert_null(mor_soil_lanes_select("unknown"));
 }
 
+/* The same particles with one kind of soil for all: those of the other kind alone differ. */
+static void each_particle_remembers_by_its_own_soil(void **state)
+{
+    (void)state;
+    static world of_one;
+    static world of_two;
+    const mor_soil_memory_kind one[2] = {first_kind, first_kind};
+    const mor_soil_memory_kind two[2] = {first_kind, second_kind};
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        run(mor_soil_lanes_select(NULL), dimension, one, &of_one);
+        run(mor_soil_lanes_select(NULL), dimension, two, &of_two);
+        for (int i = 0; i < N; ++i) {
+            const bool is_same = i % 2 == 0;
+            const double *a = of_one.hourglass + 3 * i;
+            const double *b = of_two.hourglass + 3 * i;
+            assert_int_equal(memcmp(of_one.mean + 6 * i, of_two.mean + 6 * i, 6 * sizeof(double)) == 0, is_same);
+            assert_int_equal(of_one.flow[i] == of_two.flow[i], is_same);
+            assert_int_equal(a[0] * a[0] + a[1] * a[1] == b[0] * b[0] + b[1] * b[1], is_same);
+        }
+    }
+}
+
 static void nothing_is_written_behind_the_last_particle(void **state)
 {
     (void)state;
     static world before;
     static world after;
+    const mor_soil_memory_kind kinds[2] = {first_kind, second_kind};
+    const struct {
+        size_t offset;
+        size_t n;
+    } outputs[] = {{offsetof(world, gradient), 9},    {offsetof(world, density_rate), 1},
+                   {offsetof(world, strain_rate), 6}, {offsetof(world, spin), 3},
+                   {offsetof(world, mean), 6},        {offsetof(world, flow), 1},
+                   {offsetof(world, hourglass), 3}};
     fill(&before);
-    run(mor_soil_lanes_select(NULL), 3, &after);
-    assert_memory_equal(after.gradient + 9 * N, before.gradient + 9 * N, 9 * (PADDED - N) * sizeof(double));
-    assert_memory_equal(after.mean + 6 * N, before.mean + 6 * N, 6 * (PADDED - N) * sizeof(double));
-    assert_memory_equal(after.spin + 3 * N, before.spin + 3 * N, 3 * (PADDED - N) * sizeof(double));
-    assert_true(memcmp(after.gradient, before.gradient, sizeof(double)) != 0);
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        run(mor_soil_lanes_select(NULL), dimension, kinds, &after);
+        for (size_t k = 0; k < sizeof outputs / sizeof *outputs; ++k) {
+            const char *then = (const char *)&before + outputs[k].offset;
+            const char *now = (const char *)&after + outputs[k].offset;
+            const size_t row = outputs[k].n * sizeof(double);
+            assert_memory_equal(now + N * row, then + N * row, (PADDED - N) * row);
+            assert_true(memcmp(now, then, sizeof(double)) != 0);
+        }
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passes_give_the_same_bits_in_every_instruction_set),
+        cmocka_unit_test(each_particle_remembers_by_its_own_soil),
         cmocka_unit_test(nothing_is_written_behind_the_last_particle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
