@@ -220,8 +220,8 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     return stick;
 }
 
-/* In a corner the normals of all walls direct what the sums of one give along another. The stress acts on the wall whose
- * points these sums are of: what neighboring walls hand over adds up to nothing. */
+/* In a corner the normals of all walls direct what the sums of one give along another. The stress acts on the wall
+ * whose points these sums are of: what neighboring walls hand over adds up to nothing. */
 static void attribute_corner(const double *transfer, const double *record, double *acceleration)
 {
     double traction[3];

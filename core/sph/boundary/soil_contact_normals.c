@@ -54,7 +54,7 @@ static void find_normal(const double *faces, double *normal)
     }
 }
 
-/* Principal directions of the faces seen: values, axes in columns, and how far each is one that faces bear in, 0 to 1. */
+/* Principal directions of the faces seen: values, axes in columns, and how far faces bear in each, 0 to 1. */
 typedef struct bearing {
     double values[3];
     double axes[9];
