@@ -8,7 +8,7 @@
 
 /* The program as its users meet it: exit codes, messages, what it prints and what it leaves behind. */
 
-enum { ARGUMENTS = 10 };
+enum { ARGUMENTS = 16 };
 
 /* One call that must be refused. */
 typedef struct refusal {
@@ -109,6 +109,10 @@ static const answer answers[] = {
     {{"explain", COLUMN, "-s", "spacing=5 mm", "-t", "1", NULL},
      {" 800 particles, smoothing length", "1 sub-step per step", "bytes per soil particle",
       "Stages of a step of 'soil'"}},
+    {{"explain", COLUMN, "-s", "spacing=5 mm", "-t", "1", NULL}, {"  scheme                  moraine\n"}},
+    {{"explain", COLUMN, "-s", "spacing=5 mm", "-s", "numerics.scheme=zhang2024", "-s",
+      "numerics.reconstruction=linear", "-s", "numerics.gravity_ramp=500 ms", "-s", "numerics.xsph=0", "-t", "1", NULL},
+     {"  scheme                  zhang2024; but reconstruction linear, gravity_ramp 0.5 s\n"}},
     {{"check-material", "drucker_prager", NULL}, {"drucker_prager", "cost of an update", "    mohr_coulomb "}},
 };
 

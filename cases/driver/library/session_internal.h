@@ -78,6 +78,10 @@ void mor_session_clear_simulation(mor_session *session);
 /** Frees case and simulation and stops listening. */
 void mor_session_clear_case(mor_session *session);
 
+/** Prints the scheme of a case and the settings of numerics with which the case differs from it, in SI units.
+ *  @param out [in,out]  one open stream */
+void mor_session_print_scheme(FILE *out, const mor_case *the_case);
+
 /** Prints the soils of a case as a table, and the friction of its walls and bodies with each; nothing without soil.
  *  @param out [in,out]  one open stream */
 void mor_session_print_soils(FILE *out, const mor_simulation *simulation);

@@ -127,6 +127,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     if (s->has_soil) {
         fprintf(out, "  soil                    %lld particles, smoothing length %g m, sound speed %.4g m/s\n",
                 (long long)s->soil.set.n_particles, s->soil.smoothing_length, s->soil.sound_speed);
+        mor_session_print_scheme(out, c);
     }
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];
