@@ -167,6 +167,29 @@ static void smooth_sides_carry_no_weight(void **state)
     scene_free(it);
 }
 
+/* What slides along Coulomb walls has their friction: the probe tells the coefficient times the force across. */
+static void force_on_a_coulomb_wall_is_its_friction(void **state)
+{
+    (void)state;
+    static const char wall[] = "{ name = 'floor'; friction = 'rough'; shape = { type = 'box'; min = (-0.2, -0.1);"
+                               "max = (0.4, 0); }; },"
+                               "{ name = 'left'; friction = 'smooth'; shape = { type = 'box'; min = (-0.1, -0.1);"
+                               "max = (0, 0.5); }; },"
+                               "{ name = 'right'; friction = 'coulomb'; friction_coefficient = 0.02;"
+                               "shape = { type = 'box'; min = (0.2, -0.1); max = (0.3, 0.5); }; }";
+    scene *it = soil_among("'box'; min = (0, 0); max = (0.2, 0.4)", wall,
+                           "gravity = (0, -9.81, 0); numerics = { gravity_ramp = 0.2; };");
+    scene_advance(it, 0.1);
+    for (int k = 0; k < mor_soil_contact_count(&it->simulation.soil); ++k) {
+        const mor_soil_contact *contact = mor_soil_contact_at(&it->simulation.soil, k);
+        if (strcmp(contact->name, "right") == 0) {
+            /* The soil is compressed, and slides but for its lowest rows. */
+            scene_expect_near("friction", -contact->force[1] / contact->force[0], 0.02, 0.001);
+        }
+    }
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -174,6 +197,7 @@ int main(void)
         cmocka_unit_test(pressure_around_a_post_accelerates_nothing),
         cmocka_unit_test(soil_that_is_not_pressed_against_a_wall_falls_free),
         cmocka_unit_test(smooth_sides_carry_no_weight),
+        cmocka_unit_test(force_on_a_coulomb_wall_is_its_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

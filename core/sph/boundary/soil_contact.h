@@ -60,6 +60,7 @@ typedef struct mor_contact_corner {
     double faces[6]; /* sum of V (1 - (q/2)^4) n (x) n, symmetric tensor, m3 (m2 in plane strain); then what projects on
                       * the directions in which several faces bear, 1; zero where one does */
     bool sees_any;   /* the two are current */
+    bool is_limited; /* some face has Coulomb friction, and each keeps the force along its own normals */
 } mor_contact_corner;
 
 /** One boundary and its relation to the soil. Owner: the soil solver. */

@@ -139,12 +139,19 @@ static void solve_corner(mor_contact_corner *corner)
     }
 }
 
+/* Whether a limit of friction may hold for the whole force along a patch, what its sums are cut off by included. */
+static bool is_limited(const mor_boundary_patch *patch)
+{
+    return patch->friction == MOR_WALL_COULOMB || patch->friction_of_soil != NULL;
+}
+
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
                               mor_contact_corner *corners)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+            const bool limits = is_limited(&contact->boundary->patches[contact->slots[slot].patch]);
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
                 const int64_t lane = slot * MOR_CLUSTER + k;
                 double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
@@ -153,6 +160,7 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                 }
                 project_lane(contact->seen_faces + 6 * lane, gradient, contact->transfer + 3 * lane,
                              corners + first + k);
+                corners[first + k].is_limited |= limits && corners[first + k].sees_any;
             }
         }
     }
@@ -189,7 +197,7 @@ void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *cont
                     mor_symmetric_apply(own[k].faces, transfer, brought);
                     for (int a = 0; a < 3; ++a) {
                         gradient[a] += more[a];
-                        transfer[a] = brought[a] - more[a];
+                        transfer[a] = own[k].is_limited ? 0.0 : brought[a] - more[a];
                     }
                 }
             }
