@@ -85,8 +85,9 @@ static void filter(const bearing *b, bool is_divided, double *vector)
     memcpy(vector, kept, sizeof kept);
 }
 
-/* Keeps of the kernel gradient of a lane what its own faces bear, and notes the rest for corners. */
-static void project_lane(const double *faces, double *gradient, double *rest, mor_contact_corner *corner)
+/* Keeps of the kernel gradient of a lane what its own faces bear, and notes the rest for corners. What is listed, but
+ * out of reach, leaves no trace. */
+static void project_lane(const double *faces, bool limits, double *gradient, double *rest, mor_contact_corner *corner)
 {
     const double trace = mor_symmetric_trace(faces);
     memset(rest, 0, 3 * sizeof *rest);
@@ -96,6 +97,7 @@ static void project_lane(const double *faces, double *gradient, double *rest, mo
     if (!corner->sees_any) {
         *corner = (mor_contact_corner){.sees_any = true};
     }
+    corner->is_limited |= limits;
     double kept[3] = {gradient[0], gradient[1], gradient[2]};
     if (is_flat(faces, trace, FLAT)) {
         double normal[3];
@@ -158,9 +160,8 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                 if (contact->given != NULL) {
                     memcpy(contact->given + lane * MOR_SHARES + MOR_SHARE_DIRECTION, gradient, 3 * sizeof *gradient);
                 }
-                project_lane(contact->seen_faces + 6 * lane, gradient, contact->transfer + 3 * lane,
+                project_lane(contact->seen_faces + 6 * lane, limits, gradient, contact->transfer + 3 * lane,
                              corners + first + k);
-                corners[first + k].is_limited |= limits && corners[first + k].sees_any;
             }
         }
     }
