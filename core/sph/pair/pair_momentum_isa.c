@@ -3,6 +3,9 @@
 /* The momentum loop. Compiled once per instruction set; MOR_ISA is its name. */
 #include "core/sph/pair/pair_momentum.h"
 
+/* Relative motion times distance below which nothing moves, m2/s: far below rounding, far above the smallest number. */
+#define LEAST_WAY 1.0e-200
+
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
 INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
 {
@@ -159,21 +162,31 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     separate(p.r, f, target, form.dimension);
     const double h = c->smoothing_length;
     const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
-    /* Division is slow: both quotients share one. */
-    const vec inverse = 1.0 / (g->distance * impedance_sum);
-    const vec inverse_distance = inverse * impedance_sum;
     const vec way = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension);
+    /* Division is slow: all quotients share one. */
+    const vec divisor = g->distance * impedance_sum;
+    const vec moves = select_lanes(magnitude(way) > LEAST_WAY, way, broadcast(1.0));
+    const vec inverse_of_all = 1.0 / (form.linear ? divisor * moves : divisor);
+    const vec inverse = form.linear ? inverse_of_all * moves : inverse_of_all;
+    const vec inverse_distance = inverse * impedance_sum;
     const vec speed = way * inverse_distance;
     vec closing = speed;
+    vec share = broadcast(1.0);
     if (form.linear) {
         const vec smooth = smooth_closing(&p, m->strain_rate, strain_rate, form.dimension);
-        closing = limited_jump(way, multiply_add(smooth, broadcast(0.5), way)) * inverse_distance;
+        const vec jump = limited_jump(way, multiply_add(smooth, broadcast(0.5), way));
+        closing = jump * inverse_distance;
+        share = jump * (inverse_of_all * divisor);
     }
     /* Closing speed on which the limiter acts, eq. 23. */
     const vec limiter_rate = form.several ? m->limiter + of_soil[MOR_PAIR_OF_SOIL_LIMITER] : broadcast(c->limiter_rate);
     const vec slope = closing * limiter_rate;
     const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
-    const vec limited = smaller(counted, broadcast(1.0)) * closing;
+    vec limited = smaller(counted, broadcast(1.0)) * closing;
+    if (form.linear) {
+        /* The force acts on all of the relative motion, and is to take of it what the solver takes of the jump. */
+        limited *= share;
+    }
     /* Twice (mean pressure - P*), eq. 20. */
     vec pressures = (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]);
     if (form.several) {

@@ -27,6 +27,7 @@ typedef struct couple {
     double speed_i, speed_j;  /* along n */
     double roughness;         /* largest speed of either, which bounds what cancels in the closing speed */
     double closing;           /* speed at which the limiter sees them close: at the middle, with reconstruction */
+    double share;             /* of the closing speed of the particles, 1 */
     double closing_roughness; /* as roughness, for closing */
     double limiter_rate;      /* eta over the sound speed, the mean of both, s/m */
 } couple;
@@ -47,12 +48,14 @@ static void find_closing(const assembly *a, int i, int j, couple *c)
     double magnitude_i = 0.0;
     double magnitude_j = 0.0;
     c->closing = raw;
+    c->share = 1.0;
     c->closing_roughness = c->roughness;
     if (a->has_reconstruction) {
         const double at_i = c->speed_i + speed_on_the_way(c, a->strain_rate + 6 * i, 0.5 * c->distance, &magnitude_i);
         const double at_j = c->speed_j + speed_on_the_way(c, a->strain_rate + 6 * j, -0.5 * c->distance, &magnitude_j);
         const double share = raw != 0.0 ? (at_i - at_j) / raw : 0.0;
         c->closing = share <= 0.0 ? 0.0 : share >= 1.0 ? raw : at_i - at_j;
+        c->share = fmin(fmax(share, 0.0), 1.0);
         c->closing_roughness += magnitude_i + magnitude_j;
     }
 }
@@ -101,7 +104,8 @@ static void add(tally *t, const double *sum, double term, double magnitude)
     ((double *)&t->magnitude)[place] += fabs(magnitude);
 }
 
-/* Riemann pressure, eqs. 20, 23, with the sign of the setting; the mean pressure where soils meet. */
+/* Riemann pressure, eqs. 20, 23, with the sign of the setting; the mean pressure where soils meet. What acts on all of
+ * the relative motion takes the power of the solver's jump. */
 static double star_pressure(const couple *c, mor_dissipation mode, double *magnitude)
 {
     const double closing = c->closing;
@@ -115,7 +119,7 @@ static double star_pressure(const couple *c, mor_dissipation mode, double *magni
     const double p_j = c->j[MOR_RECORD_PRESSURE];
     *magnitude = fabs(p_i) + fabs(p_j) + product / sum * c->closing_roughness;
     const double mean = c->is_alike ? (c->impedance_i * p_j + c->impedance_j * p_i) / sum : 0.5 * (p_i + p_j);
-    return mean + limiter * product * closing / sum;
+    return mean + limiter * product * closing * c->share / sum;
 }
 
 /* Eqs. 18, 27: the stress between two particles, and what it is made of. */

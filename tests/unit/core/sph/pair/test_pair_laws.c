@@ -109,8 +109,9 @@ static void open_couple(assembly *a, double closing, double explained)
     assembly_list(a, 0.0);
 }
 
-/* The limiter and the pressure see what strain rates leave of the closing speed: all of it when they say that the
- * particles should move the other way, nothing when they explain more than there is. */
+/* The limiter and the solver see what strain rates leave of the closing speed: all of it when they say that the
+ * particles should move the other way, nothing when they explain more than there is. The force takes of the whole motion
+ * the power that the solver takes of what is left. */
 static void check_damped_couple(const mor_pair_table *table, mor_dissipation mode, double closing, double explained)
 {
     assembly a;
@@ -126,7 +127,7 @@ static void check_damped_couple(const mor_pair_table *table, mor_dissipation mod
         const double away = record_of(&a, i)[0] > 0.0 ? 1.0 : -1.0; /* from the other particle */
         const double slope = mor_kernel_derivative(ASSEMBLY_SPACING, a.constants.smoothing_length, 3);
         const double factor = 2.0 / ASSEMBLY_DENSITY * record_of(&a, 1 - i)[MOR_RECORD_VOLUME] * -slope * away;
-        const double difference = sums.acceleration[3 * i] - factor * share * share * whole;
+        const double difference = sums.acceleration[3 * i] - factor * share * share * share * whole;
         assert_true(fabs(difference) <= 16 * DBL_EPSILON * fabs(factor * whole)); /* a dozen products */
         assert_true(sums.acceleration[3 * i + 1] == 0.0);                         /* exact: nothing points there */
     }

@@ -209,6 +209,16 @@ static void damping_keeps_momentum_and_angular_momentum(void **state)
     assembly_for_mixed(check_balance);
 }
 
+/* Numbers differ by some ulp of each term, for quotients share a division where there are strain rates; terms are about
+ * ten times as large as the sum. */
+static void expect_rounding(const double *found, const double *expected, int n)
+{
+    const double rounding = 32 * DBL_EPSILON * assembly_largest(expected, n);
+    for (int k = 0; k < n; ++k) {
+        assert_true(fabs(found[k] - expected[k]) <= rounding);
+    }
+}
+
 static void check_strain_rates_of_zero(assembly *a, const mor_pair_table *table)
 {
     assembly_sums without;
@@ -218,15 +228,18 @@ static void check_strain_rates_of_zero(assembly *a, const mor_pair_table *table)
     a->has_reconstruction = true;
     assembly_run(a, table, 1000, &with);
     /* The motion that limits diffusion is that of the particles, and no other sum knows of strain rates. */
-    const size_t others = offsetof(assembly_sums, stress_diffusion);
+    const size_t others = offsetof(assembly_sums, velocity_gradient);
+    expect_rounding(with.stress_diffusion, without.stress_diffusion, 6 * a->n);
     assert_memory_equal((char *)&with + others, (char *)&without + others, sizeof with - others);
     assert_memory_not_equal(with.acceleration, without.acceleration, sizeof with.acceleration);
     memset(a->strain_rate, 0, sizeof a->strain_rate);
     assembly_run(a, table, 1000, &with);
-    assert_memory_equal(&with, &without, sizeof with);
+    expect_rounding(with.acceleration, without.acceleration, 3 * a->n);
+    expect_rounding(with.stress_diffusion, without.stress_diffusion, 6 * a->n);
+    assert_memory_equal((char *)&with + others, (char *)&without + others, sizeof with - others);
 }
 
-static void strain_rates_of_zero_change_no_bit_and_others_only_the_acceleration(void **state)
+static void strain_rates_of_zero_change_nothing_and_others_only_the_acceleration(void **state)
 {
     (void)state;
     assembly_for_mixed(check_strain_rates_of_zero);
@@ -330,7 +343,7 @@ int main(void)
         cmocka_unit_test(linear_motion_under_stress_is_as_without_a_limiter),
         cmocka_unit_test(damping_takes_energy_but_not_more_than_without_strain_rates),
         cmocka_unit_test(damping_keeps_momentum_and_angular_momentum),
-        cmocka_unit_test(strain_rates_of_zero_change_no_bit_and_others_only_the_acceleration),
+        cmocka_unit_test(strain_rates_of_zero_change_nothing_and_others_only_the_acceleration),
         cmocka_unit_test(stress_of_soil_that_moves_as_one_does_not_diffuse),
         cmocka_unit_test(stress_diffuses_with_the_speed_of_slow_motion_and_freely_in_fast_motion),
         cmocka_unit_test(stress_that_diffuses_goes_from_one_particle_to_another),
