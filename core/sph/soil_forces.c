@@ -107,9 +107,12 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mo
     mor_soil *soil = owner;
     (void)step;
     const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
+    /* Beside an elastic stress it has no potential and gains energy, so that it acts as far as soil flows. */
+    const double *flow = soil->constants.has_transient ? mor_view_read(view, MOR_FIELD_FLOW) : NULL;
     double *artificial = mor_view_write(view, MOR_FIELD_ARTIFICIAL_STRESS);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, BATCH) {
-        find_artificial(stress + 6 * i, soil->settings.scheme.artificial_stress_factor, artificial + 6 * i);
+        const double share = flow != NULL ? flow[i] : 1.0;
+        find_artificial(stress + 6 * i, share * soil->settings.scheme.artificial_stress_factor, artificial + 6 * i);
     }
     return MOR_OK;
 }
