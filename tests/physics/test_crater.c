@@ -13,6 +13,8 @@
 #define REST 45e-3           /* by then the ball has stopped, s */
 
 static const char *const small_bed[] = {"numerics.scheme=zhang2024",
+                                        "numerics.dissipation_factor=150", /* this and the law as in the source */
+                                        "soil[0].material.model=drucker_prager",
                                         "lattice.origin=('-60 mm', '-60 mm', '-60 mm')",
                                         "soil[0].shape.min=('-60 mm', '-60 mm', '-60 mm')",
                                         "soil[0].shape.max=('60 mm', '60 mm', '0 mm')",

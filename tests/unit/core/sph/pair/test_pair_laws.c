@@ -110,8 +110,8 @@ static void open_couple(assembly *a, double closing, double explained)
 }
 
 /* The limiter and the solver see what strain rates leave of the closing speed: all of it when they say that the
- * particles should move the other way, nothing when they explain more than there is. The force takes of the whole motion
- * the power that the solver takes of what is left. */
+ * particles should move the other way, nothing when they explain more than there is. The force takes of the whole
+ * motion the power that the solver takes of what is left. */
 static void check_damped_couple(const mor_pair_table *table, mor_dissipation mode, double closing, double explained)
 {
     assembly a;
