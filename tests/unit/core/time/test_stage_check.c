@@ -20,7 +20,8 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     static const double grains[] = {1e6, 0.3, 0.38, 0.64, 0.278, 1e-3, 2650.0, 0.48, 1e-4, 1e-3, 0.0};
     rock_scene *scene = &it->scene;
     const bool has_field = stage != NULL && strcmp(stage, "nonlocal field") == 0;
-    const bool is_transient = stage != NULL && (strcmp(stage, "memory") == 0 || strcmp(stage, "artificial stress") == 0);
+    const bool is_transient =
+        stage != NULL && (strcmp(stage, "memory") == 0 || strcmp(stage, "artificial stress") == 0);
     /* Stages that only a fitted gradient and the moments of the last step need, or that do more with them. */
     const bool is_fitted = is_transient || (stage != NULL && strncmp(stage, "velocity gradient", 17) == 0);
     const int sides[3] = {SIDE, SIDE, 1};
