@@ -60,7 +60,7 @@ typedef struct mor_contact_corner {
     double faces[6]; /* sum of V (1 - (q/2)^4) n (x) n, symmetric tensor, m3 (m2 in plane strain); then what projects on
                       * the directions in which several faces bear, 1; zero where one does */
     bool sees_any;   /* the two are current */
-    bool is_limited; /* some face has Coulomb friction, and each keeps the force along its own normals */
+    bool is_limited; /* friction limits all that acts along some face, and each keeps the force along its own normals */
 } mor_contact_corner;
 
 /** One boundary and its relation to the soil. Owner: the soil solver. */
@@ -156,8 +156,9 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
  *  @param contact     [in,out]  with normals; sums must be current; the whole gradients of a borrowed boundary are kept
  *                              in given for mor_soil_contact_share_forces
  *  @param n_particles [in]      number of soil particles
+ *  @param coulomb_pulls [in]    boundaries with Coulomb friction hold soil under tension
  *  @param corners     [in,out]  shape [n_particles]; added to, sees_any false at first */
-void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
+void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles, bool coulomb_pulls,
                               mor_contact_corner *corners);
 
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.

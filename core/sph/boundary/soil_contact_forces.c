@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 
+#include <float.h>
 #include <string.h>
 
 enum { GRAIN = MOR_CONTACT_GRAIN };
@@ -127,6 +128,7 @@ static double limited_speed(double closing, mor_dissipation dissipation)
 typedef struct boundary_terms {
     mor_dissipation dissipation;
     bool coulomb_pulls;             /* a boundary with Coulomb friction holds soil under tension */
+    bool limits_all;                /* Coulomb friction limits the continued stress, too */
     double limiter_rate;            /* eta / c0 of the particle's soil, s/m */
     bool frees;                     /* dissipation does not pull at soil that is not pressed against the boundary */
     mor_boundary_friction friction; /* of that soil with the patch */
@@ -147,29 +149,38 @@ static void resist_sliding(const double *slip, double limit, double wave_speed, 
     }
 }
 
-/* Limits the tangential acceleration at a Coulomb boundary; returns the part of the tangential motion that is mirrored.
- * The limit holds for the whole tangential part, and the barrier contributes to the normal force.
- * along: normal acceleration, m/s2; area: acceleration by a unit of traction, 1/(m kg/m3); slip: m/s */
-static double limit_friction(const boundary_terms *p, const double *record, double along, double area,
-                             const double *slip, double *tangential)
+/* Share of the continued stress along a Coulomb wall that acts on soil which slides, 1: all of it up to the speed of a
+ * wave as large as the pressure on the wall, none from twice that speed on, where friction alone is to resist.
+ * slip: acceleration by a wave of the sliding speed, m/s2; along: normal acceleration, m/s2 */
+static double kept_continuation(double slip, double along)
+{
+    return slip <= along ? 1.0 : fmax(2.0 - slip / fmax(along, DBL_MIN), 0.0);
+}
+
+/* Acceleration along a Coulomb boundary that its friction allows, m/s2; the barrier contributes to the normal force.
+ * along: normal acceleration, m/s2 */
+static double friction_limit(const boundary_terms *p, double along)
 {
     const double *gradient = p->gradient;
-    const double impedance = record[MOR_RECORD_IMPEDANCE];
     double pressing = along;
     if (p->repulsion != NULL) {
         const double length = mor_vector_length(gradient);
         const double normal[3] = {-gradient[0] / length, -gradient[1] / length, -gradient[2] / length};
         pressing += mor_vector_dot(p->repulsion, normal);
     }
-    const double limit = p->friction.coefficient * (pressing > 0.0 ? pressing : 0.0);
+    return p->friction.coefficient * (pressing > 0.0 ? pressing : 0.0);
+}
+
+/* Brings a tangential acceleration down to its limit; returns the part of the tangential motion that is mirrored.
+ * area: acceleration by a unit of traction, 1/(m kg/m3) */
+static double limit_friction(const double *record, double limit, double area, double *tangential)
+{
+    const double impedance = record[MOR_RECORD_IMPEDANCE];
     const double trial = mor_vector_length(tangential);
     const double noise = area * NOISE * impedance * impedance / record[MOR_RECORD_DENSITY];
     const double hold = trial > limit ? limit / trial : 1.0;
     for (int a = 0; a < 3; ++a) {
         tangential[a] *= hold;
-    }
-    if (!p->coulomb_pulls) {
-        resist_sliding(slip, limit, limit / (area * impedance), tangential);
     }
     return trial > limit ? (limit + noise) / (trial + noise) : 1.0;
 }
@@ -203,16 +214,28 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     const double continued = mor_vector_dot(acceleration, normal);
     const bool is_coulomb = p->friction.kind == MOR_WALL_COULOMB;
     const double along = is_coulomb && !p->coulomb_pulls ? fmax(own + continued, 0.0) : own + continued;
+    const bool is_apart = is_coulomb && !p->limits_all; /* what continues the stress is no friction */
     double stick = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];
     double slip[3];
     for (int a = 0; a < 3; ++a) {
-        tangential[a] = stick * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]) + acceleration[a] -
-                        continued * normal[a];
+        tangential[a] = stick * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]);
+        if (!is_apart) {
+            tangential[a] = tangential[a] + acceleration[a] - continued * normal[a];
+        }
         slip[a] = relative[a] + closing * normal[a];
     }
     if (is_coulomb) {
-        stick = limit_friction(p, record, along, -factor, slip, tangential);
+        const double limit = friction_limit(p, along);
+        const double drag = -factor * record[MOR_RECORD_IMPEDANCE];
+        stick = limit_friction(record, limit, -factor, tangential);
+        if (!p->coulomb_pulls) {
+            resist_sliding(slip, limit, limit / drag, tangential);
+        }
+        const double kept = is_apart ? kept_continuation(mor_vector_length(slip) * drag, along) : 0.0;
+        for (int a = 0; a < 3 && is_apart; ++a) {
+            tangential[a] += kept * (acceleration[a] - continued * normal[a]);
+        }
     }
     for (int a = 0; a < 3; ++a) {
         acceleration[a] = along * normal[a] + tangential[a];
@@ -239,6 +262,7 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
     const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
     boundary_terms p = {.dissipation = soil->dissipation,
                         .coulomb_pulls = soil->coulomb_pulls,
+                        .limits_all = mor_soil_contact_limits_all(contact, soil->coulomb_pulls),
                         .limiter_rate = soil->limiter_rate,
                         .frees = contact->normals != NULL};
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {

@@ -23,6 +23,15 @@ static inline const double *mor_soil_contact_velocity(const mor_soil_contact *co
     return contact->is_wall ? contact->velocity : contact->mean_velocity + 3 * lane;
 }
 
+/** Whether Coulomb friction of a boundary limits all that acts along it, what continues the stress of the soil
+ *  included. That of a body does, for it bounds the force on the body. That of a wall does not, for a smooth wall
+ *  continues the stress, too, unless coulomb_tension is held, as in the source.
+ *  @param coulomb_pulls [in]  boundaries with Coulomb friction hold soil under tension */
+static inline bool mor_soil_contact_limits_all(const mor_soil_contact *contact, bool coulomb_pulls)
+{
+    return coulomb_pulls || !contact->is_wall;
+}
+
 /** Friction of a patch with the soil of a particle.
  *  @param region   [in]  shape [n_particles], number of the region each is of, 1; NULL: one region
  *  @param particle [in]  index in the set */

@@ -94,7 +94,9 @@ static void run(meeting *m, const mor_pair_table *table)
     assert_int_equal(mor_soil_contact_build(context, &m->contact, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &m->contact, table, c, m->soil.records);
     mor_soil_contact_sum_divergence(context, &m->contact, table, c, m->soil.records, &m->soil.relation);
+    /* Where tension is held, friction limits the same at walls and rocks. */
     const mor_contact_soil seen = {.dissipation = MOR_DISSIPATION_BOTH,
+                                   .coulomb_pulls = true,
                                    .limiter_rate = c->limiter_rate,
                                    .records = m->soil.records,
                                    .n_particles = m->soil.n};
