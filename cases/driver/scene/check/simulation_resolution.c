@@ -232,32 +232,35 @@ static mor_status warn_of_mass(mor_context *context, const mor_simulation *s, in
 /* ---- Bodies in contact with soil
  * --------------------------------------------------------------------------------------- */
 
-/* Largest shortfall of the depth of balls dropped on sand, docs/validation/crater.md, by radius over spacing. */
-static const struct {
-    double n, error;
-} depth_errors[] = {{2.5, 0.52}, {4.0, 0.30}, {6.0, 0.15}};
+/* Largest shortfall of the depth of balls dropped on sand, by radius over spacing, from docs/validation/crater.md. */
+typedef struct depth_shortfall {
+    double n, error; /* 1 */
+} depth_shortfall;
 
-enum { N_DEPTH_ERRORS = sizeof depth_errors / sizeof *depth_errors };
+enum { N_SHORTFALLS = 3 };
 
-/* Linear reconstruction removes most of the dissipation that brakes a coarse ball: 2 % short at 4 spacings. At 2.5 the
- * six balls of the scheme moraine were 7 to 27 % short, docs/validation/crater.md. */
-static const double least_reconstructed = 3.5;
-static const double reconstructed_error = 0.272;
+static const depth_shortfall raw_shortfalls[N_SHORTFALLS] = {{2.5, 0.52}, {4.0, 0.30}, {6.0, 0.15}};
+/* Linear reconstruction removes most of the dissipation that brakes a coarse ball: with the scheme moraine and
+ * Mohr-Coulomb's law the twelve balls were 9 to 37 % short at 2.5 and 4 spacings, 14 % and less from 4.2 on. */
+static const depth_shortfall reconstructed_shortfalls[N_SHORTFALLS] = {{2.5, 0.37}, {4.0, 0.18}, {4.2, 0.14}};
+
+static const depth_shortfall *find_shortfalls(bool is_reconstructed)
+{
+    return is_reconstructed ? reconstructed_shortfalls : raw_shortfalls;
+}
 
 double mor_simulation_depth_error(double n, bool is_reconstructed)
 {
-    if (is_reconstructed) {
-        return n < least_reconstructed ? reconstructed_error : 0.0;
-    }
-    if (n >= depth_errors[N_DEPTH_ERRORS - 1].n) {
+    const depth_shortfall *of = find_shortfalls(is_reconstructed);
+    if (n >= of[N_SHORTFALLS - 1].n) {
         return 0.0;
     }
     int k = 1;
-    while (k + 1 < N_DEPTH_ERRORS && n > depth_errors[k].n) {
+    while (k + 1 < N_SHORTFALLS && n > of[k].n) {
         ++k;
     }
-    const double share = (n - depth_errors[k - 1].n) / (depth_errors[k].n - depth_errors[k - 1].n);
-    return depth_errors[k - 1].error + fmax(share, 0.0) * (depth_errors[k].error - depth_errors[k - 1].error);
+    const double share = (n - of[k - 1].n) / (of[k].n - of[k - 1].n);
+    return of[k - 1].error + fmax(share, 0.0) * (of[k].error - of[k - 1].error);
 }
 
 /* Half the shortest side of a body in its own frame, m. */
@@ -293,7 +296,7 @@ static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
     const bool is_reconstructed = c->numerics.reconstruction == 1;
-    const double enough = is_reconstructed ? least_reconstructed : depth_errors[N_DEPTH_ERRORS - 1].n;
+    const double enough = find_shortfalls(is_reconstructed)[N_SHORTFALLS - 1].n;
     const mor_body *coarsest = NULL;
     double least = enough;
     int n_coarse = 0;
@@ -323,7 +326,7 @@ static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
         "%s %.3g spacings from the center to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
         "too little into sand (docs/validation/crater.md); use a spacing of at most %.3g m%s",
         which, least, enough, 100.0 * mor_simulation_depth_error(least, is_reconstructed), least * c->spacing / enough,
-        is_reconstructed ? "" : ", or numerics.reconstruction = \"linear\" from 4 spacings on");
+        is_reconstructed ? "" : ", or numerics.reconstruction = \"linear\" from 4.2 spacings on");
 }
 
 mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_simulation *simulation)
