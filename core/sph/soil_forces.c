@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/material/checked.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -67,6 +68,9 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view,
     return MOR_OK;
 }
 
+/* Strain within the memory of flow, the rate of shear times its time, from which on soil flows, 1. */
+#define FLOWING 0.05
+
 /* Whether all principal stresses are compressive: the leading minors of minus the stress are positive. In most of the
  * soil, most of the time, this spares the eigenvalues. */
 static bool is_compressed(const double *s)
@@ -112,7 +116,7 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mo
     const double *flow = soil->constants.has_transient ? mor_view_read(view, MOR_FIELD_FLOW) : NULL;
     double *artificial = mor_view_write(view, MOR_FIELD_ARTIFICIAL_STRESS);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, BATCH) {
-        const double share = flow != NULL ? flow[i] : 1.0;
+        const double share = flow != NULL ? fmin(flow[i] / FLOWING, 1.0) : 1.0;
         find_artificial(stress + 6 * i, share * soil->settings.scheme.artificial_stress_factor, artificial + 6 * i);
     }
     return MOR_OK;

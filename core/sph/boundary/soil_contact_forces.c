@@ -7,7 +7,6 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 
-#include <float.h>
 #include <string.h>
 
 enum { GRAIN = MOR_CONTACT_GRAIN };
@@ -149,12 +148,15 @@ static void resist_sliding(const double *slip, double limit, double wave_speed, 
     }
 }
 
-/* Share of the continued stress along a Coulomb wall that acts on soil which slides, 1: all of it up to the speed of a
- * wave as large as the pressure on the wall, none from twice that speed on, where friction alone is to resist.
+/* Adds what continues the stress along a Coulomb wall: all of it where soil slides up to the speed of a wave as large
+ * as the pressure on the wall, none from twice that speed on, where friction alone is to resist.
  * slip: acceleration by a wave of the sliding speed, m/s2; along: normal acceleration, m/s2 */
-static double kept_continuation(double slip, double along)
+static void add_along_wall(const double *continuation, double slip, double along, double *tangential)
 {
-    return slip <= along ? 1.0 : fmax(2.0 - slip / fmax(along, DBL_MIN), 0.0);
+    const double kept = slip <= along ? 1.0 : slip >= 2.0 * along ? 0.0 : 2.0 - slip / along;
+    for (int a = 0; a < 3; ++a) {
+        tangential[a] += kept * continuation[a];
+    }
 }
 
 /* Acceleration along a Coulomb boundary that its friction allows, m/s2; the barrier contributes to the normal force.
@@ -171,7 +173,7 @@ static double friction_limit(const boundary_terms *p, double along)
     return p->friction.coefficient * (pressing > 0.0 ? pressing : 0.0);
 }
 
-/* Brings a tangential acceleration down to its limit; returns the part of the tangential motion that is mirrored.
+/* Brings a tangential acceleration down to its limit, m/s2; returns the part of the tangential motion that is mirrored.
  * area: acceleration by a unit of traction, 1/(m kg/m3) */
 static double limit_friction(const double *record, double limit, double area, double *tangential)
 {
@@ -214,13 +216,15 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     const double continued = mor_vector_dot(acceleration, normal);
     const bool is_coulomb = p->friction.kind == MOR_WALL_COULOMB;
     const double along = is_coulomb && !p->coulomb_pulls ? fmax(own + continued, 0.0) : own + continued;
-    const bool is_apart = is_coulomb && !p->limits_all; /* what continues the stress is no friction */
+    const bool continues_freely = is_coulomb && !p->limits_all;
     double stick = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];
+    double continuation[3]; /* of the stress along a Coulomb wall, which is no friction */
     double slip[3];
     for (int a = 0; a < 3; ++a) {
         tangential[a] = stick * (factor * (traction[a] - pressure * normal[a]) - own * normal[a]);
-        if (!is_apart) {
+        continuation[a] = acceleration[a] - continued * normal[a];
+        if (!continues_freely) {
             tangential[a] = tangential[a] + acceleration[a] - continued * normal[a];
         }
         slip[a] = relative[a] + closing * normal[a];
@@ -232,9 +236,8 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
         if (!p->coulomb_pulls) {
             resist_sliding(slip, limit, limit / drag, tangential);
         }
-        const double kept = is_apart ? kept_continuation(mor_vector_length(slip) * drag, along) : 0.0;
-        for (int a = 0; a < 3 && is_apart; ++a) {
-            tangential[a] += kept * (acceleration[a] - continued * normal[a]);
+        if (continues_freely) {
+            add_along_wall(continuation, mor_vector_length(slip) * drag, along, tangential);
         }
     }
     for (int a = 0; a < 3; ++a) {

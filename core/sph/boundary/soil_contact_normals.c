@@ -141,8 +141,7 @@ static void solve_corner(mor_contact_corner *corner)
     }
 }
 
-/* Whether a patch may have Coulomb friction. */
-static bool is_limited(const mor_boundary_patch *patch)
+static bool may_have_coulomb_friction(const mor_boundary_patch *patch)
 {
     return patch->friction == MOR_WALL_COULOMB || patch->friction_of_soil != NULL;
 }
@@ -154,7 +153,7 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
         for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
             const bool limits = mor_soil_contact_limits_all(contact, coulomb_pulls) &&
-                                is_limited(&contact->boundary->patches[contact->slots[slot].patch]);
+                                may_have_coulomb_friction(&contact->boundary->patches[contact->slots[slot].patch]);
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
                 const int64_t lane = slot * MOR_CLUSTER + k;
                 double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;

@@ -4,7 +4,7 @@
 #include "core/sph/pair/pair_momentum.h"
 
 /* Relative motion times distance below which nothing moves, m2/s: far below rounding, far above the smallest number. */
-#define LEAST_WAY 1.0e-200
+#define LEAST_MOTION 1.0e-200
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
 INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
@@ -165,7 +165,7 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     const vec way = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension);
     /* Division is slow: all quotients share one. */
     const vec divisor = g->distance * impedance_sum;
-    const vec moves = select_lanes(magnitude(way) > LEAST_WAY, way, broadcast(1.0));
+    const vec moves = select_lanes(magnitude(way) > LEAST_MOTION, way, broadcast(1.0));
     const vec inverse_of_all = 1.0 / (form.linear ? divisor * moves : divisor);
     const vec inverse = form.linear ? inverse_of_all * moves : inverse_of_all;
     const vec inverse_distance = inverse * impedance_sum;

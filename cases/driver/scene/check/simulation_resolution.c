@@ -241,8 +241,8 @@ enum { N_SHORTFALLS = 3 };
 
 static const depth_shortfall raw_shortfalls[N_SHORTFALLS] = {{2.5, 0.52}, {4.0, 0.30}, {6.0, 0.15}};
 /* Linear reconstruction removes most of the dissipation that brakes a coarse ball: with the scheme moraine and
- * Mohr-Coulomb's law the twelve balls were 9 to 37 % short at 2.5 and 4 spacings, 14 % and less from 4.2 on. */
-static const depth_shortfall reconstructed_shortfalls[N_SHORTFALLS] = {{2.5, 0.37}, {4.0, 0.18}, {4.2, 0.14}};
+ * Mohr-Coulomb's law the twelve balls were 9 to 37 % short at 2.5 and 4 spacings, 8 to 14 % at 4.17. */
+static const depth_shortfall reconstructed_shortfalls[N_SHORTFALLS] = {{2.5, 0.37}, {4.0, 0.18}, {25.0 / 6.0, 0.14}};
 
 static const depth_shortfall *find_shortfalls(bool is_reconstructed)
 {
@@ -326,7 +326,7 @@ static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
         "%s %.3g spacings from the center to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
         "too little into sand (docs/validation/crater.md); use a spacing of at most %.3g m%s",
         which, least, enough, 100.0 * mor_simulation_depth_error(least, is_reconstructed), least * c->spacing / enough,
-        is_reconstructed ? "" : ", or numerics.reconstruction = \"linear\" from 4.2 spacings on");
+        is_reconstructed ? "" : ", or from 4.2 spacings on numerics.reconstruction = \"linear\"");
 }
 
 mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_simulation *simulation)

@@ -88,7 +88,8 @@ static void take(const char *text, const char *const *settings, double factor, s
         const int64_t id = soil->set.id[i];
         double share = 1.0;
         if (soil->constants.has_transient) {
-            share = data[MOR_FIELD_FLOW][i] = mor_random_uniform(7, (uint64_t)id, 7);
+            data[MOR_FIELD_FLOW][i] = 0.1 * mor_random_uniform(7, (uint64_t)id, 7);
+            share = fmin(data[MOR_FIELD_FLOW][i] / 0.05, 1.0); /* docs/theory/soil.md: flows from there on */
         }
         memcpy(out->position[id], data[MOR_FIELD_POSITION] + 3 * i, sizeof out->position[id]);
         draw_stress(out->dimension, (uint64_t)id, share * factor, out->stress[id], out->expected[id]);

@@ -239,7 +239,7 @@ static void check_strain_rates_of_zero(assembly *a, const mor_pair_table *table)
     assert_memory_equal((char *)&with + others, (char *)&without + others, sizeof with - others);
 }
 
-static void strain_rates_of_zero_change_nothing_and_others_only_the_acceleration(void **state)
+static void strain_rates_of_zero_change_roundings_and_others_only_the_acceleration(void **state)
 {
     (void)state;
     assembly_for_mixed(check_strain_rates_of_zero);
@@ -343,7 +343,7 @@ int main(void)
         cmocka_unit_test(linear_motion_under_stress_is_as_without_a_limiter),
         cmocka_unit_test(damping_takes_energy_but_not_more_than_without_strain_rates),
         cmocka_unit_test(damping_keeps_momentum_and_angular_momentum),
-        cmocka_unit_test(strain_rates_of_zero_change_nothing_and_others_only_the_acceleration),
+        cmocka_unit_test(strain_rates_of_zero_change_roundings_and_others_only_the_acceleration),
         cmocka_unit_test(stress_of_soil_that_moves_as_one_does_not_diffuse),
         cmocka_unit_test(stress_diffuses_with_the_speed_of_slow_motion_and_freely_in_fast_motion),
         cmocka_unit_test(stress_that_diffuses_goes_from_one_particle_to_another),
