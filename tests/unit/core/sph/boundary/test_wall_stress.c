@@ -255,9 +255,54 @@ static void continued_wall_gives_back_what_it_takes(void **state)
     }
 }
 
+/* Acceleration along and across a Coulomb wall of the middle of the lowest layer, m/s2, when all soil slides along it at
+ * a multiple of the speed of a wave as large as the pressure on the wall. */
+static void slide_soil(floor_case *f, double multiple, double *along, double *across)
+{
+    const int up = f->soil.constants.dimension - 1;
+    const double *middle = f->soil.records + find_center(f) * MOR_RECORD_SIZE;
+    const double wave_speed = -middle[MOR_RECORD_STRESS + up] / middle[MOR_RECORD_IMPEDANCE];
+    for (int i = 0; i < f->soil.n; ++i) {
+        f->soil.records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY] = multiple * wave_speed;
+    }
+    floor_run(f, MOR_DISSIPATION_BOTH);
+    *along = f->acceleration[3 * find_center(f)];
+    *across = f->acceleration[3 * find_center(f) + up];
+}
+
+static void stress_continued_along_a_coulomb_wall_fades_where_soil_slides(void **state)
+{
+    (void)state;
+    const double coefficient = 0.3;
+    static const double multiples[] = {0.7, 1.0, 1.25, 1.5, 2.0, 3.0};
+    static const double kept[] = {1.0, 1.0, 0.75, 0.5, 0.0, 0.0};
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        floor_case f;
+        open_lattice(&f, dimension, FIELD_ALONG);
+        mor_wall_request request = floor_request(&f, MOR_WALL_COULOMB, coefficient);
+        request.stress = MOR_WALL_STRESS_ALONG;
+        floor_add(&f, &request);
+        f.presses_only = true;
+        const double wall = lattice_moment(&f.soil, 0, true);
+        const double soil = lattice_moment(&f.soil, 0, false) - wall;
+        const double continued = SLOPE / ASSEMBLY_DENSITY * soil * wall / (1.0 - wall);
+        for (int k = 0; k < 6; ++k) {
+            double along = 0.0;
+            double across = 0.0;
+            slide_soil(&f, multiples[k], &along, &across);
+            assert_true(across > 0.0);
+            /* Friction is the limit against the motion at all these speeds. Sums of some hundred terms. */
+            const double expected = kept[k] * continued - coefficient * across;
+            assert_true(fabs(along - expected) <= 1e-11 * (continued + across));
+        }
+        floor_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stress_continued_along_a_coulomb_wall_fades_where_soil_slides),
         cmocka_unit_test(linear_stress_is_felt_in_full_at_the_wall),
         cmocka_unit_test(divergence_of_every_table_is_that_of_a_double_loop),
         cmocka_unit_test(wide_registers_give_the_same_divergence_as_wider_ones),
