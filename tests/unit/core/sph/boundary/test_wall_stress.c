@@ -255,8 +255,8 @@ static void continued_wall_gives_back_what_it_takes(void **state)
     }
 }
 
-/* Acceleration along and across a Coulomb wall of the middle of the lowest layer, m/s2, when all soil slides along it at
- * a multiple of the speed of a wave as large as the pressure on the wall. */
+/* Acceleration along and across a Coulomb wall of the middle of the lowest layer, m/s2, when all soil slides along it
+ * at a multiple of the speed of a wave as large as the pressure on the wall. */
 static void slide_soil(floor_case *f, double multiple, double *along, double *across)
 {
     const int up = f->soil.constants.dimension - 1;
