@@ -218,6 +218,8 @@ static mor_status make_lists(mor_context *context, mor_contact *contact)
     work->n_pairs = n * (n - 1) / 2 + n * contact->n_walls;
     contact->n_impacts = work->n_pairs;
     MOR_TRY(context, MOR_NEW(context, &contact->impacts, work->n_pairs, "contact"));
+    MOR_TRY(context,
+            MOR_NEW(context, &contact->pair_spring, contact->settings.has_removals ? work->n_pairs : 0, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->free_until, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->near_of, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->law_of, work->n_pairs, "contact"));
@@ -228,7 +230,24 @@ static mor_status make_lists(mor_context *context, mor_contact *contact)
     MOR_TRY(context, MOR_NEW(context, &contact->group_deepest, contact->n_groups, "contact"));
     MOR_TRY(context,
             MOR_NEW(context, &contact->wall_force, 3 * (int64_t)contact->n_groups * contact->n_walls, "contact"));
+    MOR_TRY(context,
+            MOR_NEW(context, &contact->wall_moment, 3 * (int64_t)contact->n_groups * contact->n_walls, "contact"));
     return MOR_OK;
+}
+
+static void move_walls(mor_contact *contact, double time)
+{
+    double fastest = 0.0;
+    for (int w = 0; w < contact->n_walls; ++w) {
+        mor_contact_wall *wall = &contact->walls[w];
+        fastest = fmax(fastest, mor_contact_wall_speed(wall));
+        wall->is_removed = wall->removed_at > 0.0 && time >= wall->removed_at;
+        if (wall->motion != NULL) {
+            mor_motion_find(wall->motion, time, &wall->pose);
+        }
+    }
+    contact->work->wall_travel += fastest * fabs(time - contact->time);
+    contact->time = time;
 }
 
 static mor_status make_all(mor_context *context, mor_contact *contact, const mor_contact_wall *walls)
@@ -238,6 +257,7 @@ static mor_status make_all(mor_context *context, mor_contact *contact, const mor
     for (int w = 0; w < contact->n_walls; ++w) {
         contact->walls[w] = walls[w];
     }
+    move_walls(contact, 0.0);
     MOR_TRY(context, list_bodies(context, contact));
     MOR_TRY(context, make_lists(context, contact));
     MOR_TRY(context, make_history(context, contact));
@@ -329,6 +349,8 @@ void mor_contact_clear(mor_context *context, mor_contact *contact)
     MOR_FREE(context, &contact->group_spring);
     MOR_FREE(context, &contact->group_deepest);
     MOR_FREE(context, &contact->wall_force);
+    MOR_FREE(context, &contact->wall_moment);
+    MOR_FREE(context, &contact->pair_spring);
     mor_set_clear(context, &contact->history);
     memset(contact, 0, sizeof *contact);
 }
@@ -388,16 +410,6 @@ static void clear_forces(mor_contact *contact, uint64_t members)
             memset(group->contact_force, 0, (size_t)(3 * group->set.n_particles) * sizeof *group->contact_force);
         }
     }
-}
-
-static void move_walls(mor_contact *contact, double time)
-{
-    double fastest = 0.0;
-    for (int w = 0; w < contact->n_walls; ++w) {
-        fastest = fmax(fastest, mor_vector_length(contact->walls[w].velocity));
-    }
-    contact->work->wall_travel += fastest * fabs(time - contact->time);
-    contact->time = time;
 }
 
 void mor_contact_resume(mor_contact *contact, double time)

@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_CASE_CASE_H
 #define MOR_CASES_DRIVER_CASE_CASE_H
 
+#include "core/geometry/motion.h"
 #include "core/geometry/shape.h"
 #include "core/material/plugin.h"
 #include "core/scheme/scheme.h"
@@ -33,6 +34,7 @@ enum {
     MOR_CASE_ROCK_SHAPES_MAX = 256,
     MOR_CASE_ROCK_SIZES_MAX = 32,
     MOR_CASE_PAIRS_MAX = 64,
+    MOR_CASE_PATH_ROWS_MAX = 1024,
     MOR_CASE_PROBES_MAX = 64,
     MOR_CASE_EXPECTATIONS_MAX = 32
 };
@@ -195,6 +197,20 @@ typedef struct mor_case_frictions {
     int n;
 } mor_case_frictions;
 
+/** Prescribed motion over time of a wall or a body; the numbers of its file are in rows, too. */
+typedef struct mor_case_path {
+    mor_case_place place;
+    double point[3];                /* of the axis of rotation, frame of the case, m; NaN: the origin, of a
+                                     * body its center of mass */
+    double axis[3];                 /* any length but zero, 1 */
+    bool is_smooth;                 /* between rows, else linear */
+    char file[MOR_CASE_TEXT_BYTES]; /* path of a table; as given, or absolute where it exists; "": rows are in the case */
+    uint64_t file_hash;             /* of the content of that file; 0: there is none */
+    mor_motion_row *rows;           /* shape [n_rows]; owned */
+    int n_rows;                     /* 0: there is no path */
+    uint64_t written;
+} mor_case_path;
+
 /** One wall. */
 typedef struct mor_case_wall {
     char name[MOR_CASE_NAME_BYTES];
@@ -205,6 +221,8 @@ typedef struct mor_case_wall {
     double friction_coefficient; /* Coulomb only, 1 */
     mor_case_frictions friction_with;
     double velocity[3];     /* prescribed velocity, m/s */
+    mor_case_path path;     /* prescribed in place of it */
+    double removed_at;      /* s; NaN: never */
     double contact_modulus; /* Young's modulus of its surface for bodies that touch it; 0: rigid, Pa */
     double contact_poisson; /* Poisson's ratio of it, 1 */
     uint64_t written;
@@ -245,7 +263,9 @@ typedef struct mor_case_body {
     mor_case_friction soil_friction;
     double soil_friction_coefficient; /* Coulomb only, 1 */
     mor_case_frictions friction_with;
-    bool is_prescribed; /* rigid: moves with its velocities whatever forces act on it */
+    bool is_prescribed; /* rigid: moves with its velocities, or on its path, whatever forces act on it */
+    mor_case_path path; /* of a prescribed motion, in place of the velocities */
+    double removed_at;  /* rigid: s; NaN: never */
     mor_case_particles particles;
     bool is_locked[6];            /* rigid: no translation along x, y, z; no rotation about x, y, z */
     bool has_spring;              /* rigid: spring and damper to a fixed point */

@@ -299,9 +299,13 @@ static const mor_case_key wall_keys[] = {
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, friction_coefficient),
      .needs = MOR_CASE_NEEDS_SOIL},
-    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "prescribed velocity"},
+    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "prescribed velocity; not together with path"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, velocity)},
+    {{"removed_at", SCALAR, "s", DEFAULT(NAN), POSITIVE, NULL, "time from which the wall is not there any more"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_wall, removed_at),
+     .computed = "never"},
     {{"contact_modulus", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL,
       "Young's modulus of its surface, for contact with rigid bodies; 0: a rigid surface"},
      MOR_CASE_STORE_REALS,
@@ -316,6 +320,7 @@ static const mor_case_key wall_keys[] = {
 static const mor_case_part wall_parts[] = {
     {"shape", true, "shape", "the solid"},
     {"friction_with", false, "list of groups", "soils with which the friction is another one"},
+    {"path", false, "group", "prescribed motion over time, in place of velocity"},
     {NULL, false, NULL, NULL}};
 
 static const mor_case_key friction_keys[] = {

@@ -168,11 +168,13 @@ static mor_status check_ground(const mor_case_reader *reader, const mor_case_nod
                                   "structures on it as separate walls",
                                   mor_case_shape_groups[wall->outline.kind].name);
     }
-    if (is_ground && mor_vector_length(wall->velocity) > 0.0) {
+    if (is_ground && (mor_vector_length(wall->velocity) > 0.0 || wall->path.n_rows > 0)) {
+        const char *name = wall->path.n_rows > 0 ? "path" : "velocity";
         return MOR_CASE_NODE_FAIL(
-            reader->context, mor_case_node_find(node, "velocity"),
+            reader->context, mor_case_node_find(node, name),
             "found a terrain that moves; allowed is terrain at rest, whose edge stays outside the "
-            "domain; remove 'velocity', or give the soil the opposite one");
+            "domain; remove '%s', or give the soil the opposite velocity",
+            name);
     }
     return MOR_OK;
 }
@@ -189,6 +191,7 @@ static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, mor_case_reader_frictions(reader, node, the_case, &wall->friction_with));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &wall->outline, &wall->shape));
+    MOR_TRY(reader->context, mor_case_reader_path(reader, node, &wall->path));
     MOR_TRY(reader->context, check_ground(reader, node, wall));
     for (const mor_case_wall *other = the_case->walls; other < wall; ++other) {
         if (strcmp(other->name, wall->name) == 0) {

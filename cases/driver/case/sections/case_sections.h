@@ -59,6 +59,12 @@ mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_cas
 mor_status mor_case_reader_frictions(const mor_case_reader *reader, const mor_case_node *owner,
                                      const mor_case *the_case, mor_case_frictions *frictions);
 
+/** Reads the group path of a wall or a body.
+ *  @param owner [in]      its group
+ *  @param path  [in,out]  zeroed before; owned by the case, also after a failure
+ *  Returns: MOR_OK, also when there is none; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_path(const mor_case_reader *reader, const mor_case_node *owner, mor_case_path *path);
+
 /** Reads the lists soil, walls and bodies, and the group contact.
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);

@@ -234,7 +234,11 @@ static mor_case_presence presence_of_wall_key(const mor_case_key *key, const voi
 {
     const mor_case_wall *wall = record;
     const bool is_idle =
-        strcmp(key->schema.key, "friction_coefficient") == 0 && wall->friction != MOR_CASE_FRICTION_COULOMB;
+        (strcmp(key->schema.key, "friction_coefficient") == 0 && wall->friction != MOR_CASE_FRICTION_COULOMB) ||
+        (strcmp(key->schema.key, "velocity") == 0 && wall->path.n_rows > 0);
+    if (strcmp(key->schema.key, "removed_at") == 0 && isnan(wall->removed_at)) {
+        return MOR_CASE_MENTION;
+    }
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
 
@@ -262,10 +266,44 @@ static mor_status write_frictions(mor_case_writer *w, const mor_case_frictions *
     return MOR_OK;
 }
 
+static mor_case_presence presence_of_path_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_path *path = record;
+    const char *name = key->schema.key;
+    if (strcmp(name, "file") == 0) {
+        return path->file[0] == '\0' ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+    }
+    return strcmp(name, "point") == 0 && isnan(path->point[0]) ? MOR_CASE_MENTION : MOR_CASE_WRITE;
+}
+
+static mor_status write_path(mor_case_writer *w, const mor_case_path *path)
+{
+    if (path->n_rows == 0) {
+        return MOR_OK;
+    }
+    mor_case_writer_open(w, "path", "{");
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_path_group, path, presence_of_path_key));
+    write_hash(w, path->file_hash);
+    if (path->file[0] == '\0') {
+        mor_case_writer_open(w, "table", "(");
+        for (int k = 0; k < path->n_rows; ++k) {
+            const mor_case_path_row row = {path->rows[k], UINT64_MAX};
+            mor_case_writer_open(w, "", "{");
+            MOR_TRY(w->reader.context,
+                    mor_case_writer_keys(w, &mor_case_path_row_group, &row, mor_case_presence_always));
+            mor_case_writer_close(w, k + 1 < path->n_rows ? "}," : "}");
+        }
+        mor_case_writer_close(w, ");");
+    }
+    mor_case_writer_close(w, "};");
+    return MOR_OK;
+}
+
 static mor_status write_wall(mor_case_writer *w, const mor_case_wall *wall)
 {
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_wall_group, wall, presence_of_wall_key));
     MOR_TRY(w->reader.context, write_frictions(w, &wall->friction_with));
+    MOR_TRY(w->reader.context, write_path(w, &wall->path));
     return write_shape(w, "shape", &wall->outline, "};");
 }
 
@@ -277,11 +315,14 @@ static mor_case_presence presence_of_body_key(const mor_case_key *key, const voi
     const char *name = key->schema.key;
     const bool is_open = (strcmp(name, "contact_modulus") == 0 && isnan(body->contact_modulus)) ||
                          (strcmp(name, "height_over_ground") == 0 && isnan(body->height_over_ground));
+    const bool is_replaced = body->path.n_rows > 0 && (strcmp(name, "velocity") == 0 ||
+                                                       strcmp(name, "angular_velocity") == 0);
+    const bool stays = strcmp(name, "removed_at") == 0 && isnan(body->removed_at);
     if (is_open) {
         return MOR_CASE_MENTION;
     }
     const bool is_idle =
-        mor_case_body_condition(body, name) != NULL ||
+        mor_case_body_condition(body, name) != NULL || is_replaced || stays ||
         (strcmp(name, "friction_coefficient") == 0 && body->soil_friction != MOR_CASE_FRICTION_COULOMB);
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
@@ -349,6 +390,7 @@ static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const
     MOR_TRY(w->reader.context, write_frictions(w, &body->friction_with));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
     MOR_TRY(w->reader.context, write_body_material(w, body));
+    MOR_TRY(w->reader.context, write_path(w, &body->path));
     write_locks(w, body);
     if (body->has_spring) {
         mor_case_writer_open(w, "spring", "{");

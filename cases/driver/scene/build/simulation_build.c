@@ -7,6 +7,7 @@
 #include "cases/driver/scene/build/simulation_relax.h"
 #include "cases/driver/scene/check/narrow_gaps.h"
 #include "cases/driver/scene/check/simulation_check.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
@@ -254,6 +255,8 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
                                     .friction = (mor_wall_friction)c->walls[w].friction,
                                     .friction_coefficient = c->walls[w].friction_coefficient};
         mor_matrix_apply(c->rotation, c->walls[w].velocity, request.velocity);
+        request.motion = simulation->wall_motions[w].n_rows > 0 ? &simulation->wall_motions[w] : NULL;
+        request.removed_at = c->walls[w].removed_at > 0.0 ? c->walls[w].removed_at : 0.0;
         double *normals = NULL;
         mor_status status =
             c->numerics.wall_normals == 1 ? find_wall_normals(context, c, w, &points, &normals) : MOR_OK;
@@ -354,9 +357,13 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     simulation->has_soil = the_case->n_soils > 0;
     mor_simulation_find_up(the_case, simulation->up);
     find_frame(the_case, &simulation->frame);
+    simulation->frame.wall_motions = simulation->wall_motions;
     /* Soil is relaxed among bodies, which are then needed first. */
     const bool is_relaxed = mor_simulation_has_relaxed_soil(the_case);
-    mor_status status = is_relaxed ? build_bodies(context, simulation, registry) : MOR_OK;
+    mor_status status = mor_simulation_make_wall_motions(context, the_case, simulation->wall_motions);
+    if (status == MOR_OK && is_relaxed) {
+        status = build_bodies(context, simulation, registry);
+    }
     if (status == MOR_OK && simulation->has_soil) {
         status = build_soil(context, simulation);
     }
@@ -394,6 +401,7 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
     MOR_FREE(context, &simulation->frictions);
+    mor_simulation_clear_wall_motions(context, simulation->wall_motions);
     mor_material_destroy(context, &simulation->material);
     for (int k = 0; k < MOR_CASE_SOILS_MAX; ++k) {
         mor_material_destroy(context, &simulation->parts[k]);
