@@ -53,10 +53,10 @@ typedef struct mor_contact_settings {
     mor_contact_law law;           /* of pairs without one of their own */
     const mor_contact_pair *pairs; /* shape [n_pairs]; borrowed for the life of the contact */
     int n_pairs;
-    bool has_removals;      /* walls or bodies are removed in the course of the run */
     double slowest_impact;  /* speed under which a touch counts as this fast when it is damped, m/s */
     double reference_speed; /* of an impact in which the tangential springs of rigid sides are as stiff as the normal
                              * ones, m/s; no less than by a fall over the size of a body */
+    bool has_removals;      /* walls or bodies are removed in the course of the run */
 } mor_contact_settings;
 
 /** Contact among all groups and walls. Owner: the run. */

@@ -142,7 +142,8 @@ typedef enum mor_case_stress {
     MOR_CASE_STRESS_NONE,
     MOR_CASE_STRESS_K0,
     MOR_CASE_STRESS_SETTLED,
-    MOR_CASE_STRESS_UNIFORM
+    MOR_CASE_STRESS_UNIFORM,
+    MOR_CASE_STRESS_FORMULA
 } mor_case_stress;
 
 /** One soil region. */
@@ -157,6 +158,9 @@ typedef struct mor_case_soil {
     double density;                             /* initial density, kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
     double velocity[3];                         /* initial velocity, m/s */
+    /* Formulas of a place in the frame of the case in m, before the scale; "": none. */
+    char velocity_formula[3][MOR_CASE_TEXT_BYTES]; /* initial velocity in place of the above, m/s */
+    char stress_formula[6][MOR_CASE_TEXT_BYTES];   /* initial stress: xx, yy, zz, xy, yz, zx; tension positive, Pa */
     bool is_relaxed;                            /* filled with relaxed particles, else with those of the lattice */
     mor_case_stress initial_stress;
     double pressure;           /* of a uniform initial stress, Pa */

@@ -212,6 +212,14 @@ static const mor_case_part soil_parts[] = {
     {"shape", true, "shape", "region to be filled with particles"},
     {"material", true, "group", "model, density, and the parameters of the model"},
     {"initial_stress", false, "group", "initial stress"},
+    {"velocity_formula", false, "list of texts",
+     "initial velocity in place of velocity: a formula of x, y, z (m) for each component (m/s), as (\"0.1*y\", \"0\")"},
+    {NULL, false, NULL, NULL}};
+
+static const mor_case_part stress_parts[] = {
+    {"formula", false, "list of texts",
+     "of type formula: the components xx, yy, zz, xy and in three dimensions yz, zx (Pa, tension positive) as formulas "
+     "of x, y, z (m) in the frame of the case"},
     {NULL, false, NULL, NULL}};
 
 #define MODEL_KEYS                                                                                                     \
@@ -243,9 +251,10 @@ static const mor_case_part external_parts[] = {
     {NULL, false, NULL, NULL}};
 
 static const mor_case_key stress_keys[] = {
-    {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled|uniform",
+    {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled|uniform|formula",
       "none: zero; k0: vertical stress by the weight above, lateral stress by lateral_ratio; settled: as k0, then "
-      "brought to rest under damping before the start; uniform: the same pressure everywhere, as in a closed vessel"},
+      "brought to rest under damping before the start; uniform: the same pressure everywhere, as in a closed vessel; "
+      "formula: by formulas of the place"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_soil, initial_stress)},
     {{"pressure", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL,
@@ -343,7 +352,7 @@ const mor_case_group mor_case_material_group = {"material", "Material of a soil 
 const mor_case_group mor_case_external_group = {"material", "Material of a soil region by a law of another program",
                                                 external_keys, external_parts,
                                                 offsetof(mor_case_soil, written_material)};
-const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys, NULL,
+const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys, stress_parts,
                                               offsetof(mor_case_soil, written_stress)};
 const mor_case_group mor_case_wall_group = {"walls", "Walls (list)", wall_keys, wall_parts,
                                             offsetof(mor_case_wall, written)};

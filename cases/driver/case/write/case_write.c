@@ -135,7 +135,8 @@ static mor_case_presence presence_of_stress_key(const mor_case_key *key, const v
         return MOR_CASE_OMIT;
     }
     const bool is_settling = strncmp(name, "settle", strlen("settle")) == 0;
-    if (soil->initial_stress == MOR_CASE_STRESS_NONE || (is_settling && soil->initial_stress == MOR_CASE_STRESS_K0)) {
+    if (soil->initial_stress == MOR_CASE_STRESS_NONE || soil->initial_stress == MOR_CASE_STRESS_FORMULA ||
+        (is_settling && soil->initial_stress == MOR_CASE_STRESS_K0)) {
         return MOR_CASE_OMIT;
     }
     const bool is_relaxed = soil->settle_method == MOR_CASE_SETTLE_RELAXATION;
@@ -181,10 +182,33 @@ static mor_status find_model(const mor_case_writer *w, const char *name, const m
     return MOR_OK;
 }
 
+static mor_case_presence presence_of_soil_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_soil *soil = record;
+    const bool is_replaced = strcmp(key->schema.key, "velocity") == 0 && soil->velocity_formula[0][0] != '\0';
+    return is_replaced ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
 static mor_case_presence presence_of_material_key(const mor_case_key *key, const void *record)
 {
     const mor_case_soil *soil = record;
     return strcmp(key->schema.key, "law") == 0 && soil->external.law[0] == '\0' ? MOR_CASE_MENTION : MOR_CASE_WRITE;
+}
+
+/* The first ones that there are. */
+static void write_formulas(const mor_case_writer *w, const char *key, const char (*formulas)[MOR_CASE_TEXT_BYTES],
+                           int n_max)
+{
+    if (formulas[0][0] == '\0') {
+        return;
+    }
+    fprintf(w->stream, "%*s%s = (", w->depth * MOR_CASE_INDENT, "", key);
+    for (int k = 0; k < n_max && formulas[k][0] != '\0'; ++k) {
+        char value[MOR_CASE_VALUE_BYTES];
+        mor_case_writer_text(formulas[k], value, sizeof value);
+        fprintf(w->stream, "%s%s", k > 0 ? ", " : "", value);
+    }
+    fprintf(w->stream, ");\n");
 }
 
 static void write_numbers(const mor_case_writer *w, const char *key, const double *values, int n)
@@ -215,7 +239,8 @@ static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
 {
     const bool is_external = soil->external.made != NULL;
     const mor_case_group *group = is_external ? &mor_case_external_group : &mor_case_material_group;
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, mor_case_presence_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, presence_of_soil_key));
+    write_formulas(w, "velocity_formula", soil->velocity_formula, 3);
     MOR_TRY(w->reader.context, write_shape(w, "shape", &soil->outline, "};"));
     mor_case_writer_open(w, "material", "{");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, soil, presence_of_material_key));
@@ -226,6 +251,7 @@ static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
     mor_case_writer_close(w, "};");
     mor_case_writer_open(w, "initial_stress", "{");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_stress_group, soil, presence_of_stress_key));
+    write_formulas(w, "formula", soil->stress_formula, 6);
     mor_case_writer_close(w, "};");
     return MOR_OK;
 }

@@ -406,9 +406,9 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
     const mor_contact_settings settings = {{c->contact.friction_coefficient, c->contact.restitution},
                                            bodies->pairs,
                                            c->contact.n_pairs,
-                                           has_removals(c),
                                            slowest,
-                                           mor_case_start_speed(c)};
+                                           mor_case_start_speed(c),
+                                           has_removals(c)};
     MOR_TRY(context, mor_contact_init(context, &bodies->contact, &settings, bodies->groups, bits, bodies->n_groups,
                                       walls, c->n_walls));
     bodies->has_contact = true;

@@ -173,7 +173,8 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
         simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
         first += n;
     }
-    return mor_simulation_set_stress(context, simulation, regions);
+    MOR_TRY(context, mor_simulation_set_stress(context, simulation, regions));
+    return mor_simulation_set_by_formulas(context, simulation, regions);
 }
 
 /* Where a particle stands on the lattice of the case, slowest direction first. */
