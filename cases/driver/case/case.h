@@ -35,6 +35,7 @@ enum {
     MOR_CASE_ROCK_SIZES_MAX = 32,
     MOR_CASE_PAIRS_MAX = 64,
     MOR_CASE_PATH_ROWS_MAX = 1024,
+    MOR_CASE_EXCAVATIONS_MAX = 32,
     MOR_CASE_PROBES_MAX = 64,
     MOR_CASE_EXPECTATIONS_MAX = 32
 };
@@ -424,6 +425,17 @@ typedef struct mor_case_expectation {
     uint64_t written;
 } mor_case_expectation;
 
+/** A run before, whose end this one starts from. */
+typedef struct mor_case_stage {
+    char run[MOR_CASE_TEXT_BYTES];     /* its folder; absolute; "": this one starts from the case alone */
+    mor_case_place place;
+    uint64_t hash;                     /* of the content of its checkpoint */
+    int region_of[MOR_CASE_SOILS_MAX]; /* of each soil of this case: the region of the run with its name; -1: none */
+    mor_shape *excavations[MOR_CASE_EXCAVATIONS_MAX]; /* whose soil is not taken over; owned by the case */
+    mor_case_shape excavation_outlines[MOR_CASE_EXCAVATIONS_MAX]; /* what they were built from; owned by the case */
+    int n_excavations;
+} mor_case_stage;
+
 /** What to write. */
 typedef struct mor_case_output {
     int n_snapshots;           /* snapshots after the initial one, evenly spaced */
@@ -439,6 +451,7 @@ typedef struct mor_case_output {
 typedef struct mor_case {
     char path[MOR_CASE_TEXT_BYTES];
     char title[MOR_CASE_TEXT_BYTES];
+    mor_case_stage stage;
     int dimension;            /* 2 (plane strain in x, y) or 3 */
     double spacing;           /* m */
     double lattice_origin[3]; /* a lattice node, m */
@@ -480,6 +493,13 @@ typedef struct mor_case {
     int n_expectations;
     mor_case_output output;
 } mor_case;
+
+/** Whether the particles of a soil region come from the run that a case starts from.
+ *  @param soil [in]  index of the region */
+static inline bool mor_case_takes_over(const mor_case *the_case, int soil)
+{
+    return the_case->stage.run[0] != '\0' && the_case->stage.region_of[soil] >= 0;
+}
 
 /** Frees what a case owns, unloads its plug-ins and zeroes it. What was made from its models is gone before.
  *  @param the_case [in,out]  read or zeroed */

@@ -58,6 +58,10 @@ void mor_case_clear(mor_context *context, mor_case *the_case)
         mor_case_shape_clear(context, &body->clamp_outline);
         MOR_FREE(context, &body->path.rows);
     }
+    for (int k = 0; k < the_case->stage.n_excavations; ++k) {
+        mor_shape_free(context, &the_case->stage.excavations[k]);
+        mor_case_shape_clear(context, &the_case->stage.excavation_outlines[k]);
+    }
     MOR_FREE(context, &the_case->bodies);
     for (int k = 0; k < the_case->n_rocks; ++k) {
         clear_rocks(context, &the_case->rocks[k]); /* after the bodies, which view their shapes */

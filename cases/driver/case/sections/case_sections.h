@@ -69,6 +69,11 @@ mor_status mor_case_reader_frictions(const mor_case_reader *reader, const mor_ca
 mor_status mor_case_reader_formulas(const mor_case_reader *reader, const mor_case_node *owner, const char *name,
                                     const char *what, int n, char (*formulas)[MOR_CASE_TEXT_BYTES]);
 
+/** Reads the run that a case starts from, and compares both.
+ *  @param the_case [in,out]  its soils and settings are read
+ *  Returns: MOR_OK, also when there is none; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_stage(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
 /** Reads the group path of a wall or a body.
  *  @param owner [in]      its group
  *  @param path  [in,out]  zeroed before; owned by the case, also after a failure

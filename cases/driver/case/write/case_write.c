@@ -582,11 +582,28 @@ static void write_plugins(mor_case_writer *w, const mor_case *the_case)
     mor_case_writer_close(w, ");");
 }
 
+static mor_case_presence presence_of_root_key(const mor_case_key *key, const void *record)
+{
+    const mor_case *the_case = record;
+    const bool is_idle = strcmp(key->schema.key, "start_from") == 0 && the_case->stage.run[0] == '\0';
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+/* What of the run before is taken over; a run that has changed is recognized by the line of its hash. */
+static mor_status write_stage(mor_case_writer *w, const mor_case_stage *stage)
+{
+    write_hash(w, stage->hash);
+    return stage->n_excavations == 0
+               ? MOR_OK
+               : write_shape_list(w, "excavate", stage->excavation_outlines, stage->n_excavations);
+}
+
 static mor_status write_case(mor_case_writer *w, const mor_case *the_case)
 {
     fprintf(w->stream, "# The case as it was used: every value, in SI, before the scale. \"# default\" marks what the "
                        "case file\n# did not give.\n");
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, mor_case_presence_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, presence_of_root_key));
+    MOR_TRY(w->reader.context, write_stage(w, &the_case->stage));
     write_plugins(w, the_case);
     for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
         mor_case_writer_open(w, group->name, "{");

@@ -5,6 +5,7 @@
 #include "cases/driver/case/schema/case_schema.h"
 #include "cases/driver/probe/probe_track.h"
 #include "cases/driver/scene/build/simulation_relax.h"
+#include "cases/driver/scene/build/simulation_stage.h"
 #include "cases/driver/scene/check/narrow_gaps.h"
 #include "cases/driver/scene/check/simulation_check.h"
 #include "cases/driver/scene/simulation_motion.h"
@@ -286,20 +287,34 @@ static mor_status build_bodies(mor_context *context, mor_simulation *simulation,
                                       simulation->has_soil ? 1 : 0);
 }
 
-static mor_status build_soil(mor_context *context, mor_simulation *simulation)
+/* Soil that is taken over from another run is not relaxed again. */
+static mor_status fill_regions(mor_context *context, mor_simulation *simulation, mor_taken_soil *taken,
+                               mor_lattice_points *regions)
+{
+    const mor_case *c = simulation->the_case;
+    int64_t n_particles = 0;
+    MOR_TRY(context, create_materials(context, simulation));
+    MOR_TRY(context, mor_taken_soil_open(context, c, taken));
+    for (int pass = 0; pass < 2; ++pass) { /* new soil is filled around what was taken over */
+        for (int k = 0; k < c->n_soils; ++k) {
+            if (mor_taken_soil_has(taken, k) == (pass == 0)) {
+                MOR_TRY(context, mor_simulation_fill_soil(context, c, k, n_particles, taken, &regions[k]));
+                n_particles += regions[k].n_points;
+            }
+        }
+    }
+    return taken->the_case != NULL ? MOR_OK : mor_simulation_relax_soil(context, simulation, regions);
+}
+
+static mor_status build_soil_with(mor_context *context, mor_simulation *simulation, mor_taken_soil *taken)
 {
     const mor_case *c = simulation->the_case;
     mor_lattice_points regions[MOR_CASE_SOILS_MAX] = {{NULL, 0}};
     mor_soil_settings settings;
     mor_soil_kind kinds[MOR_CASE_SOILS_MAX];
     int64_t n_particles = 0;
-    mor_status status = create_materials(context, simulation);
-    for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
-        status = mor_simulation_fill_soil(context, c, k, n_particles, &regions[k]);
-        n_particles += regions[k].n_points;
-    }
+    mor_status status = fill_regions(context, simulation, taken, regions);
     if (status == MOR_OK) {
-        status = mor_simulation_relax_soil(context, simulation, regions);
         n_particles = count_points(regions, c->n_soils);
     }
     if (status == MOR_OK) {
@@ -312,6 +327,10 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation)
     if (status == MOR_OK) {
         status = set_particles(context, simulation, regions);
     }
+    if (status == MOR_OK && taken->the_case != NULL) {
+        status = place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil));
+        status = status == MOR_OK ? mor_taken_soil_apply(context, taken, simulation) : status;
+    }
     for (int k = 0; k < c->n_soils; ++k) {
         mor_lattice_clear(context, &regions[k]);
     }
@@ -320,9 +339,19 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation)
     }
     MOR_TRY(context, status);
     MOR_TRY(context, add_walls(context, simulation));
-    MOR_TRY(context, place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil)));
+    if (taken->the_case == NULL) {
+        MOR_TRY(context, place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil)));
+    }
     mor_soil_sort(&simulation->soil);
     return mor_simulation_has_relaxed_soil(c) ? mor_soil_normalize(context, &simulation->soil) : MOR_OK;
+}
+
+static mor_status build_soil(mor_context *context, mor_simulation *simulation)
+{
+    mor_taken_soil taken = {.the_case = NULL};
+    const mor_status status = build_soil_with(context, simulation, &taken);
+    mor_taken_soil_close(context, &taken);
+    return status;
 }
 
 static mor_status build_schedule(mor_context *context, mor_simulation *simulation)
@@ -388,6 +417,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     }
     if (status == MOR_OK) {
         status = list_state(context, simulation);
+    }
+    if (status == MOR_OK) {
+        status = mor_simulation_take_bodies(context, simulation);
     }
     if (status != MOR_OK) {
         mor_simulation_clear(context, simulation);
