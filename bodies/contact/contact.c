@@ -235,21 +235,6 @@ static mor_status make_lists(mor_context *context, mor_contact *contact)
     return MOR_OK;
 }
 
-static void move_walls(mor_contact *contact, double time)
-{
-    double fastest = 0.0;
-    for (int w = 0; w < contact->n_walls; ++w) {
-        mor_contact_wall *wall = &contact->walls[w];
-        fastest = fmax(fastest, mor_contact_wall_speed(wall));
-        wall->is_removed = wall->removed_at > 0.0 && time >= wall->removed_at;
-        if (wall->motion != NULL) {
-            mor_motion_find(wall->motion, time, &wall->pose);
-        }
-    }
-    contact->work->wall_travel += fastest * fabs(time - contact->time);
-    contact->time = time;
-}
-
 static mor_status make_all(mor_context *context, mor_contact *contact, const mor_contact_wall *walls)
 {
     MOR_TRY(context, MOR_NEW(context, &contact->work, 1, "contact"));
@@ -257,7 +242,7 @@ static mor_status make_all(mor_context *context, mor_contact *contact, const mor
     for (int w = 0; w < contact->n_walls; ++w) {
         contact->walls[w] = walls[w];
     }
-    move_walls(contact, 0.0);
+    mor_contact_move_walls(contact, 0.0);
     MOR_TRY(context, list_bodies(context, contact));
     MOR_TRY(context, make_lists(context, contact));
     MOR_TRY(context, make_history(context, contact));
@@ -415,7 +400,7 @@ static void clear_forces(mor_contact *contact, uint64_t members)
 void mor_contact_resume(mor_contact *contact, double time)
 {
     mor_contact_work *work = contact->work;
-    move_walls(contact, time);
+    mor_contact_move_walls(contact, time);
     work->is_warm = false;
     work->n_held = 0;
     work->n_hit = 0;
@@ -428,7 +413,7 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     mor_contact *contact = owner;
     mor_contact_work *work = contact->work;
     clear_forces(contact, members);
-    move_walls(contact, step->time + 0.5 * step->length);
+    mor_contact_move_walls(contact, step->time + 0.5 * step->length);
     mor_contact_observe(context, contact, members);
     MOR_TRY(context, mor_contact_search(context, contact, members));
     MOR_PARALLEL_FOR (context, k, work->n_touches, TOUCHES_PER_CHUNK) {
@@ -439,7 +424,7 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     }
     mor_contact_apply_forces(contact, members, step->length);
     MOR_TRY(context, mor_contact_check_depth(context, contact));
-    move_walls(contact, step->time + step->length);
+    mor_contact_move_walls(contact, step->time + step->length);
     return MOR_OK;
 }
 

@@ -25,17 +25,17 @@ typedef struct mor_contact_law {
 /** A wall as bodies see it. */
 typedef struct mor_contact_wall {
     char name[MOR_CONTACT_NAME_BYTES];
-    const mor_shape *shape; /* level set in the frame of the case; borrowed */
-    double rotation[9];     /* shape [3,3]; frame of the case to frame of the run, 1 */
-    double translation[3];  /* likewise, m */
-    double velocity[3];     /* frame of the run, m/s; zero with a motion */
+    const mor_shape *shape;   /* level set in the frame of the case; borrowed */
+    double rotation[9];       /* shape [3,3]; frame of the case to frame of the run, 1 */
+    double translation[3];    /* likewise, m */
+    double velocity[3];       /* frame of the run, m/s; zero with a motion */
     const mor_motion *motion; /* frame of the run; borrowed, outlives the contact; NULL: the velocity above */
-    double removed_at;      /* time from which the wall is not there any more, s; 0: it stays */
-    double fastest;         /* with a motion: bound of the speed of its points near bodies at any time, m/s */
-    mor_pose pose;          /* [by the contact] at the present time, where there is a motion */
-    bool is_removed;        /* [by the contact] at the present time */
-    double modulus;         /* Young's modulus of its surface; 0: it does not yield, Pa */
-    double poisson;         /* Poisson's ratio of it, 0 <= nu < 0.5, 1 */
+    double removed_at;        /* time from which the wall is not there any more, s; 0: it stays */
+    double fastest;           /* with a motion: bound of the speed of its points near bodies at any time, m/s */
+    mor_pose pose;            /* [by the contact] at the present time, where there is a motion */
+    bool is_removed;          /* [by the contact] at the present time */
+    double modulus;           /* Young's modulus of its surface; 0: it does not yield, Pa */
+    double poisson;           /* Poisson's ratio of it, 0 <= nu < 0.5, 1 */
     int joined_to;          /* index, plus one, of the wall before it with which it makes one face: bodies touch both as
                              * that one; 0: none. Both move alike, yield alike and have the default law */
     const mor_shape *whole; /* union of the shapes of a wall and those joined to it; borrowed; NULL: shape is all */

@@ -540,26 +540,6 @@ static void clear_sums(mor_contact *contact, uint64_t members)
     work->n_kept_pairs = 0;
 }
 
-/* Energy that springs against removed sides had stored is lost with them. */
-static void release_removed(mor_contact *contact, uint64_t members)
-{
-    const mor_contact_work *work = contact->work;
-    int64_t pair = 0;
-    for (int first = 0; first < work->n_bodies && contact->pair_spring != NULL; ++first) {
-        const bool is_member = (contact->stepper_bits[work->bodies[first].group_index] & members) != 0;
-        for (int second = first + 1; second < work->n_bodies + contact->n_walls; ++second, ++pair) {
-            const bool is_wall = second >= work->n_bodies;
-            if (!is_member || (!is_wall && (contact->stepper_bits[work->bodies[second].group_index] & members) == 0)) {
-                continue;
-            }
-            if (!mor_contact_is_side(contact, first) || !mor_contact_is_side(contact, second)) {
-                contact->damping_energy += contact->pair_spring[pair];
-            }
-            contact->pair_spring[pair] = 0.0;
-        }
-    }
-}
-
 void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t members, double *force)
 {
     memset(force, 0, 3 * sizeof *force);
@@ -583,43 +563,16 @@ void mor_contact_add_sums(mor_contact *contact)
     }
 }
 
-/* Power of the members' bodies on a wall with a motion, W (W/m). */
-static double find_motion_power(const mor_contact *contact, int w, uint64_t members)
-{
-    const mor_pose *pose = &contact->walls[w].pose;
-    double power = 0.0;
-    for (int g = 0; g < contact->n_groups; ++g) {
-        const int64_t entry = 3 * ((int64_t)g * contact->n_walls + w);
-        if ((contact->stepper_bits[g] & members) != 0) {
-            power += mor_vector_dot(contact->wall_force + entry, pose->velocity) +
-                     mor_vector_dot(contact->wall_moment + entry, pose->angular_velocity);
-        }
-    }
-    return power;
-}
-
-/* Work of the members' bodies on walls that move as prescribed. */
-static void add_wall_energy(mor_contact *contact, uint64_t members, double length)
-{
-    for (int w = 0; w < contact->n_walls; ++w) {
-        double force[3];
-        mor_contact_wall_force(contact, w, members, force);
-        contact->wall_energy += contact->walls[w].motion != NULL
-                                    ? find_motion_power(contact, w, members) * length
-                                    : mor_vector_dot(force, contact->walls[w].velocity) * length;
-    }
-}
-
 void mor_contact_apply_forces(mor_contact *contact, uint64_t members, double length)
 {
     mor_contact_list_history(contact);
     clear_sums(contact, members);
-    release_removed(contact, members);
+    mor_contact_release_removed(contact, members);
     mor_contact_count_pairs(contact);
     for (int k = 0; k < contact->work->n_active; ++k) {
         apply_to_pair(contact, k, length);
     }
     mor_contact_release_history(contact, members);
-    add_wall_energy(contact, members, length);
+    mor_contact_add_wall_energy(contact, members, length);
     mor_contact_add_sums(contact);
 }

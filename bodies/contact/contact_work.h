@@ -419,6 +419,19 @@ static inline bool mor_contact_is_side(const mor_contact *contact, int side)
     return wall->joined_to == 0 && !wall->is_removed;
 }
 
+/** Moves all walls to where they are at a time, and takes away those that are removed by then.
+ *  @param time    [in]      unit s */
+void mor_contact_move_walls(mor_contact *contact, double time);
+
+/** Adds the work of the members' bodies on walls that move as prescribed.
+ *  @param members [in]      bits of steppers
+ *  @param length  [in]      of the sub-step, unit s */
+void mor_contact_add_wall_energy(mor_contact *contact, uint64_t members, double length);
+
+/** Counts the energy that springs against removed sides had stored as lost, and clears that of the members' pairs.
+ *  @param members [in]      bits of steppers */
+void mor_contact_release_removed(mor_contact *contact, uint64_t members);
+
 /** Velocity of the point of a wall at a place.
  *  @param place    [in]   shape [3], unit m
  *  @param velocity [out]  shape [3], unit m/s */

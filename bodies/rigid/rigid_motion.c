@@ -96,8 +96,9 @@ void mor_rigid_place(mor_context *context, mor_rigid *rigid, mor_view *view)
         const double radius = rigid->work->constants[piece->body].outermost;
         const bool is_removed = rigid->states[piece->body].removed > 0.0;
         place_piece(group, piece, position, velocity);
-        group->piece_stray[p] =
-            is_removed || is_well_inside(group, &group->bodies[piece->body], radius) ? -1 : find_stray(group, piece, position);
+        group->piece_stray[p] = is_removed || is_well_inside(group, &group->bodies[piece->body], radius)
+                                    ? -1
+                                    : find_stray(group, piece, position);
     }
 }
 

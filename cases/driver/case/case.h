@@ -162,7 +162,7 @@ typedef struct mor_case_soil {
     /* Formulas of a place in the frame of the case in m, before the scale; "": none. */
     char velocity_formula[3][MOR_CASE_TEXT_BYTES]; /* initial velocity in place of the above, m/s */
     char stress_formula[6][MOR_CASE_TEXT_BYTES];   /* initial stress: xx, yy, zz, xy, yz, zx; tension positive, Pa */
-    bool is_relaxed;                            /* filled with relaxed particles, else with those of the lattice */
+    bool is_relaxed;                               /* filled with relaxed particles, else with those of the lattice */
     mor_case_stress initial_stress;
     double pressure;           /* of a uniform initial stress, Pa */
     double lateral_ratio;      /* K0 of the initial stress; < 0: 1 - sin(friction angle) */
@@ -205,14 +205,15 @@ typedef struct mor_case_frictions {
 /** Prescribed motion over time of a wall or a body; the numbers of its file are in rows, too. */
 typedef struct mor_case_path {
     mor_case_place place;
-    double point[3];                /* of the axis of rotation, frame of the case, m; NaN: the origin, of a
+    double point[3]; /* of the axis of rotation, frame of the case, m; NaN: the origin, of a
                                      * body its center of mass */
-    double axis[3];                 /* any length but zero, 1 */
-    bool is_smooth;                 /* between rows, else linear */
-    char file[MOR_CASE_TEXT_BYTES]; /* path of a table; as given, or absolute where it exists; "": rows are in the case */
-    uint64_t file_hash;             /* of the content of that file; 0: there is none */
-    mor_motion_row *rows;           /* shape [n_rows]; owned */
-    int n_rows;                     /* 0: there is no path */
+    double axis[3];  /* any length but zero, 1 */
+    bool is_smooth;  /* between rows, else linear */
+    char file
+        [MOR_CASE_TEXT_BYTES]; /* path of a table; as given, or absolute where it exists; "": rows are in the case */
+    uint64_t file_hash;        /* of the content of that file; 0: there is none */
+    mor_motion_row *rows;      /* shape [n_rows]; owned */
+    int n_rows;                /* 0: there is no path */
     uint64_t written;
 } mor_case_path;
 
@@ -427,11 +428,11 @@ typedef struct mor_case_expectation {
 
 /** A run before, whose end this one starts from. */
 typedef struct mor_case_stage {
-    char run[MOR_CASE_TEXT_BYTES];     /* its folder; absolute; "": this one starts from the case alone */
+    char run[MOR_CASE_TEXT_BYTES]; /* its folder; absolute; "": this one starts from the case alone */
     mor_case_place place;
     uint64_t hash;                     /* of the content of its checkpoint */
     int region_of[MOR_CASE_SOILS_MAX]; /* of each soil of this case: the region of the run with its name; -1: none */
-    mor_shape *excavations[MOR_CASE_EXCAVATIONS_MAX]; /* whose soil is not taken over; owned by the case */
+    mor_shape *excavations[MOR_CASE_EXCAVATIONS_MAX];             /* whose soil is not taken over; owned by the case */
     mor_case_shape excavation_outlines[MOR_CASE_EXCAVATIONS_MAX]; /* what they were built from; owned by the case */
     int n_excavations;
 } mor_case_stage;

@@ -141,7 +141,8 @@ static mor_status check_unit(const table *t, const cell *head, int kind, const c
     char one[CELL_BYTES + 4];
     double factor = 0.0;
     snprintf(one, sizeof one, "1 %s", unit);
-    if (unit[0] == '\0' || mor_units_convert(t->context, t->units, one, t->spec->columns[kind].unit, &factor) == MOR_OK) {
+    if (unit[0] == '\0' ||
+        mor_units_convert(t->context, t->units, one, t->spec->columns[kind].unit, &factor) == MOR_OK) {
         return MOR_OK;
     }
     char why[MOR_CONTEXT_MESSAGE_BYTES];
@@ -289,7 +290,8 @@ static mor_status read_rows(table *t, mor_column_table *out)
     MOR_TRY(t->context, read_header(t));
     while (find_line(t)) {
         if (out->n_rows == spec->rows_max) {
-            return CELL_FAIL(t, t->at, "found more than %d rows, one for each %s; allowed: at most these; shorten the "
+            return CELL_FAIL(t, t->at,
+                             "found more than %d rows, one for each %s; allowed: at most these; shorten the "
                              "table",
                              spec->rows_max, spec->row);
         }

@@ -14,10 +14,8 @@ static const mor_column in_space[N_COLUMNS] = {{"x", "m", false, true},
                                                {"z", "m", false, true},
                                                {"diameter", "m", true, true},
                                                {"density", "kg/m3", true, false}};
-static const mor_column in_plane[N_COLUMNS - 1] = {{"x", "m", false, true},
-                                                   {"y", "m", false, true},
-                                                   {"diameter", "m", true, true},
-                                                   {"density", "kg/m3", true, false}};
+static const mor_column in_plane[N_COLUMNS - 1] = {
+    {"x", "m", false, true}, {"y", "m", false, true}, {"diameter", "m", true, true}, {"density", "kg/m3", true, false}};
 
 static mor_column_spec find_spec(int dimension)
 {

@@ -63,7 +63,7 @@ typedef struct gallery {
     mor_bounds frame;
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
     mor_motion motions[MOR_CASE_WALLS_MAX]; /* of walls on a path */
-    double *light[MOR_CASE_WALLS_MAX]; /* shape [its points]; of terrain, NULL for others */
+    double *light[MOR_CASE_WALLS_MAX];      /* shape [its points]; of terrain, NULL for others */
     bool is_structure[MOR_CASE_WALLS_MAX];
     bool is_hiding[MOR_CASE_WALLS_MAX]; /* a transparent structure */
     bool is_ground[MOR_CASE_WALLS_MAX];
@@ -169,8 +169,8 @@ static mor_status read_layers(mor_context *context, gallery *g, const mor_snapsh
     for (int k = 0; k < snapshot->n_sets; ++k) {
         const bool is_soil = strcmp(snapshot->sets[k].name, MOR_PICTURE_SOIL_SET) == 0;
         if (snapshot->sets[k].n_particles > 0) {
-            g->layers[g->n_layers++] = (layer){
-                .set = &snapshot->sets[k], .n = snapshot->sets[k].n_particles, .is_soil = is_soil};
+            g->layers[g->n_layers++] =
+                (layer){.set = &snapshot->sets[k], .n = snapshot->sets[k].n_particles, .is_soil = is_soil};
             g->has_soil = g->has_soil || is_soil;
         }
     }

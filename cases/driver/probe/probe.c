@@ -3,6 +3,7 @@
 #include "cases/driver/probe/probe_row_internal.h"
 
 #include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
@@ -312,33 +313,6 @@ static mor_status wall_impulse(mor_context *context, const view *v, double *valu
     return of_wall(context, v, v->simulation->soil.wall_impulse, value);
 }
 
-/* Least distance from the shape of a wall where it is at a time. */
-static void find_wall_gap(const view *v, int w, double time, double *gap)
-{
-    const mor_case *c = v->simulation->the_case;
-    const double *position = v->points.position;
-    const mor_motion *motion = &v->simulation->wall_motions[w];
-    mor_pose pose;
-    double velocity[3];
-    double translation[3];
-    mor_matrix_apply(c->rotation, c->walls[w].velocity, velocity);
-    for (int a = 0; a < 3; ++a) {
-        translation[a] = c->translation[a] + time * velocity[a];
-    }
-    if (motion->n_rows > 0) {
-        mor_motion_find(motion, time, &pose);
-    }
-    for (int64_t i = 0; i < v->points.n_points; ++i) {
-        double start[3];
-        const double *place = position + 3 * i;
-        if (motion->n_rows > 0) {
-            mor_pose_take_back(&pose, place, start);
-            place = start;
-        }
-        *gap = fmin(*gap, mor_simulation_placed_distance(c->walls[w].shape, c->rotation, translation, place));
-    }
-}
-
 /* Least distance of a soil particle from the shape of a wall, which moves with its velocity. */
 static mor_status wall_gap(mor_context *context, const view *v, double *value)
 {
@@ -346,8 +320,7 @@ static mor_status wall_gap(mor_context *context, const view *v, double *value)
     const double time = mor_schedule_time(&v->simulation->schedule);
     for (int w = 0; w < c->n_walls; ++w) {
         if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
-            *value = INFINITY;
-            find_wall_gap(v, w, time, value);
+            *value = mor_simulation_wall_gap(v->simulation, w, time, v->points.position, v->points.n_points);
             return MOR_OK;
         }
     }

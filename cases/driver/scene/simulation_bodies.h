@@ -25,7 +25,7 @@ typedef struct mor_simulation_bodies {
     int n_groups;
     mor_simulation_body of[MOR_CASE_BODIES_MAX]; /* by number of the body in the case */
     mor_contact contact;
-    mor_motion *motions;                   /* shape [n_motions]; of bodies on a path; NULL: none is; owned */
+    mor_motion *motions; /* shape [n_motions]; of bodies on a path; NULL: none is; owned */
     int n_motions;
     mor_shape *wholes[MOR_CASE_WALLS_MAX]; /* of walls that make one face with others; owned */
     bool has_contact;
@@ -35,11 +35,11 @@ typedef struct mor_simulation_bodies {
 
 /** What the bodies need to know of the case in the frame of the run. */
 typedef struct mor_simulation_frame {
-    double gravity[3];          /* m/s2 */
-    double domain_minimum[3];   /* m, in the frame of the case */
-    double domain_maximum[3];   /* likewise */
-    mor_domain_frame placement; /* the placement of the case */
-    bool is_placed;             /* whether that rotates or translates anything */
+    double gravity[3];              /* m/s2 */
+    double domain_minimum[3];       /* m, in the frame of the case */
+    double domain_maximum[3];       /* likewise */
+    mor_domain_frame placement;     /* the placement of the case */
+    bool is_placed;                 /* whether that rotates or translates anything */
     const mor_motion *wall_motions; /* shape [walls of the case]; prescribed; without rows: none; borrowed */
 } mor_simulation_frame;
 

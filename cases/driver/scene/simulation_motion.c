@@ -93,3 +93,18 @@ bool mor_simulation_wall_moves(const mor_case_wall *wall)
 {
     return mor_vector_length(wall->velocity) > 0.0 || wall->path.n_rows > 0;
 }
+
+double mor_simulation_wall_gap(const mor_simulation *simulation, int wall, double time, const double *positions,
+                               int64_t n)
+{
+    const mor_case *c = simulation->the_case;
+    double gap = INFINITY;
+    mor_pose pose;
+    mor_simulation_pose_wall(c, wall, &simulation->wall_motions[wall], time, &pose);
+    for (int64_t i = 0; i < n; ++i) {
+        double start[3];
+        mor_pose_take_back(&pose, positions + 3 * i, start);
+        gap = fmin(gap, mor_simulation_placed_distance(c->walls[wall].shape, c->rotation, c->translation, start));
+    }
+    return gap;
+}

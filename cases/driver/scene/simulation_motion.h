@@ -6,8 +6,12 @@
 #include "cases/driver/case/case.h"
 #include "core/geometry/motion.h"
 
+#include <stdint.h>
+
 /** @file
  *  Prescribed motions of a case in the frame of the run, and which of its walls are there at a time. */
+
+struct mor_simulation; /* cases/driver/scene/simulation.h */
 
 /** Makes the motion of a path in the frame of the run.
  *  @param path   [in]   of the case
@@ -33,6 +37,12 @@ void mor_simulation_clear_wall_motions(mor_context *context, mor_motion *motions
  *  @param pose   [out]  one pose */
 void mor_simulation_pose_wall(const mor_case *the_case, int wall, const mor_motion *motion, double time,
                               mor_pose *pose);
+
+/** Least distance of points from a wall where it is at a time, unit m; infinite without points.
+ *  @param positions [in]  shape [n, 3], unit m
+ *  @param n         [in]  number of points */
+double mor_simulation_wall_gap(const struct mor_simulation *simulation, int wall, double time, const double *positions,
+                               int64_t n);
 
 /** Bound of the speed that a wall has within the domain, unit m/s.
  *  @param motion [in]  of the wall */

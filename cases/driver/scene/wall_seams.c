@@ -123,10 +123,10 @@ static bool move_alike(const mor_case_path *a, const mor_case_path *b)
 {
     const size_t n_bytes = (size_t)a->n_rows * sizeof *a->rows;
     return a->n_rows == b->n_rows &&
-           (a->n_rows == 0 || (a->is_smooth == b->is_smooth && memcmp(a->rows, b->rows, n_bytes) == 0 &&
-                               (memcmp(a->point, b->point, sizeof a->point) == 0 ||
-                                (isnan(a->point[0]) && isnan(b->point[0]))) &&
-                               memcmp(a->axis, b->axis, sizeof a->axis) == 0));
+           (a->n_rows == 0 ||
+            (a->is_smooth == b->is_smooth && memcmp(a->rows, b->rows, n_bytes) == 0 &&
+             (memcmp(a->point, b->point, sizeof a->point) == 0 || (isnan(a->point[0]) && isnan(b->point[0]))) &&
+             memcmp(a->axis, b->axis, sizeof a->axis) == 0));
 }
 
 /* Whether contact with the surfaces of two walls is the same. */
@@ -134,8 +134,8 @@ static bool are_alike(const mor_case *c, const mor_case_wall *a, const mor_case_
 {
     return memcmp(a->velocity, b->velocity, sizeof a->velocity) == 0 && move_alike(&a->path, &b->path) &&
            (a->removed_at == b->removed_at || (isnan(a->removed_at) && isnan(b->removed_at))) &&
-           a->contact_modulus == b->contact_modulus &&
-           a->contact_poisson == b->contact_poisson && !has_own_law(c, a->name) && !has_own_law(c, b->name);
+           a->contact_modulus == b->contact_modulus && a->contact_poisson == b->contact_poisson &&
+           !has_own_law(c, a->name) && !has_own_law(c, b->name);
 }
 
 /* The union of the shapes of a wall and all that are joined to it. */

@@ -81,29 +81,29 @@ typedef struct mor_soil_contact {
     double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     mor_tree tree;
-    mor_relation relation;   /* soil -> boundary */
-    mor_pair_slot *slots;    /* shape [capacity]; by rising cluster, then patch */
-    int32_t *first_slot;     /* shape [n_soil_clusters + 1]; of each occupied cluster, and one past the last */
-    int32_t *patch_slots;    /* shape [capacity]; slots by patch, rising */
-    int32_t *first_of_patch; /* shape [n_patches + 1]; where each patch begins in patch_slots */
-    int64_t n_slots;         /* slots in use */
-    double velocity[3];      /* of a wall that does not rotate, m/s */
+    mor_relation relation;    /* soil -> boundary */
+    mor_pair_slot *slots;     /* shape [capacity]; by rising cluster, then patch */
+    int32_t *first_slot;      /* shape [n_soil_clusters + 1]; of each occupied cluster, and one past the last */
+    int32_t *patch_slots;     /* shape [capacity]; slots by patch, rising */
+    int32_t *first_of_patch;  /* shape [n_patches + 1]; where each patch begins in patch_slots */
+    int64_t n_slots;          /* slots in use */
+    double velocity[3];       /* of a wall that does not rotate, m/s */
     const mor_motion *motion; /* of a wall; borrowed; NULL: the velocity above at all times */
-    bool rotates;            /* a wall whose points have velocities of their own */
-    double removed_at;       /* of a wall, s; 0: it stays */
-    int n_removed;           /* patches that were not there when the lists were built, 1 */
-    double *mean_velocity;   /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: a wall that does not rotate */
-    double *sums;            /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
-    double *stick;           /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *acceleration;    /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
+    bool rotates;             /* a wall whose points have velocities of their own */
+    double removed_at;        /* of a wall, s; 0: it stays */
+    int n_removed;            /* patches that were not there when the lists were built, 1 */
+    double *mean_velocity;    /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: a wall that does not rotate */
+    double *sums;             /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
+    double *stick;            /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
+    double *acceleration;     /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
                               * patch has its own part in, m/s2 */
-    double *divergence;      /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
+    double *divergence;       /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
                                * NULL with uniform stress */
-    double *given;           /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
-    double *repulsion;       /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
-    double *barrier_steps;   /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
-    int64_t capacity;        /* slots that the arrays above have room for */
-    int dimension;           /* 2 or 3 */
+    double *given;            /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
+    double *repulsion;        /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
+    double *barrier_steps;    /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
+    int64_t capacity;         /* slots that the arrays above have room for */
+    int dimension;            /* 2 or 3 */
     mor_wall_stress stress;
     mor_soil_barrier barrier;
     double longest_step; /* that the barrier allowed in the last step, s; infinite without */

@@ -358,8 +358,8 @@ const mor_case_group mor_case_material_group = {"material", "Material of a soil 
 const mor_case_group mor_case_external_group = {"material", "Material of a soil region by a law of another program",
                                                 external_keys, external_parts,
                                                 offsetof(mor_case_soil, written_material)};
-const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys, stress_parts,
-                                              offsetof(mor_case_soil, written_stress)};
+const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys,
+                                              stress_parts, offsetof(mor_case_soil, written_stress)};
 const mor_case_group mor_case_wall_group = {"walls", "Walls (list)", wall_keys, wall_parts,
                                             offsetof(mor_case_wall, written)};
 

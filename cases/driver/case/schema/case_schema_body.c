@@ -74,7 +74,8 @@ static const mor_case_key body_keys[] = {
      MOR_CASE_STORE_REALS,
      BODY(contact_poisson)},
     {{"motion", CHOICE, "1", DEFAULT(0.0), ANY, "free|prescribed",
-      "of a rigid body; free: as forces move it; prescribed: with constant velocity and angular_velocity, or on a path, "
+      "of a rigid body; free: as forces move it; prescribed: with constant velocity and angular_velocity, or on a "
+      "path, "
       "whatever the forces"},
      MOR_CASE_STORE_BOOL,
      BODY(is_prescribed)},

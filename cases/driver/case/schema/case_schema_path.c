@@ -27,7 +27,8 @@ static const mor_case_key path_keys[] = {
      MOR_CASE_STORE_BOOL,
      PATH(is_smooth)},
     {{"file", WORDS, "1", DEFAULT(0.0), ANY, NULL,
-      "table of comma-separated values with the columns time, x, y, z, angle, each with its unit, as \"time [s]\"; time "
+      "table of comma-separated values with the columns time, x, y, z, angle, each with its unit, as \"time [s]\"; "
+      "time "
       "and one other are needed; path from the folder of the case file; in place of table"},
      MOR_CASE_STORE_TEXT,
      PATH(file)},

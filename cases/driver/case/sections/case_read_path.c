@@ -60,9 +60,9 @@ static mor_status take_rows(const mor_case_reader *reader, const mor_column_tabl
         const double *values = table->values + (int64_t)k * n_columns;
         mor_motion_row *row = &path->rows[path->n_rows++];
         const double z = n_columns > Z ? values[Z] : 0.0;
-        *row = (mor_motion_row){
-            values[TIME], {value_or_zero(values[X]), value_or_zero(values[Y]), value_or_zero(z)},
-            value_or_zero(values[ANGLE])};
+        *row = (mor_motion_row){values[TIME],
+                                {value_or_zero(values[X]), value_or_zero(values[Y]), value_or_zero(z)},
+                                value_or_zero(values[ANGLE])};
         MOR_CHECK(reader->context, row->time >= 0.0, MOR_ERROR_CONFIG,
                   "%s: found the time %.9g s in row %d behind the headings; allowed: >= 0 s, since the start of the "
                   "run; correct it",
@@ -86,10 +86,8 @@ static mor_status read_file(const mor_case_reader *reader, const mor_case_node *
                                   .row = "time",
                                   .remark = reader->dimension == 2 ? " (plane strain has no z)" : ""};
     mor_column_table table;
-    MOR_TRY(reader->context,
-            mor_case_reader_locate(reader, node, "a table of a motion", path->file, &path->file_hash));
-    MOR_TRY(reader->context,
-            mor_column_table_read(reader->context, reader->units, path->file, &spec, &table));
+    MOR_TRY(reader->context, mor_case_reader_locate(reader, node, "a table of a motion", path->file, &path->file_hash));
+    MOR_TRY(reader->context, mor_column_table_read(reader->context, reader->units, path->file, &spec, &table));
     const mor_status status = take_rows(reader, &table, spec.n_columns, path);
     mor_column_table_clear(reader->context, &table);
     return status;
@@ -168,7 +166,6 @@ mor_status mor_case_reader_path(const mor_case_reader *reader, const mor_case_no
     }
     MOR_TRY(reader->context, check_keys(reader, owner, node));
     MOR_TRY(reader->context, mor_case_reader_list(reader, node, "table", MOR_CASE_PATH_ROWS_MAX, &list));
-    MOR_TRY(reader->context,
-            list != NULL ? read_rows(reader, list, path) : read_file(reader, node, path));
+    MOR_TRY(reader->context, list != NULL ? read_rows(reader, list, path) : read_file(reader, node, path));
     return check_path(reader, node, path);
 }

@@ -93,8 +93,7 @@ static mor_status check_stress_weight(const mor_case_reader *reader, const mor_c
                                       const mor_case *the_case, const mor_case_soil *soil)
 {
     if (soil->initial_stress == MOR_CASE_STRESS_NONE || soil->initial_stress == MOR_CASE_STRESS_UNIFORM ||
-        soil->initial_stress == MOR_CASE_STRESS_FORMULA ||
-        mor_vector_length(the_case->gravity) > 0.0) {
+        soil->initial_stress == MOR_CASE_STRESS_FORMULA || mor_vector_length(the_case->gravity) > 0.0) {
         return MOR_OK;
     }
     const mor_case_node *type = mor_case_node_find(node, "type");

@@ -62,8 +62,8 @@ static const char *text_of(const mor_case_node *node)
 }
 
 /* Finds the region of the run that has the name of a soil, and compares their laws. */
-static mor_status find_region(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case, int soil,
-                              const mor_case_node *soils, int *region)
+static mor_status find_region(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                              int soil, const mor_case_node *soils, int *region)
 {
     const mor_case_soil *it = &the_case->soils[soil];
     int index = 0;
@@ -175,8 +175,8 @@ static mor_status locate_run(const mor_case_reader *reader, const mor_case_node 
                                   "found a path of %d letters to a run; allowed: fewer than %d; shorten it", n,
                                   (int)sizeof file);
     }
-    MOR_TRY(reader->context,
-            mor_case_reader_locate(reader, node, "a run to start from without a checkpoint, or one", file, &stage->hash));
+    MOR_TRY(reader->context, mor_case_reader_locate(reader, node, "a run to start from without a checkpoint, or one",
+                                                    file, &stage->hash));
     snprintf(stage->run, sizeof stage->run, "%.*s", (int)(strlen(file) - strlen("/" MOR_CHECKPOINT_FILE)), file);
     return MOR_OK;
 }

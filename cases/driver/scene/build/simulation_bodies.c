@@ -367,8 +367,7 @@ static mor_status make_motions(mor_context *context, mor_simulation_bodies *bodi
     for (int b = 0; b < c->n_bodies; ++b) {
         const mor_simulation_body *it = &bodies->of[b];
         MOR_TRY(context, mor_simulation_make_motion(context, c, &c->bodies[b].path,
-                                                    it->group->bodies[it->index].geometry.center,
-                                                    &bodies->motions[b]));
+                                                    it->group->bodies[it->index].geometry.center, &bodies->motions[b]));
     }
     return MOR_OK;
 }

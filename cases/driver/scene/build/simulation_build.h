@@ -63,13 +63,6 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
 mor_status mor_simulation_set_stress(mor_context *context, mor_simulation *simulation,
                                      const mor_lattice_points *regions);
 
-/** Sets the initial velocity and stress of regions that have formulas for them.
- *  @param simulation [in,out]  particles in the order of the regions
- *  @param regions    [in]      shape [regions of the case]; their points
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for a value that is not finite or beyond the speed of sound; MOR_ERROR_MEMORY. */
-mor_status mor_simulation_set_by_formulas(mor_context *context, mor_simulation *simulation,
-                                          const mor_lattice_points *regions);
-
 /** Gives walls and bodies their friction with each soil, where a case says that soils differ.
  *  @param simulation [in,out]  with its bodies; owns the table that the patches borrow
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */

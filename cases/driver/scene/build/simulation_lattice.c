@@ -4,8 +4,8 @@
 #include "cases/driver/scene/build/simulation_build.h"
 
 #include "cases/driver/scene/build/memory_room.h"
-#include "cases/driver/scene/build/simulation_stage.h"
 #include "cases/driver/scene/build/simulation_terrain.h"
+#include "cases/driver/scene/start/simulation_stage.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 
@@ -236,13 +236,13 @@ static mor_status check_rest(mor_context *context, const mor_case *the_case, int
             "allowed is one of them, because settling brings all soil to rest; remove 'velocity' or choose type = "
             "\"k0\"",
             it->place.file, it->place.line, it->name, it->velocity[0], it->velocity[1], it->velocity[2], settled->name);
-        MOR_CHECK(context,
-                  settled->initial_stress != MOR_CASE_STRESS_SETTLED || it->velocity_formula[0][0] == '\0',
-                  MOR_ERROR_CONFIG,
-                  "%s:%d: found soil '%s' with a 'velocity_formula' and soil '%s' with a settled initial stress; allowed "
-                  "is one of them, because settling brings all soil to rest; remove the formula or choose type = "
-                  "\"k0\"",
-                  it->place.file, it->place.line, it->name, settled->name);
+        MOR_CHECK(
+            context, settled->initial_stress != MOR_CASE_STRESS_SETTLED || it->velocity_formula[0][0] == '\0',
+            MOR_ERROR_CONFIG,
+            "%s:%d: found soil '%s' with a 'velocity_formula' and soil '%s' with a settled initial stress; allowed "
+            "is one of them, because settling brings all soil to rest; remove the formula or choose type = "
+            "\"k0\"",
+            it->place.file, it->place.line, it->name, settled->name);
     }
     return MOR_OK;
 }

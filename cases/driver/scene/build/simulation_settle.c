@@ -280,9 +280,9 @@ static mor_status settle(mor_context *context, mor_simulation *simulation, mor_s
 /* What settling changes for its duration. */
 typedef struct kept_settings {
     mor_scheme scheme;
-    double velocities[MOR_SOIL_WALLS_MAX][3];       /* of walls, m/s */
+    double velocities[MOR_SOIL_WALLS_MAX][3];      /* of walls, m/s */
     const mor_motion *motions[MOR_SOIL_WALLS_MAX]; /* of walls; NULL: none */
-    double removal_times[MOR_SOIL_WALLS_MAX];       /* of walls, s; 0: never */
+    double removal_times[MOR_SOIL_WALLS_MAX];      /* of walls, s; 0: never */
 } kept_settings;
 
 static mor_status begin_settling(mor_context *context, mor_simulation *simulation, mor_settling *it,

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Initial velocity and stress of soil by formulas of the place. */
-#include "cases/driver/scene/build/simulation_build.h"
+#include "cases/driver/scene/start/simulation_formula.h"
 
 #include "core/base/math.h"
 #include "core/formula/formula.h"
@@ -107,8 +107,7 @@ static mor_status set_stresses(mor_context *context, mor_simulation *simulation,
     const double unit = c->scale_mass / (c->scale_length * c->scale_time * c->scale_time);
     for (int64_t i = first; i < first + n; ++i) {
         double values[COMPONENTS_MAX] = {0.0};
-        MOR_TRY(context,
-                evaluate(context, c, it, set, soil->set.data[MOR_FIELD_POSITION] + 3 * i, unit, values));
+        MOR_TRY(context, evaluate(context, c, it, set, soil->set.data[MOR_FIELD_POSITION] + 3 * i, unit, values));
         rotate_stress(c->rotation, values, soil->set.data[MOR_FIELD_STRESS] + 6 * i);
     }
     return MOR_OK;

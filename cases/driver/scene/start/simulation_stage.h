@@ -1,10 +1,11 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SCENE_BUILD_SIMULATION_STAGE_H
-#define MOR_CASES_DRIVER_SCENE_BUILD_SIMULATION_STAGE_H
+#ifndef MOR_CASES_DRIVER_SCENE_START_SIMULATION_STAGE_H
+#define MOR_CASES_DRIVER_SCENE_START_SIMULATION_STAGE_H
 
-#include "cases/driver/scene/build/simulation_build.h"
+#include "cases/driver/scene/simulation.h"
 #include "core/io/checkpoint_view.h"
+#include "relaxation/relax/lattice.h"
 
 /** @file
  *  What a simulation takes over from the run that it starts from: particles of soil with stress and state, and the
@@ -14,12 +15,12 @@
 typedef struct mor_taken_soil {
     const mor_case *the_case; /* borrowed; NULL: the case starts from no run */
     mor_checkpoint_view *view;
-    int64_t n;          /* particles of the run */
-    double *positions;  /* shape [n, 3], m */
-    double *regions;    /* shape [n]; region of each in the run, 1; NULL: it has one */
-    bool has_bodies;    /* the run has bodies */
-    int64_t *sources;   /* shape [n]; particles taken over, in the order of the regions of the case */
-    int64_t n_taken;    /* so far */
+    int64_t n;         /* particles of the run */
+    double *positions; /* shape [n, 3], m */
+    double *regions;   /* shape [n]; region of each in the run, 1; NULL: it has one */
+    bool has_bodies;   /* the run has bodies */
+    int64_t *sources;  /* shape [n]; particles taken over, in the order of the regions of the case */
+    int64_t n_taken;   /* so far */
     int64_t first[MOR_CASE_SOILS_MAX], count[MOR_CASE_SOILS_MAX]; /* of each region, among sources */
 } mor_taken_soil;
 

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/scene/build/simulation_stage.h"
+#include "cases/driver/scene/start/simulation_stage.h"
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -23,8 +23,8 @@ static mor_status read_soil(mor_context *context, mor_taken_soil *taken)
     bool is_there = false;
     MOR_TRY(context, MOR_NEW(context, &taken->positions, 3 * taken->n, "soil of the run before"));
     MOR_TRY(context, MOR_NEW(context, &taken->sources, taken->n, "soil of the run before"));
-    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, "position", 3, taken->positions,
-                                               &is_there));
+    MOR_TRY(context,
+            mor_checkpoint_view_field(context, taken->view, SOIL_SET, "position", 3, taken->positions, &is_there));
     MOR_TRY(context, MOR_NEW(context, &taken->regions, taken->n, "regions of the run before"));
     MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, MOR_COMPOSITE_INDEX_KEY, 1,
                                                taken->regions, &is_there));
@@ -140,19 +140,20 @@ mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int 
     }
     const int64_t n = taken->n_taken - taken->first[soil];
     taken->count[soil] = n;
-    MOR_CHECK(context, n > 0, MOR_ERROR_CONFIG,
-              "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations; allowed: "
-              "at least one; remove the soil from the case, or make the excavations smaller",
-              c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
-              c->stage.run);
+    MOR_CHECK(
+        context, n > 0, MOR_ERROR_CONFIG,
+        "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations; allowed: "
+        "at least one; remove the soil from the case, or make the excavations smaller",
+        c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
+        c->stage.run);
     MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * n, "soil of the run before"));
     points->n_points = n;
     for (int64_t k = 0; k < n; ++k) {
         memcpy(points->positions + 3 * k, taken->positions + 3 * taken->sources[taken->first[soil] + k],
                3 * sizeof *points->positions);
     }
-    mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles taken over from '%s'", c->soils[soil].name,
-                    (long long)n, (long long)n_of_region, c->stage.run);
+    mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles taken over from '%s'",
+                    c->soils[soil].name, (long long)n, (long long)n_of_region, c->stage.run);
     MOR_TRY(context, check_domain(context, taken, soil, points));
     return check_walls(context, taken, soil, points);
 }
@@ -267,8 +268,7 @@ static mor_status apply_field(mor_context *context, const mor_taken_soil *taken,
     const int width = info->n_components;
     int64_t to = 0;
     bool is_there = false;
-    MOR_TRY(context,
-            mor_checkpoint_view_field(context, taken->view, SOIL_SET, info->name, width, values, &is_there));
+    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, info->name, width, values, &is_there));
     MOR_CHECK(context, is_there || !is_state_of_law(soil, field), MOR_ERROR_CONFIG,
               "%s:%d: found no state variable '%s' of the soil in the run '%s', which a law of this case needs; "
               "allowed: the laws of the run; give soils that are new other names",
@@ -321,11 +321,11 @@ static mor_status take_set(mor_context *context, const mor_case *c, mor_checkpoi
 {
     int64_t n = 0;
     MOR_TRY(context, mor_checkpoint_view_count(context, view, set->name, &n));
-    MOR_CHECK(context, n == set->n_particles, MOR_ERROR_CONFIG,
-              "%s:%d: found %lld particles of bodies '%s', but %lld in the run '%s' that this case starts from; allowed: "
-              "the same bodies and rocks, in the same order; correct them",
-              c->stage.place.file, c->stage.place.line, (long long)set->n_particles, set->name, (long long)n,
-              c->stage.run);
+    MOR_CHECK(
+        context, n == set->n_particles, MOR_ERROR_CONFIG,
+        "%s:%d: found %lld particles of bodies '%s', but %lld in the run '%s' that this case starts from; allowed: "
+        "the same bodies and rocks, in the same order; correct them",
+        c->stage.place.file, c->stage.place.line, (long long)set->n_particles, set->name, (long long)n, c->stage.run);
     for (int field = 0; field < set->n_fields; ++field) {
         bool is_there = true;
         if (mor_state_has_field(set, field)) {
