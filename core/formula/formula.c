@@ -93,8 +93,10 @@ static mor_status parse(mor_context *context, mor_formula *formula)
     mupDefineConst(formula->parser, "pi", MOR_PI);
     mupSetExpr(formula->parser, formula->text);
     MOR_TRY(context, check_error(context, formula));
-    mupEval(formula->parser);
-    return check_error(context, formula);
+    int n_values = 0;
+    mupEvalMulti(formula->parser, &n_values);
+    MOR_TRY(context, check_error(context, formula));
+    return n_values == 1 ? MOR_OK : refuse(context, formula->text, 0, "there are several values");
 }
 
 mor_status mor_formula_new(mor_context *context, const char *text, mor_formula **formula)

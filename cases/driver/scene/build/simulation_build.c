@@ -288,7 +288,6 @@ static mor_status build_bodies(mor_context *context, mor_simulation *simulation,
                                       simulation->has_soil ? 1 : 0);
 }
 
-/* Soil that is taken over from another run is not relaxed again. */
 static mor_status fill_regions(mor_context *context, mor_simulation *simulation, mor_taken_soil *taken,
                                mor_lattice_points *regions)
 {
@@ -304,7 +303,7 @@ static mor_status fill_regions(mor_context *context, mor_simulation *simulation,
             }
         }
     }
-    return taken->the_case != NULL ? MOR_OK : mor_simulation_relax_soil(context, simulation, regions);
+    return mor_simulation_relax_soil(context, simulation, regions);
 }
 
 static mor_status build_soil_with(mor_context *context, mor_simulation *simulation, mor_taken_soil *taken)
