@@ -540,16 +540,6 @@ static void clear_sums(mor_contact *contact, uint64_t members)
     work->n_kept_pairs = 0;
 }
 
-void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t members, double *force)
-{
-    memset(force, 0, 3 * sizeof *force);
-    for (int g = 0; g < contact->n_groups; ++g) {
-        for (int a = 0; a < 3 && (contact->stepper_bits[g] & members) != 0; ++a) {
-            force[a] += contact->wall_force[3 * ((int64_t)g * contact->n_walls + wall) + a];
-        }
-    }
-}
-
 void mor_contact_add_sums(mor_contact *contact)
 {
     contact->spring_energy = 0.0;

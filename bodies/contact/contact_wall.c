@@ -3,6 +3,16 @@
 /* Walls that move as prescribed or are removed, and the energy that bodies exchange with them. */
 #include "bodies/contact/contact_work.h"
 
+void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t members, double *force)
+{
+    memset(force, 0, 3 * sizeof *force);
+    for (int g = 0; g < contact->n_groups; ++g) {
+        for (int a = 0; a < 3 && (contact->stepper_bits[g] & members) != 0; ++a) {
+            force[a] += contact->wall_force[3 * ((int64_t)g * contact->n_walls + wall) + a];
+        }
+    }
+}
+
 void mor_contact_move_walls(mor_contact *contact, double time)
 {
     double fastest = 0.0;

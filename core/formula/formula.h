@@ -26,13 +26,14 @@ typedef struct mor_formula mor_formula;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_formula_new(mor_context *context, const char *text, mor_formula **formula);
 
-/** Frees a formula and sets the pointer NULL; accepts NULL. */
+/** Frees a formula and sets the pointer NULL; accepts NULL.
+ *  @param formula [in,out]  the address of one pointer */
 void mor_formula_free(mor_context *context, mor_formula **formula);
 
 /** Finds the value at a place.
  *  @param formula [in,out]  used by one thread at a time
- *  @param place   [in]      shape [3]; x, y and z
- *  @param value   [out]     one number
+ *  @param place   [in]      shape [3]; x, y and z, any unit
+ *  @param value   [out]     one number, any unit
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for a value that is not finite, naming the place. */
 mor_status mor_formula_evaluate(mor_context *context, mor_formula *formula, const double *place, double *value);
 

@@ -19,7 +19,8 @@ typedef struct mor_checkpoint_view mor_checkpoint_view;
  *  MOR_ERROR_MEMORY. Cost: reads the file once; allocates. */
 mor_status mor_checkpoint_view_open(mor_context *context, const char *folder, mor_checkpoint_view **view);
 
-/** Closes it and sets the pointer NULL; accepts NULL. */
+/** Closes it and sets the pointer NULL; accepts NULL.
+ *  @param view [in,out]  the address of one pointer */
 void mor_checkpoint_view_close(mor_context *context, mor_checkpoint_view **view);
 
 /** Finds the number of particles of a set.
@@ -32,15 +33,16 @@ mor_status mor_checkpoint_view_count(mor_context *context, mor_checkpoint_view *
  *  @param set          [in]   zero-terminated; is there
  *  @param field        [in]   zero-terminated
  *  @param n_components [in]   that the field must have
- *  @param values       [out]  shape [n, n_components], n of mor_checkpoint_view_count; left alone where there is none
- *  @param is_there     [out]  whether the set has the field with so many components
+ *  @param values       [out]  shape [n, n_components], n of mor_checkpoint_view_count, any unit; left alone
+ *                             where there is none
+ *  @param is_there     [out]  one flag; whether the set has the field with so many components
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_checkpoint_view_field(mor_context *context, mor_checkpoint_view *view, const char *set,
                                      const char *field, int n_components, double *values, bool *is_there);
 
 /** Reads numbers beside the sets into an array of a list.
  *  @param array    [in]   what it points to is overwritten
- *  @param is_there [out]  whether the checkpoint has it with the same shape; else nothing is written
+ *  @param is_there [out]  one flag; whether the checkpoint has it with the same shape; else nothing is written
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_checkpoint_view_array(mor_context *context, mor_checkpoint_view *view, const mor_state_array *array,
                                      bool *is_there);

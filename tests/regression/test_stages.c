@@ -10,7 +10,7 @@
  * stages against the same cut in one go. */
 
 #define CASE_OF_GATE                                                                                                   \
-    "title = 'gate'; dimension = 2; spacing = '20 mm'; gravity = (0, -9.81); end = '0.15 s';"                           \
+    "title = 'gate'; dimension = 2; spacing = '20 mm'; gravity = (0, -9.81); end = '0.15 s';"                          \
     "domain = { min = (-0.1, -0.1); max = (1.6, 0.7); };"                                                              \
     "soil = ( { name = 'sand'; shape = { type = 'box'; min = (0, 0); max = (0.3, 0.3); };"                             \
     "  material = { model = 'drucker_prager'; density = 1600; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"         \
@@ -28,11 +28,11 @@
     ");"                                                                                                               \
     "bodies = ( { name = 'block'; removed_at = 0.1; shape = { type = 'box'; min = (-0.1, -0.05); max = (0.1, 0.05); "  \
     "};"                                                                                                               \
-    "    position = (0.15, 0.351); material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa'; },"    \
+    "    position = (0.15, 0.351); material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa'; },"     \
     "  { name = 'ball'; shape = { type = 'sphere'; center = (0, 0); radius = 0.06; }; position = (0.15, 0.461);"       \
-    "    material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa'; },"                              \
+    "    material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa'; },"                               \
     "  { name = 'tool'; motion = 'prescribed'; shape = { type = 'box'; min = (-0.1, -0.05); max = (0.1, 0.05); };"     \
-    "    position = (1.2, 0.4); material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa';"          \
+    "    position = (1.2, 0.4); material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa';"           \
     "    path = { table = ( { time = 0; }, { time = 0.15; translation = (-0.4, 0); angle = '180 deg'; } ); }; } );"    \
     "probes = ( { name = 'gate_force'; type = 'wall_force'; wall = 'gate'; direction = (1, 0); },"                     \
     "  { name = 'balance'; type = 'energy_balance'; }, { name = 'work'; type = 'external_work'; },"                    \
@@ -88,7 +88,7 @@ static void a_run_is_resumed_before_between_and_after_removals_with_the_same_bit
 }
 
 #define CASE_OF_CUT(start, width)                                                                                      \
-    start "title = 'cut'; dimension = 2; spacing = '0.1 m'; gravity = (0, -9.81); end = '0.25 s';"                      \
+    start "title = 'cut'; dimension = 2; spacing = '0.1 m'; gravity = (0, -9.81); end = '0.25 s';"                     \
           "domain = { min = (-0.5, -0.5); max = (4.5, 3); };"                                                          \
           "soil = ( { name = 'clay'; shape = { type = 'box'; min = (0, 0); max = (" width ", 2); };"                   \
           "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '20 MPa'; poissons_ratio = 0.3;"  \

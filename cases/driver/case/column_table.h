@@ -9,8 +9,8 @@
 #include <stdbool.h>
 
 /** @file
- *  A table of comma-separated values with named columns in any order, each with its unit in brackets behind its name, or
- *  in SI. */
+ *  A table of comma-separated values with named columns in any order, each with its unit in brackets behind its name,
+ *  or in SI. */
 
 enum { MOR_COLUMNS_MAX = 8, MOR_COLUMN_TABLE_BYTES_MAX = 1 << 23 };
 
