@@ -4,6 +4,7 @@
 #define MOR_BODIES_BODY_H
 
 #include "core/geometry/domain.h"
+#include "core/geometry/motion.h"
 #include "core/geometry/shape.h"
 #include "core/particle/boundary.h"
 #include "core/particle/set.h"
@@ -32,6 +33,8 @@ typedef struct mor_body_start {
     bool is_resting;            /* nothing moves yet */
     bool is_held;               /* stays in place until it is started again: no force moves it */
     bool is_prescribed;         /* keeps these velocities, whatever the forces on it */
+    const mor_motion *path;     /* that it follows in place of them; borrowed, outlives the body; NULL: none */
+    double removed_at;          /* time from which it is not there any more, s; 0: it stays */
     /** Adds the velocity beyond a rigid motion at a reference position, shape [3], m; NULL: none. Deformable bodies. */
     void (*add_velocity)(const void *user, const double *reference, double *velocity);
     /** Whether a reference position, shape [3], m, is in the clamp; NULL: there is none. Deformable bodies. */

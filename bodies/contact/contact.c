@@ -218,6 +218,8 @@ static mor_status make_lists(mor_context *context, mor_contact *contact)
     work->n_pairs = n * (n - 1) / 2 + n * contact->n_walls;
     contact->n_impacts = work->n_pairs;
     MOR_TRY(context, MOR_NEW(context, &contact->impacts, work->n_pairs, "contact"));
+    MOR_TRY(context,
+            MOR_NEW(context, &contact->pair_spring, contact->settings.has_removals ? work->n_pairs : 0, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->free_until, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->near_of, work->n_pairs, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->law_of, work->n_pairs, "contact"));
@@ -228,6 +230,8 @@ static mor_status make_lists(mor_context *context, mor_contact *contact)
     MOR_TRY(context, MOR_NEW(context, &contact->group_deepest, contact->n_groups, "contact"));
     MOR_TRY(context,
             MOR_NEW(context, &contact->wall_force, 3 * (int64_t)contact->n_groups * contact->n_walls, "contact"));
+    MOR_TRY(context,
+            MOR_NEW(context, &contact->wall_moment, 3 * (int64_t)contact->n_groups * contact->n_walls, "contact"));
     return MOR_OK;
 }
 
@@ -238,6 +242,7 @@ static mor_status make_all(mor_context *context, mor_contact *contact, const mor
     for (int w = 0; w < contact->n_walls; ++w) {
         contact->walls[w] = walls[w];
     }
+    mor_contact_move_walls(contact, 0.0);
     MOR_TRY(context, list_bodies(context, contact));
     MOR_TRY(context, make_lists(context, contact));
     MOR_TRY(context, make_history(context, contact));
@@ -329,6 +334,8 @@ void mor_contact_clear(mor_context *context, mor_contact *contact)
     MOR_FREE(context, &contact->group_spring);
     MOR_FREE(context, &contact->group_deepest);
     MOR_FREE(context, &contact->wall_force);
+    MOR_FREE(context, &contact->wall_moment);
+    MOR_FREE(context, &contact->pair_spring);
     mor_set_clear(context, &contact->history);
     memset(contact, 0, sizeof *contact);
 }
@@ -390,20 +397,10 @@ static void clear_forces(mor_contact *contact, uint64_t members)
     }
 }
 
-static void move_walls(mor_contact *contact, double time)
-{
-    double fastest = 0.0;
-    for (int w = 0; w < contact->n_walls; ++w) {
-        fastest = fmax(fastest, mor_vector_length(contact->walls[w].velocity));
-    }
-    contact->work->wall_travel += fastest * fabs(time - contact->time);
-    contact->time = time;
-}
-
 void mor_contact_resume(mor_contact *contact, double time)
 {
     mor_contact_work *work = contact->work;
-    move_walls(contact, time);
+    mor_contact_move_walls(contact, time);
     work->is_warm = false;
     work->n_held = 0;
     work->n_hit = 0;
@@ -416,7 +413,7 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     mor_contact *contact = owner;
     mor_contact_work *work = contact->work;
     clear_forces(contact, members);
-    move_walls(contact, step->time + 0.5 * step->length);
+    mor_contact_move_walls(contact, step->time + 0.5 * step->length);
     mor_contact_observe(context, contact, members);
     MOR_TRY(context, mor_contact_search(context, contact, members));
     MOR_PARALLEL_FOR (context, k, work->n_touches, TOUCHES_PER_CHUNK) {
@@ -427,7 +424,7 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     }
     mor_contact_apply_forces(contact, members, step->length);
     MOR_TRY(context, mor_contact_check_depth(context, contact));
-    move_walls(contact, step->time + step->length);
+    mor_contact_move_walls(contact, step->time + step->length);
     return MOR_OK;
 }
 

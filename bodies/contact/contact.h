@@ -4,6 +4,7 @@
 #define MOR_BODIES_CONTACT_CONTACT_H
 
 #include "bodies/body.h"
+#include "core/geometry/motion.h"
 #include "core/time/stepper.h"
 
 /** @file
@@ -24,12 +25,17 @@ typedef struct mor_contact_law {
 /** A wall as bodies see it. */
 typedef struct mor_contact_wall {
     char name[MOR_CONTACT_NAME_BYTES];
-    const mor_shape *shape; /* level set in the frame of the case; borrowed */
-    double rotation[9];     /* shape [3,3]; frame of the case to frame of the run, 1 */
-    double translation[3];  /* likewise, m */
-    double velocity[3];     /* frame of the run, m/s */
-    double modulus;         /* Young's modulus of its surface; 0: it does not yield, Pa */
-    double poisson;         /* Poisson's ratio of it, 0 <= nu < 0.5, 1 */
+    const mor_shape *shape;   /* level set in the frame of the case; borrowed */
+    double rotation[9];       /* shape [3,3]; frame of the case to frame of the run, 1 */
+    double translation[3];    /* likewise, m */
+    double velocity[3];       /* frame of the run, m/s; zero with a motion */
+    const mor_motion *motion; /* frame of the run; borrowed, outlives the contact; NULL: the velocity above */
+    double removed_at;        /* time from which the wall is not there any more, s; 0: it stays */
+    double fastest;           /* with a motion: bound of the speed of its points near bodies at any time, m/s */
+    mor_pose pose;            /* [by the contact] at the present time, where there is a motion */
+    bool is_removed;          /* [by the contact] at the present time */
+    double modulus;           /* Young's modulus of its surface; 0: it does not yield, Pa */
+    double poisson;           /* Poisson's ratio of it, 0 <= nu < 0.5, 1 */
     int joined_to;          /* index, plus one, of the wall before it with which it makes one face: bodies touch both as
                              * that one; 0: none. Both move alike, yield alike and have the default law */
     const mor_shape *whole; /* union of the shapes of a wall and those joined to it; borrowed; NULL: shape is all */
@@ -50,6 +56,7 @@ typedef struct mor_contact_settings {
     double slowest_impact;  /* speed under which a touch counts as this fast when it is damped, m/s */
     double reference_speed; /* of an impact in which the tangential springs of rigid sides are as stiff as the normal
                              * ones, m/s; no less than by a fall over the size of a body */
+    bool has_removals;      /* walls or bodies are removed in the course of the run */
 } mor_contact_settings;
 
 /** Contact among all groups and walls. Owner: the run. */
@@ -71,8 +78,11 @@ typedef struct mor_contact {
     double *group_spring;   /* shape [n_groups]; spring energy of each at its last sub-step, J (J/m) */
     double *group_deepest;  /* shape [n_groups]; deepest penetration of each at its last sub-step, m */
     double *wall_force;     /* shape [n_groups, n_walls, 3]; of each on each wall at its last sub-step, N (N/m) */
+    double *wall_moment;    /* shape [n_groups, n_walls, 3]; likewise about the origin of coordinates, N m (N) */
     mor_set history;        /* one entry per surface node of all groups: history of friction; its fields evolve */
     double *impacts;        /* shape [n_impacts]; impact speeds of touching pairs, m/s */
+    double *pair_spring;    /* shape [n_impacts]; spring energy of pairs at the last sub-step of each, J (J/m); NULL
+                             * without removals */
     int64_t n_impacts;
     struct mor_contact_work *work; /* lists and scratch; owned */
 } mor_contact;

@@ -104,7 +104,7 @@ static void observe_body(mor_contact_body *c)
 static void whole_velocity(const mor_contact *contact, int second, const double *place, double *velocity)
 {
     if (second >= contact->work->n_bodies) {
-        memcpy(velocity, contact->walls[second - contact->work->n_bodies].velocity, 3 * sizeof *velocity);
+        mor_contact_wall_velocity(&contact->walls[second - contact->work->n_bodies], place, velocity);
         return;
     }
     mor_contact_body *c = &contact->work->bodies[second];
@@ -158,9 +158,18 @@ static void apply_to_wall(mor_contact *contact, const mor_contact_near *near, co
     }
     const int group = work->bodies[near->first].group_index;
     const int wall = mor_contact_find_part(contact, near->second - work->n_bodies, place);
-    double *sum = contact->wall_force + 3 * ((int64_t)group * contact->n_walls + wall);
+    const int64_t entry = 3 * ((int64_t)group * contact->n_walls + wall);
     for (int a = 0; a < 3; ++a) {
-        sum[a] -= force[a];
+        contact->wall_force[entry + a] -= force[a];
+    }
+    mor_vector_cross_add(-1.0, place, force, contact->wall_moment + entry);
+}
+
+/* Spring energy of a pair, of which a body or a wall may be removed. */
+static void note_pair_spring(mor_contact *contact, const mor_contact_near *near, double stored)
+{
+    if (contact->pair_spring != NULL) {
+        contact->pair_spring[near->pair] += stored;
     }
 }
 
@@ -209,6 +218,7 @@ static void soften_pair(mor_contact *contact, pair_sums *sums)
     sums->softening = mor_contact_soften(contact, sums->near, energy, &stored);
     if (deepest > 0.0) {
         contact->group_spring[work->bodies[sums->near->first].group_index] += stored;
+        note_pair_spring(contact, sums->near, stored);
         mor_contact_note_depth(contact, sums->near, deepest, place);
     }
 }
@@ -464,6 +474,7 @@ static void apply_tangential_force(mor_contact *contact, const pair_sums *sums, 
     if (slot >= 0) {
         partners[slot] = other + 1;
         contact->group_spring[group] += stored;
+        note_pair_spring(contact, sums->near, stored);
         work->slot_mark[MOR_CONTACT_SLOTS * entry + slot] = 1;
         work->kept_slots[work->n_kept++] = MOR_CONTACT_SLOTS * entry + slot;
     }
@@ -522,20 +533,11 @@ static void clear_sums(mor_contact *contact, uint64_t members)
         work->group_worst[g] = (mor_contact_depth){0, 0, 0.0, 0.0};
         if (n > 0) {
             memset(contact->wall_force + n * g, 0, (size_t)n * sizeof *contact->wall_force);
+            memset(contact->wall_moment + n * g, 0, (size_t)n * sizeof *contact->wall_moment);
         }
     }
     work->n_kept = 0;
     work->n_kept_pairs = 0;
-}
-
-void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t members, double *force)
-{
-    memset(force, 0, 3 * sizeof *force);
-    for (int g = 0; g < contact->n_groups; ++g) {
-        for (int a = 0; a < 3 && (contact->stepper_bits[g] & members) != 0; ++a) {
-            force[a] += contact->wall_force[3 * ((int64_t)g * contact->n_walls + wall) + a];
-        }
-    }
 }
 
 void mor_contact_add_sums(mor_contact *contact)
@@ -551,25 +553,16 @@ void mor_contact_add_sums(mor_contact *contact)
     }
 }
 
-/* Work of the members' bodies on walls that move as prescribed. */
-static void add_wall_energy(mor_contact *contact, uint64_t members, double length)
-{
-    for (int w = 0; w < contact->n_walls; ++w) {
-        double force[3];
-        mor_contact_wall_force(contact, w, members, force);
-        contact->wall_energy += mor_vector_dot(force, contact->walls[w].velocity) * length;
-    }
-}
-
 void mor_contact_apply_forces(mor_contact *contact, uint64_t members, double length)
 {
     mor_contact_list_history(contact);
     clear_sums(contact, members);
+    mor_contact_release_removed(contact, members);
     mor_contact_count_pairs(contact);
     for (int k = 0; k < contact->work->n_active; ++k) {
         apply_to_pair(contact, k, length);
     }
     mor_contact_release_history(contact, members);
-    add_wall_energy(contact, members, length);
+    mor_contact_add_wall_energy(contact, members, length);
     mor_contact_add_sums(contact);
 }

@@ -110,17 +110,17 @@ void mor_contact_observe(mor_context *context, mor_contact *contact, uint64_t me
 double mor_contact_apart(const mor_contact *contact, int first, int second, const double *boxes)
 {
     const double *p = boxes + 6 * (int64_t)first;
+    if (!mor_contact_is_side(contact, first) || !mor_contact_is_side(contact, second)) {
+        return INFINITY;
+    }
     if (second >= contact->work->n_bodies) {
         const mor_contact_wall *wall = &contact->walls[second - contact->work->n_bodies];
-        if (!mor_contact_is_side(contact, second)) {
-            return INFINITY;
-        }
-        double offset[3], place[3], half[3];
+        double middle[3], place[3], half[3];
         for (int a = 0; a < 3; ++a) {
-            offset[a] = 0.5 * (p[a] + p[3 + a]) - wall->velocity[a] * contact->time - wall->translation[a];
+            middle[a] = 0.5 * (p[a] + p[3 + a]);
             half[a] = 0.5 * (p[3 + a] - p[a]);
         }
-        mor_matrix_apply_transposed(wall->rotation, offset, place);
+        mor_contact_wall_place(contact, wall, middle, place);
         if (contact->groups[contact->work->bodies[first].group_index]->dimension == 2) {
             half[2] = 0.0;
         }

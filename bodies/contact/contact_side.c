@@ -28,9 +28,14 @@ double mor_contact_gravity(const mor_contact_body *c)
 void mor_contact_wall_place(const mor_contact *contact, const mor_contact_wall *wall, const double *point,
                             double *place)
 {
+    double start[3];
     double offset[3];
+    if (wall->motion != NULL) {
+        mor_pose_take_back(&wall->pose, point, start);
+    }
     for (int a = 0; a < 3; ++a) {
-        offset[a] = point[a] - wall->velocity[a] * contact->time - wall->translation[a];
+        offset[a] = wall->motion != NULL ? start[a] - wall->translation[a]
+                                         : point[a] - wall->velocity[a] * contact->time - wall->translation[a];
     }
     mor_matrix_apply_transposed(wall->rotation, offset, place);
 }

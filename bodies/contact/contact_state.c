@@ -24,6 +24,8 @@ void mor_contact_visit(const void *owner, mor_shared_visit visit, void *job)
     } members[] = {{contact->history.data[work->field_partners], MOR_CONTACT_SLOTS * n},
                    {contact->history.data[work->field_springs], 3 * MOR_CONTACT_SLOTS * n},
                    {contact->impacts, contact->n_impacts},
+                   {contact->pair_spring, contact->pair_spring != NULL ? contact->n_impacts : 0},
+                   {contact->wall_moment, 3 * (int64_t)contact->n_groups * contact->n_walls},
                    {contact->group_spring, contact->n_groups},
                    {contact->group_deepest, contact->n_groups},
                    {contact->wall_force, 3 * (int64_t)contact->n_groups * contact->n_walls},
@@ -46,6 +48,7 @@ mor_status mor_contact_list_state(mor_context *context, mor_contact *contact, mo
         int64_t n;
     } members[] = {{"impacts", contact->impacts, contact->n_impacts},
                    {"group_spring", contact->group_spring, contact->n_groups},
+                   {"pair_spring", contact->pair_spring, contact->pair_spring != NULL ? contact->n_impacts : 0},
                    {"group_deepest", contact->group_deepest, contact->n_groups},
                    {"wall_force", contact->wall_force, 3 * (int64_t)contact->n_groups * contact->n_walls},
                    {"deepest_share", &contact->deepest_share, 1},

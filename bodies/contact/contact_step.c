@@ -99,7 +99,7 @@ static double find_longest(const mor_contact *contact, const mor_body_group *gro
     double longest = INFINITY;
     mor_contact_find_boxes(contact, speeds);
     for (int own = 0; own < work->n_bodies; ++own) {
-        if (work->bodies[own].group != group) {
+        if (work->bodies[own].group != group || !mor_contact_is_side(contact, own)) {
             continue;
         }
         double rate2 = 0.0;
@@ -111,7 +111,7 @@ static double find_longest(const mor_contact *contact, const mor_body_group *gro
             const bool is_wall = other >= work->n_bodies;
             const double speed =
                 speeds[own] +
-                (is_wall ? mor_vector_length(contact->walls[other - work->n_bodies].velocity) : speeds[other]);
+                (is_wall ? mor_contact_wall_speed(&contact->walls[other - work->n_bodies]) : speeds[other]);
             const int first = own < other ? own : other;
             const int second = own < other ? other : own;
             const double gap = is_touching ? 0.0 : mor_contact_apart(contact, first, second, work->boxes);

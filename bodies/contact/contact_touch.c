@@ -44,6 +44,10 @@ static bool find_touch_on_wall(const mor_contact *contact, const mor_contact_nea
         return false;
     }
     mor_matrix_apply(wall->rotation, normal, touch->normal);
+    if (wall->motion != NULL) {
+        memcpy(normal, touch->normal, sizeof normal);
+        mor_matrix_apply(wall->pose.rotation, normal, touch->normal);
+    }
     normalize(group->dimension, touch->normal);
     mor_contact_set_curvature(contact, near, touch, curvature);
     return true;
@@ -156,9 +160,11 @@ void mor_contact_find_touch(const mor_contact *contact, const mor_contact_near *
     mor_body_point_velocity(owner->group, owner->body, &node, touch->place, touch->slip);
     if (partner != NULL) {
         mor_body_point_velocity(partner->group, partner->body, &support, touch->place, against);
+    } else {
+        mor_contact_wall_velocity(wall, touch->place, against);
     }
     for (int a = 0; a < 3; ++a) {
-        touch->slip[a] -= wall != NULL ? wall->velocity[a] : against[a];
+        touch->slip[a] -= against[a];
     }
     touch->stiffness = mor_contact_stiffness(contact, near, touch->side, touch->node);
 }

@@ -5,6 +5,9 @@
 
 #include "bodies/body_surface.h"
 #include "bodies/contact/contact.h"
+#include "core/base/math.h"
+
+#include <string.h>
 
 /** @file
  *  What the files of contact share: lists, bounds and scratch. None of it is state: it is found anew on a resume, and
@@ -403,11 +406,48 @@ static inline const mor_shape *mor_contact_wall_shape(const mor_contact_wall *wa
     return wall->whole != NULL ? wall->whole : wall->shape;
 }
 
-/** Whether two sides may touch: walls that are joined to another one are touched as that one.
- *  @param second  [in]  index of a body, or n_bodies plus that of a wall */
-static inline bool mor_contact_is_side(const mor_contact *contact, int second)
+/** Whether a side may touch others: it is there still, and walls that are joined to another one are touched as that
+ *  one.
+ *  @param side  [in]  index of a body, or n_bodies plus that of a wall */
+static inline bool mor_contact_is_side(const mor_contact *contact, int side)
 {
-    return second < contact->work->n_bodies || contact->walls[second - contact->work->n_bodies].joined_to == 0;
+    if (side < contact->work->n_bodies) {
+        const mor_contact_body *body = &contact->work->bodies[side];
+        return !body->group->boundary.patches[body->body].is_removed;
+    }
+    const mor_contact_wall *wall = &contact->walls[side - contact->work->n_bodies];
+    return wall->joined_to == 0 && !wall->is_removed;
+}
+
+/** Moves all walls to where they are at a time, and takes away those that are removed by then.
+ *  @param time    [in]      unit s */
+void mor_contact_move_walls(mor_contact *contact, double time);
+
+/** Adds the work of the members' bodies on walls that move as prescribed.
+ *  @param members [in]      bits of steppers
+ *  @param length  [in]      of the sub-step, unit s */
+void mor_contact_add_wall_energy(mor_contact *contact, uint64_t members, double length);
+
+/** Counts the energy that springs against removed sides had stored as lost, and clears that of the members' pairs.
+ *  @param members [in]      bits of steppers */
+void mor_contact_release_removed(mor_contact *contact, uint64_t members);
+
+/** Velocity of the point of a wall at a place.
+ *  @param place    [in]   shape [3], unit m
+ *  @param velocity [out]  shape [3], unit m/s */
+static inline void mor_contact_wall_velocity(const mor_contact_wall *wall, const double *place, double *velocity)
+{
+    if (wall->motion != NULL) {
+        mor_pose_velocity(&wall->pose, place, velocity);
+    } else {
+        memcpy(velocity, wall->velocity, 3 * sizeof *velocity);
+    }
+}
+
+/** Bound of the speed of a wall near bodies, unit m/s. */
+static inline double mor_contact_wall_speed(const mor_contact_wall *wall)
+{
+    return wall->motion != NULL ? wall->fastest : mor_vector_length(wall->velocity);
 }
 
 /** A point in the frame of a wall's shape.

@@ -145,6 +145,14 @@ static void follow_states(mor_context *context, mor_rigid *rigid)
     }
 }
 
+/* Soil and contact see by the patches which bodies are there. */
+static void show_removals(mor_rigid *rigid)
+{
+    for (int b = 0; b < rigid->group.n_bodies; ++b) {
+        rigid->group.boundary.patches[b].is_removed = rigid->states[b].removed > 0.0;
+    }
+}
+
 void mor_rigid_prepare(mor_context *context, mor_rigid *rigid)
 {
     mor_body_group *group = &rigid->group;
@@ -191,6 +199,9 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
     *step_length = INFINITY;
     *limit = "nothing";
     for (int b = 0; b < group->n_bodies; ++b) {
+        if (rigid->states[b].removed > 0.0) {
+            continue;
+        }
         const bool is_held = group->bodies[b].is_held;
         double spring_rate = 0.0;
         const double acceleration = is_held ? 0.0 : find_acceleration(rigid, b, &spring_rate);
@@ -226,7 +237,14 @@ static mor_status begin_step(mor_context *context, void *owner, const mor_step *
 
 static mor_status finish_step(mor_context *context, void *owner, const mor_step *step)
 {
-    mor_body_group_finish(context, &((mor_rigid *)owner)->group, step->length);
+    mor_rigid *rigid = owner;
+    const double end = step->time + step->length;
+    mor_body_group_finish(context, &rigid->group, step->length);
+    for (int b = 0; b < rigid->group.n_bodies; ++b) {
+        const double removed_at = rigid->motions[b].removed_at;
+        rigid->states[b].removed = removed_at > 0.0 && end >= removed_at ? 1.0 : 0.0;
+    }
+    show_removals(rigid);
     return MOR_OK;
 }
 
@@ -245,7 +263,9 @@ static mor_status list_state(mor_context *context, void *owner, mor_state_list *
                    {"rotation_angle", first->rotation_angle, 3},
                    {"soil_impulse", first->soil_impulse, 3},
                    {"contact_impulse", first->contact_impulse, 3},
-                   {"contact_angular_impulse", first->contact_angular_impulse, 3}};
+                   {"contact_angular_impulse", first->contact_angular_impulse, 3},
+                   {"contact_work", &first->contact_work, 1},
+                   {"removed", &first->removed, 1}};
     MOR_TRY(context, mor_body_group_list_state(context, &rigid->group, list));
     for (size_t k = 0; k < sizeof members / sizeof *members; ++k) {
         MOR_TRY(context, mor_state_add_member(context, list, rigid->group.set.name, members[k].member,
@@ -257,6 +277,7 @@ static mor_status list_state(mor_context *context, void *owner, mor_state_list *
 static mor_status resume(mor_context *context, void *owner)
 {
     follow_states(context, owner);
+    show_removals(owner);
     return MOR_OK;
 }
 
@@ -276,6 +297,7 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
             {MOR_RESOURCE_BODIES, state->quaternion, 4},      {MOR_RESOURCE_BODIES, state->angular_momentum, 3},
             {MOR_RESOURCE_BODIES, state->rotation_angle, 3},  {MOR_RESOURCE_BODIES, state->soil_impulse, 3},
             {MOR_RESOURCE_BODIES, state->contact_impulse, 3}, {MOR_RESOURCE_BODIES, state->contact_angular_impulse, 3},
+            {MOR_RESOURCE_BODIES, &state->contact_work, 1},   {MOR_RESOURCE_BODIES, &state->removed, 1},
             {MOR_RESOURCE_BODIES, constants->held_force, 3},  {MOR_RESOURCE_BODIES, constants->held_moment, 3},
             {MOR_RESOURCE_REFERENCE, constants->inertia, 6},  {MOR_RESOURCE_REFERENCE, &constants->common, 1},
             {MOR_RESOURCE_REFERENCE, constants->rates, 2}};
@@ -334,9 +356,21 @@ static void rigid_make_stepper(mor_body_group *group, mor_stepper *stepper, uint
     mor_rigid_stepper(group->owner, stepper, evolving);
 }
 
+/* A body on a path has the velocity of its beginning. */
+static void start_path(mor_rigid *rigid, int body)
+{
+    double momentum[3];
+    double angular_momentum[3];
+    mor_rigid_follow_path(rigid, body, 0.0);
+    mor_body *own = &rigid->group.bodies[body];
+    mor_rigid_angular_velocity(&rigid->work->constants[body], rigid->states[body].quaternion,
+                               rigid->states[body].angular_momentum, own->angular_velocity);
+    rigid->work->constants[body].start_energy = mor_rigid_energy(rigid, body, momentum, angular_momentum);
+}
+
 static int64_t rigid_start(mor_body_group *group, int body, const mor_body_start *start)
 {
-    const mor_rigid *rigid = group->owner;
+    mor_rigid *rigid = group->owner;
     mor_rigid_state *state = &rigid->states[body];
     mor_rigid_motion *motion = &rigid->motions[body];
     const mor_body *own = &group->bodies[body];
@@ -344,6 +378,10 @@ static int64_t rigid_start(mor_body_group *group, int body, const mor_body_start
     double momentum[3];
     double rotated[3];
     motion->is_prescribed = start->is_prescribed || start->is_held;
+    motion->path = start->is_resting ? NULL : start->path;
+    motion->removed_at = start->is_resting ? 0.0 : start->removed_at;
+    state->contact_work = 0.0;
+    state->removed = 0.0;
     for (int a = 0; a < 3; ++a) {
         state->velocity[a] = start->is_resting ? 0.0 : start->velocity[a];
         motion->velocity[a] = state->velocity[a];
@@ -358,6 +396,9 @@ static int64_t rigid_start(mor_body_group *group, int body, const mor_body_start
         state->soil_impulse[a] = 0.0;
         state->contact_impulse[a] = 0.0;
         state->contact_angular_impulse[a] = 0.0;
+    }
+    if (motion->path != NULL) {
+        start_path(rigid, body);
     }
     return 0;
 }
@@ -400,6 +441,18 @@ static double rigid_driven_energy(const mor_body_group *group, int body, double 
     const mor_rigid *rigid = group->owner;
     const mor_rigid_state *state = &rigid->states[body];
     const mor_body *own = &group->bodies[body];
+    if (rigid->motions[body].path != NULL || state->removed > 0.0) {
+        double momentum[3];
+        double angular_momentum[3];
+        const bool has_path = rigid->motions[body].path != NULL;
+        double energy = state->contact_work;
+        for (int a = 0; a < 3; ++a) {
+            energy += own->mass * group->gravity[a] * (state->center[a] - own->geometry.center[a]);
+        }
+        return energy - (has_path ? mor_rigid_energy(rigid, body, momentum, angular_momentum) -
+                                        rigid->work->constants[body].start_energy
+                                  : 0.0);
+    }
     return mor_vector_dot(state->velocity, state->contact_impulse) +
            mor_vector_dot(own->angular_velocity, state->contact_angular_impulse) +
            own->mass * time * mor_vector_dot(group->gravity, state->velocity);

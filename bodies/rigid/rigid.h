@@ -12,9 +12,11 @@
 
 /** How one rigid body moves. Plain data; all vectors in the frame of the run. */
 typedef struct mor_rigid_motion {
-    bool is_prescribed;         /* moves with the velocity and angular velocity given, whatever the forces on it */
+    bool is_prescribed;         /* moves as given by the next three, whatever the forces on it */
     double velocity[3];         /* prescribed, m/s */
     double angular_velocity[3]; /* prescribed, about the center of mass, rad/s */
+    const mor_motion *path;     /* prescribed in place of both; borrowed, outlives the group; NULL: none */
+    double removed_at;          /* time from which the body is not there any more, s; 0: it stays */
     unsigned locked;            /* bit a: no motion along axis a; bit 3 + a: no rotation about axis a */
     bool has_spring;            /* spring and damper between a point of the body and a fixed point */
     double spring_point[3];     /* of the body, reference configuration, m */
@@ -34,6 +36,8 @@ typedef struct mor_rigid_state {
     double soil_impulse[3];            /* N s */
     double contact_impulse[3];         /* N s */
     double contact_angular_impulse[3]; /* about the center, N m s (N s) */
+    double contact_work;               /* of contact on a body that moves as prescribed, J (J/m) */
+    double removed;                    /* 1: it is not there any more, and stays as it was then; else 0 */
 } mor_rigid_state;
 
 /** A group of rigid bodies. Owner: the run. */

@@ -21,6 +21,7 @@ typedef struct mor_rigid_constants {
     unsigned locked;       /* as in mor_rigid_motion, with what plane strain adds */
     int n_rotation_axes;   /* number of free axes of rotation */
     int rotation_axes[3];  /* the free axes, then the locked ones */
+    double start_energy;   /* kinetic, of a body on a path when it starts, J (J/m) */
     double held_force[3];  /* of the soil, held over a common step, N (N/m) */
     double held_moment[3]; /* likewise, about the origin of coordinates, N m (N) */
 } mor_rigid_constants;
@@ -64,6 +65,11 @@ void mor_rigid_angular_momentum(const mor_rigid_constants *constants, const doub
  *  @param length    [in]      time, unit s
  *  @param state     [in,out]  quaternion and rotation angle */
 void mor_rigid_rotate(const mor_rigid_constants *constants, double length, mor_rigid_state *state);
+
+/** Sets the state of a body on a path to that at a time.
+ *  @param body [in]  index of the body
+ *  @param time [in]  unit s */
+void mor_rigid_follow_path(mor_rigid *rigid, int body, double time);
 
 /** Sets bodies and particles from the states. */
 void mor_rigid_place(mor_context *context, mor_rigid *rigid, mor_view *view);

@@ -75,7 +75,7 @@ static void place_bodies(mor_rigid *rigid)
         memcpy(body->soil_impulse, state->soil_impulse, sizeof body->soil_impulse);
         memcpy(body->contact_impulse, state->contact_impulse, sizeof body->contact_impulse);
         mor_rigid_matrix(state->quaternion, body->rotation);
-        if (motion->is_prescribed) {
+        if (motion->is_prescribed && motion->path == NULL) {
             memcpy(body->angular_velocity, motion->angular_velocity, sizeof body->angular_velocity);
         } else {
             mor_rigid_angular_velocity(&rigid->work->constants[b], state->quaternion, state->angular_momentum,
@@ -94,10 +94,28 @@ void mor_rigid_place(mor_context *context, mor_rigid *rigid, mor_view *view)
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
         const double radius = rigid->work->constants[piece->body].outermost;
+        const bool is_removed = rigid->states[piece->body].removed > 0.0;
         place_piece(group, piece, position, velocity);
-        group->piece_stray[p] =
-            is_well_inside(group, &group->bodies[piece->body], radius) ? -1 : find_stray(group, piece, position);
+        group->piece_stray[p] = is_removed || is_well_inside(group, &group->bodies[piece->body], radius)
+                                    ? -1
+                                    : find_stray(group, piece, position);
     }
+}
+
+void mor_rigid_follow_path(mor_rigid *rigid, int body, double time)
+{
+    const mor_motion *path = rigid->motions[body].path;
+    mor_rigid_state *state = &rigid->states[body];
+    mor_pose pose;
+    mor_motion_find(path, time, &pose);
+    mor_pose_place(&pose, rigid->group.bodies[body].geometry.center, state->center);
+    mor_pose_velocity(&pose, state->center, state->velocity);
+    for (int a = 0; a < 3; ++a) {
+        state->rotation_angle[a] = pose.angle * path->axis[a];
+    }
+    mor_rigid_quaternion(state->rotation_angle, state->quaternion);
+    mor_rigid_angular_momentum(&rigid->work->constants[body], state->quaternion, pose.angular_velocity,
+                               state->angular_momentum);
 }
 
 /* Motion as prescribed is a function of time alone. */
@@ -106,6 +124,10 @@ static void prescribe(mor_rigid *rigid, int body, double time)
     const mor_rigid_motion *motion = &rigid->motions[body];
     const double *start = rigid->group.bodies[body].geometry.center;
     mor_rigid_state *state = &rigid->states[body];
+    if (motion->path != NULL) {
+        mor_rigid_follow_path(rigid, body, time);
+        return;
+    }
     for (int a = 0; a < 3; ++a) {
         state->center[a] = start[a] + time * motion->velocity[a];
         state->velocity[a] = motion->velocity[a];
@@ -121,6 +143,9 @@ static void drift_half(mor_rigid *rigid, double half_step, double time)
 {
     for (int b = 0; b < rigid->group.n_bodies; ++b) {
         mor_rigid_state *state = &rigid->states[b];
+        if (state->removed > 0.0) {
+            continue;
+        }
         if (rigid->motions[b].is_prescribed) {
             prescribe(rigid, b, time);
             continue;
@@ -326,6 +351,11 @@ static void kick_body(mor_rigid *rigid, int b, const mor_step *step)
     const double middle = step->time + 0.5 * h;
     const double ramp = mor_ramp(middle, group->gravity_ramp, group->has_smooth_ramp);
     double moment[3];
+    if (state->removed > 0.0) {
+        return;
+    }
+    state->contact_work += h * (mor_vector_dot(body->contact_force, body->velocity) +
+                                mor_vector_dot(body->contact_moment, body->angular_velocity));
     for (int a = 0; a < 3; ++a) {
         state->soil_impulse[a] += h * constants->held_force[a];
         state->contact_impulse[a] += h * body->contact_force[a];

@@ -10,7 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#define CHECKPOINT_WHAT "checkpoint"
 #define IDENTITY "/identity"
 
 enum { NAME_BYTES = 256, UNIT_BYTES = 64 };
@@ -136,7 +135,7 @@ static mor_status write_sealed(mor_context *context, const char *temporary, cons
     MOR_TRY(context, mor_hdf5_file_create(context, &file, temporary));
     mor_status status = write_state(context, file, state);
     if (status == MOR_OK) {
-        status = mor_hdf5_file_seal(context, &file, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION);
+        status = mor_hdf5_file_seal(context, &file, MOR_CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION);
     }
     mor_hdf5_file_discard(context, &file);
     return status;
@@ -149,7 +148,7 @@ static mor_status keep_newest(mor_context *context, const char *folder, const ch
         return MOR_OK;
     }
     const mor_status status =
-        mor_seal_verify(context, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL);
+        mor_seal_verify(context, path, MOR_CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL);
     if (status == MOR_ERROR_IO) {
         mor_context_log(context, MOR_LOG_WARNING, "the old checkpoint is not kept: %s", context->message);
         mor_context_clear_error(context);
@@ -309,7 +308,7 @@ mor_status mor_checkpoint_read(mor_context *context, const char *path, const mor
 {
     mor_hdf5_file *file = NULL;
     MOR_TRY(context,
-            mor_hdf5_file_open(context, &file, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL));
+            mor_hdf5_file_open(context, &file, path, MOR_CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL));
     mor_status status = check_state(context, file, state->state, path);
     if (status == MOR_OK) {
         status = load_state(context, file, state->state);
@@ -374,7 +373,7 @@ static mor_status read_identity(mor_context *context, const char *path, void *ta
     char **text = target;
     mor_hdf5_file *file = NULL;
     MOR_TRY(context,
-            mor_hdf5_file_open(context, &file, path, CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL));
+            mor_hdf5_file_open(context, &file, path, MOR_CHECKPOINT_WHAT, MOR_CHECKPOINT_VERSION, MOR_SEAL_CHECK_ALL));
     const mor_status status = load_identity(context, file, text);
     mor_hdf5_file_discard(context, &file);
     if (status != MOR_OK) {

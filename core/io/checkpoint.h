@@ -19,6 +19,7 @@
 
 #define MOR_CHECKPOINT_FILE "checkpoint.h5"
 #define MOR_CHECKPOINT_PREVIOUS_FILE "checkpoint.previous.h5"
+#define MOR_CHECKPOINT_WHAT "checkpoint" /* what its seal says it holds */
 
 enum { MOR_CHECKPOINT_VERSION = 3 };
 

@@ -39,6 +39,7 @@ enum {
 typedef struct mor_boundary_patch {
     int64_t first, n_points;     /* range of points */
     bool is_driven;              /* moves as prescribed, whatever the forces on it; for the audit of energy alone */
+    bool is_removed;             /* is there no longer: the soil does not see its points */
     mor_wall_friction friction;  /* of the pair soil - patch */
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
     const mor_boundary_friction

@@ -52,13 +52,7 @@ mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *vie
     drift_half(context, soil, view, 0.5 * step->length);
     const double middle = step->time + 0.5 * step->length;
     for (int w = 0; w < soil->n_walls; ++w) {
-        mor_soil_contact *wall = mor_view_write_shared(view, MOR_RESOURCE_BOUNDARIES, &soil->walls[w]);
-        const double speed = mor_vector_length(wall->velocity);
-        if (speed > 0.0) {
-            const double displacement[3] = {middle * wall->velocity[0], middle * wall->velocity[1],
-                                            middle * wall->velocity[2]};
-            mor_soil_contact_place(wall, displacement);
-        }
+        mor_soil_contact_move(mor_view_write_shared(view, MOR_RESOURCE_BOUNDARIES, &soil->walls[w]), middle);
     }
     return MOR_OK;
 }
@@ -153,6 +147,7 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
     for (int k = 0; k < mor_soil_contact_count(soil) && soil->has_lists; ++k) {
         const double moved = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
         other = other >= moved ? other : moved;
+        soil->has_lists = !mor_soil_contact_is_stale(mor_soil_contact_at(soil, k));
     }
     const bool is_fit = *drift + other <= soil->settings.scheme.skin_ratio * soil->settings.spacing;
     return soil->has_lists && is_fit ? MOR_OK : build_lists(context, soil, view);

@@ -258,8 +258,8 @@ static inline void contact_scene_make_contact(contact_scene *it)
     for (int k = 0; k < request->n_bodies; ++k) {
         fastest = fmax(fastest, mor_vector_length(request->bodies[k].velocity));
     }
-    const mor_contact_settings settings = {request->law, request->pairs, request->n_pairs, request->slowest_impact,
-                                           2.0 * fastest};
+    const mor_contact_settings settings = {request->law,  request->pairs, request->n_pairs, request->slowest_impact,
+                                           2.0 * fastest, false};
     contact_scene_require(
         it, mor_contact_init(&it->context, &it->contact, &settings, groups, bits, n, walls, request->n_walls));
     mor_contact_exchange(&it->contact, &it->exchange);

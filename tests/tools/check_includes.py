@@ -22,6 +22,7 @@ DOORS = {
     r"(libpng\d*/)?png\.h": ("cases/driver/picture/draw/png_file.c",),
     r"cairo(/cairo)?(-\w+)?\.h": ("cases/driver/picture/draw/canvas.c",),
     r"jansson\.h": ("core/io/summary.c",),
+    r"muParser.*\.h": ("core/formula/formula.c",),
     r"(gdal/)?(gdal|cpl_|ogr).*\.h": ("relaxation/terrain/terrain_read.c",),
     r"assimp/.*": ("relaxation/mesh/mesh_read.c",),
     r"(dlfcn|link)\.h": ("core/material/shared_object.c",),

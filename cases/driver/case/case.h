@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_CASE_CASE_H
 #define MOR_CASES_DRIVER_CASE_CASE_H
 
+#include "core/geometry/motion.h"
 #include "core/geometry/shape.h"
 #include "core/material/plugin.h"
 #include "core/scheme/scheme.h"
@@ -33,6 +34,8 @@ enum {
     MOR_CASE_ROCK_SHAPES_MAX = 256,
     MOR_CASE_ROCK_SIZES_MAX = 32,
     MOR_CASE_PAIRS_MAX = 64,
+    MOR_CASE_PATH_ROWS_MAX = 1024,
+    MOR_CASE_EXCAVATIONS_MAX = 32,
     MOR_CASE_PROBES_MAX = 64,
     MOR_CASE_EXPECTATIONS_MAX = 32
 };
@@ -140,7 +143,8 @@ typedef enum mor_case_stress {
     MOR_CASE_STRESS_NONE,
     MOR_CASE_STRESS_K0,
     MOR_CASE_STRESS_SETTLED,
-    MOR_CASE_STRESS_UNIFORM
+    MOR_CASE_STRESS_UNIFORM,
+    MOR_CASE_STRESS_FORMULA
 } mor_case_stress;
 
 /** One soil region. */
@@ -155,7 +159,10 @@ typedef struct mor_case_soil {
     double density;                             /* initial density, kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
     double velocity[3];                         /* initial velocity, m/s */
-    bool is_relaxed;                            /* filled with relaxed particles, else with those of the lattice */
+    /* Formulas of a place in the frame of the case in m, before the scale; "": none. */
+    char velocity_formula[3][MOR_CASE_TEXT_BYTES]; /* initial velocity in place of the above, m/s */
+    char stress_formula[6][MOR_CASE_TEXT_BYTES];   /* initial stress: xx, yy, zz, xy, yz, zx; tension positive, Pa */
+    bool is_relaxed;                               /* filled with relaxed particles, else with those of the lattice */
     mor_case_stress initial_stress;
     double pressure;           /* of a uniform initial stress, Pa */
     double lateral_ratio;      /* K0 of the initial stress; < 0: 1 - sin(friction angle) */
@@ -195,6 +202,21 @@ typedef struct mor_case_frictions {
     int n;
 } mor_case_frictions;
 
+/** Prescribed motion over time of a wall or a body; the numbers of its file are in rows, too. */
+typedef struct mor_case_path {
+    mor_case_place place;
+    double point[3]; /* of the axis of rotation, frame of the case, m; NaN: the origin, of a
+                                     * body its center of mass */
+    double axis[3];  /* any length but zero, 1 */
+    bool is_smooth;  /* between rows, else linear */
+    char file
+        [MOR_CASE_TEXT_BYTES]; /* path of a table; as given, or absolute where it exists; "": rows are in the case */
+    uint64_t file_hash;        /* of the content of that file; 0: there is none */
+    mor_motion_row *rows;      /* shape [n_rows]; owned */
+    int n_rows;                /* 0: there is no path */
+    uint64_t written;
+} mor_case_path;
+
 /** One wall. */
 typedef struct mor_case_wall {
     char name[MOR_CASE_NAME_BYTES];
@@ -205,6 +227,8 @@ typedef struct mor_case_wall {
     double friction_coefficient; /* Coulomb only, 1 */
     mor_case_frictions friction_with;
     double velocity[3];     /* prescribed velocity, m/s */
+    mor_case_path path;     /* prescribed in place of it */
+    double removed_at;      /* s; NaN: never */
     double contact_modulus; /* Young's modulus of its surface for bodies that touch it; 0: rigid, Pa */
     double contact_poisson; /* Poisson's ratio of it, 1 */
     uint64_t written;
@@ -245,7 +269,9 @@ typedef struct mor_case_body {
     mor_case_friction soil_friction;
     double soil_friction_coefficient; /* Coulomb only, 1 */
     mor_case_frictions friction_with;
-    bool is_prescribed; /* rigid: moves with its velocities whatever forces act on it */
+    bool is_prescribed; /* rigid: moves with its velocities, or on its path, whatever forces act on it */
+    mor_case_path path; /* of a prescribed motion, in place of the velocities */
+    double removed_at;  /* rigid: s; NaN: never */
     mor_case_particles particles;
     bool is_locked[6];            /* rigid: no translation along x, y, z; no rotation about x, y, z */
     bool has_spring;              /* rigid: spring and damper to a fixed point */
@@ -400,6 +426,17 @@ typedef struct mor_case_expectation {
     uint64_t written;
 } mor_case_expectation;
 
+/** A run before, whose end this one starts from. */
+typedef struct mor_case_stage {
+    char run[MOR_CASE_TEXT_BYTES]; /* its folder; absolute; "": this one starts from the case alone */
+    mor_case_place place;
+    uint64_t hash;                     /* of the content of its checkpoint */
+    int region_of[MOR_CASE_SOILS_MAX]; /* of each soil of this case: the region of the run with its name; -1: none */
+    mor_shape *excavations[MOR_CASE_EXCAVATIONS_MAX];             /* whose soil is not taken over; owned by the case */
+    mor_case_shape excavation_outlines[MOR_CASE_EXCAVATIONS_MAX]; /* what they were built from; owned by the case */
+    int n_excavations;
+} mor_case_stage;
+
 /** What to write. */
 typedef struct mor_case_output {
     int n_snapshots;           /* snapshots after the initial one, evenly spaced */
@@ -415,6 +452,7 @@ typedef struct mor_case_output {
 typedef struct mor_case {
     char path[MOR_CASE_TEXT_BYTES];
     char title[MOR_CASE_TEXT_BYTES];
+    mor_case_stage stage;
     int dimension;            /* 2 (plane strain in x, y) or 3 */
     double spacing;           /* m */
     double lattice_origin[3]; /* a lattice node, m */
@@ -456,6 +494,13 @@ typedef struct mor_case {
     int n_expectations;
     mor_case_output output;
 } mor_case;
+
+/** Whether the particles of a soil region come from the run that a case starts from.
+ *  @param soil [in]  index of the region */
+static inline bool mor_case_takes_over(const mor_case *the_case, int soil)
+{
+    return the_case->stage.run[0] != '\0' && the_case->stage.region_of[soil] >= 0;
+}
 
 /** Frees what a case owns, unloads its plug-ins and zeroes it. What was made from its models is gone before.
  *  @param the_case [in,out]  read or zeroed */

@@ -48,6 +48,7 @@ void mor_case_clear(mor_context *context, mor_case *the_case)
     for (int k = 0; k < the_case->n_walls; ++k) {
         mor_shape_free(context, &the_case->walls[k].shape);
         mor_case_shape_clear(context, &the_case->walls[k].outline);
+        MOR_FREE(context, &the_case->walls[k].path.rows);
     }
     for (int k = 0; k < the_case->n_bodies; ++k) {
         mor_case_body *body = &the_case->bodies[k];
@@ -55,6 +56,11 @@ void mor_case_clear(mor_context *context, mor_case *the_case)
         mor_shape_free(context, &body->clamp);
         mor_case_shape_clear(context, &body->outline);
         mor_case_shape_clear(context, &body->clamp_outline);
+        MOR_FREE(context, &body->path.rows);
+    }
+    for (int k = 0; k < the_case->stage.n_excavations; ++k) {
+        mor_shape_free(context, &the_case->stage.excavations[k]);
+        mor_case_shape_clear(context, &the_case->stage.excavation_outlines[k]);
     }
     MOR_FREE(context, &the_case->bodies);
     for (int k = 0; k < the_case->n_rocks; ++k) {

@@ -2,325 +2,70 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case/rock_list.h"
 
+#include "cases/driver/case/column_table.h"
 #include "core/base/memory.h"
-#include "core/base/number.h"
 
-#include <errno.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { X, Y, Z, DIAMETER, DENSITY, N_COLUMNS, CELL_BYTES = 64, SHOWN = 40 };
+enum { N_COLUMNS = 5 };
 
-/* What a column may hold. */
-static const struct {
-    const char *name, *unit;
-    bool is_positive;
-} kinds[N_COLUMNS] = {
-    {"x", "m", false}, {"y", "m", false}, {"z", "m", false}, {"diameter", "m", true}, {"density", "kg/m3", true}};
+static const mor_column in_space[N_COLUMNS] = {{"x", "m", false, true},
+                                               {"y", "m", false, true},
+                                               {"z", "m", false, true},
+                                               {"diameter", "m", true, true},
+                                               {"density", "kg/m3", true, false}};
+static const mor_column in_plane[N_COLUMNS - 1] = {
+    {"x", "m", false, true}, {"y", "m", false, true}, {"diameter", "m", true, true}, {"density", "kg/m3", true, false}};
 
-static const double largest = 1e12; /* in SI; nothing on Earth is larger */
-
-/* A table while it is read. */
-typedef struct table {
-    mor_context *context;
-    const mor_units *units;
-    const char *name;
-    const char *text;
-    int64_t n_bytes;
-    int64_t at;         /* next byte */
-    int64_t line_start; /* first byte of the line */
-    int line;
-    int dimension;
-    int kind_of[N_COLUMNS]; /* shape [n_columns] */
-    char unit_of[N_COLUMNS][CELL_BYTES];
-    int n_columns;
-} table;
-
-/* One cell: its bytes without blanks around. */
-typedef struct cell {
-    int64_t first;
-    int n;
-    char text[CELL_BYTES]; /* what fits, zero-terminated */
-} cell;
-
-#define CELL_FAIL(t, place, format, ...)                                                                               \
-    MOR_FAIL((t)->context, MOR_ERROR_CONFIG, "%s:%d:%lld: " format, (t)->name, (t)->line,                              \
-             (long long)((place) - (t)->line_start + 1), __VA_ARGS__)
-
-static bool is_blank(char c)
+static mor_column_spec find_spec(int dimension)
 {
-    return c == ' ' || c == '\t' || c == '\r';
+    return (mor_column_spec){.columns = dimension == 2 ? in_plane : in_space,
+                             .n_columns = dimension == 2 ? N_COLUMNS - 1 : N_COLUMNS,
+                             .rows_max = MOR_ROCK_LIST_ROWS_MAX,
+                             .what = "a table of rocks",
+                             .row = "rock",
+                             .remark = dimension == 2 ? " (plane strain has no z)" : ""};
 }
 
-static bool is_line_end(const table *t)
+static mor_status take_rows(mor_context *context, int dimension, const mor_column_table *table, mor_rock_list *list)
 {
-    return t->at >= t->n_bytes || t->text[t->at] == '\n';
-}
-
-/* Takes the cell up to the next comma or the end of the line. */
-static mor_status take_cell(table *t, cell *taken)
-{
-    while (!is_line_end(t) && is_blank(t->text[t->at])) {
-        t->at += 1;
-    }
-    taken->first = t->at;
-    while (!is_line_end(t) && t->text[t->at] != ',') {
-        const unsigned char c = (unsigned char)t->text[t->at];
-        if (c == ';' || c == '"' || (c < ' ' && !is_blank((char)c)) || c == 127) {
-            return CELL_FAIL(t, t->at,
-                             "found the byte %d, '%c'; allowed: numbers with a decimal point between commas, "
-                             "without quotes; save the table as comma-separated values",
-                             c, c > ' ' && c < 127 ? c : '?');
-        }
-        t->at += 1;
-    }
-    int64_t end = t->at;
-    while (end > taken->first && is_blank(t->text[end - 1])) {
-        end -= 1;
-    }
-    taken->n = end - taken->first < CELL_BYTES ? (int)(end - taken->first) : CELL_BYTES;
-    snprintf(taken->text, sizeof taken->text, "%.*s", taken->n < CELL_BYTES ? taken->n : CELL_BYTES - 1,
-             t->text + taken->first);
-    if (taken->n == CELL_BYTES) {
-        return CELL_FAIL(t, taken->first,
-                         "found '%.*s...', a cell of more than %d letters; allowed: a number or the "
-                         "name of a column; correct it",
-                         SHOWN, taken->text, CELL_BYTES - 1);
+    const int n_columns = find_spec(dimension).n_columns;
+    MOR_TRY(context, MOR_NEW(context, &list->rows, table->n_rows, "rows of a table of rocks"));
+    list->n_rows = table->n_rows;
+    for (int k = 0; k < table->n_rows; ++k) {
+        const double *values = table->values + (int64_t)k * n_columns;
+        const double *sizes = values + dimension;
+        list->rows[k] = (mor_rock_row){{values[0], values[1], dimension == 2 ? 0.0 : values[2]}, sizes[0], sizes[1]};
     }
     return MOR_OK;
 }
 
-static void skip_line(table *t)
+/* Takes what was read, and ends the table. */
+static mor_status finish(mor_context *context, int dimension, mor_status status, mor_column_table *table,
+                         mor_rock_list *list)
 {
-    while (!is_line_end(t)) {
-        t->at += 1;
-    }
-    t->at += t->at < t->n_bytes;
-    t->line += 1;
-    t->line_start = t->at;
-}
-
-/* Goes on to the next line that is not blank; false at the end. */
-static bool find_line(table *t)
-{
-    while (t->at < t->n_bytes) {
-        int64_t look = t->at;
-        while (look < t->n_bytes && is_blank(t->text[look])) {
-            look += 1;
-        }
-        if (look < t->n_bytes && t->text[look] != '\n') {
-            return true;
-        }
-        skip_line(t);
-    }
-    return false;
-}
-
-/* ---- Header ------------------------------------------------------------------------------------------------------ */
-
-/* Splits "x [cm]" into the name and the unit. */
-static mor_status split_unit(const table *t, cell *head, char *unit)
-{
-    char *open = strchr(head->text, '[');
-    unit[0] = '\0';
-    if (open == NULL) {
-        return MOR_OK;
-    }
-    char *close = strchr(open, ']');
-    if (close == NULL || close[1] != '\0' || close == open + 1) {
-        return CELL_FAIL(t, head->first,
-                         "found the heading '%s'; allowed: a name and its unit, such as x [m]; correct "
-                         "the brackets",
-                         head->text);
-    }
-    snprintf(unit, CELL_BYTES, "%.*s", (int)(close - open - 1), open + 1);
-    while (open > head->text && is_blank(open[-1])) {
-        open -= 1;
-    }
-    *open = '\0';
-    return MOR_OK;
-}
-
-static mor_status check_unit(const table *t, const cell *head, int kind, const char *unit)
-{
-    char one[CELL_BYTES + 4];
-    double factor = 0.0;
-    snprintf(one, sizeof one, "1 %s", unit);
-    if (unit[0] == '\0' || mor_units_convert(t->context, t->units, one, kinds[kind].unit, &factor) == MOR_OK) {
-        return MOR_OK;
-    }
-    char why[MOR_CONTEXT_MESSAGE_BYTES];
-    snprintf(why, sizeof why, "%.1000s", t->context->message);
-    return CELL_FAIL(t, head->first, "found the unit [%s] of %s: %s; allowed: a unit like %s; correct it", unit,
-                     kinds[kind].name, why, kinds[kind].unit);
-}
-
-static mor_status read_heading(table *t)
-{
-    const char *allowed =
-        t->dimension == 2 ? "x, y, diameter, density (plane strain has no z)" : "x, y, z, diameter, density";
-    cell head;
-    int kind = 0;
-    MOR_TRY(t->context, take_cell(t, &head));
-    if (t->n_columns == N_COLUMNS) {
-        return CELL_FAIL(t, head.first, "found more than %d columns; allowed: %s, each once; remove the others",
-                         N_COLUMNS, allowed);
-    }
-    char *unit = t->unit_of[t->n_columns];
-    MOR_TRY(t->context, split_unit(t, &head, unit));
-    while (kind < N_COLUMNS && strcmp(kinds[kind].name, head.text) != 0) {
-        kind += 1;
-    }
-    if (kind == N_COLUMNS || (kind == Z && t->dimension == 2)) {
-        return CELL_FAIL(t, head.first, "found the column '%s'; allowed: %s; rename or remove it", head.text, allowed);
-    }
-    for (int k = 0; k < t->n_columns; ++k) {
-        if (t->kind_of[k] == kind) {
-            return CELL_FAIL(t, head.first, "found the column '%s' again; allowed: each once; remove one", head.text);
-        }
-    }
-    MOR_TRY(t->context, check_unit(t, &head, kind, unit));
-    t->kind_of[t->n_columns++] = kind;
-    return MOR_OK;
-}
-
-static mor_status read_header(table *t)
-{
-    unsigned given = 0;
-    if (!find_line(t)) {
-        return CELL_FAIL(t, t->at,
-                         "found an empty table; allowed: a line of headings, x, y, %sdiameter, and a line for "
-                         "each rock; write them",
-                         t->dimension == 2 ? "" : "z, ");
-    }
-    MOR_TRY(t->context, read_heading(t));
-    while (!is_line_end(t)) {
-        t->at += 1; /* the comma */
-        MOR_TRY(t->context, read_heading(t));
-    }
-    for (int k = 0; k < t->n_columns; ++k) {
-        given |= 1u << t->kind_of[k];
-    }
-    for (int kind = 0; kind < DENSITY; ++kind) {
-        if ((given >> kind & 1u) == 0 && (kind != Z || t->dimension == 3)) {
-            return CELL_FAIL(t, t->line_start,
-                             "found no column '%s'; allowed: the columns x, y, %sdiameter and, if "
-                             "wanted, density; add it",
-                             kinds[kind].name, t->dimension == 2 ? "" : "z, ");
-        }
-    }
-    skip_line(t);
-    return MOR_OK;
-}
-
-/* ---- Rows -------------------------------------------------------------------------------------------------------- */
-
-static mor_status read_number(const table *t, const cell *found, int column, double *value)
-{
-    const int kind = t->kind_of[column];
-    const char *unit = t->unit_of[column][0] != '\0' ? t->unit_of[column] : kinds[kind].unit;
-    char text[2 * CELL_BYTES];
-    double plain;
-    if (!mor_number_read(found->text, (size_t)found->n, &plain)) {
-        return CELL_FAIL(t, found->first, "found '%s' as %s; allowed: a number with a decimal point; correct it",
-                         found->text, kinds[kind].name);
-    }
-    snprintf(text, sizeof text, "%s %s", found->text, unit);
-    if (mor_units_convert(t->context, t->units, text, kinds[kind].unit, value) != MOR_OK || !isfinite(*value) ||
-        fabs(*value) > largest || (kinds[kind].is_positive && *value <= 0.0)) {
-        return CELL_FAIL(t, found->first, "found %s = %s [%s]; allowed: a number %sup to %g %s; correct it",
-                         kinds[kind].name, found->text, unit, kinds[kind].is_positive ? "above zero, " : "", largest,
-                         kinds[kind].unit);
-    }
-    return MOR_OK;
-}
-
-static mor_status read_row(table *t, mor_rock_row *row)
-{
-    double values[N_COLUMNS] = {[DENSITY] = NAN};
-    for (int k = 0; k < t->n_columns; ++k) {
-        cell found;
-        MOR_TRY(t->context, take_cell(t, &found));
-        MOR_TRY(t->context, read_number(t, &found, k, &values[t->kind_of[k]]));
-        if (is_line_end(t) != (k + 1 == t->n_columns)) {
-            return CELL_FAIL(t, t->at, "found a row with %s than %d cells; allowed: one for each heading; correct it",
-                             is_line_end(t) ? "fewer" : "more", t->n_columns);
-        }
-        t->at += k + 1 < t->n_columns;
-    }
-    *row = (mor_rock_row){{values[X], values[Y], values[Z]}, values[DIAMETER], values[DENSITY]};
-    skip_line(t);
-    return MOR_OK;
-}
-
-static mor_status read_rows(table *t, mor_rock_list *list)
-{
-    MOR_TRY(t->context, read_header(t));
-    MOR_TRY(t->context, MOR_NEW(t->context, &list->rows, MOR_ROCK_LIST_ROWS_MAX, "rows of a table of rocks"));
-    while (find_line(t)) {
-        if (list->n_rows == MOR_ROCK_LIST_ROWS_MAX) {
-            return CELL_FAIL(t, t->at, "found more than %d rocks; allowed: at most these; shorten the table",
-                             MOR_ROCK_LIST_ROWS_MAX);
-        }
-        MOR_TRY(t->context, read_row(t, &list->rows[list->n_rows]));
-        list->n_rows += 1;
-    }
-    if (list->n_rows == 0) {
-        return CELL_FAIL(t, t->at,
-                         "found a table without a rock; allowed: a line for each rock after the headings; "
-                         "add one%s",
-                         "");
-    }
-    return MOR_OK;
+    *list = (mor_rock_list){.rows = NULL};
+    status = status == MOR_OK ? take_rows(context, dimension, table, list) : status;
+    mor_column_table_clear(context, table);
+    return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
 }
 
 mor_status mor_rock_list_parse(mor_context *context, const mor_units *units, const char *name, const char *text,
                                int64_t n_bytes, int dimension, mor_rock_list *list)
 {
-    static const char mark[] = "\xEF\xBB\xBF"; /* before UTF-8 by some programs */
-    const bool has_mark = n_bytes >= 3 && memcmp(text, mark, 3) == 0;
-    table t = {.context = context,
-               .units = units,
-               .name = name,
-               .text = text + (has_mark ? 3 : 0),
-               .n_bytes = n_bytes - (has_mark ? 3 : 0),
-               .line = 1,
-               .dimension = dimension};
-    *list = (mor_rock_list){.rows = NULL};
-    const mor_status status = read_rows(&t, list);
-    if (status != MOR_OK) {
-        mor_rock_list_clear(context, list);
-        return mor_context_pass(context, status, MOR_HERE);
-    }
-    return MOR_OK;
+    const mor_column_spec spec = find_spec(dimension);
+    mor_column_table table;
+    const mor_status status = mor_column_table_parse(context, units, name, text, n_bytes, &spec, &table);
+    return finish(context, dimension, status, &table, list);
 }
 
 mor_status mor_rock_list_read(mor_context *context, const mor_units *units, const char *path, int dimension,
                               mor_rock_list *list)
 {
-    char *text = NULL;
-    *list = (mor_rock_list){.rows = NULL};
-    FILE *file = fopen(path, "rb");
-    MOR_CHECK(context, file != NULL, MOR_ERROR_CONFIG,
-              "%s: found a file that cannot be read (%s); allowed: a table of rocks; check the path", path,
-              strerror(errno));
-    mor_status status = MOR_NEW(context, &text, MOR_ROCK_LIST_BYTES_MAX + 1, "text of a table of rocks");
-    if (status == MOR_OK) {
-        const size_t n = fread(text, 1, MOR_ROCK_LIST_BYTES_MAX + 1, file);
-        if (ferror(file) != 0 || n > MOR_ROCK_LIST_BYTES_MAX) {
-            status = MOR_FAIL(context, MOR_ERROR_CONFIG,
-                              "%s: found a file that cannot be read or has more than %d bytes; allowed: a table of "
-                              "rocks; shorten it",
-                              path, MOR_ROCK_LIST_BYTES_MAX);
-        } else {
-            status = mor_rock_list_parse(context, units, path, text, (int64_t)n, dimension, list);
-        }
-    }
-    fclose(file);
-    MOR_FREE(context, &text);
-    return status;
+    const mor_column_spec spec = find_spec(dimension);
+    mor_column_table table;
+    const mor_status status = mor_column_table_read(context, units, path, &spec, &table);
+    return finish(context, dimension, status, &table, list);
 }
 
 void mor_rock_list_clear(mor_context *context, mor_rock_list *list)

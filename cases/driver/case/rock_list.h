@@ -10,7 +10,7 @@
  *  Rocks from a table of comma-separated values: the columns x, y, z (not in plane strain), diameter and, if wanted,
  *  density, in any order, each with its unit in brackets or in SI. */
 
-enum { MOR_ROCK_LIST_ROWS_MAX = 4096, MOR_ROCK_LIST_BYTES_MAX = 1 << 22 };
+enum { MOR_ROCK_LIST_ROWS_MAX = 4096 };
 
 /** One row. */
 typedef struct mor_rock_row {

@@ -4,10 +4,12 @@
 
 #include "cases/driver/picture/view/picture.h"
 #include "cases/driver/scene/simulation.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 
 #include <math.h>
+#include <string.h>
 
 /* With a structure in the picture the scene is at most so many times as large as without. */
 #define LARGEST_GROWTH 4.0
@@ -26,6 +28,61 @@ void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t 
         bounds->minimum[a] = fmin(bounds->minimum[a], position[k] - half);
         bounds->maximum[a] = fmax(bounds->maximum[a], position[k] + half);
     }
+}
+
+void mor_picture_wall_move(const mor_case *the_case, int wall, const mor_motion *motion, const double *times,
+                           mor_lattice_points *points)
+{
+    mor_pose from;
+    mor_pose to;
+    if (times[0] == times[1] || !mor_simulation_wall_moves(&the_case->walls[wall])) {
+        return;
+    }
+    mor_simulation_pose_wall(the_case, wall, motion, times[0], &from);
+    mor_simulation_pose_wall(the_case, wall, motion, times[1], &to);
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        double start[3];
+        mor_pose_take_back(&from, points->positions + 3 * i, start);
+        mor_pose_place(&to, start, points->positions + 3 * i);
+    }
+}
+
+/* Whether a body of a set, which holds those of one model in the order of the case, is not there any more. */
+static bool is_body_removed(const mor_case *the_case, const char *set, int number, double time)
+{
+    int n = 0;
+    for (int b = 0; b < the_case->n_bodies; ++b) {
+        const mor_case_body *it = &the_case->bodies[b];
+        if (strcmp(it->model, set) == 0 && n++ == number) {
+            return mor_simulation_is_removed(it->removed_at, time);
+        }
+    }
+    return false;
+}
+
+int64_t mor_picture_leave_out_removed(const mor_case *the_case, const char *set, double time, int64_t n, double *part,
+                                      double *position, double *value)
+{
+    int64_t n_left = 0;
+    int last = -1; /* particles of a body follow one another */
+    bool is_removed = false;
+    for (int64_t i = 0; i < n; ++i) {
+        const int body = (int)part[i];
+        if (body != last) {
+            is_removed = is_body_removed(the_case, set, body, time);
+            last = body;
+        }
+        if (is_removed) {
+            continue;
+        }
+        memmove(position + 3 * n_left, position + 3 * i, 3 * sizeof *position);
+        part[n_left] = part[i];
+        if (value != NULL) {
+            value[n_left] = value[i];
+        }
+        n_left += 1;
+    }
+    return n_left;
 }
 
 static bool is_bounded(const mor_bounds *bounds, int dimension)
@@ -69,7 +126,7 @@ bool mor_picture_wall_is_structure(const mor_case *the_case, int wall, const mor
     mor_bounds both = *moving;
     mor_shape_bounds(it->shape, &shape);
     mor_picture_bounds_init(&own);
-    if (points->n_points == 0 || !is_bounded(&shape, the_case->dimension) || mor_vector_length(it->velocity) > 0.0) {
+    if (points->n_points == 0 || !is_bounded(&shape, the_case->dimension) || mor_simulation_wall_moves(it)) {
         return false;
     }
     mor_picture_wall_widen(&own, points->positions, points->n_points, 0.5 * the_case->spacing);

@@ -17,6 +17,25 @@
  *  @param half     [in]      half the particle spacing, m */
 void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t n, double half);
 
+/** Moves the particles of a wall from where they are at one time to where they are at another.
+ *  @param wall      [in]      index of the wall
+ *  @param motion    [in]      its motion; without rows: it has its velocity at all times
+ *  @param times     [in]      shape [2]; from and to, unit s
+ *  @param points    [in,out]  the wall's particles, in the placed frame */
+void mor_picture_wall_move(const mor_case *the_case, int wall, const mor_motion *motion, const double *times,
+                           mor_lattice_points *points);
+
+/** Leaves out the particles of bodies that are not there any more at a time.
+ *  @param set      [in]      zero-terminated; name of their set
+ *  @param time     [in]      unit s
+ *  @param n        [in]      number of particles
+ *  @param part     [in,out]  shape [n]; number of the body of each in the set
+ *  @param position [in,out]  shape [n,3], m
+ *  @param value    [in,out]  shape [n]; colors; NULL: none
+ *  Returns: number of particles that are left, which come first. */
+int64_t mor_picture_leave_out_removed(const mor_case *the_case, const char *set, double time, int64_t n, double *part,
+                                      double *position, double *value);
+
 /** Returns whether a wall is a structure: it is fixed, bounded in all directions, does not reach beyond the moving
  *  particles on all sides as seen from above, and leaves them at least a quarter of the picture.
  *  @param wall     [in]  index of the wall

@@ -11,6 +11,7 @@
 #include "cases/driver/picture/view/picture.h"
 #include "cases/driver/scene/build/simulation_build.h"
 #include "cases/driver/scene/build/simulation_terrain.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
@@ -42,6 +43,7 @@ static const double structure_gray[3] = {0.55, 0.58, 0.62};
 /* One set of the present snapshot. */
 typedef struct layer {
     const mor_snapshot_set *set; /* borrowed */
+    int64_t n;                   /* particles shown: those of bodies that were removed are not */
     bool is_soil;
     char label[MOR_CASE_NAME_BYTES]; /* for the legend */
     double *position;                /* shape [n, 3], m */
@@ -60,7 +62,8 @@ typedef struct gallery {
     double up[3];
     mor_bounds frame;
     mor_lattice_points walls[MOR_CASE_WALLS_MAX];
-    double *light[MOR_CASE_WALLS_MAX]; /* shape [its points]; of terrain, NULL for others */
+    mor_motion motions[MOR_CASE_WALLS_MAX]; /* of walls on a path */
+    double *light[MOR_CASE_WALLS_MAX];      /* shape [its points]; of terrain, NULL for others */
     bool is_structure[MOR_CASE_WALLS_MAX];
     bool is_hiding[MOR_CASE_WALLS_MAX]; /* a transparent structure */
     bool is_ground[MOR_CASE_WALLS_MAX];
@@ -132,6 +135,8 @@ static mor_status read_layer(mor_context *context, gallery *g, const mor_snapsho
     }
     if (!l->is_soil && body != NULL && body->n_components == 1) {
         MOR_TRY(context, read_field(context, snapshot, l->set, "body", &l->part));
+        l->n = mor_picture_leave_out_removed(g->the_case, l->set->name, snapshot->time, l->n, l->part, l->position,
+                                             l->value);
     }
     return MOR_OK;
 }
@@ -164,7 +169,8 @@ static mor_status read_layers(mor_context *context, gallery *g, const mor_snapsh
     for (int k = 0; k < snapshot->n_sets; ++k) {
         const bool is_soil = strcmp(snapshot->sets[k].name, MOR_PICTURE_SOIL_SET) == 0;
         if (snapshot->sets[k].n_particles > 0) {
-            g->layers[g->n_layers++] = (layer){.set = &snapshot->sets[k], .is_soil = is_soil};
+            g->layers[g->n_layers++] =
+                (layer){.set = &snapshot->sets[k], .n = snapshot->sets[k].n_particles, .is_soil = is_soil};
             g->has_soil = g->has_soil || is_soil;
         }
     }
@@ -260,7 +266,7 @@ static void sort_wall(gallery *g, int w)
 
 static bool is_moving(const gallery *g, int w)
 {
-    return mor_vector_length(g->the_case->walls[w].velocity) > 0.0;
+    return mor_simulation_wall_moves(&g->the_case->walls[w]);
 }
 
 /* The particles of a wall as balls that touch its surface from inside: those of cut cells stand nearer to it. */
@@ -342,15 +348,12 @@ static mor_status fill_walls(mor_context *context, gallery *g)
     return MOR_OK;
 }
 
-/* Moves the walls with a prescribed velocity to where they are at a time. */
+/* Moves the walls with a prescribed motion to where they are at a time. */
 static void move_walls(gallery *g, double time)
 {
+    const double times[2] = {g->wall_time, time};
     for (int w = 0; w < g->the_case->n_walls; ++w) {
-        double velocity[3];
-        mor_matrix_apply(g->the_case->rotation, g->the_case->walls[w].velocity, velocity);
-        for (int64_t k = 0; k < 3 * g->walls[w].n_points; ++k) {
-            g->walls[w].positions[k] += (time - g->wall_time) * velocity[k % 3];
-        }
+        mor_picture_wall_move(g->the_case, w, &g->motions[w], times, &g->walls[w]);
     }
     g->wall_time = time;
 }
@@ -361,7 +364,7 @@ static mor_picture_group show_layer(const gallery *g, const layer *l, int tone)
 {
     mor_picture_group group = {.name = l->label,
                                .position = l->position,
-                               .n_particles = l->set->n_particles,
+                               .n_particles = l->n,
                                .radius = 0.5 * g->the_case->spacing,
                                .value = l->value,
                                .part = l->part,
@@ -414,13 +417,14 @@ static int list_groups(const gallery *g, mor_picture_group *groups)
         const mor_picture_group all = show_layer(g, l, tone);
         if (l->soils.n_soils > 0) {
             n += mor_picture_soils_list(&l->soils, g->the_case, &all, groups + n);
-        } else {
+        } else if (l->n > 0) {
             groups[n++] = all;
         }
         tone += !l->is_soil;
     }
     for (int w = 0; w < g->the_case->n_walls && n < MOR_PICTURE_GROUPS_MAX; ++w) {
-        if (g->walls[w].n_points > 0 && !g->is_omitted[w]) {
+        const bool is_removed = mor_simulation_is_removed(g->the_case->walls[w].removed_at, g->wall_time);
+        if (g->walls[w].n_points > 0 && !g->is_omitted[w] && !is_removed) {
             groups[n++] = show_wall(g, w, is_first);
             is_first = is_first && !is_named(g, w);
         }
@@ -478,9 +482,9 @@ static mor_status widen_gallery(mor_context *context, gallery *g, const mor_snap
     MOR_TRY(context, read_layers(context, g, snapshot));
     for (int l = 0; l < g->n_layers; ++l) {
         const layer *shown = &g->layers[l];
-        const int64_t n = shown->set->n_particles;
+        const int64_t n = shown->n;
         mor_picture_wall_widen(&g->frame, shown->position, n, 0.5 * g->the_case->spacing);
-        if (shown->value != NULL) {
+        if (shown->value != NULL && n > 0) {
             double low = 0.0;
             double high = 0.0;
             MOR_TRY(context, mor_measure_percentile(context, shown->value, NULL, n, 1.0, &low));
@@ -542,7 +546,9 @@ static mor_status render_gallery(mor_context *context, gallery *g, mor_pictures_
     mor_snapshot_list list;
     mor_simulation_find_up(g->the_case, g->up);
     MOR_TRY(context, mor_snapshot_list_init(context, &list, g->folder));
-    const mor_status status = render_list(context, g, &list, choice, output);
+    mor_status status = mor_simulation_make_wall_motions(context, g->the_case, g->motions);
+    status = status == MOR_OK ? render_list(context, g, &list, choice, output) : status;
+    mor_simulation_clear_wall_motions(context, g->motions);
     for (int w = 0; w < g->the_case->n_walls; ++w) {
         mor_lattice_clear(context, &g->walls[w]);
         MOR_FREE(context, &g->light[w]);

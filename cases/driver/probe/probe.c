@@ -3,6 +3,7 @@
 #include "cases/driver/probe/probe_row_internal.h"
 
 #include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
@@ -316,21 +317,10 @@ static mor_status wall_impulse(mor_context *context, const view *v, double *valu
 static mor_status wall_gap(mor_context *context, const view *v, double *value)
 {
     const mor_case *c = v->simulation->the_case;
-    const double *position = v->points.position;
     const double time = mor_schedule_time(&v->simulation->schedule);
     for (int w = 0; w < c->n_walls; ++w) {
         if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
-            double velocity[3];
-            double translation[3];
-            mor_matrix_apply(c->rotation, c->walls[w].velocity, velocity);
-            for (int a = 0; a < 3; ++a) {
-                translation[a] = c->translation[a] + time * velocity[a];
-            }
-            *value = INFINITY;
-            for (int64_t i = 0; i < v->points.n_points; ++i) {
-                *value = fmin(*value, mor_simulation_placed_distance(c->walls[w].shape, c->rotation, translation,
-                                                                     position + 3 * i));
-            }
+            *value = mor_simulation_wall_gap(v->simulation, w, time, v->points.position, v->points.n_points);
             return MOR_OK;
         }
     }

@@ -103,14 +103,15 @@ static mor_status external_work(mor_context *context, const view *v, double *val
     return MOR_OK;
 }
 
-/* Energy of the soil that has left the domain, about the same origin as the simulation's. */
+/* Energy of the soil that has left the domain and of bodies that were removed, about the same origin as the
+ * simulation's. */
 static double find_outflow(const mor_simulation *s)
 {
     double origin[3];
     double energies[3];
     mor_simulation_place_point(s->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
     mor_soil_outflow_energies(&s->soil, origin, energies);
-    return energies[0] + energies[1] + energies[2];
+    return energies[0] + energies[1] + energies[2] + mor_simulation_bodies_removed(&s->bodies, origin);
 }
 
 /* What has changed since the start, entry by entry, J (J/m): their sum is the error, half the sum of their sizes the
@@ -198,8 +199,9 @@ double mor_probe_bodies_error(const mor_simulation *s, double *share)
     mor_simulation_bodies_energy(&s->bodies, origin, &energies[0], &energies[1], &energies[2]);
     const double lost = mor_simulation_bodies_lost(&s->bodies);
     const double driven = find_driven_bodies(s);
-    double error = lost + driven;
-    double turned = 0.5 * (fabs(lost) + fabs(driven));
+    const double removed = mor_simulation_bodies_removed(&s->bodies, origin);
+    double error = lost + driven + removed;
+    double turned = 0.5 * (fabs(lost) + fabs(driven) + fabs(removed));
     for (int k = 0; k < 3; ++k) {
         const double change = energies[k] - s->initial_energies[k];
         error += change;

@@ -39,9 +39,10 @@ typedef struct mor_simulation {
     mor_simulation_bodies bodies;
     mor_simulation_frame frame;
     mor_schedule schedule;
-    double up[3];          /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
-    double surface_height; /* of the initial soil along up over the placed origin, m */
-    double soil_depth;     /* height of the highest column of the initial soil along up, m; 0 without */
+    mor_motion wall_motions[MOR_CASE_WALLS_MAX]; /* prescribed, of walls on a path; without rows: none; owned */
+    double up[3];                                /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
+    double surface_height;                       /* of the initial soil along up over the placed origin, m */
+    double soil_depth; /* height of the highest column of the initial soil along up, m; 0 without */
     int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
     double particle_volumes[MOR_CASE_SOILS_MAX];  /* of each particle of a region at the start, m3 (m2) */
     double first_step;                            /* length of the first time step, s */

@@ -25,6 +25,8 @@ typedef struct mor_simulation_bodies {
     int n_groups;
     mor_simulation_body of[MOR_CASE_BODIES_MAX]; /* by number of the body in the case */
     mor_contact contact;
+    mor_motion *motions; /* shape [n_motions]; of bodies on a path; NULL: none is; owned */
+    int n_motions;
     mor_shape *wholes[MOR_CASE_WALLS_MAX]; /* of walls that make one face with others; owned */
     bool has_contact;
     mor_contact_pair pairs[MOR_CASE_PAIRS_MAX];
@@ -33,11 +35,12 @@ typedef struct mor_simulation_bodies {
 
 /** What the bodies need to know of the case in the frame of the run. */
 typedef struct mor_simulation_frame {
-    double gravity[3];          /* m/s2 */
-    double domain_minimum[3];   /* m, in the frame of the case */
-    double domain_maximum[3];   /* likewise */
-    mor_domain_frame placement; /* the placement of the case */
-    bool is_placed;             /* whether that rotates or translates anything */
+    double gravity[3];              /* m/s2 */
+    double domain_minimum[3];       /* m, in the frame of the case */
+    double domain_maximum[3];       /* likewise */
+    mor_domain_frame placement;     /* the placement of the case */
+    bool is_placed;                 /* whether that rotates or translates anything */
+    const mor_motion *wall_motions; /* shape [walls of the case]; prescribed; without rows: none; borrowed */
 } mor_simulation_frame;
 
 /** Builds the bodies and their contact: fills the shapes with particles, checks that nothing overlaps and that all of
@@ -96,6 +99,10 @@ double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies);
  *  @param elastic   [out]  one number; strain energy and contact springs, unit J */
 void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const double *datum, double *kinetic,
                                   double *potential, double *elastic);
+
+/** Energy of the bodies that were removed, each as it was then, unit J (J/m); not among the above.
+ *  @param datum [in]  shape [3]; potential energy counts from here, unit m */
+double mor_simulation_bodies_removed(const mor_simulation_bodies *bodies, const double *datum);
 
 /** Linear momentum of all bodies, and angular momentum about a point.
  *  @param point            [in]   shape [3], unit m

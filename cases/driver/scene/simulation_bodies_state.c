@@ -62,6 +62,9 @@ void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const dou
             const mor_body *body = &group->bodies[b];
             double momentum[3];
             double angular[3];
+            if (group->boundary.patches[b].is_removed) {
+                continue;
+            }
             *kinetic += operations->momentum(group, b, momentum, angular);
             for (int a = 0; a < 3; ++a) {
                 *potential -= body->mass * group->gravity[a] * (body->center[a] - datum[a]);
@@ -70,6 +73,29 @@ void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const dou
         }
         *elastic += operations->strain_energy != NULL ? operations->strain_energy(group, -1) : 0.0;
     }
+}
+
+double mor_simulation_bodies_removed(const mor_simulation_bodies *bodies, const double *datum)
+{
+    double energy = 0.0;
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        const mor_body_group *group = bodies->groups[g];
+        const mor_body_operations *operations = group->operations;
+        for (int b = 0; b < group->n_bodies; ++b) {
+            const mor_body *body = &group->bodies[b];
+            double momentum[3];
+            double angular[3];
+            if (!group->boundary.patches[b].is_removed) {
+                continue;
+            }
+            energy += operations->momentum(group, b, momentum, angular);
+            energy += operations->spring_energy != NULL ? operations->spring_energy(group, b) : 0.0;
+            for (int a = 0; a < 3; ++a) {
+                energy -= body->mass * group->gravity[a] * (body->center[a] - datum[a]);
+            }
+        }
+    }
+    return energy;
 }
 
 void mor_simulation_bodies_momentum(const mor_simulation_bodies *bodies, const double *point, double *momentum,
@@ -82,6 +108,9 @@ void mor_simulation_bodies_momentum(const mor_simulation_bodies *bodies, const d
         for (int b = 0; b < group->n_bodies; ++b) {
             double p[3];
             double l[3];
+            if (group->boundary.patches[b].is_removed) {
+                continue;
+            }
             group->operations->momentum(group, b, p, l);
             mor_vector_cross_add(-1.0, point, p, l);
             for (int a = 0; a < 3; ++a) {
@@ -182,20 +211,25 @@ static bool is_locked_wholly(const mor_case *c, const mor_case_body *it)
 }
 
 /* Starts one body, or holds it while the soil settles. */
-static mor_status start_body(mor_context *context, const mor_simulation_body *body, const mor_case *c,
-                             const mor_case_body *it, bool is_resting)
+static mor_status start_body(mor_context *context, const mor_simulation_bodies *bodies, const mor_case *c, int number,
+                             bool is_resting)
 {
+    const mor_simulation_body *body = &bodies->of[number];
+    const mor_case_body *it = &c->bodies[number];
+    const mor_motion *path = it->path.n_rows > 0 ? &bodies->motions[number] : NULL;
     const start_of_body user = {c, it};
     mor_body_group *group = body->group;
     mor_body *own = &group->bodies[body->index];
     mor_body_start start = {.is_resting = is_resting,
                             .is_prescribed = it->is_prescribed,
+                            .path = path,
+                            .removed_at = it->removed_at > 0.0 ? it->removed_at : 0.0,
                             .add_velocity = it->motion != MOR_CASE_MOTION_UNIFORM ? add_motion : NULL,
                             .is_clamped = it->clamp != NULL ? is_clamped : NULL,
                             .user = &user};
     /* Bodies with a velocity are held until the soil has settled. */
     start.is_held = is_resting && (mor_vector_length(it->velocity) > 0.0 || it->motion_speed > 0.0 ||
-                                   mor_vector_length(it->angular_velocity) > 0.0);
+                                   mor_vector_length(it->angular_velocity) > 0.0 || path != NULL);
     mor_matrix_apply(c->rotation, it->velocity, start.velocity);
     mor_matrix_apply(c->rotation, it->angular_velocity, start.angular_velocity);
     const int64_t n_clamped = group->operations->start(group, body->index, &start);
@@ -220,7 +254,7 @@ mor_status mor_simulation_bodies_settle(mor_context *context, mor_simulation_bod
     const bool is_resting = settling != NULL;
     const mor_scheme *own = &the_case->numerics;
     for (int b = 0; b < the_case->n_bodies; ++b) {
-        MOR_TRY(context, start_body(context, &bodies->of[b], the_case, &the_case->bodies[b], is_resting));
+        MOR_TRY(context, start_body(context, bodies, the_case, b, is_resting));
     }
     for (int g = 0; g < bodies->n_groups; ++g) {
         mor_body_group *group = bodies->groups[g];

@@ -119,11 +119,23 @@ static bool has_own_law(const mor_case *c, const char *name)
     return is_named;
 }
 
+static bool move_alike(const mor_case_path *a, const mor_case_path *b)
+{
+    const size_t n_bytes = (size_t)a->n_rows * sizeof *a->rows;
+    return a->n_rows == b->n_rows &&
+           (a->n_rows == 0 ||
+            (a->is_smooth == b->is_smooth && memcmp(a->rows, b->rows, n_bytes) == 0 &&
+             (memcmp(a->point, b->point, sizeof a->point) == 0 || (isnan(a->point[0]) && isnan(b->point[0]))) &&
+             memcmp(a->axis, b->axis, sizeof a->axis) == 0));
+}
+
 /* Whether contact with the surfaces of two walls is the same. */
 static bool are_alike(const mor_case *c, const mor_case_wall *a, const mor_case_wall *b)
 {
-    return memcmp(a->velocity, b->velocity, sizeof a->velocity) == 0 && a->contact_modulus == b->contact_modulus &&
-           a->contact_poisson == b->contact_poisson && !has_own_law(c, a->name) && !has_own_law(c, b->name);
+    return memcmp(a->velocity, b->velocity, sizeof a->velocity) == 0 && move_alike(&a->path, &b->path) &&
+           (a->removed_at == b->removed_at || (isnan(a->removed_at) && isnan(b->removed_at))) &&
+           a->contact_modulus == b->contact_modulus && a->contact_poisson == b->contact_poisson &&
+           !has_own_law(c, a->name) && !has_own_law(c, b->name);
 }
 
 /* The union of the shapes of a wall and all that are joined to it. */
@@ -198,9 +210,9 @@ void mor_wall_seams_warn(mor_context *context, const mor_case *the_case)
                     c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->walls[v].name, it.place[0],
                     it.place[1], it.place[2],
                     is_alike ? "forms an inner corner with it elsewhere"
-                             : "differs in velocity, contact_modulus or contact law",
+                             : "differs in motion, contact_modulus or contact law",
                     is_alike ? "let one end a spacing before the other"
-                             : "give both the same velocity, contact_modulus and contact law, or keep rocks "
+                             : "give both the same motion, contact_modulus and contact law, or keep rocks "
                                "away from it");
             }
         }

@@ -30,6 +30,19 @@ static mor_status prepare_contact(mor_context *context, mor_soil_contact *contac
     return MOR_OK;
 }
 
+/* Of any point of a wall at any time, m/s. */
+static double find_largest_speed(const mor_wall_request *request)
+{
+    double radius = 0.0;
+    if (request->motion == NULL) {
+        return mor_vector_length(request->velocity);
+    }
+    for (int64_t i = 0; i < request->n_points; ++i) {
+        radius = fmax(radius, mor_motion_radius(request->motion, request->points + 3 * i));
+    }
+    return mor_motion_fastest(request->motion, radius);
+}
+
 static mor_status make_wall(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request)
 {
     const int64_t n = request->n_points;
@@ -38,7 +51,10 @@ static mor_status make_wall(mor_context *context, mor_soil_contact *contact, con
     memcpy(boundary->name, contact->name, sizeof boundary->name);
     boundary->n_points = n;
     boundary->n_patches = 1;
-    boundary->largest_speed = mor_vector_length(request->velocity);
+    contact->motion = request->motion;
+    contact->rotates = request->motion != NULL && mor_motion_rotates(request->motion);
+    contact->removed_at = request->removed_at;
+    boundary->largest_speed = find_largest_speed(request);
     MOR_TRY(context, MOR_NEW(context, &boundary->records, (n + MOR_CLUSTER) * RECORD, "wall points"));
     MOR_TRY(context, MOR_NEW(context, &boundary->patches, 1, "patch of a wall"));
     boundary->patches[0] = (mor_boundary_patch){
@@ -48,6 +64,9 @@ static mor_status make_wall(mor_context *context, mor_soil_contact *contact, con
     }
     if (boundary->largest_speed > 0.0) {
         MOR_TRY(context, MOR_NEW(context, &contact->base, 3 * n, "wall points at the start"));
+    }
+    if (contact->rotates && contact->normals != NULL) {
+        MOR_TRY(context, MOR_NEW(context, &contact->base_normals, 3 * n, "normals of a wall at the start"));
     }
     return MOR_OK;
 }
@@ -65,6 +84,9 @@ static mor_status copy_points(mor_context *context, mor_soil_contact *contact, c
         memcpy(record + MOR_BOUNDARY_VELOCITY, request->velocity, 3 * sizeof *record);
         if (contact->normals != NULL) {
             memcpy(contact->normals + 3 * i, request->normals + 3 * (int64_t)order[i], 3 * sizeof *record);
+        }
+        if (contact->base_normals != NULL) {
+            memcpy(contact->base_normals + 3 * i, contact->normals + 3 * i, 3 * sizeof *record);
         }
         if (contact->base != NULL) {
             memcpy(contact->base + 3 * i, record + MOR_BOUNDARY_POSITION, 3 * sizeof *record);
@@ -178,6 +200,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
         MOR_FREE(context, &contact->normals);
     }
     MOR_FREE(context, &contact->base);
+    MOR_FREE(context, &contact->base_normals);
     MOR_FREE(context, &contact->built);
     MOR_FREE(context, &contact->farthest);
     MOR_FREE(context, &contact->first_slot);
@@ -187,7 +210,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
     memset(contact, 0, sizeof *contact);
 }
 
-void mor_soil_contact_place(mor_soil_contact *contact, const double *displacement)
+static void translate_points(mor_soil_contact *contact, const double *displacement)
 {
     for (int64_t i = 0; i < contact->n_points; ++i) {
         for (int a = 0; a < 3; ++a) {
@@ -196,9 +219,52 @@ void mor_soil_contact_place(mor_soil_contact *contact, const double *displacemen
     }
 }
 
+static void pose_points(mor_soil_contact *contact, const mor_pose *pose)
+{
+    for (int64_t i = 0; i < contact->n_points; ++i) {
+        double *record = contact->boundary->records + RECORD * i;
+        mor_pose_place(pose, contact->base + 3 * i, record + MOR_BOUNDARY_POSITION);
+        mor_pose_velocity(pose, record + MOR_BOUNDARY_POSITION, record + MOR_BOUNDARY_VELOCITY);
+        if (contact->base_normals != NULL) {
+            mor_matrix_apply(pose->rotation, contact->base_normals + 3 * i, contact->normals + 3 * i);
+        }
+    }
+}
+
+void mor_soil_contact_move(mor_soil_contact *contact, double time)
+{
+    contact->boundary->patches[0].is_removed = contact->removed_at > 0.0 && time >= contact->removed_at;
+    if (contact->motion != NULL && contact->base != NULL) {
+        mor_pose pose;
+        mor_motion_find(contact->motion, time, &pose);
+        memcpy(contact->velocity, pose.velocity, sizeof contact->velocity);
+        pose_points(contact, &pose);
+    } else if (mor_vector_length(contact->velocity) > 0.0) {
+        const double displacement[3] = {time * contact->velocity[0], time * contact->velocity[1],
+                                        time * contact->velocity[2]};
+        translate_points(contact, displacement);
+    }
+}
+
 double mor_soil_contact_speed(const mor_soil_contact *contact)
 {
-    return contact->is_wall ? mor_vector_length(contact->velocity) : contact->boundary->largest_speed;
+    return contact->is_wall && contact->motion == NULL ? mor_vector_length(contact->velocity)
+                                                       : contact->boundary->largest_speed;
+}
+
+/* Patches that are not there any more, 1. */
+static int count_removed(const mor_boundary *boundary)
+{
+    int n_removed = 0;
+    for (int p = 0; p < boundary->n_patches; ++p) {
+        n_removed += boundary->patches[p].is_removed;
+    }
+    return n_removed;
+}
+
+bool mor_soil_contact_is_stale(const mor_soil_contact *contact)
+{
+    return count_removed(contact->boundary) != contact->n_removed;
 }
 
 static void find_farthest(void *job, int64_t first, int64_t last, double *values)
@@ -261,7 +327,9 @@ static int64_t cut_lists(mor_soil_contact *contact)
             while (k < count && list[k] < end) {
                 ++k;
             }
-            if (n_slots < contact->capacity) {
+            if (contact->boundary->patches[patch].is_removed) {
+                --n_slots;
+            } else if (n_slots < contact->capacity) {
                 contact->slots[n_slots] = (mor_pair_slot){list + first, k - first, cluster, patch};
             }
         }
@@ -275,6 +343,7 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     const int64_t capacity = needed + needed / 4;
     const int64_t n_lanes = capacity * MOR_CLUSTER;
     const int64_t n_borrowed = contact->is_wall ? 0 : n_lanes;
+    const int64_t n_own_velocities = contact->is_wall && !contact->rotates ? 0 : n_lanes;
     const int64_t n_directed = contact->normals != NULL ? n_lanes : 0;
     const int64_t n_barrier = contact->barrier.is_on ? n_lanes : 0;
     const int64_t n_continued = contact->stress != MOR_WALL_STRESS_UNIFORM ? n_lanes : 0;
@@ -285,7 +354,7 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->stick, n_lanes, "wall stick"));
     MOR_TRY(context, MOR_NEW(context, &contact->acceleration, n_lanes * 3, "boundary forces"));
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
-    MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_borrowed * 3, "velocity of a boundary"));
+    MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_own_velocities * 3, "velocity of a boundary"));
     MOR_TRY(context, MOR_NEW(context, &contact->seen_faces, n_directed * 6, "faces of a wall"));
     MOR_TRY(context, MOR_NEW(context, &contact->transfer, n_directed * 3, "corners of a wall"));
     MOR_TRY(context, MOR_NEW(context, &contact->given, n_borrowed * MOR_SHARES, "force given to a boundary"));
@@ -329,6 +398,7 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
     }
     const mor_relation_points points = {&contact->tree, boundary->records, RECORD};
     MOR_TRY(context, mor_relation_build(context, &contact->relation, soil, &points, reach));
+    contact->n_removed = count_removed(boundary);
     const int64_t needed = cut_lists(contact);
     if (needed > contact->capacity) {
         MOR_TRY(context, grow_slots(context, contact, needed));

@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_SPH_BOUNDARY_SOIL_CONTACT_H
 #define MOR_CORE_SPH_BOUNDARY_SOIL_CONTACT_H
 
+#include "core/geometry/motion.h"
 #include "core/particle/boundary.h"
 #include "core/sph/pair/pair.h"
 
@@ -30,7 +31,9 @@ typedef struct mor_wall_request {
     const double *shares;  /* shape [n_points]; part of that volume which each has, 1; NULL: all of it */
     mor_wall_friction friction;
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
-    double velocity[3];          /* prescribed, m/s */
+    double velocity[3];          /* prescribed, m/s; zero with a motion */
+    const mor_motion *motion;    /* prescribed; borrowed, outlives the wall; NULL: the velocity above */
+    double removed_at;           /* time from which the wall is not there any more, s; 0: it stays */
     int dimension;               /* 2 or 3 */
     mor_wall_stress stress;
 } mor_wall_request;
@@ -68,8 +71,9 @@ typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_points;
     mor_boundary *boundary; /* a wall's own, otherwise borrowed */
-    bool is_wall;           /* a single patch that moves with the velocity below; owns its boundary */
-    double *base;           /* shape [n_points, 3]; a wall's points before any displacement, m; NULL: does not move */
+    bool is_wall;           /* a single patch that moves as prescribed below; owns its boundary */
+    double *base;           /* shape [n_points, 3]; a wall's points before any motion, m; NULL: does not move */
+    double *base_normals;   /* shape [n_points, 3]; its normals before any motion, 1; NULL: it does not rotate */
     double *normals;    /* shape [n_points, 3]; of faces, 1; a wall's own, otherwise borrowed; NULL: as points lie */
     double *transfer;   /* shape [capacity * 8, 3]; what corners of the kernel gradient are its own, less what it has
                          * been given of them, 1/m; NULL without */
@@ -77,25 +81,29 @@ typedef struct mor_soil_contact {
     double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     mor_tree tree;
-    mor_relation relation;   /* soil -> boundary */
-    mor_pair_slot *slots;    /* shape [capacity]; by rising cluster, then patch */
-    int32_t *first_slot;     /* shape [n_soil_clusters + 1]; of each occupied cluster, and one past the last */
-    int32_t *patch_slots;    /* shape [capacity]; slots by patch, rising */
-    int32_t *first_of_patch; /* shape [n_patches + 1]; where each patch begins in patch_slots */
-    int64_t n_slots;         /* slots in use */
-    double velocity[3];      /* of a wall, m/s */
-    double *mean_velocity;   /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: wall */
-    double *sums;            /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
-    double *stick;           /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *acceleration;    /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
+    mor_relation relation;    /* soil -> boundary */
+    mor_pair_slot *slots;     /* shape [capacity]; by rising cluster, then patch */
+    int32_t *first_slot;      /* shape [n_soil_clusters + 1]; of each occupied cluster, and one past the last */
+    int32_t *patch_slots;     /* shape [capacity]; slots by patch, rising */
+    int32_t *first_of_patch;  /* shape [n_patches + 1]; where each patch begins in patch_slots */
+    int64_t n_slots;          /* slots in use */
+    double velocity[3];       /* of a wall that does not rotate, m/s */
+    const mor_motion *motion; /* of a wall; borrowed; NULL: the velocity above at all times */
+    bool rotates;             /* a wall whose points have velocities of their own */
+    double removed_at;        /* of a wall, s; 0: it stays */
+    int n_removed;            /* patches that were not there when the lists were built, 1 */
+    double *mean_velocity;    /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: a wall that does not rotate */
+    double *sums;             /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
+    double *stick;            /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
+    double *acceleration;     /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
                               * patch has its own part in, m/s2 */
-    double *divergence;      /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
+    double *divergence;       /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
                                * NULL with uniform stress */
-    double *given;           /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
-    double *repulsion;       /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
-    double *barrier_steps;   /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
-    int64_t capacity;        /* slots that the arrays above have room for */
-    int dimension;           /* 2 or 3 */
+    double *given;            /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
+    double *repulsion;        /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
+    double *barrier_steps;    /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
+    int64_t capacity;         /* slots that the arrays above have room for */
+    int dimension;            /* 2 or 3 */
     mor_wall_stress stress;
     mor_soil_barrier barrier;
     double longest_step; /* that the barrier allowed in the last step, s; infinite without */
@@ -126,10 +134,14 @@ mor_status mor_soil_contact_check_frictions(mor_context *context, const mor_soil
 /** Frees what the contact owns; accepts a zeroed one. */
 void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact);
 
-/** Puts the points of a moving wall where they are after a total displacement, whatever the path there.
- *  @param contact      [in,out]  made with a velocity that is not zero
- *  @param displacement [in]      shape [3], since the start, unit m */
-void mor_soil_contact_place(mor_soil_contact *contact, const double *displacement);
+/** Puts a wall where it is at a time, whatever the path there, and sets its velocity, (M1) and (M2) of
+ *  docs/theory/motion.md; takes it away from the time on at which it is removed.
+ *  @param contact [in,out]  a wall
+ *  @param time    [in]      since the start, unit s */
+void mor_soil_contact_move(mor_soil_contact *contact, double time);
+
+/** Whether patches were removed since the lists were built, which are then to be built anew. */
+bool mor_soil_contact_is_stale(const mor_soil_contact *contact);
 
 /** Rebuilds the lists of points that soil clusters see, cuts them into slots and makes room for their sums.
  *  @param soil    [in]      the soil's records and fitted tree

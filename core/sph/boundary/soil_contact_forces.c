@@ -41,7 +41,7 @@ void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *co
                                       const mor_pair_constants *constants, const double *records)
 {
     const int64_t n = contact->n_slots;
-    if (contact->is_wall) {
+    if (contact->mean_velocity == NULL) {
         return;
     }
     const double *points = contact->boundary->records;

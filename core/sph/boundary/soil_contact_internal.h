@@ -20,7 +20,7 @@ static inline int64_t mor_soil_contact_lanes(const mor_pair_slot *slot, int64_t 
 /** Velocity of the boundary as one particle of a slot sees it, shape [3], unit m/s; lane counts from the first slot. */
 static inline const double *mor_soil_contact_velocity(const mor_soil_contact *contact, int64_t lane)
 {
-    return contact->is_wall ? contact->velocity : contact->mean_velocity + 3 * lane;
+    return contact->mean_velocity == NULL ? contact->velocity : contact->mean_velocity + 3 * lane;
 }
 
 /** Whether Coulomb friction of a boundary limits all that acts along it, what continues the stress of the soil

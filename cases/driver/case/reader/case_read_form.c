@@ -317,10 +317,12 @@ int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room)
     }
     for (int k = 0; k < the_case->n_walls; ++k) {
         list_files(&the_case->walls[k].outline, inputs, room, &n_inputs);
+        add_input(the_case->walls[k].path.file, the_case->walls[k].path.file_hash, inputs, room, &n_inputs);
     }
     for (int k = 0; k < the_case->n_bodies; ++k) {
         list_files(&the_case->bodies[k].outline, inputs, room, &n_inputs);
         list_files(&the_case->bodies[k].clamp_outline, inputs, room, &n_inputs);
+        add_input(the_case->bodies[k].path.file, the_case->bodies[k].path.file_hash, inputs, room, &n_inputs);
     }
     for (int k = 0; k < the_case->n_rocks; ++k) {
         list_files(&the_case->rocks[k].region_outline, inputs, room, &n_inputs);

@@ -207,6 +207,8 @@ void mor_case_schema_print(const mor_registry *registry, mor_case_probe_catalog 
     print_group(stream, 3, &mor_case_stress_group, NULL);
     print_group(stream, 2, &mor_case_wall_group, NULL);
     print_group(stream, 3, &mor_case_friction_group, NULL);
+    print_group(stream, 3, &mor_case_path_group, NULL);
+    print_group(stream, 3, &mor_case_path_row_group, NULL);
     print_group(stream, 2, &mor_case_body_group, NULL);
     print_group(stream, 3, &mor_case_body_material_group, NULL);
     print_group(stream, 3, &mor_case_spring_group, NULL);

@@ -26,6 +26,11 @@ static const mor_case_key root_keys[] = {
     {{"gravity", VECTOR, "m/s2", REQUIRED, ANY, NULL, "acceleration by gravity"},
      MOR_CASE_STORE_REALS,
      AT(mor_case, gravity)},
+    {{"start_from", WORDS, "1", DEFAULT(0.0), ANY, NULL,
+      "folder of a run whose last state this one starts from, as a stage of construction: soils of the same name with "
+      "their stress and state, and the same bodies; path from the folder of the case file"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case, stage.run)},
     {{"seed", WHOLE, "1", DEFAULT(1.0), NOT_NEGATIVE, NULL, "seed of all random numbers"},
      MOR_CASE_STORE_SEED,
      AT(mor_case, seed)},
@@ -39,6 +44,7 @@ static const mor_case_part root_parts[] = {
     {"lattice", false, "group", "lattice of the initial positions of soil particles"},
     {"placement", false, "group", "rotation and translation of the whole scene, gravity included"},
     {"scale", false, "group", "change of units of the whole case, to check that results do not depend on them"},
+    {"excavate", false, "list of shapes", "with start_from: shapes whose soil is not taken over from the run"},
     {"soil", false, "list of groups", "soil regions; a case has soil, or bodies, or both"},
     {"walls", false, "list of groups", "solid walls"},
     {"bodies", false, "list of groups", "rocks, elastic or rigid"},
@@ -212,6 +218,14 @@ static const mor_case_part soil_parts[] = {
     {"shape", true, "shape", "region to be filled with particles"},
     {"material", true, "group", "model, density, and the parameters of the model"},
     {"initial_stress", false, "group", "initial stress"},
+    {"velocity_formula", false, "list of texts",
+     "initial velocity in place of velocity: a formula of x, y, z (m) for each component (m/s), as (\"0.1*y\", \"0\")"},
+    {NULL, false, NULL, NULL}};
+
+static const mor_case_part stress_parts[] = {
+    {"formula", false, "list of texts",
+     "of type formula: the components xx, yy, zz, xy and in three dimensions yz, zx (Pa, tension positive) as formulas "
+     "of x, y, z (m) in the frame of the case"},
     {NULL, false, NULL, NULL}};
 
 #define MODEL_KEYS                                                                                                     \
@@ -243,9 +257,10 @@ static const mor_case_part external_parts[] = {
     {NULL, false, NULL, NULL}};
 
 static const mor_case_key stress_keys[] = {
-    {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled|uniform",
+    {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled|uniform|formula",
       "none: zero; k0: vertical stress by the weight above, lateral stress by lateral_ratio; settled: as k0, then "
-      "brought to rest under damping before the start; uniform: the same pressure everywhere, as in a closed vessel"},
+      "brought to rest under damping before the start; uniform: the same pressure everywhere, as in a closed vessel; "
+      "formula: by formulas of the place"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_soil, initial_stress)},
     {{"pressure", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL,
@@ -299,9 +314,13 @@ static const mor_case_key wall_keys[] = {
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, friction_coefficient),
      .needs = MOR_CASE_NEEDS_SOIL},
-    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "prescribed velocity"},
+    {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "prescribed velocity; not together with path"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_wall, velocity)},
+    {{"removed_at", SCALAR, "s", DEFAULT(NAN), POSITIVE, NULL, "time from which the wall is not there any more"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_wall, removed_at),
+     .computed = "never"},
     {{"contact_modulus", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL,
       "Young's modulus of its surface, for contact with rigid bodies; 0: a rigid surface"},
      MOR_CASE_STORE_REALS,
@@ -316,6 +335,7 @@ static const mor_case_key wall_keys[] = {
 static const mor_case_part wall_parts[] = {
     {"shape", true, "shape", "the solid"},
     {"friction_with", false, "list of groups", "soils with which the friction is another one"},
+    {"path", false, "group", "prescribed motion over time, in place of velocity"},
     {NULL, false, NULL, NULL}};
 
 static const mor_case_key friction_keys[] = {
@@ -338,8 +358,8 @@ const mor_case_group mor_case_material_group = {"material", "Material of a soil 
 const mor_case_group mor_case_external_group = {"material", "Material of a soil region by a law of another program",
                                                 external_keys, external_parts,
                                                 offsetof(mor_case_soil, written_material)};
-const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys, NULL,
-                                              offsetof(mor_case_soil, written_stress)};
+const mor_case_group mor_case_stress_group = {"initial_stress", "Initial stress of a soil region", stress_keys,
+                                              stress_parts, offsetof(mor_case_soil, written_stress)};
 const mor_case_group mor_case_wall_group = {"walls", "Walls (list)", wall_keys, wall_parts,
                                             offsetof(mor_case_wall, written)};
 

@@ -109,6 +109,23 @@ extern const char *const mor_case_rigid_words[];
 extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
     mor_case_probe_group, mor_case_expectation_group;
 
+/** The group path of walls and bodies, and the members of its list table; records mor_case_path and
+ *  mor_case_path_row. */
+extern const mor_case_group mor_case_path_group, mor_case_path_row_group;
+
+/** A row of a path while it is read. */
+typedef struct mor_case_path_row {
+    mor_motion_row row;
+    uint64_t written;
+} mor_case_path_row;
+
+/** Largest speed that a path gives a shape, about; where the shape is unbounded, within the domain.
+ *  @param the_case [in]  its domain
+ *  @param path     [in]  zero speed without rows
+ *  @param shape    [in]  in the frame of the case, or of a body
+ *  Returns: unit m/s. */
+double mor_case_path_speed(const mor_case *the_case, const mor_case_path *path, const mor_shape *shape);
+
 /** Members of the list friction_with of walls, bodies and rocks; record mor_case_soil_friction. */
 extern const mor_case_group mor_case_friction_group;
 

@@ -74,10 +74,16 @@ static const mor_case_key body_keys[] = {
      MOR_CASE_STORE_REALS,
      BODY(contact_poisson)},
     {{"motion", CHOICE, "1", DEFAULT(0.0), ANY, "free|prescribed",
-      "of a rigid body; free: as forces move it; prescribed: with constant velocity and angular_velocity, whatever the "
-      "forces"},
+      "of a rigid body; free: as forces move it; prescribed: with constant velocity and angular_velocity, or on a "
+      "path, "
+      "whatever the forces"},
      MOR_CASE_STORE_BOOL,
      BODY(is_prescribed)},
+    {{"removed_at", SCALAR, "s", DEFAULT(NAN), POSITIVE, NULL,
+      "of a rigid body: time from which it is not there any more"},
+     MOR_CASE_STORE_REALS,
+     BODY(removed_at),
+     .computed = "never"},
     {{"particles", CHOICE, "1", DEFAULT(0.0), ANY, "by_shape|lattice|relaxed",
       "how the shape is filled; lattice: with the nodes of a lattice; relaxed: with relaxed positions that follow its "
       "surface; by_shape: relaxed for a mesh, an outline or a rock, else lattice"},
@@ -89,6 +95,7 @@ static const mor_case_part body_parts[] = {
     {"shape", true, "shape", "shape of the body, in its own frame"},
     {"material", true, "group", "model, density, and the parameters of the model"},
     {"friction_with", false, "list of groups", "soils with which the friction is another one"},
+    {"path", false, "group", "of a prescribed motion: motion over time, in place of velocity and angular_velocity"},
     {"locked", false, "list of words", "of a free rigid body: no motion along x, y, z, no rotation about rx, ry, rz"},
     {"spring", false, "group", "of a free rigid body: spring and damper to a fixed point"},
     {"clamp", false, "shape",
@@ -230,6 +237,8 @@ const char *mor_case_body_condition(const mor_case_body *body, const char *name)
         int kinds;
         const char *condition;
     } uses[] = {{"motion", FREE | PRESCRIBED, "with model = \"rigid\""},
+                {"removed_at", FREE | PRESCRIBED, "with model = \"rigid\""},
+                {"path", PRESCRIBED, "with model = \"rigid\" and motion = \"prescribed\""},
                 {"contact_poissons_ratio", FREE | PRESCRIBED, "with model = \"rigid\""},
                 {"locked", FREE, with_free},
                 {"spring", FREE, with_free},
@@ -297,11 +306,15 @@ static double find_start_speed2(const mor_case *the_case)
 {
     double squared_speed = 0.0;
     for (int k = 0; k < the_case->n_bodies; ++k) {
-        squared_speed = fmax(squared_speed, find_body_speed(&the_case->bodies[k], the_case->dimension));
+        const mor_case_body *body = &the_case->bodies[k];
+        const double on_path = mor_case_path_speed(the_case, &body->path, body->shape);
+        squared_speed = fmax(squared_speed, find_body_speed(body, the_case->dimension));
+        squared_speed = fmax(squared_speed, on_path * on_path);
     }
     for (int k = 0; k < the_case->n_walls; ++k) {
         const double *velocity = the_case->walls[k].velocity;
-        squared_speed = fmax(squared_speed, mor_vector_dot(velocity, velocity));
+        const double on_path = mor_case_path_speed(the_case, &the_case->walls[k].path, the_case->walls[k].shape);
+        squared_speed = fmax(squared_speed, fmax(mor_vector_dot(velocity, velocity), on_path * on_path));
     }
     return squared_speed;
 }

@@ -263,6 +263,7 @@ mor_status mor_case_reader_body(const mor_case_reader *reader, const mor_case_no
     MOR_TRY(reader->context, read_locks(reader, node, body));
     MOR_TRY(reader->context, read_spring(reader, node, body));
     MOR_TRY(reader->context, read_start(reader, node, body));
+    MOR_TRY(reader->context, mor_case_reader_path(reader, node, &body->path));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &body->outline, &body->shape));
     MOR_TRY(reader->context, check_shape(reader, shape, body));

@@ -32,7 +32,7 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
     static const struct {
         const char *key;
         const char *types;
-        bool is_used[4]; /* by none, k0, settled, uniform */
+        bool is_used[5]; /* by none, k0, settled, uniform, formula */
     } uses[] = {{"lateral_ratio", "\"k0\" or \"settled\"", {false, true, true, false}},
                 {"surface_level", "\"k0\" or \"settled\"", {false, true, true, false}},
                 {"settle_time", "\"settled\"", {false, false, true, false}},
@@ -40,7 +40,8 @@ static mor_status check_stress_keys(const mor_case_reader *reader, const mor_cas
                 {"settle_method", "\"settled\"", {false, false, true, false}},
                 {"settle_from", "\"settled\"", {false, false, true, false}},
                 {"settle_force_ratio", "\"settled\"", {false, false, true, false}},
-                {"pressure", "\"uniform\"", {false, false, false, true}}};
+                {"pressure", "\"uniform\"", {false, false, false, true}},
+                {"formula", "\"formula\"", {false, false, false, false, true}}};
     for (size_t k = 0; k < sizeof uses / sizeof uses[0]; ++k) {
         const mor_case_node *child = mor_case_node_find(node, uses[k].key);
         if (child != NULL && !uses[k].is_used[type]) {
@@ -92,7 +93,7 @@ static mor_status check_stress_weight(const mor_case_reader *reader, const mor_c
                                       const mor_case *the_case, const mor_case_soil *soil)
 {
     if (soil->initial_stress == MOR_CASE_STRESS_NONE || soil->initial_stress == MOR_CASE_STRESS_UNIFORM ||
-        mor_vector_length(the_case->gravity) > 0.0) {
+        soil->initial_stress == MOR_CASE_STRESS_FORMULA || mor_vector_length(the_case->gravity) > 0.0) {
         return MOR_OK;
     }
     const mor_case_node *type = mor_case_node_find(node, "type");
@@ -100,6 +101,40 @@ static mor_status check_stress_weight(const mor_case_reader *reader, const mor_c
                               "found an initial stress of type \"%s\" in a case without gravity, where it would be "
                               "zero; allowed: with gravity, or \"none\"; correct 'gravity' or the type",
                               type->text);
+}
+
+static mor_status read_stress_formula(const mor_case_reader *reader, const mor_case_node *node, mor_case_soil *soil)
+{
+    static const char what[] = "xx, yy, zz, xy and in three dimensions yz, zx";
+    if (soil->initial_stress != MOR_CASE_STRESS_FORMULA) {
+        return MOR_OK;
+    }
+    if (mor_case_node_find(node, "formula") == NULL) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found no 'formula' in an initial stress of type \"formula\"; allowed: formulas of "
+                                  "the components %s; add it",
+                                  what);
+    }
+    return mor_case_reader_formulas(reader, node, "formula", what, reader->dimension == 2 ? 4 : 6,
+                                    soil->stress_formula);
+}
+
+/* Initial velocity as a constant, or as formulas of the place. */
+static mor_status read_velocity(const mor_case_reader *reader, const mor_case_node *node, mor_case_soil *soil)
+{
+    const mor_case_node *formula = mor_case_node_find(node, "velocity_formula");
+    MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", soil->velocity));
+    if (formula == NULL) {
+        return MOR_OK;
+    }
+    if (mor_case_node_find(node, "velocity") != NULL) {
+        return MOR_CASE_NODE_FAIL(reader->context, formula,
+                                  "found both 'velocity' and 'velocity_formula' of the soil '%s'; allowed: one of "
+                                  "them; remove the other",
+                                  soil->name);
+    }
+    return mor_case_reader_formulas(reader, node, "velocity_formula", "the components of the velocity",
+                                    reader->dimension, soil->velocity_formula);
 }
 
 static mor_status read_stress(const mor_case_reader *reader, const mor_case_node *soil_node, const mor_case *the_case,
@@ -123,6 +158,7 @@ static mor_status read_stress(const mor_case_reader *reader, const mor_case_node
     MOR_TRY(reader->context, check_stress_keys(reader, node, soil->initial_stress));
     MOR_TRY(reader->context, check_settle_keys(reader, node, soil));
     MOR_TRY(reader->context, check_stress_pressure(reader, node, soil));
+    MOR_TRY(reader->context, read_stress_formula(reader, node, soil));
     return check_stress_weight(reader, node, the_case, soil);
 }
 
@@ -133,7 +169,7 @@ static mor_status read_soil(const mor_case_reader *reader, const mor_case_node *
     mor_case_reader_place(node, &soil->place);
     MOR_TRY(reader->context, mor_case_reader_names(reader, node, &mor_case_soil_group, NULL, NULL));
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_soil_group, soil));
-    MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", soil->velocity));
+    MOR_TRY(reader->context, read_velocity(reader, node, soil));
     MOR_TRY(reader->context, read_material(reader, node, soil));
     MOR_TRY(reader->context, read_stress(reader, node, the_case, soil));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
@@ -168,11 +204,13 @@ static mor_status check_ground(const mor_case_reader *reader, const mor_case_nod
                                   "structures on it as separate walls",
                                   mor_case_shape_groups[wall->outline.kind].name);
     }
-    if (is_ground && mor_vector_length(wall->velocity) > 0.0) {
+    if (is_ground && (mor_vector_length(wall->velocity) > 0.0 || wall->path.n_rows > 0)) {
+        const char *name = wall->path.n_rows > 0 ? "path" : "velocity";
         return MOR_CASE_NODE_FAIL(
-            reader->context, mor_case_node_find(node, "velocity"),
+            reader->context, mor_case_node_find(node, name),
             "found a terrain that moves; allowed is terrain at rest, whose edge stays outside the "
-            "domain; remove 'velocity', or give the soil the opposite one");
+            "domain; remove '%s', or give the soil the opposite velocity",
+            name);
     }
     return MOR_OK;
 }
@@ -189,6 +227,7 @@ static mor_status read_wall(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, mor_case_reader_frictions(reader, node, the_case, &wall->friction_with));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &wall->outline, &wall->shape));
+    MOR_TRY(reader->context, mor_case_reader_path(reader, node, &wall->path));
     MOR_TRY(reader->context, check_ground(reader, node, wall));
     for (const mor_case_wall *other = the_case->walls; other < wall; ++other) {
         if (strcmp(other->name, wall->name) == 0) {

@@ -59,6 +59,27 @@ mor_status mor_case_reader_friction(const mor_case_reader *reader, const mor_cas
 mor_status mor_case_reader_frictions(const mor_case_reader *reader, const mor_case_node *owner,
                                      const mor_case *the_case, mor_case_frictions *frictions);
 
+/** Reads a list of formulas of a place and checks that each can be parsed.
+ *  @param owner    [in]   the group that has the list
+ *  @param name     [in]   zero-terminated; of the list, which exists
+ *  @param what     [in]   zero-terminated; what the formulas are, for messages
+ *  @param n        [in]   number of formulas that are allowed
+ *  @param formulas [out]  shape [n, MOR_CASE_TEXT_BYTES]; zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_formulas(const mor_case_reader *reader, const mor_case_node *owner, const char *name,
+                                    const char *what, int n, char (*formulas)[MOR_CASE_TEXT_BYTES]);
+
+/** Reads the run that a case starts from, and compares both.
+ *  @param the_case [in,out]  its soils and settings are read
+ *  Returns: MOR_OK, also when there is none; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_stage(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
+/** Reads the group path of a wall or a body.
+ *  @param owner [in]      its group
+ *  @param path  [in,out]  zeroed before; owned by the case, also after a failure
+ *  Returns: MOR_OK, also when there is none; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_path(const mor_case_reader *reader, const mor_case_node *owner, mor_case_path *path);
+
 /** Reads the lists soil, walls and bodies, and the group contact.
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_case_reader_scene(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);

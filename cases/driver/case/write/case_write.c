@@ -94,16 +94,6 @@ static mor_case_presence check_shape_keys(const mor_case_key *key, const void *r
     return isfinite(first) ? MOR_CASE_WRITE : key->computed != NULL ? MOR_CASE_MENTION : MOR_CASE_OMIT;
 }
 
-/* By this line a run that is resumed with another content of the file is recognized. */
-static void write_hash(const mor_case_writer *w, uint64_t file_hash)
-{
-    if (file_hash != 0) {
-        char hash[MOR_HASH_TEXT_BYTES];
-        mor_hash_format(file_hash, hash);
-        fprintf(w->stream, "%*s# content of the file: xxh64 %s\n", w->depth * MOR_CASE_INDENT, "", hash);
-    }
-}
-
 static mor_status write_shape(mor_case_writer *w, const char *name, const mor_case_shape *outline, const char *end)
 {
     const mor_case_group *group = &mor_case_shape_groups[outline->kind];
@@ -116,7 +106,7 @@ static mor_status write_shape(mor_case_writer *w, const char *name, const mor_ca
     } else {
         MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, outline, check_shape_keys));
     }
-    write_hash(w, outline->file_hash);
+    mor_case_writer_hash(w, outline->file_hash);
     MOR_TRY(w->reader.context, write_parts(w, outline));
     mor_case_writer_close(w, end);
     return MOR_OK;
@@ -135,7 +125,8 @@ static mor_case_presence presence_of_stress_key(const mor_case_key *key, const v
         return MOR_CASE_OMIT;
     }
     const bool is_settling = strncmp(name, "settle", strlen("settle")) == 0;
-    if (soil->initial_stress == MOR_CASE_STRESS_NONE || (is_settling && soil->initial_stress == MOR_CASE_STRESS_K0)) {
+    if (soil->initial_stress == MOR_CASE_STRESS_NONE || soil->initial_stress == MOR_CASE_STRESS_FORMULA ||
+        (is_settling && soil->initial_stress == MOR_CASE_STRESS_K0)) {
         return MOR_CASE_OMIT;
     }
     const bool is_relaxed = soil->settle_method == MOR_CASE_SETTLE_RELAXATION;
@@ -181,6 +172,13 @@ static mor_status find_model(const mor_case_writer *w, const char *name, const m
     return MOR_OK;
 }
 
+static mor_case_presence presence_of_soil_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_soil *soil = record;
+    const bool is_replaced = strcmp(key->schema.key, "velocity") == 0 && soil->velocity_formula[0][0] != '\0';
+    return is_replaced ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
 static mor_case_presence presence_of_material_key(const mor_case_key *key, const void *record)
 {
     const mor_case_soil *soil = record;
@@ -208,14 +206,15 @@ static void write_external(const mor_case_writer *w, const mor_case_external *ex
     }
     fprintf(w->stream, ");\n");
     write_numbers(w, "state_start", external->state_start, external->n_state_start);
-    write_hash(w, external->file_hash);
+    mor_case_writer_hash(w, external->file_hash);
 }
 
 static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
 {
     const bool is_external = soil->external.made != NULL;
     const mor_case_group *group = is_external ? &mor_case_external_group : &mor_case_material_group;
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, mor_case_presence_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, presence_of_soil_key));
+    mor_case_writer_formulas(w, "velocity_formula", soil->velocity_formula, 3);
     MOR_TRY(w->reader.context, write_shape(w, "shape", &soil->outline, "};"));
     mor_case_writer_open(w, "material", "{");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, soil, presence_of_material_key));
@@ -226,6 +225,7 @@ static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
     mor_case_writer_close(w, "};");
     mor_case_writer_open(w, "initial_stress", "{");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_stress_group, soil, presence_of_stress_key));
+    mor_case_writer_formulas(w, "formula", soil->stress_formula, 6);
     mor_case_writer_close(w, "};");
     return MOR_OK;
 }
@@ -234,7 +234,11 @@ static mor_case_presence presence_of_wall_key(const mor_case_key *key, const voi
 {
     const mor_case_wall *wall = record;
     const bool is_idle =
-        strcmp(key->schema.key, "friction_coefficient") == 0 && wall->friction != MOR_CASE_FRICTION_COULOMB;
+        (strcmp(key->schema.key, "friction_coefficient") == 0 && wall->friction != MOR_CASE_FRICTION_COULOMB) ||
+        (strcmp(key->schema.key, "velocity") == 0 && wall->path.n_rows > 0);
+    if (strcmp(key->schema.key, "removed_at") == 0 && isnan(wall->removed_at)) {
+        return MOR_CASE_MENTION;
+    }
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
 
@@ -266,6 +270,7 @@ static mor_status write_wall(mor_case_writer *w, const mor_case_wall *wall)
 {
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_wall_group, wall, presence_of_wall_key));
     MOR_TRY(w->reader.context, write_frictions(w, &wall->friction_with));
+    MOR_TRY(w->reader.context, mor_case_writer_path(w, &wall->path));
     return write_shape(w, "shape", &wall->outline, "};");
 }
 
@@ -277,11 +282,14 @@ static mor_case_presence presence_of_body_key(const mor_case_key *key, const voi
     const char *name = key->schema.key;
     const bool is_open = (strcmp(name, "contact_modulus") == 0 && isnan(body->contact_modulus)) ||
                          (strcmp(name, "height_over_ground") == 0 && isnan(body->height_over_ground));
+    const bool is_replaced =
+        body->path.n_rows > 0 && (strcmp(name, "velocity") == 0 || strcmp(name, "angular_velocity") == 0);
+    const bool stays = strcmp(name, "removed_at") == 0 && isnan(body->removed_at);
     if (is_open) {
         return MOR_CASE_MENTION;
     }
     const bool is_idle =
-        mor_case_body_condition(body, name) != NULL ||
+        mor_case_body_condition(body, name) != NULL || is_replaced || stays ||
         (strcmp(name, "friction_coefficient") == 0 && body->soil_friction != MOR_CASE_FRICTION_COULOMB);
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
@@ -349,6 +357,7 @@ static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const
     MOR_TRY(w->reader.context, write_frictions(w, &body->friction_with));
     MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
     MOR_TRY(w->reader.context, write_body_material(w, body));
+    MOR_TRY(w->reader.context, mor_case_writer_path(w, &body->path));
     write_locks(w, body);
     if (body->has_spring) {
         mor_case_writer_open(w, "spring", "{");
@@ -399,7 +408,7 @@ static mor_status write_form(mor_case_writer *w, const mor_case_shape *form)
     mor_case_writer_text(group->name, type, sizeof type);
     mor_case_writer_line(w, "type", type, false);
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, form, check_shape_keys));
-    write_hash(w, form->file_hash);
+    mor_case_writer_hash(w, form->file_hash);
     return MOR_OK;
 }
 
@@ -420,7 +429,7 @@ static mor_status write_packing(mor_case_writer *w, const mor_case_rocks *rocks)
 static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
 {
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_rocks_group, rocks, presence_of_rocks_key));
-    write_hash(w, rocks->list_hash);
+    mor_case_writer_hash(w, rocks->list_hash);
     MOR_TRY(w->reader.context, write_frictions(w, &rocks->body.friction_with));
     if (rocks->list[0] == '\0') {
         MOR_TRY(w->reader.context, write_packing(w, rocks));
@@ -509,16 +518,33 @@ static void write_plugins(mor_case_writer *w, const mor_case *the_case)
         mor_case_writer_text(it->file, value, sizeof value);
         fprintf(w->stream, "%*s# %s\n", w->depth * MOR_CASE_INDENT, "", it->models);
         fprintf(w->stream, "%*s%s%s\n", w->depth * MOR_CASE_INDENT, "", value, k + 1 < the_case->n_plugins ? "," : "");
-        write_hash(w, it->file_hash);
+        mor_case_writer_hash(w, it->file_hash);
     }
     mor_case_writer_close(w, ");");
+}
+
+static mor_case_presence presence_of_root_key(const mor_case_key *key, const void *record)
+{
+    const mor_case *the_case = record;
+    const bool is_idle = strcmp(key->schema.key, "start_from") == 0 && the_case->stage.run[0] == '\0';
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+/* What of the run before is taken over; a run that has changed is recognized by the line of its hash. */
+static mor_status write_stage(mor_case_writer *w, const mor_case_stage *stage)
+{
+    mor_case_writer_hash(w, stage->hash);
+    return stage->n_excavations == 0
+               ? MOR_OK
+               : write_shape_list(w, "excavate", stage->excavation_outlines, stage->n_excavations);
 }
 
 static mor_status write_case(mor_case_writer *w, const mor_case *the_case)
 {
     fprintf(w->stream, "# The case as it was used: every value, in SI, before the scale. \"# default\" marks what the "
                        "case file\n# did not give.\n");
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, mor_case_presence_always));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_root_group, the_case, presence_of_root_key));
+    MOR_TRY(w->reader.context, write_stage(w, &the_case->stage));
     write_plugins(w, the_case);
     for (const mor_case_group *group = mor_case_settings_groups; group->name != NULL; ++group) {
         mor_case_writer_open(w, group->name, "{");

@@ -78,6 +78,21 @@ void mor_case_writer_close(mor_case_writer *w, const char *bracket);
 mor_status mor_case_writer_keys(const mor_case_writer *w, const mor_case_group *group, const void *record,
                                 mor_case_key_presence presence_of);
 
+/** Writes the hash of a file as a comment: by it a run that is resumed with another content is recognized.
+ *  @param file_hash [in]  0: there is no file, and nothing is written */
+void mor_case_writer_hash(const mor_case_writer *w, uint64_t file_hash);
+
+/** Writes the formulas that there are as a list.
+ *  @param key      [in]  zero-terminated
+ *  @param formulas [in]  shape [n_max, MOR_CASE_TEXT_BYTES]; zero-terminated; "" behind the last one
+ *  @param n_max    [in]  most formulas */
+void mor_case_writer_formulas(const mor_case_writer *w, const char *key, const char (*formulas)[MOR_CASE_TEXT_BYTES],
+                              int n_max);
+
+/** Writes a path; nothing without rows.
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_path(mor_case_writer *w, const mor_case_path *path);
+
 /** Writes a probe.
  *  Returns: as mor_case_writer_numbers. */
 mor_status mor_case_writer_probe(const mor_case_writer *w, const mor_case_probe *probe);

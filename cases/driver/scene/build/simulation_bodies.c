@@ -7,6 +7,7 @@
 #include "cases/driver/scene/build/body_kinds.h"
 #include "cases/driver/scene/build/simulation_fill.h"
 #include "cases/driver/scene/simulation.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "cases/driver/scene/wall_seams.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -339,6 +340,38 @@ static mor_status check_places(mor_context *context, const mor_simulation_bodies
     return status;
 }
 
+static bool has_removals(const mor_case *c)
+{
+    bool has = false;
+    for (int w = 0; w < c->n_walls; ++w) {
+        has = has || c->walls[w].removed_at > 0.0;
+    }
+    for (int b = 0; b < c->n_bodies; ++b) {
+        has = has || c->bodies[b].removed_at > 0.0;
+    }
+    return has;
+}
+
+/* The motions of bodies on paths, about their centers of mass unless told otherwise. */
+static mor_status make_motions(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c)
+{
+    bool has_paths = false;
+    for (int b = 0; b < c->n_bodies; ++b) {
+        has_paths = has_paths || c->bodies[b].path.n_rows > 0;
+    }
+    if (!has_paths) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, MOR_NEW(context, &bodies->motions, c->n_bodies, "motions of bodies"));
+    bodies->n_motions = c->n_bodies;
+    for (int b = 0; b < c->n_bodies; ++b) {
+        const mor_simulation_body *it = &bodies->of[b];
+        MOR_TRY(context, mor_simulation_make_motion(context, c, &c->bodies[b].path,
+                                                    it->group->bodies[it->index].geometry.center, &bodies->motions[b]));
+    }
+    return MOR_OK;
+}
+
 static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodies, const mor_case *c,
                                const mor_simulation_frame *frame, int first_bit)
 {
@@ -353,6 +386,9 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
         memcpy(walls[w].rotation, c->rotation, sizeof walls[w].rotation);
         memcpy(walls[w].translation, c->translation, sizeof walls[w].translation);
         mor_matrix_apply(c->rotation, c->walls[w].velocity, walls[w].velocity);
+        walls[w].motion = frame->wall_motions[w].n_rows > 0 ? &frame->wall_motions[w] : NULL;
+        walls[w].fastest = mor_simulation_wall_speed(c, w, &frame->wall_motions[w]);
+        walls[w].removed_at = c->walls[w].removed_at > 0.0 ? c->walls[w].removed_at : 0.0;
         walls[w].modulus = c->walls[w].contact_modulus;
         walls[w].poisson = c->walls[w].contact_poisson;
     }
@@ -370,7 +406,8 @@ static mor_status make_contact(mor_context *context, mor_simulation_bodies *bodi
                                            bodies->pairs,
                                            c->contact.n_pairs,
                                            slowest,
-                                           mor_case_start_speed(c)};
+                                           mor_case_start_speed(c),
+                                           has_removals(c)};
     MOR_TRY(context, mor_contact_init(context, &bodies->contact, &settings, bodies->groups, bits, bodies->n_groups,
                                       walls, c->n_walls));
     bodies->has_contact = true;
@@ -419,6 +456,7 @@ mor_status mor_simulation_bodies_init(mor_context *context, mor_simulation_bodie
         group->damping_time = the_case->numerics.damping_time;
         MOR_TRY(context, add_body_field(context, group));
     }
+    MOR_TRY(context, make_motions(context, bodies, the_case));
     MOR_TRY(context, check_places(context, bodies, the_case, frame));
     MOR_TRY(context, make_contact(context, bodies, the_case, frame, first_bit));
     return mor_simulation_bodies_settle(context, bodies, the_case, NULL);
@@ -438,6 +476,10 @@ void mor_simulation_bodies_clear(mor_context *context, mor_simulation_bodies *bo
         }
         mor_material_destroy(context, &bodies->materials[g]);
     }
+    for (int b = 0; b < bodies->n_motions; ++b) {
+        mor_motion_clear(context, &bodies->motions[b]);
+    }
+    MOR_FREE(context, &bodies->motions);
     memset(bodies, 0, sizeof *bodies);
 }
 

@@ -7,6 +7,9 @@
 #include "cases/driver/scene/build/simulation_relax.h"
 #include "cases/driver/scene/check/narrow_gaps.h"
 #include "cases/driver/scene/check/simulation_check.h"
+#include "cases/driver/scene/simulation_motion.h"
+#include "cases/driver/scene/start/simulation_formula.h"
+#include "cases/driver/scene/start/simulation_stage.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
@@ -172,7 +175,8 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
         simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
         first += n;
     }
-    return mor_simulation_set_stress(context, simulation, regions);
+    MOR_TRY(context, mor_simulation_set_stress(context, simulation, regions));
+    return mor_simulation_set_by_formulas(context, simulation, regions);
 }
 
 /* Where a particle stands on the lattice of the case, slowest direction first. */
@@ -254,6 +258,8 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
                                     .friction = (mor_wall_friction)c->walls[w].friction,
                                     .friction_coefficient = c->walls[w].friction_coefficient};
         mor_matrix_apply(c->rotation, c->walls[w].velocity, request.velocity);
+        request.motion = simulation->wall_motions[w].n_rows > 0 ? &simulation->wall_motions[w] : NULL;
+        request.removed_at = c->walls[w].removed_at > 0.0 ? c->walls[w].removed_at : 0.0;
         double *normals = NULL;
         mor_status status =
             c->numerics.wall_normals == 1 ? find_wall_normals(context, c, w, &points, &normals) : MOR_OK;
@@ -282,20 +288,33 @@ static mor_status build_bodies(mor_context *context, mor_simulation *simulation,
                                       simulation->has_soil ? 1 : 0);
 }
 
-static mor_status build_soil(mor_context *context, mor_simulation *simulation)
+static mor_status fill_regions(mor_context *context, mor_simulation *simulation, mor_taken_soil *taken,
+                               mor_lattice_points *regions)
+{
+    const mor_case *c = simulation->the_case;
+    int64_t n_particles = 0;
+    MOR_TRY(context, create_materials(context, simulation));
+    MOR_TRY(context, mor_taken_soil_open(context, c, taken));
+    for (int pass = 0; pass < 2; ++pass) { /* new soil is filled around what was taken over */
+        for (int k = 0; k < c->n_soils; ++k) {
+            if (mor_taken_soil_has(taken, k) == (pass == 0)) {
+                MOR_TRY(context, mor_simulation_fill_soil(context, c, k, n_particles, taken, &regions[k]));
+                n_particles += regions[k].n_points;
+            }
+        }
+    }
+    return mor_simulation_relax_soil(context, simulation, regions);
+}
+
+static mor_status build_soil_with(mor_context *context, mor_simulation *simulation, mor_taken_soil *taken)
 {
     const mor_case *c = simulation->the_case;
     mor_lattice_points regions[MOR_CASE_SOILS_MAX] = {{NULL, 0}};
     mor_soil_settings settings;
     mor_soil_kind kinds[MOR_CASE_SOILS_MAX];
     int64_t n_particles = 0;
-    mor_status status = create_materials(context, simulation);
-    for (int k = 0; k < c->n_soils && status == MOR_OK; ++k) {
-        status = mor_simulation_fill_soil(context, c, k, n_particles, &regions[k]);
-        n_particles += regions[k].n_points;
-    }
+    mor_status status = fill_regions(context, simulation, taken, regions);
     if (status == MOR_OK) {
-        status = mor_simulation_relax_soil(context, simulation, regions);
         n_particles = count_points(regions, c->n_soils);
     }
     if (status == MOR_OK) {
@@ -308,6 +327,10 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation)
     if (status == MOR_OK) {
         status = set_particles(context, simulation, regions);
     }
+    if (status == MOR_OK && taken->the_case != NULL) {
+        status = place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil));
+        status = status == MOR_OK ? mor_taken_soil_apply(context, taken, simulation) : status;
+    }
     for (int k = 0; k < c->n_soils; ++k) {
         mor_lattice_clear(context, &regions[k]);
     }
@@ -316,9 +339,19 @@ static mor_status build_soil(mor_context *context, mor_simulation *simulation)
     }
     MOR_TRY(context, status);
     MOR_TRY(context, add_walls(context, simulation));
-    MOR_TRY(context, place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil)));
+    if (taken->the_case == NULL) {
+        MOR_TRY(context, place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil)));
+    }
     mor_soil_sort(&simulation->soil);
     return mor_simulation_has_relaxed_soil(c) ? mor_soil_normalize(context, &simulation->soil) : MOR_OK;
+}
+
+static mor_status build_soil(mor_context *context, mor_simulation *simulation)
+{
+    mor_taken_soil taken = {.the_case = NULL};
+    const mor_status status = build_soil_with(context, simulation, &taken);
+    mor_taken_soil_close(context, &taken);
+    return status;
 }
 
 static mor_status build_schedule(mor_context *context, mor_simulation *simulation)
@@ -354,9 +387,13 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     simulation->has_soil = the_case->n_soils > 0;
     mor_simulation_find_up(the_case, simulation->up);
     find_frame(the_case, &simulation->frame);
+    simulation->frame.wall_motions = simulation->wall_motions;
     /* Soil is relaxed among bodies, which are then needed first. */
     const bool is_relaxed = mor_simulation_has_relaxed_soil(the_case);
-    mor_status status = is_relaxed ? build_bodies(context, simulation, registry) : MOR_OK;
+    mor_status status = mor_simulation_make_wall_motions(context, the_case, simulation->wall_motions);
+    if (status == MOR_OK && is_relaxed) {
+        status = build_bodies(context, simulation, registry);
+    }
     if (status == MOR_OK && simulation->has_soil) {
         status = build_soil(context, simulation);
     }
@@ -381,6 +418,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     if (status == MOR_OK) {
         status = list_state(context, simulation);
     }
+    if (status == MOR_OK) {
+        status = mor_simulation_take_bodies(context, simulation);
+    }
     if (status != MOR_OK) {
         mor_simulation_clear(context, simulation);
     }
@@ -394,6 +434,7 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
     MOR_FREE(context, &simulation->frictions);
+    mor_simulation_clear_wall_motions(context, simulation->wall_motions);
     mor_material_destroy(context, &simulation->material);
     for (int k = 0; k < MOR_CASE_SOILS_MAX; ++k) {
         mor_material_destroy(context, &simulation->parts[k]);

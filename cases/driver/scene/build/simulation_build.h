@@ -12,6 +12,8 @@
  *  The composition root: a case becomes particles, walls, a material and a schedule. It runs nothing but settling and
  *  writes no file. */
 
+struct mor_taken_soil; /* simulation_stage.h */
+
 /** Builds a simulation: checks that soil and walls do not overlap, fills the shapes with particles, sets the initial
  *  stress. Settling, when asked for, is the caller's (mor_simulation_settle).
  *  @param simulation [out]     storage supplied by the caller; cleared after a failure
@@ -78,12 +80,13 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
                                     mor_lattice_points *points, double **shares);
 
 /** Fills one soil region of a case with particles, in the placed frame, where no body is.
- *  @param soil     [in]   index of the region
- *  @param n_before [in]   particles of earlier regions, for which memory is kept
- *  @param points   [out]  owned by the caller, also after a failure
+ *  @param soil     [in]      index of the region
+ *  @param n_before [in]      particles of earlier regions, for which memory is kept
+ *  @param taken    [in,out]  soil of the run that the case starts from; zeroed: none
+ *  @param points   [out]     owned by the caller, also after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line for a region that is empty, too large for the memory, out of
  *  the domain or inside a wall or an earlier region; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
-                                    mor_lattice_points *points);
+                                    struct mor_taken_soil *taken, mor_lattice_points *points);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "cases/driver/scene/build/memory_room.h"
 #include "cases/driver/scene/build/simulation_terrain.h"
+#include "cases/driver/scene/start/simulation_stage.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 
@@ -129,6 +130,9 @@ static mor_status check_overlap(mor_context *context, const mor_case *the_case, 
     const mor_case_soil *it = &the_case->soils[soil];
     for (int other = 0; other < the_case->n_walls + soil; ++other) {
         const bool is_wall = other < the_case->n_walls;
+        if (!is_wall && mor_case_takes_over(the_case, other - the_case->n_walls)) {
+            continue; /* it is no longer where its shape was */
+        }
         const mor_shape *shape =
             is_wall ? the_case->walls[other].shape : the_case->soils[other - the_case->n_walls].shape;
         const char *name = is_wall ? the_case->walls[other].name : the_case->soils[other - the_case->n_walls].name;
@@ -232,6 +236,13 @@ static mor_status check_rest(mor_context *context, const mor_case *the_case, int
             "allowed is one of them, because settling brings all soil to rest; remove 'velocity' or choose type = "
             "\"k0\"",
             it->place.file, it->place.line, it->name, it->velocity[0], it->velocity[1], it->velocity[2], settled->name);
+        MOR_CHECK(
+            context, settled->initial_stress != MOR_CASE_STRESS_SETTLED || it->velocity_formula[0][0] == '\0',
+            MOR_ERROR_CONFIG,
+            "%s:%d: found soil '%s' with a 'velocity_formula' and soil '%s' with a settled initial stress; allowed "
+            "is one of them, because settling brings all soil to rest; remove the formula or choose type = "
+            "\"k0\"",
+            it->place.file, it->place.line, it->name, settled->name);
     }
     return MOR_OK;
 }
@@ -242,7 +253,7 @@ static int list_siblings(const mor_case *the_case, int soil, const mor_shape **s
     int n = 0;
     for (int k = 0; k < the_case->n_soils; ++k) {
         const bool is_on_lattice = the_case->soils[k].outline.kind != MOR_CASE_SHAPE_RELEASE;
-        if (k != soil && is_on_lattice) {
+        if (k != soil && is_on_lattice && !mor_case_takes_over(the_case, k)) {
             siblings[n++] = the_case->soils[k].shape;
         }
     }
@@ -291,15 +302,21 @@ static mor_status check_region(mor_context *context, const mor_case *the_case, i
 }
 
 mor_status mor_simulation_fill_soil(mor_context *context, const mor_case *the_case, int soil, int64_t n_before,
-                                    mor_lattice_points *points)
+                                    mor_taken_soil *taken, mor_lattice_points *points)
 {
     const mor_case_soil *it = &the_case->soils[soil];
     mor_lattice_points nodes = {NULL, 0};
+    if (mor_taken_soil_has(taken, soil)) {
+        return mor_taken_soil_fill(context, taken, soil, points);
+    }
     mor_status status = fill_region(context, the_case, soil, n_before, points, &nodes);
     status = annotate_error(context, status, &it->place, it->name);
     if (status == MOR_OK) {
         leave_out_bodies(context, the_case, it->name, points, nodes.positions);
         status = check_region(context, the_case, soil, points, nodes.positions);
+    }
+    if (status == MOR_OK) {
+        status = mor_taken_soil_thin(context, taken, soil, points);
     }
     mor_lattice_clear(context, &nodes);
     return status;

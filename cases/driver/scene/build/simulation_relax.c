@@ -366,7 +366,8 @@ mor_status mor_simulation_relax_soil(mor_context *context, mor_simulation *simul
     for (int k = 0; k < simulation->the_case->n_soils; ++k) {
         simulation->particle_volumes[k] = cell_volume(simulation->the_case);
     }
-    if (!mor_simulation_has_relaxed_soil(simulation->the_case)) {
+    /* What a run before left has its places and volumes. */
+    if (!mor_simulation_has_relaxed_soil(simulation->the_case) || simulation->the_case->stage.run[0] != '\0') {
         return MOR_OK;
     }
     MOR_TRY(context, MOR_NEW(context, &it, 1, "relaxation of soil"));

@@ -280,7 +280,9 @@ static mor_status settle(mor_context *context, mor_simulation *simulation, mor_s
 /* What settling changes for its duration. */
 typedef struct kept_settings {
     mor_scheme scheme;
-    double velocities[MOR_SOIL_WALLS_MAX][3]; /* of walls, m/s */
+    double velocities[MOR_SOIL_WALLS_MAX][3];      /* of walls, m/s */
+    const mor_motion *motions[MOR_SOIL_WALLS_MAX]; /* of walls; NULL: none */
+    double removal_times[MOR_SOIL_WALLS_MAX];      /* of walls, s; 0: never */
 } kept_settings;
 
 static mor_status begin_settling(mor_context *context, mor_simulation *simulation, mor_settling *it,
@@ -303,9 +305,15 @@ static mor_status begin_settling(mor_context *context, mor_simulation *simulatio
     for (int w = 0; w < soil->n_walls; ++w) {
         memcpy(kept->velocities[w], soil->walls[w].velocity, sizeof kept->velocities[w]);
         memset(soil->walls[w].velocity, 0, sizeof kept->velocities[w]);
+        kept->motions[w] = soil->walls[w].motion;
+        kept->removal_times[w] = soil->walls[w].removed_at;
+        soil->walls[w].motion = NULL;
+        soil->walls[w].removed_at = 0.0;
     }
     for (int w = 0; w < contact->n_walls; ++w) {
         memset(contact->walls[w].velocity, 0, sizeof contact->walls[w].velocity);
+        contact->walls[w].motion = NULL;
+        contact->walls[w].removed_at = 0.0;
     }
     return mor_simulation_bodies_settle(context, &simulation->bodies, simulation->the_case, &it->means);
 }
@@ -318,9 +326,13 @@ static mor_status end_settling(mor_context *context, mor_simulation *simulation,
     MOR_TRY(context, stop_motion(context, simulation, NULL));
     for (int w = 0; w < soil->n_walls; ++w) {
         memcpy(soil->walls[w].velocity, kept->velocities[w], sizeof kept->velocities[w]);
+        soil->walls[w].motion = kept->motions[w];
+        soil->walls[w].removed_at = kept->removal_times[w];
     }
     for (int w = 0; w < contact->n_walls; ++w) {
         memcpy(contact->walls[w].velocity, kept->velocities[w], sizeof kept->velocities[w]);
+        contact->walls[w].motion = kept->motions[w];
+        contact->walls[w].removed_at = kept->removal_times[w];
     }
     contact->time = 0.0;
     soil->settings.scheme = kept->scheme;

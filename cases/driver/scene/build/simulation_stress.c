@@ -190,7 +190,7 @@ static void set_region(mor_simulation *simulation, const surface *s, int region,
         /* Both halves of a spacing: above the highest center and below the lowest. */
         simulation->soil_depth = fmax(simulation->soil_depth, s->top[mor_soil_columns_of(&s->columns, x)] -
                                                                   mor_vector_dot(x, up) + s->columns.spacing);
-        if (it->initial_stress == MOR_CASE_STRESS_NONE ||
+        if (it->initial_stress == MOR_CASE_STRESS_NONE || it->initial_stress == MOR_CASE_STRESS_FORMULA ||
             (it->initial_stress == MOR_CASE_STRESS_SETTLED && it->settle_from == 1)) {
             continue;
         }

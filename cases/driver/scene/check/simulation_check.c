@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/check/simulation_check.h"
 
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 
@@ -107,9 +108,8 @@ static mor_status check_damping(mor_context *context, const mor_simulation *s)
 }
 
 static mor_status check_speed(mor_context *context, const mor_simulation *s, const mor_case_place *place,
-                              const char *what, const char *name, const double *velocity)
+                              const char *what, const char *name, double speed)
 {
-    const double speed = mor_vector_length(velocity);
     MOR_CHECK(
         context, speed < s->soil.sound_speed, MOR_ERROR_CONFIG,
         "%s:%d: found %s '%s' with a velocity of %g m/s, beyond the speed of sound in the soil, %.4g m/s; allowed "
@@ -123,11 +123,12 @@ static mor_status check_speeds(mor_context *context, const mor_simulation *s)
     const mor_case *c = s->the_case;
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
-        MOR_TRY(context, check_speed(context, s, &it->place, "soil", it->name, it->velocity));
+        MOR_TRY(context, check_speed(context, s, &it->place, "soil", it->name, mor_vector_length(it->velocity)));
     }
     for (int k = 0; k < c->n_walls && s->has_soil; ++k) {
         const mor_case_wall *it = &c->walls[k];
-        MOR_TRY(context, check_speed(context, s, &it->place, "wall", it->name, it->velocity));
+        MOR_TRY(context, check_speed(context, s, &it->place, "wall", it->name,
+                                     mor_simulation_wall_speed(c, k, &s->wall_motions[k])));
     }
     return MOR_OK;
 }

@@ -335,7 +335,9 @@ mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_sim
         return MOR_OK;
     }
     for (int k = 0; k < simulation->the_case->n_soils; ++k) {
-        MOR_TRY(context, warn_of_mass(context, simulation, k));
+        if (!mor_case_takes_over(simulation->the_case, k)) {
+            MOR_TRY(context, warn_of_mass(context, simulation, k));
+        }
     }
     warn_of_coarse_bodies(context, simulation);
     return MOR_OK;

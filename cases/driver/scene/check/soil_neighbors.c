@@ -17,7 +17,7 @@ static const double narrow = 2.0;
 enum { SAMPLES = 256 };
 
 /* Words of a case for mor_case_stress. */
-static const char *const stress_words[] = {"none", "k0", "settled", "uniform"};
+static const char *const stress_words[] = {"none", "k0", "settled", "uniform", "formula"};
 
 typedef struct columns {
     const mor_simulation *simulation;
@@ -179,7 +179,7 @@ static void warn_of_gap(mor_context *context, const columns *s, int upper, int l
             "%.3g m",
             above->place.file, above->place.line, above->name, below->name, it->gap, it->gap / c->spacing, above->name,
             below->name, it->gap);
-    } else if (below->initial_stress != MOR_CASE_STRESS_NONE && below->initial_stress != MOR_CASE_STRESS_UNIFORM &&
+    } else if ((below->initial_stress == MOR_CASE_STRESS_K0 || below->initial_stress == MOR_CASE_STRESS_SETTLED) &&
                isnan(below->surface_level)) {
         mor_context_log(
             context, MOR_LOG_WARNING,
@@ -229,7 +229,8 @@ static void warn_of_unstressed(mor_context *context, const columns *s)
     const mor_case *c = s->simulation->the_case;
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
-        const bool is_bare = it->initial_stress == MOR_CASE_STRESS_NONE && mor_vector_length(it->velocity) == 0.0;
+        const bool is_bare = it->initial_stress == MOR_CASE_STRESS_NONE && mor_vector_length(it->velocity) == 0.0 &&
+                             it->velocity_formula[0][0] == '\0';
         const int other = is_bare ? find_stressed(s, k) : -1;
         if (other >= 0) {
             const char *word = stress_words[c->soils[other].initial_stress];

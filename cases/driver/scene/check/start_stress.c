@@ -99,7 +99,7 @@ static void warn_of_lateral_stress(mor_context *context, const mor_case_soil *it
                                    double ratio)
 {
     const double most = 1e3; /* of which soil is never stronger */
-    if (it->initial_stress == MOR_CASE_STRESS_NONE || it->initial_stress == MOR_CASE_STRESS_UNIFORM ||
+    if ((it->initial_stress != MOR_CASE_STRESS_K0 && it->initial_stress != MOR_CASE_STRESS_SETTLED) ||
         !(vertical > 0.0) || !admits(at, vertical, 1.0)) {
         return;
     }

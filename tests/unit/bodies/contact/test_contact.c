@@ -54,14 +54,14 @@ static void wrong_settings_are_refused(void **state)
     const mor_contact_pair itself = {"b0", "b0", {0.3, 0.5}};
     const mor_contact_pair walls = {"w0", "w0", {0.3, 0.5}};
     const mor_contact_pair sticky = {"b0", "w0", {0.3, 0.0}};
-    try_settings(&(mor_contact_settings){{-0.1, 0.5}, NULL, 0, 0.01, 0.0}, "friction coefficient");
-    try_settings(&(mor_contact_settings){{NAN, 0.5}, NULL, 0, 0.01, 0.0}, "friction coefficient");
-    try_settings(&(mor_contact_settings){{0.1, 1.5}, NULL, 0, 0.01, 0.0}, "restitution");
-    try_settings(&(mor_contact_settings){{0.1, 0.5}, NULL, 0, -1.0, 0.0}, "slowest impact");
-    try_settings(&(mor_contact_settings){law, &unknown, 1, 0.01, 0.0}, "no body or wall 'pillar'");
-    try_settings(&(mor_contact_settings){law, &itself, 1, 0.01, 0.0}, "two bodies, or a body and a wall");
-    try_settings(&(mor_contact_settings){law, &walls, 1, 0.01, 0.0}, "two bodies, or a body and a wall");
-    try_settings(&(mor_contact_settings){law, &sticky, 1, 0.01, 0.0}, "restitution");
+    try_settings(&(mor_contact_settings){{-0.1, 0.5}, NULL, 0, 0.01, 0.0, false}, "friction coefficient");
+    try_settings(&(mor_contact_settings){{NAN, 0.5}, NULL, 0, 0.01, 0.0, false}, "friction coefficient");
+    try_settings(&(mor_contact_settings){{0.1, 1.5}, NULL, 0, 0.01, 0.0, false}, "restitution");
+    try_settings(&(mor_contact_settings){{0.1, 0.5}, NULL, 0, -1.0, 0.0, false}, "slowest impact");
+    try_settings(&(mor_contact_settings){law, &unknown, 1, 0.01, 0.0, false}, "no body or wall 'pillar'");
+    try_settings(&(mor_contact_settings){law, &itself, 1, 0.01, 0.0, false}, "two bodies, or a body and a wall");
+    try_settings(&(mor_contact_settings){law, &walls, 1, 0.01, 0.0, false}, "two bodies, or a body and a wall");
+    try_settings(&(mor_contact_settings){law, &sticky, 1, 0.01, 0.0, false}, "restitution");
 }
 
 static void bodies_alone_may_take_any_step(void **state)

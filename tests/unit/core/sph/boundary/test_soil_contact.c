@@ -346,7 +346,7 @@ static void moved_wall_is_the_wall_made_there(void **state)
     floor_open_single(&moved, 3, MOR_WALL_ROUGH, 0.0);
     floor_open_single(&made, 3, MOR_WALL_ROUGH, 0.0);
     mor_wall_request request = floor_request(&moved, MOR_WALL_ROUGH, 0.0);
-    request.velocity[0] = 1.0;
+    memcpy(request.velocity, displacement, sizeof displacement); /* per second */
     floor_add(&moved, &request);
     for (int k = 0; k < 3 * made.n_points; ++k) {
         made.points[k] += displacement[k % 3];
@@ -355,8 +355,8 @@ static void moved_wall_is_the_wall_made_there(void **state)
     floor_add(&made, &request);
     set_stress(&moved, -8e3, 5e3);
     set_stress(&made, -8e3, 5e3);
-    mor_soil_contact_place(&moved.wall, ((const double[3]){7.0, -3.0, 0.1})); /* the path there does not count */
-    mor_soil_contact_place(&moved.wall, displacement);
+    mor_soil_contact_move(&moved.wall, 7.0); /* the path there does not count */
+    mor_soil_contact_move(&moved.wall, 1.0);
     floor_run(&moved, MOR_DISSIPATION_BOTH);
     floor_run(&made, MOR_DISSIPATION_BOTH);
     /* Rounding may sort the points of the two otherwise, and so change the order of the sums. */

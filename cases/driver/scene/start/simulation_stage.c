@@ -1,0 +1,384 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/scene/start/simulation_stage.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/geometry/shape_analytic.h"
+#include "core/material/composite.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define SOIL_SET "soil"
+
+/* Soil may have been pressed this deep into a wall, in spacings. */
+#define PRESSED 0.5
+
+/* Points of new soil are this far from soil that is there, in spacings. */
+#define APART 0.75
+
+static mor_status read_soil(mor_context *context, mor_taken_soil *taken)
+{
+    bool is_there = false;
+    MOR_TRY(context, MOR_NEW(context, &taken->positions, 3 * taken->n, "soil of the run before"));
+    MOR_TRY(context, MOR_NEW(context, &taken->sources, taken->n, "soil of the run before"));
+    MOR_TRY(context,
+            mor_checkpoint_view_field(context, taken->view, SOIL_SET, "position", 3, taken->positions, &is_there));
+    MOR_TRY(context, MOR_NEW(context, &taken->regions, taken->n, "regions of the run before"));
+    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, MOR_COMPOSITE_INDEX_KEY, 1,
+                                               taken->regions, &is_there));
+    if (!is_there) {
+        MOR_FREE(context, &taken->regions);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, mor_taken_soil *taken)
+{
+    const mor_case_stage *stage = &the_case->stage;
+    int64_t n_rigid = 0;
+    memset(taken, 0, sizeof *taken);
+    if (stage->run[0] == '\0') {
+        return MOR_OK;
+    }
+    taken->the_case = the_case;
+    MOR_TRY(context, mor_checkpoint_view_open(context, stage->run, &taken->view));
+    MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, SOIL_SET, &taken->n));
+    MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, "rigid", &n_rigid));
+    taken->has_bodies = n_rigid >= 0;
+    MOR_CHECK(context, taken->n > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found a run without soil, '%s', to start from; allowed: one with soil; correct start_from",
+              stage->place.file, stage->place.line, stage->run);
+    return read_soil(context, taken);
+}
+
+void mor_taken_soil_close(mor_context *context, mor_taken_soil *taken)
+{
+    mor_checkpoint_view_close(context, &taken->view);
+    MOR_FREE(context, &taken->positions);
+    MOR_FREE(context, &taken->regions);
+    MOR_FREE(context, &taken->sources);
+    memset(taken, 0, sizeof *taken);
+}
+
+/* ---- Particles --------------------------------------------------------------------------------------------------- */
+
+static bool is_left_out(const mor_taken_soil *taken, const double *placed)
+{
+    const mor_case *c = taken->the_case;
+    double place[3];
+    bool is = false;
+    mor_simulation_take_point_back(c, placed, place);
+    for (int k = 0; k < c->stage.n_excavations && !is; ++k) {
+        is = mor_shape_distance(c->stage.excavations[k], place) < 0.0;
+    }
+    for (int b = 0; b < c->n_bodies && !is && !taken->has_bodies; ++b) {
+        double rotation[9];
+        double translation[3];
+        mor_simulation_body_frame(c, &c->bodies[b], rotation, translation);
+        is = mor_simulation_placed_distance(c->bodies[b].shape, rotation, translation, placed) < 0.0;
+    }
+    return is;
+}
+
+static mor_status check_walls(mor_context *context, const mor_taken_soil *taken, int soil,
+                              const mor_lattice_points *points)
+{
+    const mor_case *c = taken->the_case;
+    for (int w = 0; w < c->n_walls; ++w) {
+        int64_t n_inside = 0;
+        double deepest = 0.0;
+        double place[3] = {0.0, 0.0, 0.0};
+        for (int64_t i = 0; i < points->n_points; ++i) {
+            double x[3];
+            mor_simulation_take_point_back(c, points->positions + 3 * i, x);
+            const double depth = -mor_shape_distance(c->walls[w].shape, x);
+            n_inside += depth > PRESSED * c->spacing;
+            if (depth > deepest) {
+                deepest = depth;
+                memcpy(place, x, sizeof place);
+            }
+        }
+        MOR_CHECK(context, n_inside == 0, MOR_ERROR_CONFIG,
+                  "%s:%d: found wall '%s' where soil '%s' of the run '%s' is: %lld particles lie inside, the deepest "
+                  "%.4g m at (%.6g, %.6g, %.6g) m; allowed is half a spacing; move the wall, or list its shape in "
+                  "excavate",
+                  c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->soils[soil].name, c->stage.run,
+                  (long long)n_inside, deepest, place[0], place[1], place[2]);
+    }
+    return MOR_OK;
+}
+
+static mor_status check_domain(mor_context *context, const mor_taken_soil *taken, int soil,
+                               const mor_lattice_points *points)
+{
+    const mor_case *c = taken->the_case;
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        double x[3];
+        mor_simulation_take_point_back(c, points->positions + 3 * i, x);
+        MOR_CHECK(context, mor_domain_holds(c->domain_minimum, c->domain_maximum, c->dimension, x), MOR_ERROR_CONFIG,
+                  "%s:%d: found soil '%s' of the run '%s' at (%.6g, %.6g, %.6g) m, outside the domain of this case; "
+                  "allowed: inside; enlarge 'domain', or excavate what is outside",
+                  c->stage.place.file, c->stage.place.line, c->soils[soil].name, c->stage.run, x[0], x[1], x[2]);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int soil, mor_lattice_points *points)
+{
+    const mor_case *c = taken->the_case;
+    const double region = c->stage.region_of[soil];
+    int64_t n_of_region = 0;
+    taken->first[soil] = taken->n_taken;
+    for (int64_t i = 0; i < taken->n; ++i) {
+        const bool is_mine = taken->regions != NULL ? taken->regions[i] == region : region == 0.0;
+        n_of_region += is_mine;
+        if (is_mine && !is_left_out(taken, taken->positions + 3 * i)) {
+            taken->sources[taken->n_taken++] = i;
+        }
+    }
+    const int64_t n = taken->n_taken - taken->first[soil];
+    taken->count[soil] = n;
+    MOR_CHECK(
+        context, n > 0, MOR_ERROR_CONFIG,
+        "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations; allowed: "
+        "at least one; remove the soil from the case, or make the excavations smaller",
+        c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
+        c->stage.run);
+    MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * n, "soil of the run before"));
+    points->n_points = n;
+    for (int64_t k = 0; k < n; ++k) {
+        memcpy(points->positions + 3 * k, taken->positions + 3 * taken->sources[taken->first[soil] + k],
+               3 * sizeof *points->positions);
+    }
+    mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles taken over from '%s'",
+                    c->soils[soil].name, (long long)n, (long long)n_of_region, c->stage.run);
+    MOR_TRY(context, check_domain(context, taken, soil, points));
+    return check_walls(context, taken, soil, points);
+}
+
+/* ---- New soil beside soil that is there -------------------------------------------------------------------------- */
+
+/* A particle in a cell of the grid. */
+typedef struct cell_entry {
+    int64_t cell[3];
+    int64_t source;
+} cell_entry;
+
+static int compare_cells(const void *a, const void *b)
+{
+    const cell_entry *left = a;
+    const cell_entry *right = b;
+    for (int k = 0; k < 3; ++k) {
+        if (left->cell[k] != right->cell[k]) {
+            return left->cell[k] < right->cell[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static void find_cell(const double *place, double size, int64_t *cell)
+{
+    for (int a = 0; a < 3; ++a) {
+        cell[a] = (int64_t)floor(place[a] / size);
+    }
+}
+
+/* First entry that is not before a cell. */
+static int64_t find_first(const cell_entry *entries, int64_t n, const cell_entry *wanted)
+{
+    int64_t first = 0;
+    int64_t last = n;
+    while (first < last) {
+        const int64_t middle = first + (last - first) / 2;
+        if (compare_cells(&entries[middle], wanted) < 0) {
+            first = middle + 1;
+        } else {
+            last = middle;
+        }
+    }
+    return first;
+}
+
+static bool is_near(const mor_taken_soil *taken, const cell_entry *entries, const double *place, double distance)
+{
+    int64_t middle[3];
+    find_cell(place, distance, middle);
+    for (int k = 0; k < 27; ++k) {
+        const cell_entry wanted = {{middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1}, 0};
+        for (int64_t e = find_first(entries, taken->n_taken, &wanted);
+             e < taken->n_taken && compare_cells(&entries[e], &wanted) == 0; ++e) {
+            const double *x = taken->positions + 3 * entries[e].source;
+            const double offset[3] = {x[0] - place[0], x[1] - place[1], x[2] - place[2]};
+            if (mor_vector_dot(offset, offset) < distance * distance) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken, int soil, mor_lattice_points *points)
+{
+    const mor_case *c = taken->the_case;
+    const double distance = APART * (c != NULL ? c->spacing : 0.0);
+    cell_entry *entries = NULL;
+    int64_t n_kept = 0;
+    if (c == NULL || taken->n_taken == 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, MOR_NEW(context, &entries, taken->n_taken, "cells of soil"));
+    for (int64_t k = 0; k < taken->n_taken; ++k) {
+        entries[k].source = taken->sources[k];
+        find_cell(taken->positions + 3 * taken->sources[k], distance, entries[k].cell);
+    }
+    qsort(entries, (size_t)taken->n_taken, sizeof *entries, compare_cells);
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        if (!is_near(taken, entries, points->positions + 3 * i, distance)) {
+            memmove(points->positions + 3 * n_kept++, points->positions + 3 * i, 3 * sizeof *points->positions);
+        }
+    }
+    MOR_FREE(context, &entries);
+    MOR_CHECK(context, n_kept > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s' wholly where soil of the run '%s' is; allowed: beside it; move the shape, or "
+              "excavate there",
+              c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, c->stage.run);
+    points->n_points = n_kept;
+    return MOR_OK;
+}
+
+/* ---- Fields ------------------------------------------------------------------------------------------------------ */
+
+static bool is_state_of_law(const mor_soil *soil, int field)
+{
+    bool is = false;
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        is = is || (soil->state_fields[k] == field && field != soil->region_field);
+    }
+    return is;
+}
+
+static mor_status apply_field(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation, int field,
+                              double *values)
+{
+    mor_soil *soil = &simulation->soil;
+    const mor_case *c = taken->the_case;
+    const mor_field_info *info = &soil->set.fields[field];
+    const int width = info->n_components;
+    int64_t to = 0;
+    bool is_there = false;
+    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, info->name, width, values, &is_there));
+    MOR_CHECK(context, is_there || !is_state_of_law(soil, field), MOR_ERROR_CONFIG,
+              "%s:%d: found no state variable '%s' of the soil in the run '%s', which a law of this case needs; "
+              "allowed: the laws of the run; give soils that are new other names",
+              c->stage.place.file, c->stage.place.line, info->name, c->stage.run);
+    for (int k = 0; k < c->n_soils && is_there; ++k) {
+        const int64_t n = mor_taken_soil_has(taken, k) ? taken->count[k] : 0;
+        for (int64_t i = 0; i < n; ++i) {
+            memcpy(soil->set.data[field] + width * (to + i), values + width * taken->sources[taken->first[k] + i],
+                   (size_t)width * sizeof *values);
+        }
+        to += simulation->region_particles[k];
+    }
+    return MOR_OK;
+}
+
+mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation)
+{
+    enum { WIDTH_MAX = 9 };
+    mor_soil *soil = &simulation->soil;
+    double *values = NULL;
+    mor_status status = MOR_NEW(context, &values, WIDTH_MAX * taken->n, "a field of the run before");
+    for (int field = 0; field < soil->set.n_fields && status == MOR_OK; ++field) {
+        const bool is_placed = field == MOR_FIELD_POSITION || field == soil->region_field;
+        if (mor_state_has_field(&soil->set, field) && !is_placed) {
+            status = apply_field(context, taken, simulation, field, values);
+        }
+    }
+    MOR_FREE(context, &values);
+    for (int64_t i = 0; i < soil->set.n_particles && status == MOR_OK; ++i) {
+        const double speed = mor_vector_length(soil->set.data[MOR_FIELD_VELOCITY] + 3 * i);
+        soil->largest_speed = fmax(soil->largest_speed, speed);
+    }
+    return status;
+}
+
+/* ---- Bodies ------------------------------------------------------------------------------------------------------ */
+
+/* Sums since the start begin anew. */
+static bool is_sum(const char *name)
+{
+    static const char *const words[] = {"impulse", "energy", "work", "removed", "share"};
+    bool is = false;
+    for (size_t k = 0; k < sizeof words / sizeof *words; ++k) {
+        is = is || strstr(name, words[k]) != NULL;
+    }
+    return is;
+}
+
+static mor_status take_set(mor_context *context, const mor_case *c, mor_checkpoint_view *view, mor_set *set)
+{
+    int64_t n = 0;
+    MOR_TRY(context, mor_checkpoint_view_count(context, view, set->name, &n));
+    MOR_CHECK(
+        context, n == set->n_particles, MOR_ERROR_CONFIG,
+        "%s:%d: found %lld particles of bodies '%s', but %lld in the run '%s' that this case starts from; allowed: "
+        "the same bodies and rocks, in the same order; correct them",
+        c->stage.place.file, c->stage.place.line, (long long)set->n_particles, set->name, (long long)n, c->stage.run);
+    for (int field = 0; field < set->n_fields; ++field) {
+        bool is_there = true;
+        if (mor_state_has_field(set, field)) {
+            MOR_TRY(context, mor_checkpoint_view_field(context, view, set->name, set->fields[field].name,
+                                                       set->fields[field].n_components, set->data[field], &is_there));
+        }
+        MOR_CHECK(context, is_there, MOR_ERROR_CONFIG,
+                  "%s:%d: found no field '%s' of bodies '%s' in the run '%s' that this case starts from; allowed: the "
+                  "same models of bodies; correct them",
+                  c->stage.place.file, c->stage.place.line, set->fields[field].name, set->name, c->stage.run);
+    }
+    return MOR_OK;
+}
+
+static mor_status take_group(mor_context *context, mor_simulation *simulation, mor_checkpoint_view *view, mor_set *set)
+{
+    const mor_case *c = simulation->the_case;
+    const size_t n_name = strlen(set->name);
+    MOR_TRY(context, take_set(context, c, view, set));
+    for (int k = 0; k < simulation->state.n_arrays; ++k) {
+        const mor_state_array *array = &simulation->state.arrays[k];
+        const bool is_mine = strncmp(array->name, set->name, n_name) == 0 && array->name[n_name] == '.';
+        bool is_there = true;
+        if (is_mine && !is_sum(array->name + n_name)) {
+            MOR_TRY(context, mor_checkpoint_view_array(context, view, array, &is_there));
+        }
+        MOR_CHECK(context, is_there, MOR_ERROR_CONFIG,
+                  "%s:%d: found no '%s' for the bodies of this case in the run '%s' that it starts from; allowed: the "
+                  "same bodies and rocks, in the same order; correct them",
+                  c->stage.place.file, c->stage.place.line, array->name, c->stage.run);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simulation)
+{
+    const mor_case_stage *stage = &simulation->the_case->stage;
+    mor_checkpoint_view *view = NULL;
+    if (stage->run[0] == '\0' || simulation->bodies.n_groups == 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_checkpoint_view_open(context, stage->run, &view));
+    mor_status status = MOR_OK;
+    for (int g = 0; g < simulation->bodies.n_groups && status == MOR_OK; ++g) {
+        mor_set *set = &simulation->bodies.groups[g]->set;
+        int64_t n = 0;
+        status = mor_checkpoint_view_count(context, view, set->name, &n);
+        if (status == MOR_OK && n >= 0) {
+            status = take_group(context, simulation, view, set);
+        }
+    }
+    mor_checkpoint_view_close(context, &view);
+    MOR_TRY(context, status);
+    mor_contact_resume(&simulation->bodies.contact, 0.0);
+    return mor_schedule_resume(context, &simulation->schedule);
+}

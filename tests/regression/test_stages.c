@@ -1,0 +1,219 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tests/common/near.h"
+#include "tests/common/session_case.h"
+#include "tests/common/session_run.h"
+
+#include <stdio.h>
+
+/* Motion, removal and stages: bits after a resume and for any number of threads, the sum of energies, and a cut in
+ * stages against the same cut in one go. */
+
+#define CASE_OF_GATE                                                                                                   \
+    "title = 'gate'; dimension = 2; spacing = '20 mm'; gravity = (0, -9.81); end = '0.15 s';"                          \
+    "domain = { min = (-0.1, -0.1); max = (1.6, 0.7); };"                                                              \
+    "soil = ( { name = 'sand'; shape = { type = 'box'; min = (0, 0); max = (0.3, 0.3); };"                             \
+    "  material = { model = 'drucker_prager'; density = 1600; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"         \
+    "    friction_angle = '30 deg'; }; initial_stress = { type = 'k0'; }; } );"                                        \
+    "walls = ( { name = 'floor'; friction = 'rough'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); " \
+    "}; },"                                                                                                            \
+    "  { name = 'left'; friction = 'smooth'; shape = { type = 'half_space'; point = (0, 0); normal = (1, 0); }; },"    \
+    "  { name = 'gate'; friction = 'smooth'; removed_at = 0.05; shape = { type = 'box'; min = (0.3, 0); max = (0.4, "  \
+    "0.6); }; },"                                                                                                      \
+    "  { name = 'flap'; friction = 'coulomb'; friction_coefficient = 0.3;"                                             \
+    "    shape = { type = 'box'; min = (0.6, 0); max = (0.7, 0.2); };"                                                 \
+    "    path = { point = (0.7, 0); interpolation = 'smooth'; table = ( { time = 0.02; },"                             \
+    "      { time = 0.12; translation = (-0.1, 0.02); angle = '40 deg'; }, { time = 0.14; angle = '10 deg'; } ); }; "  \
+    "} "                                                                                                               \
+    ");"                                                                                                               \
+    "bodies = ( { name = 'block'; removed_at = 0.1; shape = { type = 'box'; min = (-0.1, -0.05); max = (0.1, 0.05); "  \
+    "};"                                                                                                               \
+    "    position = (0.15, 0.351); material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa'; },"     \
+    "  { name = 'ball'; shape = { type = 'sphere'; center = (0, 0); radius = 0.06; }; position = (0.15, 0.461);"       \
+    "    material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa'; },"                               \
+    "  { name = 'tool'; motion = 'prescribed'; shape = { type = 'box'; min = (-0.1, -0.05); max = (0.1, 0.05); };"     \
+    "    position = (1.2, 0.4); material = { model = 'rigid'; density = 2500; }; contact_modulus = '1 MPa';"           \
+    "    path = { table = ( { time = 0; }, { time = 0.15; translation = (-0.4, 0); angle = '180 deg'; } ); }; } );"    \
+    "probes = ( { name = 'gate_force'; type = 'wall_force'; wall = 'gate'; direction = (1, 0); },"                     \
+    "  { name = 'balance'; type = 'energy_balance'; }, { name = 'work'; type = 'external_work'; },"                    \
+    "  { name = 'ball'; type = 'body_position'; body = 'ball'; direction = (0, 1); },"                                 \
+    "  { name = 'kinetic'; type = 'bodies_kinetic_energy'; } );"                                                       \
+    "output = { snapshots = 6; pictures = false; };"
+
+/* The last value of a column that begins with a name, or that at a row. */
+static double read_value(run_folder *folder, const char *run, const char *name, int64_t row)
+{
+    char path[MOR_PATH_BYTES];
+    mor_table_data data;
+    int column = 0;
+    assert_int_equal(
+        mor_table_data_read(&folder->context, &data, finished_run_file(folder, path, run, MOR_TABLE_SERIES_FILE)),
+        MOR_OK);
+    const char *at = data.header;
+    while (strncmp(at, name, strlen(name)) != 0 || at[strlen(name)] != ' ') {
+        at = strchr(at, ',');
+        assert_non_null(at);
+        at += 1;
+        column += 1;
+    }
+    const double value = data.values[(row < 0 ? data.n_rows - 1 : row) * data.n_columns + column];
+    mor_table_data_clear(&folder->context, &data);
+    return value;
+}
+
+static void a_run_is_resumed_before_between_and_after_removals_with_the_same_bits(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char hashes[2][32];
+    finished_run_store_text(folder, CASE_OF_GATE, path);
+    const session_run whole = {.case_path = path, .name = "whole", .stop_at = NAN, .n_threads = 1};
+    session_run_do(folder, &whole, "whole");
+    const double stops[] = {0.03, 0.07, 0.12, NAN};
+    for (int k = 0; k < 4; ++k) {
+        const session_run part = {
+            .case_path = path, .name = "part", .stop_at = stops[k], .is_resume = k > 0, .n_threads = 2 + k % 2};
+        session_run_do(folder, &part, "part");
+    }
+    finished_run_read_hash(folder, "whole", hashes[0]);
+    finished_run_read_hash(folder, "part", hashes[1]);
+    assert_string_equal(hashes[0], hashes[1]);
+    finished_run_compare_bytes(folder, "whole", "part", MOR_TABLE_SERIES_FILE);
+    finished_run_compare_snapshots(folder, "whole", "part");
+    /* The force on the gate is there before, and gone after it is removed. */
+    assert_true(read_value(folder, "whole", "gate_force", 40) > 100.0);
+    assert_true(read_value(folder, "whole", "gate_force", -1) == 0.0);
+    /* As of moving walls, docs/theory/energy.md: half a percent at this resolution. */
+    assert_near(read_value(folder, "whole", "balance", -1), 1.0, 5e-3);
+}
+
+#define CASE_OF_CUT(start, width)                                                                                      \
+    start "title = 'cut'; dimension = 2; spacing = '0.1 m'; gravity = (0, -9.81); end = '0.25 s';"                     \
+          "domain = { min = (-0.5, -0.5); max = (4.5, 3); };"                                                          \
+          "soil = ( { name = 'clay'; shape = { type = 'box'; min = (0, 0); max = (" width ", 2); };"                   \
+          "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '20 MPa'; poissons_ratio = 0.3;"  \
+          "    friction_angle = '20 deg'; cohesion = '50 kPa'; };"                                                     \
+          "  initial_stress = { type = 'k0'; lateral_ratio = 0.5; }; } );"                                             \
+          "walls = ( { name = 'floor'; friction = 'smooth'; shape = { type = 'half_space'; point = (0, 0); normal = "  \
+          "(0, 1); }; },"                                                                                              \
+          "  { name = 'left'; friction = 'smooth'; shape = { type = 'half_space'; point = (0, 0); normal = (1, 0); "   \
+          "}; },"                                                                                                      \
+          "  { name = 'right'; friction = 'smooth'; shape = { type = 'half_space'; point = (4, 0); normal = (-1, 0); " \
+          "}; } );"                                                                                                    \
+          "probes = ( { name = 'x'; type = 'center_of_mass'; direction = (1, 0); },"                                   \
+          "  { name = 'y'; type = 'center_of_mass'; direction = (0, 1); }, { name = 'mass'; type = 'mass'; },"         \
+          "  { name = 'sy'; type = 'soil_stress'; origin = (1, 0.5); direction = (0, 1); } );"                         \
+          "output = { snapshots = 6; pictures = false; };"
+#define DAMPED "numerics = { local_damping = 0.7; };"
+#define EXCAVATED "start_from = 'before'; excavate = ( { type = 'box'; min = (2, 0); max = (4.1, 2.1); } );"
+
+static void run_cut(run_folder *folder, const char *text, const char *name)
+{
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, path);
+    const session_run it = {.case_path = path, .name = name, .stop_at = NAN, .n_threads = 2};
+    session_run_do(folder, &it, name);
+}
+
+static void a_cut_in_stages_is_the_cut_in_one_go(void **state)
+{
+    run_folder *folder = *state;
+    run_cut(folder, CASE_OF_CUT("", "4"), "before");
+    run_cut(folder, CASE_OF_CUT(DAMPED EXCAVATED, "4"), "staged");
+    run_cut(folder, CASE_OF_CUT(DAMPED, "2"), "at_once");
+    assert_true(read_value(folder, "staged", "mass", 0) == read_value(folder, "at_once", "mass", 0));
+    /* The stress is taken over, not made anew: small waves of the run before are in it, 1 %. */
+    assert_near(read_value(folder, "staged", "sy", 0), read_value(folder, "before", "sy", -1), 1e-9);
+    /* What the cut moves, 0.5 mm out and 0.3 mm down, is the same to 5 %: the run before has moved by 3 um. */
+    const double moved[2] = {read_value(folder, "at_once", "x", -1) - 1.0,
+                             read_value(folder, "at_once", "y", -1) - 1.0};
+    assert_true(moved[0] > 4e-4 && moved[1] < -2e-4);
+    assert_near(read_value(folder, "staged", "x", -1) - 1.0, moved[0], 0.05 * moved[0]);
+    assert_near(read_value(folder, "staged", "y", -1) - 1.0, moved[1], -0.05 * moved[1]);
+    const double stress = read_value(folder, "at_once", "sy", -1);
+    assert_near(read_value(folder, "staged", "sy", -1), stress, -0.02 * stress);
+}
+
+/* A filling on what is left, in a third stage that is itself resumed. */
+static void a_stage_fills_and_is_resumed_with_the_same_bits(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char hashes[2][32];
+    static const char fill[] =
+        "soil = ( { name = 'clay'; shape = { type = 'box'; min = (0, 0); max = (4, 2); };"
+        "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '20 MPa'; poissons_ratio = 0.3;"
+        "    friction_angle = '20 deg'; cohesion = '50 kPa'; }; },"
+        "  { name = 'fill'; shape = { type = 'box'; min = (2, 0); max = (4, 1); };"
+        "  material = { model = 'drucker_prager'; density = 1800; youngs_modulus = '5 MPa'; poissons_ratio = 0.3;"
+        "    friction_angle = '30 deg'; }; initial_stress = { type = 'k0'; }; } );";
+    const char *whole =
+        CASE_OF_CUT("start_from = 'before'; excavate = ( { type = 'box'; min = (2, 0); max = (4.1, 2.1); } );"
+                    "@",
+                    "4");
+    char text[6000];
+    run_cut(folder, CASE_OF_CUT("", "4"), "before");
+    /* The list soil is another one. */
+    const char *soil = strstr(whole, "soil = (");
+    const char *walls = strstr(whole, "walls = (");
+    const char *mark = strchr(whole, '@');
+    snprintf(text, sizeof text, "%.*s%.*s%s%s", (int)(mark - whole), whole, (int)(soil - mark - 1), mark + 1, fill,
+             walls);
+    finished_run_store_text(folder, text, path);
+    const session_run through = {.case_path = path, .name = "through", .stop_at = NAN, .n_threads = 1};
+    const session_run part = {.case_path = path, .name = "part", .stop_at = 0.1, .n_threads = 2};
+    const session_run rest = {.case_path = path, .name = "part", .stop_at = NAN, .is_resume = true, .n_threads = 3};
+    session_run_do(folder, &through, "through");
+    assert_int_equal(session_run_do(folder, &part, "part"), MOR_SESSION_STOPPED);
+    session_run_do(folder, &rest, "rest");
+    finished_run_read_hash(folder, "through", hashes[0]);
+    finished_run_read_hash(folder, "part", hashes[1]);
+    assert_string_equal(hashes[0], hashes[1]);
+    finished_run_compare_bytes(folder, "through", "part", MOR_TABLE_SERIES_FILE);
+    /* 400 particles of clay, and 200 of fill. */
+    const double mass = read_value(folder, "through", "mass", 0);
+    assert_near(mass, 8000.0 + 3600.0, 1e-6);
+}
+
+static void runs_that_do_not_fit_are_refused(void **state)
+{
+    static const char *const wrong[][2] = {
+        {"spacing=0.05", "found spacing [m] = 0.05 in this case, but 0.1"},
+        {"placement={ angle = 0.1; }", "placement.angle"},
+        {"scale={ length = 4; }", "scale.length = 4"},
+        {"soil[0].name=sand", "found no soil of this case with the name of one"},
+        {"soil[0].material={ model = \"tresca\"; density = 2000; youngs_modulus = 2e7; poissons_ratio = 0.3; "
+         "undrained_strength = 50000; }",
+         "found the model 'tresca' of the soil 'clay'"},
+        {"soil[0].initial_stress={ type = \"settled\"; }", "found a settled initial stress of the soil 'clay'"},
+        {"excavate=( { type = \"box\"; min = (-1, -1); max = (5, 5); } )", "none is left by the excavations"},
+        {"walls[1].shape.point=(1, 0)", "found wall 'left' where soil 'clay' of the run"},
+        {"domain.max=(3, 3)", "outside the domain of this case"},
+        {"start_from=none", "found a run to start from"}};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    run_cut(folder, CASE_OF_CUT("", "4"), "before");
+    finished_run_store_text(folder, CASE_OF_CUT("start_from = 'before';", "4"), path);
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
+        mor_session *session = NULL;
+        assert_int_equal(mor_session_new(&session), MOR_OK);
+        assert_int_equal(mor_session_override(session, wrong[k][0]), MOR_OK);
+        mor_status status = mor_session_load_file(session, path);
+        status = status == MOR_OK ? mor_session_build(session) : status;
+        session_expect(session, status, MOR_ERROR_CONFIG, wrong[k][1]);
+        mor_session_free(&session);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_run_is_resumed_before_between_and_after_removals_with_the_same_bits,
+                                        run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_cut_in_stages_is_the_cut_in_one_go, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_stage_fills_and_is_resumed_with_the_same_bits, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(runs_that_do_not_fit_are_refused, run_folder_setup, run_folder_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
