@@ -109,6 +109,9 @@ extern const char *const mor_case_rigid_words[];
 extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
     mor_case_probe_group, mor_case_expectation_group;
 
+/** The group maps; record mor_case_maps. */
+extern const mor_case_group mor_case_maps_group;
+
 /** Members of the list friction_with of walls, bodies and rocks; record mor_case_soil_friction. */
 extern const mor_case_group mor_case_friction_group;
 
