@@ -239,6 +239,14 @@ static void store_raster(run_folder *folder)
         fprintf(file, "%.3f%c", 400.0 + 0.125 * (k % COLUMNS), k % COLUMNS == COLUMNS - 1 ? '\n' : ' ');
     }
     fclose(file);
+    file = fopen(run_folder_file(folder, path, "slope.prj"), "w");
+    assert_non_null(file);
+    fprintf(file, "PROJCS[\"ETRS89 / UTM zone 32N\",GEOGCS[\"ETRS89\",DATUM[\"ETRS89\",SPHEROID[\"GRS 1980\",6378137,"
+                  "298.257222101]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],"
+                  "PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],"
+                  "PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_factor\",0.9996],"
+                  "PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1]]");
+    fclose(file);
 }
 
 static void maps_lie_on_the_raster_of_the_ground(void **state)
@@ -251,6 +259,8 @@ static void maps_lie_on_the_raster_of_the_ground(void **state)
     mor_terrain_raster ground = read_map(folder, "run", "ground");
     assert_int_equal(mor_terrain_raster_read(&folder->context, run_folder_file(folder, path, "slope.asc"), &raster),
                      MOR_OK);
+    assert_non_null(ground.system);
+    assert_non_null(strstr(ground.system, "UTM zone 32N"));
     for (int a = 0; a < 2; ++a) {
         assert_true(ground.cell[a] == 0.5 * raster.cell[a]);
         const double steps = fabs(ground.corner[a] - raster.corner[a]) / ground.cell[a];

@@ -9,9 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-mor_status mor_map_sums_init(mor_context *context, const mor_map_grid *grid, mor_map_sums *sums)
+mor_status mor_map_sums_init(mor_context *context, const mor_map_grid *grid, int64_t n_points, mor_map_sums *sums)
 {
-    *sums = (mor_map_sums){NULL, NULL};
+    *sums = (mor_map_sums){.n_points = n_points};
+    MOR_TRY(context, MOR_NEW(context, &sums->rows, n_points, "rows of particles on maps"));
     MOR_TRY(context, MOR_NEW(context, &sums->values, MOR_MAP_SUMS * mor_map_grid_cells(grid), "sums of maps"));
     return MOR_NEW(context, &sums->ranges, 2 * (int64_t)grid->n[1], "rows of maps");
 }
@@ -20,6 +21,7 @@ void mor_map_sums_clear(mor_context *context, mor_map_sums *sums)
 {
     MOR_FREE(context, &sums->values);
     MOR_FREE(context, &sums->ranges);
+    MOR_FREE(context, &sums->rows);
 }
 
 void mor_map_sums_empty(const mor_map_grid *grid, mor_map_sums *sums)
@@ -84,44 +86,62 @@ static void add_row(const mor_map_grid *grid, const stretch *x, double share, co
     }
 }
 
+/* The place of a particle before the placement of the case; room: shape [3]. */
+static const double *find_place(const mor_map_points *points, int64_t i, double *room)
+{
+    if (!points->is_placed) {
+        return points->position + 3 * i;
+    }
+    mor_simulation_take_point_back(points->the_case, points->position + 3 * i, room);
+    return room;
+}
+
 /* One particle into those of its rows that a stripe has. */
 static void add_point(const mor_map_grid *grid, const mor_map_points *points, int64_t i, int stripe, int n_stripes,
                       mor_map_sums *out)
 {
-    const double *position = points->position + 3 * i;
-    double place[3];
-    if (points->is_placed) {
-        mor_simulation_take_point_back(points->the_case, position, place);
-        position = place;
+    double room[3];
+    double sums[MOR_MAP_SUMS];
+    const double *place = find_place(points, i, room);
+    const double mass = points->mass[i];
+    const stretch x = find_stretch(grid, 0, place[0], points->width);
+    const stretch y = find_stretch(grid, 1, place[1], points->width);
+    sums[MOR_MAP_SUM_VOLUME] = points->volume != NULL ? points->volume[i] : mass / points->density[i];
+    sums[MOR_MAP_SUM_MASS] = mass;
+    for (int a = 0; a < 3; ++a) {
+        sums[MOR_MAP_SUM_MOMENTUM_X + a] = mass * points->velocity[3 * i + a];
     }
-    const stretch y = find_stretch(grid, 1, position[1], points->width);
-    stretch x = {0.0, 0.0, 0, -1};
-    double sums[MOR_MAP_SUMS] = {0.0};
     for (int cell = y.first; cell <= y.last; ++cell) {
         const int row = bring_inside(grid, 1, cell);
-        if (row % n_stripes != stripe) {
-            continue;
+        if (row % n_stripes == stripe) {
+            add_row(grid, &x, find_share(grid, 1, &y, cell), sums, row, out);
         }
-        if (x.last < x.first) {
-            const double mass = points->mass[i];
-            x = find_stretch(grid, 0, position[0], points->width);
-            sums[MOR_MAP_SUM_VOLUME] = points->volume != NULL ? points->volume[i] : mass / points->density[i];
-            sums[MOR_MAP_SUM_MASS] = mass;
-            for (int a = 0; a < 3; ++a) {
-                sums[MOR_MAP_SUM_MOMENTUM_X + a] = mass * points->velocity[3 * i + a];
-            }
-        }
-        add_row(grid, &x, find_share(grid, 1, &y, cell), sums, row, out);
     }
 }
 
-/* Each thread has rows of its own and looks at all particles in their order. */
+static void find_rows(mor_context *context, const mor_map_grid *grid, const mor_map_points *points, mor_map_sums *sums)
+{
+    MOR_PARALLEL_FOR (context, block, mor_block_count(points->n), 1) {
+        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, points->n); ++i) {
+            double room[3];
+            const stretch y = find_stretch(grid, 1, find_place(points, i, room)[1], points->width);
+            sums->rows[i] = bring_inside(grid, 1, y.first);
+        }
+    }
+}
+
+/* Each thread has rows of its own and looks at all particles in their order; most are not in its rows. */
 void mor_map_spread(mor_context *context, const mor_map_grid *grid, const mor_map_points *points, mor_map_sums *sums)
 {
     const int n_stripes = context->n_threads;
+    const double most_rows = floor(points->width / grid->cell[1]) + 2.0;
+    find_rows(context, grid, points, sums);
     MOR_PARALLEL_FOR (context, stripe, n_stripes, 1) {
         for (int64_t i = 0; i < points->n; ++i) {
-            add_point(grid, points, i, (int)stripe, n_stripes, sums);
+            const int gap = (int)stripe - sums->rows[i] % n_stripes;
+            if ((gap < 0 ? gap + n_stripes : gap) < most_rows) {
+                add_point(grid, points, i, (int)stripe, n_stripes, sums);
+            }
         }
     }
 }

@@ -36,14 +36,17 @@ typedef struct mor_map_points {
 
 /** Sums over the cells of a grid. Zeroed: none. */
 typedef struct mor_map_sums {
-    double *values;  /* shape [rows, columns, MOR_MAP_SUMS], units as above, [1] */
-    int32_t *ranges; /* shape [rows, 2]; first column and one past the last one that hold anything, others are zero */
+    double *values;   /* shape [rows, columns, MOR_MAP_SUMS], units as above, [1] */
+    int32_t *rows;    /* scratch; shape [n_points]; first row that a particle touches */
+    int64_t n_points; /* particles there is room for */
+    int32_t *ranges;  /* shape [rows, 2]; first column and one past the last one that hold anything, others are zero */
 } mor_map_sums;
 
 /** Makes sums of zero for a grid.
- *  @param sums    [out]     ended with mor_map_sums_clear, also after a failure
+ *  @param n_points [in]      most particles that are added at once
+ *  @param sums     [out]     ended with mor_map_sums_clear, also after a failure
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
-mor_status mor_map_sums_init(mor_context *context, const mor_map_grid *grid, mor_map_sums *sums);
+mor_status mor_map_sums_init(mor_context *context, const mor_map_grid *grid, int64_t n_points, mor_map_sums *sums);
 
 /** Frees sums; accepts zeroed ones. */
 void mor_map_sums_clear(mor_context *context, mor_map_sums *sums);
@@ -52,7 +55,7 @@ void mor_map_sums_clear(mor_context *context, mor_map_sums *sums);
  *  @param sums [in,out]  made for the grid */
 void mor_map_sums_empty(const mor_map_grid *grid, mor_map_sums *sums);
 
-/** Adds particles.
+/** Adds particles, at most as many as there is room for.
  *  @param sums    [in,out]  made for the grid */
 void mor_map_spread(mor_context *context, const mor_map_grid *grid, const mor_map_points *points, mor_map_sums *sums);
 

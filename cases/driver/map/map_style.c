@@ -37,13 +37,15 @@ static void write_classes(FILE *out, const mor_map_kind *kind, double largest)
 {
     mor_map_classes classes;
     mor_map_classes_init(kind, largest, &classes);
-    fprintf(out,
-            "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"%g\" classificationMin=\"0\" "
-            "classificationMax=\"%.17g\">\n"
-            "      <rastershader>\n"
-            "        <colorrampshader colorRampType=\"DISCRETE\" classificationMode=\"1\" clip=\"0\" "
-            "minimumValue=\"0\" maximumValue=\"%.17g\">\n",
-            opacity, classes.limits[classes.n], classes.limits[classes.n]);
+    fprintf(
+        out,
+        "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" alphaBand=\"-1\" opacity=\"%g\" "
+        "classificationMin=\"0\" "
+        "classificationMax=\"%.17g\">\n"
+        "      <rasterTransparency/>\n      <minMaxOrigin><limits>None</limits></minMaxOrigin>\n      <rastershader>\n"
+        "        <colorrampshader colorRampType=\"DISCRETE\" classificationMode=\"1\" clip=\"0\" "
+        "minimumValue=\"0\" maximumValue=\"%.17g\">\n",
+        opacity, classes.limits[classes.n], classes.limits[classes.n]);
     for (int k = 0; k < classes.n; ++k) {
         write_class(out, kind, &classes, k);
     }

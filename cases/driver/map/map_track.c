@@ -16,7 +16,7 @@
 /* Measuring may take this share of a step. In ns per particle: a step, a particle, and each cell that it touches. */
 static const double share_allowed = 0.02;
 static const double step_cost = 1000.0;
-static const double particle_cost = 20.0;
+static const double particle_cost = 30.0;
 static const double cell_cost = 8.0;
 
 /* The choice depends on the case alone, so that a run has the same results wherever it is computed. */
@@ -24,7 +24,8 @@ static int choose_interval(const mor_case *the_case, const mor_map_grid *grid)
 {
     const double cells = (the_case->spacing / grid->cell[0] + 1.0) * (the_case->spacing / grid->cell[1] + 1.0);
     const double ratio = ceil((particle_cost + cell_cost * cells) / (step_cost * share_allowed));
-    return the_case->maps.interval > 0 ? the_case->maps.interval : (int)fmin(fmax(ratio, 1.0), 1.0e6);
+    const double chosen = the_case->n_soils > 0 ? fmin(fmax(ratio, 1.0), 1.0e6) : 1.0;
+    return the_case->maps.interval > 0 ? the_case->maps.interval : (int)chosen;
 }
 
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
@@ -61,7 +62,7 @@ static mor_status fill_track(mor_context *context, mor_map_track *track)
     track->interval = choose_interval(s->the_case, &track->grid);
     const int64_t n = mor_map_grid_cells(&track->grid);
     if (s->has_soil) {
-        MOR_TRY(context, mor_map_sums_init(context, &track->grid, &track->soil));
+        MOR_TRY(context, mor_map_sums_init(context, &track->grid, s->soil.set.n_particles, &track->soil));
     }
     for (int k = 0; k < MOR_MAP_KEPT_COUNT; ++k) {
         if (is_of_rocks(k) ? s->bodies.n_groups > 0 : s->has_soil) {

@@ -109,6 +109,17 @@ static mor_status write_maps(mor_context *context, const mor_map_source *source,
     return MOR_OK;
 }
 
+/* Of a group of rocks. */
+static int64_t find_most_particles(const mor_simulation *simulation)
+{
+    int64_t most = 0;
+    for (int g = 0; g < simulation->bodies.n_groups; ++g) {
+        const int64_t n = simulation->bodies.groups[g]->set.n_particles;
+        most = n > most ? n : most;
+    }
+    return most;
+}
+
 mor_status mor_map_write(mor_context *context, mor_map_track *track, const char *folder, mor_map_results *results)
 {
     char path[MOR_PATH_BYTES];
@@ -120,7 +131,7 @@ mor_status mor_map_write(mor_context *context, mor_map_track *track, const char 
     MOR_TRY(context, mor_durable_file_make_folder(context, path));
     mor_map_source source = {.track = track};
     mor_terrain_raster raster = {.values = NULL};
-    mor_status status = mor_map_sums_init(context, &track->grid, &source.rocks);
+    mor_status status = mor_map_sums_init(context, &track->grid, find_most_particles(track->simulation), &source.rocks);
     if (status == MOR_OK) {
         if (track->simulation->has_soil) {
             mor_map_measure(context, track);

@@ -62,7 +62,7 @@ static void check_conserved(double spread)
     double wanted[MOR_MAP_SUMS] = {0.0};
     mor_context_init(&context);
     make_cloud(&it, spread);
-    assert_int_equal(mor_map_sums_init(&context, &grid, &sums), MOR_OK);
+    assert_int_equal(mor_map_sums_init(&context, &grid, POINTS, &sums), MOR_OK);
     mor_map_spread(&context, &grid, &it.points, &sums);
     total(&sums, found);
     for (int i = 0; i < POINTS; ++i) {
@@ -122,7 +122,7 @@ static void a_lattice_gives_an_even_layer(void **state)
                                    .velocity = velocity,
                                    .mass = mass,
                                    .volume = volume};
-    assert_int_equal(mor_map_sums_init(&context, &cells, &sums), MOR_OK);
+    assert_int_equal(mor_map_sums_init(&context, &cells, SIDE * SIDE * LAYERS, &sums), MOR_OK);
     mor_map_spread(&context, &cells, &points, &sums);
     for (int row = 0; row < 35; ++row) {
         for (int column = 0; column < 35; ++column) {
@@ -146,7 +146,7 @@ static void sums_do_not_depend_on_the_number_of_threads(void **state)
     make_cloud(&it, 1.5);
     for (int k = 0; k < 2; ++k) {
         context.n_threads = k == 0 ? 1 : 5;
-        assert_int_equal(mor_map_sums_init(&context, &grid, &sums[k]), MOR_OK);
+        assert_int_equal(mor_map_sums_init(&context, &grid, POINTS, &sums[k]), MOR_OK);
         mor_map_spread(&context, &grid, &it.points, &sums[k]);
     }
     const size_t n_bytes = (size_t)mor_map_grid_cells(&grid) * MOR_MAP_SUMS * sizeof(double);
