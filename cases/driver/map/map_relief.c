@@ -65,6 +65,7 @@ typedef struct label {
 typedef struct contours {
     mor_canvas *canvas;
     const mor_terrain_raster *ground;
+    const double *base; /* shape [2]; subtracted from coordinates, m */
     const mor_axes *axes;
     mor_ticks ticks;
     label labels[LABELS_MAX]; /* shape [ticks.n_ticks]; heights NaN: no contour was met */
@@ -120,11 +121,11 @@ static void draw_triangle(contours *c, double corners[3][3])
 }
 
 /* The corner of the square of four cells that lies right (bit 0) and below (bit 1). */
-static void find_corner(const mor_terrain_raster *ground, int column, int row, double *corner)
+static void find_corner(const contours *c, int column, int row, double *corner)
 {
-    corner[0] = ground->corner[0] + (column + 0.5) * ground->cell[0];
-    corner[1] = ground->corner[1] - (row + 0.5) * ground->cell[1];
-    corner[2] = height_at(ground, column, row);
+    corner[0] = c->ground->corner[0] - c->base[0] + (column + 0.5) * c->ground->cell[0];
+    corner[1] = c->ground->corner[1] - c->base[1] - (row + 0.5) * c->ground->cell[1];
+    corner[2] = height_at(c->ground, column, row);
 }
 
 static void draw_square(contours *c, int column, int row)
@@ -134,7 +135,7 @@ static void draw_square(contours *c, int column, int row)
         double corners[3][3];
         for (int k = 0; k < 3; ++k) {
             const int bits = corner_of[t][k];
-            find_corner(c->ground, column + (bits & 1), row + (bits >> 1), corners[k]);
+            find_corner(c, column + (bits & 1), row + (bits >> 1), corners[k]);
         }
         draw_triangle(c, corners);
     }
@@ -173,9 +174,10 @@ static void draw_labels(contours *c)
     }
 }
 
-double mor_map_relief_contours(mor_canvas *canvas, const mor_terrain_raster *ground, const mor_axes *axes)
+double mor_map_relief_contours(mor_canvas *canvas, const mor_terrain_raster *ground, const double *base,
+                               const mor_axes *axes)
 {
-    contours c = {.canvas = canvas, .ground = ground, .axes = axes};
+    contours c = {.canvas = canvas, .ground = ground, .base = base, .axes = axes};
     double low = INFINITY;
     double high = -INFINITY;
     for (int64_t k = 0; k < (int64_t)ground->n[0] * ground->n[1]; ++k) {

@@ -23,8 +23,10 @@ double mor_map_relief_light_at(const mor_terrain_raster *ground, const double *l
 
 /** Draws contours at round heights, each with its height written once where there is room.
  *  @param ground  [in]      heights in m
+ *  @param base    [in]      shape [2]; subtracted from the raster's coordinates, unit m
  *  @param axes    [in]      that the map is drawn in
  *  Returns: the interval of the heights, unit m; 0: the ground is level. */
-double mor_map_relief_contours(mor_canvas *canvas, const mor_terrain_raster *ground, const mor_axes *axes);
+double mor_map_relief_contours(mor_canvas *canvas, const mor_terrain_raster *ground, const double *base,
+                               const mor_axes *axes);
 
 #endif
