@@ -10,7 +10,19 @@
 void mor_terrain_clear(mor_context *context, mor_terrain *terrain)
 {
     MOR_FREE(context, &terrain->heights);
+    MOR_FREE(context, &terrain->system);
     *terrain = (mor_terrain){0};
+}
+
+mor_status mor_terrain_copy_text(mor_context *context, const char *text, char **copy)
+{
+    const size_t n_bytes = text == NULL ? 0 : strlen(text) + 1;
+    *copy = NULL;
+    MOR_TRY(context, MOR_NEW(context, copy, (int64_t)n_bytes, "a text of a raster"));
+    if (n_bytes > 0) {
+        memcpy(*copy, text, n_bytes);
+    }
+    return MOR_OK;
 }
 
 double mor_terrain_end(const mor_terrain *terrain, int axis)
@@ -236,6 +248,7 @@ mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *ter
               "the reach of exact distances is %g m: give a length above zero", reach);
     *surface = (mor_terrain_surface){*terrain, reach, 0.0, 0.0, 0.0};
     surface->terrain.heights = NULL;
+    MOR_TRY(context, mor_terrain_copy_text(context, terrain->system, &surface->terrain.system));
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
     MOR_TRY(context, MOR_NEW(context, &surface->terrain.heights, n_nodes, "terrain heights"));
     memcpy(surface->terrain.heights, terrain->heights, (size_t)n_nodes * sizeof *terrain->heights);

@@ -14,14 +14,17 @@
 /** Elevations on a grid of nodes (the centers of raster cells). Owner: the caller, who ends it with
  *  mor_terrain_clear. */
 typedef struct mor_terrain {
-    double *heights;  /* shape [n_y, n_x], unit m; row 0 is the one with the least y; NaN: no data */
-    int n_x, n_y;     /* nodes along x and y; >= 2 */
-    double origin[2]; /* x and y of the first node, m, in the frame of the case (after `offset`) */
-    double cell[2];   /* distance of nodes along x and y, m; > 0 */
-    double offset[3]; /* what was subtracted from the raster's coordinates and heights, m */
-    int added[2][2];  /* nodes along x and y that mor_terrain_extend put before the first and behind the last one */
-    char datum[128];  /* horizontal and vertical reference system as text; empty: not given */
-    uint64_t hash;    /* of all files it was read from: mor_hash_file of a single one */
+    double *heights;         /* shape [n_y, n_x], unit m; row 0 is the one with the least y; NaN: no data */
+    int n_x, n_y;            /* nodes along x and y; >= 2 */
+    double origin[2];        /* x and y of the first node, m, in the frame of the case (after `offset`) */
+    double cell[2];          /* distance of nodes along x and y, m; > 0 */
+    double offset[3];        /* what was subtracted from the raster's coordinates and heights, m */
+    double raster_corner[2]; /* x of the left and y of the upper edge of the whole raster, in its coordinates, m */
+    double raster_cell[2];   /* size of its cells along x and y, m; 0: not read from a raster */
+    char *system;            /* its reference system as well-known text; NULL: not given; owned */
+    int added[2][2]; /* nodes along x and y that mor_terrain_extend put before the first and behind the last one */
+    char datum[128]; /* horizontal and vertical reference system as text; empty: not given */
+    uint64_t hash;   /* of all files it was read from: mor_hash_file of a single one */
 } mor_terrain;
 
 /** How to read a raster. Made ready by mor_terrain_request_init. */

@@ -70,6 +70,23 @@ mor_status mor_terrain_fill_holes(mor_context *context, mor_terrain *terrain);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when fewer than 2 x 2 nodes are left, or too many; MOR_ERROR_MEMORY. */
 mor_status mor_terrain_resample(mor_context *context, mor_terrain *terrain, double cell);
 
+/** Copies a text.
+ *  @param text    [in]      zero-terminated; NULL: there is none
+ *  @param copy    [out]     one pointer; NULL without a text; owned by the caller
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_terrain_copy_text(mor_context *context, const char *text, char **copy);
+
+/** Checks what is asked of a raster.
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for no path, cells without size, an empty crop, an infinite offset. */
+mor_status mor_terrain_check_request(mor_context *context, const mor_terrain_request *request);
+
+/** Refuses cliffs that no ground has, and warns of unlikely ones.
+ *  @param request [in]      its path is named
+ *  @param terrain [in]      without holes
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_terrain_check_steps(mor_context *context, const mor_terrain_request *request,
+                                   const mor_terrain *terrain);
+
 /** Rasters that are text. */
 typedef enum mor_terrain_format {
     MOR_TERRAIN_BINARY, /* no text */

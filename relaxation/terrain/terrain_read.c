@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "relaxation/terrain/terrain_internal.h"
+#include "relaxation/terrain/terrain_raster.h"
 
 #include "core/base/hash.h"
 #include "core/base/memory.h"
@@ -22,12 +23,6 @@
 /* A share of a cell by which a crop may miss a node and still keep it. */
 #define ON_NODE 1e-9
 
-/* Relief over extent beyond which a raster without a reference system is likely in degrees; step of height over cell
- * beyond which a missing-data value was likely not declared, and beyond which slopes lose all digits. */
-#define LIKELY_DEGREES 20.0
-#define LIKELY_MARK 20.0
-#define SURELY_MARK 1e4
-
 /* Formats whose files GDAL can list: their hash then covers all that was read. */
 static const char *const drivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "GSAG", "GSBG", "GS7BG", NULL};
 
@@ -36,6 +31,7 @@ typedef struct raster {
     const char *path;
     GDALDatasetH dataset;
     GDALRasterBandH band;
+    double corner[2]; /* x of the left and y of the upper edge, m */
     double first[2];  /* of the first node along x and of the one with least y, m */
     double cell[2];   /* m */
     int n[2];         /* nodes */
@@ -44,14 +40,6 @@ typedef struct raster {
     mor_terrain_prj prj;
     bool is_downward; /* row 0 of the file has the largest y */
 } raster;
-
-void mor_terrain_request_init(mor_terrain_request *request)
-{
-    *request = (mor_terrain_request){.crop_minimum = {-INFINITY, -INFINITY},
-                                     .crop_maximum = {INFINITY, INFINITY},
-                                     .cell = NAN,
-                                     .offset = {NAN, NAN, NAN}};
-}
 
 /* They belong to the process; each is added once. */
 static void register_drivers(void)
@@ -67,22 +55,21 @@ static void register_drivers(void)
     mor_process_unlock();
 }
 
-static mor_status check_request(mor_context *context, const mor_terrain_request *request)
+/* Nothing is printed or downloaded. For a file open for reading only, without statistics, no side files are
+ * written; existing ones (.aux.xml) are read: they may state units, scales and missing data. */
+static void enter_gdal(void)
 {
-    MOR_CHECK(context, request->path != NULL && request->path[0] != '\0', MOR_ERROR_ARGUMENT,
-              "no raster file is given: name one");
-    MOR_CHECK(context, isnan(request->cell) || (request->cell > 0.0 && isfinite(request->cell)), MOR_ERROR_ARGUMENT,
-              "%s: cells of %g m are asked for: give a length above zero", request->path, request->cell);
-    for (int a = 0; a < 2; ++a) {
-        MOR_CHECK(context, request->crop_minimum[a] < request->crop_maximum[a], MOR_ERROR_ARGUMENT,
-                  "%s: the crop is empty along %c: from %g m to %g m; give a minimum below the maximum", request->path,
-                  "xy"[a], request -> crop_minimum[a], request -> crop_maximum[a]);
-    }
-    for (int a = 0; a < 3; ++a) {
-        MOR_CHECK(context, !isinf(request->offset[a]), MOR_ERROR_ARGUMENT,
-                  "%s: the offset along %c is infinite: give a length, or none", request->path, "xyz"[a]);
-    }
-    return MOR_OK;
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLSetThreadLocalConfigOption("AAIGRID_DATATYPE", "Float64");  /* else nan among whole numbers reads as zero */
+    CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES"); /* else GeoTIFF hides the datum of heights */
+    OSRSetPROJEnableNetwork(0);
+    register_drivers();
+}
+
+static void leave_gdal(void)
+{
+    CPLErrorReset();
+    CPLPopErrorHandler();
 }
 
 /* A file of this machine, not one of GDAL's names for archives, memory or the network. */
@@ -151,6 +138,8 @@ static mor_status place_raster(mor_context *context, raster *it)
     it->is_downward = map[5] < 0.0;
     it->cell[0] = map[1];
     it->cell[1] = fabs(map[5]);
+    it->corner[0] = map[0];
+    it->corner[1] = it->is_downward ? map[3] : map[3] + it->n[1] * map[5];
     it->first[0] = map[0] + 0.5 * it->cell[0];
     it->first[1] = (it->is_downward ? map[3] + it->n[1] * map[5] : map[3]) + 0.5 * it->cell[1];
     return MOR_OK;
@@ -178,12 +167,25 @@ static mor_status check_system(mor_context *context, const char *place, OGRSpati
     return MOR_OK;
 }
 
-static void describe_system(OGRSpatialReferenceH system, char *datum, size_t n_bytes)
+/* The system that maps are given later; one that has no well-known text is left out. */
+static mor_status keep_system(mor_context *context, OGRSpatialReferenceH system, mor_terrain *terrain)
+{
+    char *text = NULL;
+    mor_status status = MOR_OK;
+    if (OSRExportToWkt(system, &text) == OGRERR_NONE && text != NULL && text[0] != '\0') {
+        status = mor_terrain_copy_text(context, text, &terrain->system);
+    }
+    CPLFree(text);
+    return status;
+}
+
+static mor_status describe_system(mor_context *context, OGRSpatialReferenceH system, mor_terrain *terrain)
 {
     const char *name = OSRGetName(system);
     const char *vertical = OSRGetAttrValue(system, "VERT_CS", 0);
-    snprintf(datum, n_bytes, "%s; heights: %s", name != NULL ? name : "unnamed",
+    snprintf(terrain->datum, sizeof terrain->datum, "%s; heights: %s", name != NULL ? name : "unnamed",
              vertical != NULL ? vertical : "datum not given");
+    return keep_system(context, system, terrain);
 }
 
 /* Parses a reference system. */
@@ -199,8 +201,7 @@ static OGRErr parse_system(OGRSpatialReferenceH system, char *text, bool is_keyw
 }
 
 /* One statement of a .prj; the first one is reported as text if the raster itself has no system. */
-static mor_status check_statement(mor_context *context, const mor_terrain_prj *prj, char *text, char *datum,
-                                  size_t n_bytes)
+static mor_status check_statement(mor_context *context, const mor_terrain_prj *prj, char *text, mor_terrain *terrain)
 {
     enum { SHOWN = 40 };
     OGRSpatialReferenceH system = OSRNewSpatialReference(NULL);
@@ -208,8 +209,8 @@ static mor_status check_statement(mor_context *context, const mor_terrain_prj *p
     mor_status status = MOR_OK;
     if (!is_bad) {
         status = check_system(context, prj->path, system);
-        if (datum[0] == '\0') {
-            describe_system(system, datum, n_bytes);
+        if (status == MOR_OK && terrain->datum[0] == '\0') {
+            status = describe_system(context, system, terrain);
         }
     }
     OSRDestroySpatialReference(system);
@@ -222,33 +223,33 @@ static mor_status check_statement(mor_context *context, const mor_terrain_prj *p
     return status;
 }
 
-static mor_status read_prj(mor_context *context, const mor_terrain_prj *prj, char *datum, size_t n_bytes)
+static mor_status read_prj(mor_context *context, const mor_terrain_prj *prj, mor_terrain *terrain)
 {
     if (prj->path[0] == '\0') {
         return MOR_OK;
     }
-    MOR_TRY(context, check_statement(context, prj, prj->first, datum, n_bytes));
+    MOR_TRY(context, check_statement(context, prj, prj->first, terrain));
     if (prj->rest[0] != '\0') {
-        MOR_TRY(context, check_statement(context, prj, prj->rest, datum, n_bytes));
+        MOR_TRY(context, check_statement(context, prj, prj->rest, terrain));
     }
     return MOR_OK;
 }
 
 /* Text of the reference system, which must be in meters. */
-static mor_status read_datum(mor_context *context, const raster *it, char *datum, size_t n_bytes)
+static mor_status read_datum(mor_context *context, const raster *it, mor_terrain *terrain)
 {
     const char *unit = GDALGetRasterUnitType(it->band);
     OGRSpatialReferenceH system = GDALGetSpatialRef(it->dataset);
     MOR_CHECK(context, unit == NULL || unit[0] == '\0' || strcmp(unit, "m") == 0 || EQUALN(unit, "met", 3),
               MOR_ERROR_ARGUMENT, "%s: heights are in '%s'; allowed are meters: convert them with gdal_calc.py",
               it->path, unit);
-    datum[0] = '\0';
+    terrain->datum[0] = '\0';
     if (system != NULL) {
         MOR_TRY(context, check_system(context, it->path, system));
-        describe_system(system, datum, n_bytes);
+        MOR_TRY(context, describe_system(context, system, terrain));
     }
-    MOR_TRY(context, read_prj(context, &it->prj, datum, n_bytes));
-    if (datum[0] == '\0') {
+    MOR_TRY(context, read_prj(context, &it->prj, terrain));
+    if (terrain->datum[0] == '\0') {
         mor_context_log(context, MOR_LOG_INFO, "%s: names no reference system; coordinates and heights taken as meters",
                         it->path);
     }
@@ -380,49 +381,6 @@ static mor_status fill_holes(mor_context *context, const mor_terrain_request *re
     return MOR_OK;
 }
 
-/* Heights in meters over an extent in degrees. */
-static bool may_be_degrees(const mor_terrain *terrain)
-{
-    double lowest;
-    double highest;
-    mor_terrain_range(terrain, &lowest, &highest);
-    const double extent =
-        fmax(mor_terrain_end(terrain, 0) - terrain->origin[0], mor_terrain_end(terrain, 1) - terrain->origin[1]);
-    return terrain->datum[0] == '\0' && highest - lowest > LIKELY_DEGREES * extent;
-}
-
-/* Cliffs no ground has. */
-static mor_status check_steps(mor_context *context, const mor_terrain_request *request, const mor_terrain *terrain)
-{
-    double steepest = 0.0;
-    for (int row = 0; row < terrain->n_y; ++row) {
-        for (int column = 0; column < terrain->n_x; ++column) {
-            const double *at = terrain->heights + (int64_t)row * terrain->n_x + column;
-            const double x = column > 0 ? fabs(at[0] - at[-1]) / terrain->cell[0] : 0.0;
-            const double y = row > 0 ? fabs(at[0] - at[-terrain->n_x]) / terrain->cell[1] : 0.0;
-            steepest = fmax(steepest, fmax(x, y));
-        }
-    }
-    const bool is_degrees = may_be_degrees(terrain);
-    MOR_CHECK(
-        context, steepest <= SURELY_MARK, MOR_ERROR_ARGUMENT,
-        "%s: heights of neighboring nodes differ by %g cells; allowed are %g: %sif the raster marks missing data with "
-        "a number, declare it with gdal_edit.py -a_nodata",
-        request->path, steepest, SURELY_MARK,
-        is_degrees
-            ? "it names no reference system, and if its coordinates are degrees, project it with gdalwarp -s_srs "
-              "EPSG:4326 -t_srs EPSG:<code of the local map grid>; "
-            : "");
-    if (is_degrees || steepest > LIKELY_MARK) {
-        mor_context_log(context, MOR_LOG_WARNING, "%s: heights of neighboring nodes differ by %g cells: %s",
-                        request->path, steepest,
-                        is_degrees ? "are its coordinates degrees, or does a number mark missing data without being "
-                                     "declared?"
-                                   : "does a number mark missing data without being declared?");
-    }
-    return MOR_OK;
-}
-
 /* Into the frame of the case. */
 static void subtract_offset(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain)
 {
@@ -456,17 +414,19 @@ static mor_status read_terrain(mor_context *context, const mor_terrain_request *
         MOR_TRY(context, mor_terrain_check_text(context, it->path, it->format, it->n));
     }
     MOR_TRY(context, place_raster(context, it));
-    MOR_TRY(context, read_datum(context, it, terrain->datum, sizeof terrain->datum));
+    MOR_TRY(context, read_datum(context, it, terrain));
     MOR_TRY(context, find_window(context, request, it));
     terrain->n_x = it->window[0][1] - it->window[0][0] + 1;
     terrain->n_y = it->window[1][1] - it->window[1][0] + 1;
     for (int a = 0; a < 2; ++a) {
         terrain->cell[a] = it->cell[a];
+        terrain->raster_cell[a] = it->cell[a];
+        terrain->raster_corner[a] = it->corner[a];
         terrain->origin[a] = it->first[a] + it->window[a][0] * it->cell[a];
     }
     MOR_TRY(context, read_heights(context, it, terrain));
     MOR_TRY(context, fill_holes(context, request, it, terrain));
-    MOR_TRY(context, check_steps(context, request, terrain));
+    MOR_TRY(context, mor_terrain_check_steps(context, request, terrain));
     if (!isnan(request->cell)) {
         MOR_TRY(context, mor_terrain_resample(context, terrain, request->cell));
     }
@@ -477,25 +437,147 @@ static mor_status read_terrain(mor_context *context, const mor_terrain_request *
 mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *request, mor_terrain *terrain)
 {
     *terrain = (mor_terrain){0};
-    MOR_TRY(context, check_request(context, request));
+    MOR_TRY(context, mor_terrain_check_request(context, request));
     MOR_TRY(context, check_file(context, request->path));
     raster it = {.path = request->path};
-    /* Nothing is printed or downloaded. For a file open for reading only, without statistics, no side files are
-     * written; existing ones (.aux.xml) are read: they may state units, scales and missing data. */
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLSetThreadLocalConfigOption("AAIGRID_DATATYPE", "Float64");  /* else nan among whole numbers reads as zero */
-    CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES"); /* else GeoTIFF hides the datum of heights */
-    OSRSetPROJEnableNetwork(0);
-    register_drivers();
+    enter_gdal();
     const mor_status status = read_terrain(context, request, &it, terrain);
     if (it.dataset != NULL) {
         GDALClose(it.dataset);
     }
     mor_terrain_prj_clear(context, &it.prj);
-    CPLErrorReset();
-    CPLPopErrorHandler();
+    leave_gdal();
     if (status != MOR_OK) {
         mor_terrain_clear(context, terrain);
+        return mor_context_pass(context, status, MOR_HERE);
+    }
+    return MOR_OK;
+}
+
+/* ---- Rasters of results ------------------------------------------------------------------------------------------ */
+
+/* Number in the file where there is no data: quantities of maps are not negative, and no ground lies there. */
+#define NO_DATA (-9999.0)
+
+void mor_terrain_raster_clear(mor_context *context, mor_terrain_raster *it)
+{
+    MOR_FREE(context, &it->values);
+    MOR_FREE(context, &it->system);
+    *it = (mor_terrain_raster){0};
+}
+
+static mor_status describe_raster(mor_context *context, GDALDatasetH dataset, const mor_terrain_raster *it,
+                                  const char *path)
+{
+    GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+    double map[6] = {it->corner[0], it->cell[0], 0.0, it->corner[1], 0.0, -it->cell[1]};
+    CPLErr error = GDALSetGeoTransform(dataset, map);
+    if (it->system != NULL && error == CE_None) {
+        error = GDALSetProjection(dataset, it->system);
+    }
+    GDALSetDescription(band, it->name);
+    if (error == CE_None) {
+        error = GDALSetRasterUnitType(band, it->unit);
+    }
+    if (error == CE_None) {
+        error = GDALSetMetadataItem(dataset, "TIFFTAG_IMAGEDESCRIPTION", it->text, NULL);
+    }
+    if (error == CE_None) {
+        error = GDALSetRasterNoDataValue(band, NO_DATA);
+    }
+    MOR_CHECK(context, error == CE_None, MOR_ERROR_IO, "%s: georeference, unit or text cannot be written (%s)", path,
+              CPLGetLastErrorMsg());
+    return MOR_OK;
+}
+
+static mor_status write_rows(mor_context *context, GDALDatasetH dataset, const mor_terrain_raster *it, const char *path)
+{
+    GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+    double *row = NULL;
+    MOR_TRY(context, MOR_NEW(context, &row, it->n[0], "a row of a map"));
+    CPLErr error = CE_None;
+    for (int y = 0; y < it->n[1] && error == CE_None; ++y) {
+        for (int x = 0; x < it->n[0]; ++x) {
+            const double value = it->values[(int64_t)y * it->n[0] + x];
+            row[x] = isnan(value) ? NO_DATA : value;
+        }
+        error = GDALRasterIO(band, GF_Write, 0, y, it->n[0], 1, row, it->n[0], 1, GDT_Float64, 0, 0);
+    }
+    MOR_FREE(context, &row);
+    MOR_CHECK(context, error == CE_None, MOR_ERROR_IO,
+              "%s: cannot be written (%s); free space or choose another folder", path, CPLGetLastErrorMsg());
+    return MOR_OK;
+}
+
+static mor_status write_raster(mor_context *context, const char *path, const mor_terrain_raster *it)
+{
+    char **options = CSLSetNameValue(NULL, "COMPRESS", "DEFLATE");
+    CPLErrorReset();
+    GDALDatasetH dataset = GDALCreate(GDALGetDriverByName("GTiff"), path, it->n[0], it->n[1], 1, GDT_Float64, options);
+    CSLDestroy(options);
+    MOR_CHECK(context, dataset != NULL, MOR_ERROR_IO, "%s: cannot be made (%s); free space or choose another folder",
+              path, CPLGetLastErrorMsg());
+    mor_status status = describe_raster(context, dataset, it, path);
+    if (status == MOR_OK) {
+        status = write_rows(context, dataset, it, path);
+    }
+    CPLErrorReset();
+    GDALClose(dataset); /* writes what is left, and reports by its last error alone */
+    MOR_CHECK(context, status != MOR_OK || CPLGetLastErrorType() < CE_Failure, MOR_ERROR_IO,
+              "%s: cannot be written (%s); free space or choose another folder", path, CPLGetLastErrorMsg());
+    return status;
+}
+
+mor_status mor_terrain_raster_write(mor_context *context, const char *path, const mor_terrain_raster *it)
+{
+    enter_gdal();
+    const mor_status status = write_raster(context, path, it);
+    leave_gdal();
+    return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
+}
+
+static mor_status read_raster(mor_context *context, raster *from, mor_terrain_raster *it)
+{
+    double map[6];
+    MOR_TRY(context, open_raster(context, from));
+    MOR_TRY(context, place_raster(context, from));
+    MOR_CHECK(context, from->is_downward && (double)from->n[0] * from->n[1] <= MOR_TERRAIN_NODES_MAX, MOR_ERROR_IO,
+              "%s: is no map of a run: it has %d x %d cells, allowed are %g in all, the first row upmost", from->path,
+              from->n[0], from->n[1], MOR_TERRAIN_NODES_MAX);
+    GDALGetGeoTransform(from->dataset, map);
+    const char *text = GDALGetMetadataItem(from->dataset, "TIFFTAG_IMAGEDESCRIPTION", NULL);
+    const char *system = GDALGetProjectionRef(from->dataset);
+    snprintf(it->name, sizeof it->name, "%s", GDALGetDescription(from->band));
+    snprintf(it->unit, sizeof it->unit, "%s", GDALGetRasterUnitType(from->band));
+    snprintf(it->text, sizeof it->text, "%s", text != NULL ? text : "");
+    MOR_TRY(context, mor_terrain_copy_text(context, system[0] != '\0' ? system : NULL, &it->system));
+    for (int a = 0; a < 2; ++a) {
+        it->n[a] = from->n[a];
+        it->cell[a] = from->cell[a];
+        it->corner[a] = map[3 * a];
+        from->window[a][0] = 0;
+        from->window[a][1] = from->n[a] - 1;
+    }
+    MOR_TRY(context, MOR_NEW(context, &it->values, (int64_t)it->n[0] * it->n[1], "a map"));
+    for (int row = 0; row < it->n[1]; ++row) {
+        MOR_TRY(context, read_row(context, from, row, it->values + (int64_t)row * it->n[0]));
+    }
+    return MOR_OK;
+}
+
+mor_status mor_terrain_raster_read(mor_context *context, const char *path, mor_terrain_raster *it)
+{
+    raster from = {.path = path};
+    *it = (mor_terrain_raster){0};
+    MOR_TRY(context, check_file(context, path));
+    enter_gdal();
+    const mor_status status = read_raster(context, &from, it);
+    if (from.dataset != NULL) {
+        GDALClose(from.dataset);
+    }
+    leave_gdal();
+    if (status != MOR_OK) {
+        mor_terrain_raster_clear(context, it);
         return mor_context_pass(context, status, MOR_HERE);
     }
     return MOR_OK;

@@ -77,6 +77,7 @@ mor_status mor_shape_new_terrain(mor_context *context, const mor_terrain *terrai
     MOR_TRY(context, MOR_NEW(context, &ground, 1, "ground"));
     const mor_status status = mor_terrain_surface_init(context, terrain, reach, &ground->surface);
     if (status != MOR_OK) {
+        mor_terrain_clear(context, &ground->surface.terrain);
         MOR_FREE(context, &ground);
         return mor_context_pass(context, status, MOR_HERE);
     }

@@ -181,6 +181,7 @@ static inline void case_reading_scaled_cases(case_reading *f)
         case_reading_scaled_body(f, &plain->bodies[k], &scaled->bodies[k]);
     }
     case_reading_scaled_group(f, &mor_case_contact_group, &plain->contact, &scaled->contact);
+    case_reading_scaled_group(f, &mor_case_maps_group, &plain->maps, &scaled->maps);
     for (int k = 0; k < plain->n_probes; ++k) {
         case_reading_scaled_group(f, &mor_case_probe_group, &plain->probes[k], &scaled->probes[k]);
     }

@@ -66,6 +66,11 @@ static const refusal refusals[] = {
     {{"check", COLUMN, "--set", "soil[0].material.friction_angle=-15 deg", NULL},
      "friction_angle = \"-15 deg\", out of range; allowed: in [0, 90) deg, or in [0, 1.5708) rad"},
     {{"render", ".", NULL}, "is not the folder of a run"},
+    {{"maps", ".", NULL}, "moraine maps needs a --value"},
+    {{"maps", ".", "--map", "deept", "--value", "1 m", NULL}, "found the map 'deept'; allowed: deposit, erosion"},
+    {{"maps", ".", "--value", "1 s", NULL}, "'s' is a unit of another kind (s)"},
+    {{"maps", "/nowhere", "--value", "1 m", NULL}, "the folder '/nowhere' cannot be read"},
+    {{"maps", ".", "--value", "1 m", NULL}, "found 0 folders of runs"},
 };
 
 enum { N_REFUSALS = sizeof refusals / sizeof *refusals };

@@ -448,6 +448,18 @@ typedef struct mor_case_output {
     bool has_cut;                          /* leave out the quadrant / half nearest to the camera */
 } mor_case_output;
 
+/** Maps of the run on a grid seen from above. */
+typedef struct mor_case_maps {
+    bool is_wanted;
+    mor_case_place place;
+    char ground[MOR_CASE_NAME_BYTES]; /* wall whose raster gives the grid; "": a grid over the domain */
+    double cell;      /* size of the cells, m, which the scale does not touch; NaN: those of the raster, or spacing */
+    double threshold; /* depth from which soil counts as arrived, m */
+    double duration_depth; /* depth whose duration is mapped, m */
+    int interval;          /* steps from one measurement to the next; 0: chosen */
+    uint64_t written;
+} mor_case_maps;
+
 /** A whole case. */
 typedef struct mor_case {
     char path[MOR_CASE_TEXT_BYTES];
@@ -492,6 +504,7 @@ typedef struct mor_case {
     int n_probes;
     mor_case_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];
     int n_expectations;
+    mor_case_maps maps;
     mor_case_output output;
 } mor_case;
 

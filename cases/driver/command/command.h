@@ -44,6 +44,8 @@ typedef enum mor_command_option_kind {
     MOR_OPTION_SOIL,
     MOR_OPTION_DATA,
     MOR_OPTION_REPLAY,
+    MOR_OPTION_MAP,
+    MOR_OPTION_VALUE,
     MOR_OPTION_HELP,
     MOR_OPTION_VERSION,
     MOR_OPTION_COUNT
@@ -111,6 +113,8 @@ typedef struct mor_command {
     bool is_resume;
     double stop_at;                       /* s; NaN: not asked */
     const char *spacing;                  /* of relax, as written; NULL: not asked */
+    const char *map;                      /* of maps; NULL: not asked */
+    const char *value;                    /* of maps, as written; NULL: not asked */
     const char *sizes[MOR_SESSION_SIZES]; /* by mor_session_size, of relax, as written; NULL: not asked */
     char line[MOR_COMMAND_TEXT_BYTES];    /* the whole command line */
     FILE *output;                         /* results */

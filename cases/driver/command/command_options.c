@@ -6,7 +6,7 @@
 const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_OUTPUT] = {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
                            "run: runs/NAME; preview: runs/NAME-preview; relax: runs/relax-NAME; material: "
-                           "runs/material-NAME, of the soil or the model"},
+                           "runs/material-NAME, of the soil or the model; maps: RUNS"},
     [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE, "threads; results do not depend on their number",
                             "as many as the machine has cores"},
     [MOR_OPTION_SET] =
@@ -48,6 +48,10 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_REPLAY] = {"replay", '\0', "FILE", MOR_WORD_FILE,
                            "repeat the stress update that a run failed at, from failed-point.cfg in its folder",
                            "a test"},
+    [MOR_OPTION_MAP] = {"map", '\0', "NAME", MOR_WORD_NONE, "which map, such as depth_max or arrival", "depth_max"},
+    [MOR_OPTION_VALUE] = {"value", '\0', "X", MOR_WORD_NONE,
+                          "from which on a cell counts (of an arrival: up to which), such as '0.5 m'",
+                          "it must be given"},
     [MOR_OPTION_HELP] = {"help", 'h', NULL, MOR_WORD_NONE, "what there is; behind a command, what that command does",
                          NULL},
     [MOR_OPTION_VERSION] = {"version", '\0', NULL, MOR_WORD_NONE, "version and commit", NULL}};

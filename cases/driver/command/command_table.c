@@ -10,6 +10,7 @@
     X(preview)                                                                                                         \
     X(relax)                                                                                                           \
     X(render)                                                                                                          \
+    X(maps)                                                                                                            \
     X(list)                                                                                                            \
     X(check_material)                                                                                                  \
     X(material)

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/picture/pictures.h"
 
+#include "cases/driver/map/map_picture.h"
 #include "cases/driver/picture/charts.h"
 #include "cases/driver/picture/picture_color.h"
 #include "cases/driver/picture/picture_soils.h"
@@ -538,7 +539,11 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
         return MOR_OK;
     }
     MOR_TRY(context, mor_rocks_report_draw(context, g->the_case, g->folder, output));
-    return choice == MOR_PICTURES_FIRST ? MOR_OK : mor_charts_render(context, g->folder, output);
+    if (choice == MOR_PICTURES_FIRST) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_map_pictures_render(context, g->the_case, g->folder, output));
+    return mor_charts_render(context, g->folder, output);
 }
 
 static mor_status render_gallery(mor_context *context, gallery *g, mor_pictures_choice choice, FILE *output)

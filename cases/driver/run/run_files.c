@@ -299,8 +299,8 @@ static mor_status explain_refusal(mor_context *context, const mor_run_files *fil
     }
     return MOR_FAIL(
         context, status,
-        "%s; or: the domain was enlarged, and soil without end on a side goes as far as the domain, so that "
-        "it cannot be enlarged there",
+        "%s; or: the domain was enlarged, and soil without end on a side, and maps, go as far as the domain, so "
+        "that it cannot be enlarged there",
         context->message);
 }
 

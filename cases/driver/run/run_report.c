@@ -5,6 +5,7 @@
 #include "cases/driver/run/run_files.h"
 
 #include "cases/driver/case/sections/case_read.h"
+#include "cases/driver/map/map_write.h"
 #include "cases/driver/probe/probe.h"
 #include "cases/driver/run/run_table.h"
 #include "core/base/hash.h"
@@ -193,12 +194,44 @@ static void print_failure(FILE *out, const mor_summary *summary)
     }
 }
 
+static mor_status fill_results(mor_context *context, mor_run_files *files, bool is_failed, mor_summary_result *results,
+                               mor_summary_statistics *statistics)
+{
+    const mor_case *c = files->the_case;
+    for (int k = 0; k < c->n_probes; ++k) {
+        results[k] = (mor_summary_result){.probe = c->probes[k].name,
+                                          .value = NAN,
+                                          .unit = mor_probe_unit(c, k),
+                                          .statistics = &statistics[k],
+                                          .remark = mor_probe_remark(files->simulation, k)};
+        MOR_TRY(context, find_result(context, files, k, is_failed, &results[k].value));
+        fill_statistics(files->simulation, k, &statistics[k]);
+    }
+    return MOR_OK;
+}
+
+/* Maps of a run that reached its end; their numbers follow those of the probes. */
+static mor_status write_maps(mor_context *context, const mor_run_files *files, const mor_summary_failure *failure,
+                             mor_map_results *maps, mor_summary_result *results, int *n_results)
+{
+    maps->n = 0;
+    if (failure == NULL) {
+        MOR_TRY(context, mor_map_write(context, files->simulation->maps, files->options->folder, maps));
+    }
+    for (int k = 0; k < maps->n; ++k) {
+        results[(*n_results)++] =
+            (mor_summary_result){.probe = maps->of[k].name, .value = maps->of[k].value, .unit = maps->of[k].unit};
+    }
+    return MOR_OK;
+}
+
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
                                   const mor_summary_failure *failure, int *n_missed)
 {
     const mor_case *c = files->the_case;
     char path[MOR_PATH_BYTES];
-    mor_summary_result results[MOR_CASE_PROBES_MAX];
+    mor_summary_result results[MOR_CASE_PROBES_MAX + MOR_MAP_RESULTS_MAX];
+    mor_map_results maps;
     mor_summary_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];
     mor_summary_input inputs[1 + INPUTS_MAX] = {{c->path, files->case_hash}};
     mor_case_input shapes[INPUTS_MAX];
@@ -225,16 +258,9 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
                            .plugins = plugins,
                            .n_plugins = c->n_plugins};
     mor_summary_statistics statistics[MOR_CASE_PROBES_MAX];
-    for (int k = 0; k < c->n_probes; ++k) {
-        results[k] = (mor_summary_result){.probe = c->probes[k].name,
-                                          .value = NAN,
-                                          .unit = mor_probe_unit(c, k),
-                                          .statistics = &statistics[k],
-                                          .remark = mor_probe_remark(files->simulation, k)};
-        MOR_TRY(context, find_result(context, files, k, failure != NULL, &results[k].value));
-        fill_statistics(files->simulation, k, &statistics[k]);
-    }
+    MOR_TRY(context, fill_results(context, files, failure != NULL, results, statistics));
     *n_missed = compare(c, results, failure != NULL, expectations);
+    MOR_TRY(context, write_maps(context, files, failure, &maps, results, &summary.n_results));
     mor_summary_integration integration;
     summary.integration = find_integration(files->simulation, &integration) ? &integration : NULL;
     mor_summary_settling settling;
@@ -247,6 +273,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     MOR_TRY(context, mor_summary_write(context, path, &summary));
     print_failure(files->options->output, &summary);
     MOR_TRY(context, mor_run_table_print(context, c, &summary, files->options->output));
+    mor_map_print(files->simulation->maps, &maps, files->options->output);
     print_integration(files->options->output, summary.integration);
     print_settling(files->options->output, summary.settling);
     print_warnings(files->options->output, &files->warnings);

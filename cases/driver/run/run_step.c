@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/run/run_step.h"
 
+#include "cases/driver/map/map_track.h"
 #include "cases/driver/probe/probe.h"
 #include "cases/driver/run/wall_time.h"
 
@@ -51,5 +52,6 @@ mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_
     MOR_TRY(context, mor_schedule_step(context, &simulation->schedule, until));
     *seconds += mor_wall_time() - before;
     warn_of_overlap(context, simulation);
+    mor_map_follow(context, simulation->maps);
     return mor_probe_follow(context, simulation);
 }

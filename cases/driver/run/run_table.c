@@ -121,17 +121,17 @@ static void print_results(FILE *out, const mor_case *c, const mor_summary *summa
     char name[MOR_CASE_NAME_BYTES + NAME_BYTES];
     const char *impulse_unit = NULL;
     int width = NAME_WIDTH;
-    for (int k = 0; k < summary->n_results; ++k) {
+    for (int k = 0; k < c->n_probes; ++k) {
         write_name(c, &summary->results[k], k, notes, name, sizeof name);
         width = (int)strlen(name) > width ? (int)strlen(name) : width;
     }
     fprintf(out, "\n%-*s %-6s %12s %11s %9s %11s %11s", width, "result", "unit", "value", "maximum", "at time",
             "minimum", "mean");
-    for (int k = 0; k < summary->n_results && impulse_unit == NULL; ++k) {
+    for (int k = 0; k < c->n_probes && impulse_unit == NULL; ++k) {
         impulse_unit = summary->results[k].statistics->impulse_unit;
     }
     fprintf(out, impulse_unit == NULL ? "\n" : " %11s\n", "impulse");
-    for (int k = 0; k < summary->n_results; ++k) {
+    for (int k = 0; k < c->n_probes; ++k) {
         write_name(c, &summary->results[k], k, notes, name, sizeof name);
         print_result(out, name, width, &summary->results[k]);
     }
@@ -173,7 +173,7 @@ static void print_expectation(FILE *out, const mor_case *c, int k, const mor_sum
 mor_status mor_run_table_print(mor_context *context, const mor_case *the_case, const mor_summary *summary, FILE *out)
 {
     footnotes notes = {NULL, 0};
-    MOR_TRY(context, MOR_NEW(context, &notes.texts, KINDS * (int64_t)summary->n_results + 1, "footnotes"));
+    MOR_TRY(context, MOR_NEW(context, &notes.texts, KINDS * (int64_t)the_case->n_probes + 1, "footnotes"));
     print_results(out, the_case, summary, &notes);
     MOR_FREE(context, &notes.texts);
     if (summary->n_expectations > 0) {

@@ -14,6 +14,7 @@
  *  placed frame (after the case's rotation and translation). */
 
 struct mor_probe_track; /* cases/driver/probe/probe_track.h */
+struct mor_map_track;   /* cases/driver/map/map_track.h */
 
 /** What settling of the initial stress came to. */
 enum {
@@ -52,6 +53,7 @@ typedef struct mor_simulation {
                                                        it did not */
     double initial_energies[3];                     /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
     struct mor_probe_track *probes;                 /* state of the probes; owned */
+    struct mor_map_track *maps;                     /* state of the maps; owned; NULL: none are wanted */
     mor_state_list state;                           /* what a resumed run needs, as its owners list it */
 } mor_simulation;
 

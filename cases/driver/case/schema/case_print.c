@@ -227,6 +227,7 @@ void mor_case_schema_print(const mor_registry *registry, mor_case_probe_catalog 
     print_group(stream, 2, &mor_case_probe_group, NULL);
     print_probe_types(probe_types, stream);
     print_group(stream, 2, &mor_case_expectation_group, NULL);
+    print_group(stream, 2, &mor_case_maps_group, NULL);
     print_models(registry, stream);
     print_interfaces(registry, stream);
 }

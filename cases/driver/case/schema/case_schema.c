@@ -53,6 +53,7 @@ static const mor_case_part root_parts[] = {
     {"numerics", false, "group", "settings of the numerical scheme"},
     {"probes", false, "list of groups", "results to measure"},
     {"expect", false, "list of groups", "reference values that results are compared with"},
+    {"maps", false, "group", "maps of depth, speed, arrival and deposit on a grid; in three dimensions"},
     {"output", false, "group", "what the run writes"},
     {NULL, false, NULL, NULL}};
 

@@ -126,6 +126,9 @@ typedef struct mor_case_path_row {
  *  Returns: unit m/s. */
 double mor_case_path_speed(const mor_case *the_case, const mor_case_path *path, const mor_shape *shape);
 
+/** The group maps; record mor_case_maps. */
+extern const mor_case_group mor_case_maps_group;
+
 /** Members of the list friction_with of walls, bodies and rocks; record mor_case_soil_friction. */
 extern const mor_case_group mor_case_friction_group;
 

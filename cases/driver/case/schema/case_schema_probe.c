@@ -62,6 +62,36 @@ static const mor_case_key probe_keys[] = {
      .computed = "the whole run"},
     END};
 
+static const mor_case_key maps_keys[] = {
+    {{"ground", WORDS, "1", DEFAULT(NAN), ANY, NULL,
+      "name of the wall of type terrain whose raster gives the grid and the georeference; without such a wall the grid "
+      "covers the domain"},
+     MOR_CASE_STORE_NAME,
+     AT(mor_case_maps, ground),
+     .computed = "the wall of type terrain where there is one"},
+    {{"cell", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL,
+      "size of the cells; on terrain a whole multiple, or a whole fraction, of the cells of its raster"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_maps, cell),
+     .computed = "as in the raster; spacing without terrain",
+     .keeps_scale = true},
+    {{"threshold", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL,
+      "depth from which soil counts as arrived, and from which its speed, pressure and flow per width are mapped"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_maps, threshold),
+     .computed = "spacing / 2"},
+    {{"duration_depth", SCALAR, "m", DEFAULT(NAN), POSITIVE, NULL, "depth whose duration is mapped"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_maps, duration_depth),
+     .computed = "threshold"},
+    {{"interval", WHOLE, "1", DEFAULT(0.0), BETWEEN(0.0, 1.0e6), NULL,
+      "steps from one measurement to the next; 0: as many as it takes to spend at most 2 % of the time on it"},
+     MOR_CASE_STORE_INT,
+     AT(mor_case_maps, interval)},
+    END};
+
+const mor_case_group mor_case_maps_group = {"maps", "Maps of a run", maps_keys, NULL, offsetof(mor_case_maps, written)};
+
 const mor_case_group mor_case_probe_group = {"probes", "Results to measure (list)", probe_keys, NULL,
                                              offsetof(mor_case_probe, written)};
 

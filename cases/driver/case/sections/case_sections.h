@@ -122,4 +122,9 @@ mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_n
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
 
+/** Reads the group maps.
+ *  @param the_case [in,out]  walls are known
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_maps(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
 #endif

@@ -554,7 +554,7 @@ static mor_status write_case(mor_case_writer *w, const mor_case *the_case)
     for (list_kind kind = SOIL; kind < LIST_COUNT; ++kind) {
         MOR_TRY(w->reader.context, kind == PAIRS ? write_contact(w, the_case) : write_list(w, the_case, kind));
     }
-    return MOR_OK;
+    return mor_case_writer_maps(w, &the_case->maps);
 }
 
 mor_status mor_case_write_stream(mor_context *context, const mor_case *the_case, const mor_registry *registry,

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Probes and expectations of a case, as they were used. */
+/* Probes, expectations and maps of a case, as they were used. */
 #include "cases/driver/case/write/case_writer.h"
 
 #include <math.h>
@@ -57,5 +57,24 @@ mor_status mor_case_writer_expectation(const mor_case_writer *w, const mor_case 
                 mor_case_writer_member(w, &key, (const char *)expectation + key.offset, value, sizeof value));
         mor_case_writer_line(w, key.schema.key, value, (expectation->written >> k & 1) == 0);
     }
+    return MOR_OK;
+}
+
+static mor_case_presence presence_of_maps_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_maps *maps = record;
+    const bool is_open = (strcmp(key->schema.key, "ground") == 0 && maps->ground[0] == '\0') ||
+                         (strcmp(key->schema.key, "cell") == 0 && isnan(maps->cell));
+    return is_open ? MOR_CASE_MENTION : MOR_CASE_WRITE;
+}
+
+mor_status mor_case_writer_maps(mor_case_writer *w, const mor_case_maps *maps)
+{
+    if (!maps->is_wanted) {
+        return MOR_OK;
+    }
+    mor_case_writer_open(w, mor_case_maps_group.name, "{");
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_maps_group, maps, presence_of_maps_key));
+    mor_case_writer_close(w, "};");
     return MOR_OK;
 }

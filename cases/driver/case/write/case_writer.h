@@ -103,4 +103,8 @@ mor_status mor_case_writer_probe(const mor_case_writer *w, const mor_case_probe 
 mor_status mor_case_writer_expectation(const mor_case_writer *w, const mor_case *the_case,
                                        const mor_case_expectation *expectation);
 
+/** Writes the group maps; nothing where no maps are wanted.
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_maps(mor_case_writer *w, const mor_case_maps *maps);
+
 #endif

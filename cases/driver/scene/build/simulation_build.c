@@ -3,6 +3,7 @@
 #include "cases/driver/scene/build/simulation_build.h"
 
 #include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/map/map_track.h"
 #include "cases/driver/probe/probe_track.h"
 #include "cases/driver/scene/build/simulation_relax.h"
 #include "cases/driver/scene/check/narrow_gaps.h"
@@ -376,7 +377,8 @@ static mor_status build_schedule(mor_context *context, mor_simulation *simulatio
 static mor_status list_state(mor_context *context, mor_simulation *simulation)
 {
     MOR_TRY(context, mor_simulation_list_state(context, simulation, &simulation->state));
-    return mor_probe_track_list_state(context, simulation->probes, &simulation->state);
+    MOR_TRY(context, mor_probe_track_list_state(context, simulation->probes, &simulation->state));
+    return mor_map_track_list_state(context, simulation->maps, &simulation->state);
 }
 
 mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation, const mor_case *the_case,
@@ -416,6 +418,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
         status = mor_probe_track_new(context, simulation);
     }
     if (status == MOR_OK) {
+        status = mor_map_track_new(context, simulation);
+    }
+    if (status == MOR_OK) {
         status = list_state(context, simulation);
     }
     if (status == MOR_OK) {
@@ -431,6 +436,7 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
 {
     mor_state_clear(context, &simulation->state);
     mor_probe_track_free(context, &simulation->probes);
+    mor_map_track_free(context, &simulation->maps);
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
     MOR_FREE(context, &simulation->frictions);

@@ -3,6 +3,7 @@
 /* The settling of the initial stress of a simulation. */
 #include "cases/driver/scene/build/settle_internal.h"
 
+#include "cases/driver/map/map_track.h"
 #include "cases/driver/probe/probe_track.h"
 #include "core/base/math.h"
 #include "core/sph/measure/measure.h"
@@ -359,5 +360,6 @@ mor_status mor_simulation_settle(mor_context *context, mor_simulation *simulatio
     }
     mor_soil_restart_energy(&simulation->soil);
     mor_simulation_energies(simulation, context->n_threads, simulation->initial_energies);
+    mor_map_track_start(context, simulation->maps);
     return mor_probe_track_start(context, simulation->probes);
 }

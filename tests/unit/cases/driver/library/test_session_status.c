@@ -298,6 +298,8 @@ static void folders_that_cannot_be_used_are_refused(void **state)
     run(folder, session, "run", false, MOR_OK, "");
     load_again(folder, session);
     session_expect(session, mor_session_render(session, "/nowhere"), MOR_ERROR_CONFIG, "not the folder of a run");
+    session_expect(session, mor_session_combine_maps(session, "/nowhere", "depth_max", "1 m", "there"),
+                   MOR_ERROR_CONFIG, "cannot be read");
     session_expect(session, mor_session_preview(session, "there"), MOR_ERROR_ARGUMENT, "call mor_session_build first");
     session_expect(session, mor_session_build(session), MOR_OK, ""); /* the case has stayed */
     run_folder_file(folder, path, "run");
