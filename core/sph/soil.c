@@ -142,7 +142,7 @@ static const mor_stage soil_stages[] = {
      SHARED(CLOSED), BIT(SPIN_STRESS) | BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS),
      "skew stress, recent mean of the stress and hourglass displacement for the next step, when switched on",
      mor_soil_has_memory},
-    {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | BIT(ACCELERATION) | SHARED(LISTS), 0,
+    {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | SHARED(LISTS), 0,
      BIT(QUIET) | BIT(QUIET_PLACE), "for how long each particle has been quiet, when soil may sleep", mor_soil_may_sleep},
     {"energy of stress", mor_soil_audit_stress,
      SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |

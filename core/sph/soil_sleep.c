@@ -21,7 +21,6 @@ bool mor_soil_may_sleep(const void *owner)
 typedef struct limits {
     double displacement; /* since the quiet began, m */
     double speed;        /* m/s */
-    double acceleration; /* m/s2 */
 } limits;
 
 static limits find_limits(const mor_soil *soil)
@@ -29,7 +28,7 @@ static limits find_limits(const mor_soil *soil)
     const mor_scheme *scheme = &soil->settings.scheme;
     const double gravity = mor_vector_length(soil->settings.gravity);
     return (limits){scheme->sleep_displacement * soil->settings.spacing,
-                    scheme->sleep_speed * sqrt(gravity * soil->settings.spacing), scheme->sleep_acceleration * gravity};
+                    scheme->sleep_speed * sqrt(gravity * soil->settings.spacing)};
 }
 
 mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil)
@@ -187,11 +186,10 @@ mor_status mor_soil_count_sleep(mor_context *context, void *owner, mor_view *vie
     return MOR_OK;
 }
 
-static bool is_below(const limits *limit, const double *moved, const double *velocity, const double *acceleration)
+static bool is_below(const limits *limit, const double *moved, const double *velocity)
 {
     return mor_vector_dot(moved, moved) < limit->displacement * limit->displacement &&
-           mor_vector_dot(velocity, velocity) < limit->speed * limit->speed &&
-           mor_vector_dot(acceleration, acceleration) < limit->acceleration * limit->acceleration;
+           mor_vector_dot(velocity, velocity) < limit->speed * limit->speed;
 }
 
 mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view, const mor_step *step)
@@ -201,7 +199,6 @@ mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view
     const int8_t *states = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states);
     const double *position = mor_view_read(view, MOR_FIELD_POSITION);
     const double *velocity = mor_view_read(view, MOR_FIELD_VELOCITY);
-    const double *acceleration = mor_view_read(view, MOR_FIELD_ACCELERATION);
     double *quiet = mor_view_write(view, MOR_FIELD_QUIET);
     double *place = mor_view_write(view, MOR_FIELD_QUIET_PLACE);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
@@ -211,7 +208,7 @@ mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view
         if (mor_sleep_is(states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
             continue;
         }
-        if (!soil->is_relaxing && is_below(&limit, moved, velocity + 3 * i, acceleration + 3 * i)) {
+        if (!soil->is_relaxing && is_below(&limit, moved, velocity + 3 * i)) {
             quiet[i] += step->length;
         } else {
             quiet[i] = 0.0;
