@@ -143,7 +143,7 @@ static const mor_stage soil_stages[] = {
      "skew stress, recent mean of the stress and hourglass displacement for the next step, when switched on",
      mor_soil_has_memory},
     {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | SHARED(LISTS), 0,
-     BIT(QUIET) | BIT(QUIET_PLACE), "for how long each particle has been quiet, when soil may sleep", mor_soil_may_sleep},
+     BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN), "for how long each particle has been quiet, when soil may sleep", mor_soil_may_sleep},
     {"energy of stress", mor_soil_audit_stress,
      SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
          BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
@@ -155,7 +155,7 @@ static const mor_stage soil_stages[] = {
 };
 
 static const uint64_t evolving_fields =
-    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
+    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
     BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | SHARED(STATE) |
     SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
@@ -365,7 +365,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     fields &= settings->scheme.stress_diffusion > 0.0 && settings->scheme.stress_diffusion_limiter == 2
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
-    fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~(BIT(QUIET) | BIT(QUIET_PLACE));
+    fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~(BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN));
     fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {

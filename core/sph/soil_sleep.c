@@ -19,7 +19,7 @@ bool mor_soil_may_sleep(const void *owner)
 /* Limits below which a particle is quiet. Waves in soil that stands still go on for long, but nowhere: displacement
  * tells them from creep. */
 typedef struct limits {
-    double displacement; /* since the quiet began, m */
+    double displacement; /* in the time after which soil sleeps, m */
     double speed;        /* m/s */
 } limits;
 
@@ -201,6 +201,7 @@ mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view
     const double *velocity = mor_view_read(view, MOR_FIELD_VELOCITY);
     double *quiet = mor_view_write(view, MOR_FIELD_QUIET);
     double *place = mor_view_write(view, MOR_FIELD_QUIET_PLACE);
+    double *span = mor_view_write(view, MOR_FIELD_QUIET_SPAN);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         const double *x = position + 3 * i;
         double *from = place + 3 * i;
@@ -208,10 +209,11 @@ mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view
         if (mor_sleep_is(states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
             continue;
         }
-        if (!soil->is_relaxing && is_below(&limit, moved, velocity + 3 * i)) {
-            quiet[i] += step->length;
-        } else {
-            quiet[i] = 0.0;
+        const bool is_quiet = !soil->is_relaxing && is_below(&limit, moved, velocity + 3 * i);
+        quiet[i] = is_quiet ? quiet[i] + step->length : 0.0;
+        span[i] += step->length;
+        if (!is_quiet || span[i] >= soil->settings.scheme.sleep_after) {
+            span[i] = 0.0;
             memcpy(from, x, 3 * sizeof *from);
         }
     }
