@@ -75,6 +75,9 @@ static const mor_stage soil_stages[] = {
     {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES) | SHARED(STATE), 0,
      SHARED(LISTS) | SHARED(ORDER) | SHARED(BOUNDS),
      "sorts particles at an interval; rebuilds neighbor lists when particles have moved by the skin", NULL},
+    {"sleep", mor_soil_sleep, BIT(POSITION) | BIT(MASS) | BIT(QUIET) | SHARED(BOUNDARIES), 0,
+     BIT(VELOCITY) | BIT(DENSITY_RATE) | SHARED(LISTS),
+     "decides which soil at rest is left out of this step, when switched on", mor_soil_may_sleep},
     {"pack", mor_soil_pack,
      BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | BIT(HOURGLASS) | BIT(MEAN_STRESS) |
          BIT(FLOW) | BIT(SPIN_STRESS) | SHARED(STATE),
@@ -93,10 +96,12 @@ static const mor_stage soil_stages[] = {
     {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS) | BIT(HOURGLASS_MOMENT), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
+    {"impulse on sleep", mor_soil_count_sleep, BIT(ACCELERATION) | BIT(MASS), 0, SHARED(LISTS),
+     "impulse given to soil that sleeps, when switched on", mor_soil_may_sleep},
     {"boundary forces", mor_soil_sum_boundary_forces,
      SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE),
      SHARED(WALL_FORCES), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
-    {"kick", mor_soil_kick, 0, 0,
+    {"kick", mor_soil_kick, SHARED(LISTS), 0,
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
      "velocities to the end of the step", NULL},
     {"velocity gradient", mor_soil_sum_gradient, SHARED(RECORDS) | SHARED(SHORT_LISTS),
@@ -128,7 +133,8 @@ static const mor_stage soil_stages[] = {
      BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDS), "positions and densities to the end of the step", NULL},
     {"nonlocal field", mor_soil_diffuse_fields, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS), 0, SHARED(STATE),
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
-    {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY), 0,
+    {"stress", mor_soil_advance_stress,
+     BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS), 0,
      BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
     {"memory", mor_soil_remember,
      BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT) | SHARED(MOMENTS) |
@@ -136,6 +142,8 @@ static const mor_stage soil_stages[] = {
      SHARED(CLOSED), BIT(SPIN_STRESS) | BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS),
      "skew stress, recent mean of the stress and hourglass displacement for the next step, when switched on",
      mor_soil_has_memory},
+    {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | SHARED(LISTS), 0,
+     BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN), "for how long each particle has been quiet, when soil may sleep", mor_soil_may_sleep},
     {"energy of stress", mor_soil_audit_stress,
      SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
          BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
@@ -147,7 +155,7 @@ static const mor_stage soil_stages[] = {
 };
 
 static const uint64_t evolving_fields =
-    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
+    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
     BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | SHARED(STATE) |
     SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
@@ -309,6 +317,9 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (mor_soil_has_density_sums(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
     }
+    if (s->scheme.sleep_after > 0.0) {
+        MOR_TRY(context, mor_sleep_init(context, &soil->sleep, n_particles));
+    }
     MOR_TRY(context, mor_soil_allocate_fields(context, soil, padded));
     return mor_reduce_room_init(context, &soil->room, n_particles / MOR_SOIL_BATCH + 1, MOR_SOIL_BLOCK_VALUES);
 }
@@ -354,6 +365,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     fields &= settings->scheme.stress_diffusion > 0.0 && settings->scheme.stress_diffusion_limiter == 2
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
+    fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~(BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN));
     fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
@@ -383,6 +395,8 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     mor_relation_clear(context, &soil->inner);
     mor_tree_clear(context, &soil->tree);
     mor_reduce_room_clear(context, &soil->room);
+    mor_sleep_clear(context, &soil->sleep);
+    MOR_FREE(context, &soil->moving);
     MOR_FREE(context, &soil->density_sums);
     MOR_FREE(context, &soil->diffusion);
     MOR_FREE(context, &soil->field_records);
@@ -445,81 +459,10 @@ mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_
                     soil->set.name);
 }
 
-/* Step limit of the material, for models that have one. */
-static mor_status limit_by_material(mor_context *context, const mor_soil *soil, double *step_length, const char **limit)
-{
-    enum { BATCH = 128 };
-    if (soil->material->material->operations.max_step == NULL) {
-        return MOR_OK;
-    }
-    for (int64_t first = 0; first < soil->set.n_particles; first += BATCH) {
-        const int64_t left = soil->set.n_particles - first;
-        const double *state[MOR_MATERIAL_STATES_MAX];
-        double steps[BATCH];
-        for (int k = 0; k < soil->material->n_state; ++k) {
-            const int field = soil->state_fields[k];
-            state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
-        }
-        const mor_batch batch = {.n = left < BATCH ? left : BATCH,
-                                 .density = soil->set.data[MOR_FIELD_DENSITY] + first,
-                                 .stress_in = soil->set.data[MOR_FIELD_STRESS] + 6 * first,
-                                 .state_in = state};
-        const mor_status status = soil->material->operations.max_step(soil->material, &batch, steps);
-        MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
-        MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' gave no longest step",
-                  soil->material->material->name);
-        for (int64_t i = 0; i < batch.n; ++i) {
-            if (!(steps[i] >= *step_length)) {
-                *step_length = steps[i];
-                *limit = "the material";
-            }
-        }
-    }
-    return MOR_OK;
-}
-
-/* Z (51) and the limit by acceleration; the speed of waves counts from moving particles. */
-static mor_status propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
-{
-    mor_soil *soil = owner;
-    const double h = soil->smoothing_length;
-    double fastest = soil->largest_speed;
-    double by_barrier = INFINITY;
-    double added_mass_ratio = 1.0;
-    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        fastest = fmax(fastest, mor_soil_contact_speed(mor_soil_contact_at(soil, k)));
-        by_barrier = fmin(by_barrier, mor_soil_contact_at(soil, k)->longest_step);
-        added_mass_ratio = fmax(added_mass_ratio, mor_soil_contact_at(soil, k)->boundary->added_mass_ratio);
-    }
-    *step_length = soil->settings.scheme.courant * h / (soil->sound_speed + fastest);
-    *limit = "the speed of sound in the soil";
-    if (added_mass_ratio > 1.0) {
-        *step_length /= sqrt(added_mass_ratio);
-        *limit = "a body lighter than its added mass of soil";
-        by_barrier /= sqrt(added_mass_ratio);
-    }
-    if (soil->largest_acceleration > 0.0) {
-        const double by_acceleration = 0.25 * sqrt(h / soil->largest_acceleration);
-        if (by_acceleration < *step_length) {
-            *step_length = by_acceleration;
-            *limit = "the acceleration of the soil";
-        }
-    }
-    if (by_barrier < *step_length) {
-        *step_length = by_barrier;
-        *limit = "the barrier between soil and rocks";
-    }
-    if (soil->settings.scheme.damping * *step_length > 0.5) {
-        *step_length = 0.5 / soil->settings.scheme.damping;
-        *limit = "the damping";
-    }
-    return limit_by_material(context, soil, step_length, limit);
-}
-
 void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
 {
     static const mor_stepper_operations operations = {
-        .kind = "soil", .propose = propose_step, .list_state = mor_soil_list_state, .resume = mor_soil_resume};
+        .kind = "soil", .propose = mor_soil_propose_step, .list_state = mor_soil_list_state, .resume = mor_soil_resume};
     const int n_stages = (int)(sizeof soil_stages / sizeof *soil_stages);
     *stepper = (mor_stepper){.name = soil->set.name,
                              .operations = &operations,

@@ -10,8 +10,9 @@
 #include "core/particle/set.h"
 #include "core/scheme/scheme.h"
 #include "core/sph/boundary/soil_contact.h"
+#include "core/sph/sleep/sleep.h"
 #include "core/sph/soil_energy.h"
-#include "core/sph/soil_lanes.h"
+#include "core/sph/lanes/soil_lanes.h"
 #include "core/time/stepper.h"
 
 /** @file
@@ -104,6 +105,9 @@ typedef struct mor_soil {
     mor_contact_corner *corners; /* shape [n_particles]; faces that each sees; NULL: no wall has normals */
     double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
     mor_reduce_room room;        /* of reductions over particles */
+    mor_sleep sleep;             /* soil at rest that is left out of steps */
+    mor_sleep_box *moving;       /* shape [n_moving_room]; scratch, boxes of what moves beside it; NULL without */
+    int n_moving_room;
     int32_t *order;              /* shape [n_particles]; scratch of the sort */
     mor_soil_energy *energy;     /* the audit; NULL: none */
     mor_tree tree;
@@ -205,6 +209,14 @@ void mor_soil_outflow_energies(const mor_soil *soil, const double *datum, double
  *  @param soil     [in]   becomes the owner
  *  @param evolving [out]  one number; bits valid at the start of a step */
 void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving);
+
+/** Returns the share of particle-steps that were left out because soil slept, 1; of the particles there are now.
+ *  @param n_steps [in]  steps since the start */
+static inline double mor_soil_slept_share(const mor_soil *soil, uint64_t n_steps)
+{
+    const double n = (double)n_steps * (double)soil->set.n_particles;
+    return n > 0.0 ? (double)soil->sleep.n_left_out / n : 0.0;
+}
 
 /** Returns the bytes held for fine particles alone, lists included, walls not, per particle.
  *  Returns: bytes per particle, 1. */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Clusters a thread takes at once. */
-enum { CLUSTERS = 64 };
+enum { CLUSTERS = MOR_SLEEP_CLUSTERS };
 
 void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, double *closed,
                            double *continued)
@@ -22,6 +22,16 @@ void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const dou
         if (soil->at_wall[cluster] && continued != NULL) {
             memset(continued + first, 0, 6 * MOR_CLUSTER * sizeof *continued);
         }
+    }
+}
+
+/* Soil that sleeps has no strain rate; its velocity gradient is zero already. */
+static void clear_rates(const mor_soil_fit_job *job, int64_t first, int64_t last)
+{
+    const int64_t end = last * MOR_CLUSTER < job->n_particles ? last * MOR_CLUSTER : job->n_particles;
+    if (job->strain_rate != NULL) {
+        memset(job->strain_rate + 6 * first * MOR_CLUSTER, 0,
+               (size_t)(6 * (end - first * MOR_CLUSTER)) * sizeof *job->strain_rate);
     }
 }
 
@@ -54,7 +64,11 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
     const int64_t n = soil->tree.n_clusters;
     MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
         const int64_t last = (chunk + 1) * CLUSTERS;
-        soil->lanes->fit(&job, chunk * CLUSTERS, last < n ? last : n);
+        if (mor_sleep_is(soil->sleep.states, chunk * CLUSTERS, MOR_SLEEP_ASLEEP)) {
+            clear_rates(&job, chunk * CLUSTERS, last < n ? last : n);
+        } else {
+            soil->lanes->fit(&job, chunk * CLUSTERS, last < n ? last : n);
+        }
     }
     return MOR_OK;
 }

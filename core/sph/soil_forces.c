@@ -14,7 +14,26 @@
 
 /* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once.
  * HALVINGS: how often a batch may ask for a smaller step before the run stops. */
-enum { CLUSTERS = 32, BATCH = MOR_SOIL_BATCH, HALVINGS = 8 };
+enum { CLUSTERS = MOR_SLEEP_CLUSTERS, BATCH = MOR_SOIL_BATCH, HALVINGS = 8 };
+
+/* What a loop would write of the particles of clusters [first, last) is zero. */
+static void clear_outputs(const mor_pair_arrays *arrays, int64_t first, int64_t last)
+{
+    const struct {
+        double *data;
+        int width;
+    } outputs[] = {{arrays->acceleration, 3},     {arrays->stress_diffusion, 6}, {arrays->velocity_gradient, 9},
+                   {arrays->density_rate, 1},     {arrays->hourglass_rate, 3},   {arrays->moments, 6},
+                   {arrays->hourglass_moment, 3}, {arrays->diffusion, MOR_PAIR_DIFFUSION_SIZE}};
+    const int64_t end = last * MOR_CLUSTER < arrays->n_particles ? last * MOR_CLUSTER : arrays->n_particles;
+    const int64_t start = first * MOR_CLUSTER;
+    for (size_t k = 0; k < sizeof outputs / sizeof *outputs; ++k) {
+        if (outputs[k].data != NULL) {
+            memset(outputs[k].data + start * outputs[k].width, 0,
+                   (size_t)((end - start) * outputs[k].width) * sizeof(double));
+        }
+    }
+}
 
 void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
                         mor_pair_loop loop)
@@ -22,7 +41,11 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
     const int64_t n = arrays->inner->n_clusters;
     MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
         const int64_t last = (chunk + 1) * CLUSTERS;
-        loop(constants, arrays, chunk * CLUSTERS, last < n ? last : n);
+        if (mor_sleep_is(arrays->asleep, chunk * CLUSTERS, MOR_SLEEP_ASLEEP)) {
+            clear_outputs(arrays, chunk * CLUSTERS, last < n ? last : n);
+        } else {
+            loop(constants, arrays, chunk * CLUSTERS, last < n ? last : n);
+        }
     }
 }
 
@@ -35,7 +58,8 @@ static void use_normals(mor_context *context, mor_soil *soil)
     }
     MOR_PARALLEL_FOR (context, cluster, soil->tree.n_clusters, MOR_BLOCK) {
         const int64_t first = cluster * MOR_CLUSTER;
-        for (int64_t i = first; soil->at_wall[cluster] && i < first + MOR_CLUSTER && i < n; ++i) {
+        const bool is_found = soil->at_wall[cluster] && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_HELD);
+        for (int64_t i = first; is_found && i < first + MOR_CLUSTER && i < n; ++i) {
             soil->corners[i].sees_any = false;
         }
     }
@@ -45,7 +69,7 @@ static void use_normals(mor_context *context, mor_soil *soil)
                                      soil->settings.scheme.coulomb_tension == 0, soil->corners);
         }
     }
-    mor_soil_contact_solve_corners(context, n, soil->at_wall, soil->corners);
+    mor_soil_contact_solve_corners(context, n, soil->at_wall, soil->sleep.states, soil->corners);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {
             mor_soil_contact_close_corners(context, mor_soil_contact_at(soil, k), n, soil->corners);
@@ -235,6 +259,7 @@ typedef struct update {
     const double *density, *velocity_gradient, *diffusion;
     double *stress;
     double *state[MOR_MATERIAL_STATES_MAX];
+    const int8_t *asleep; /* shape [blocks]; states of sleep; NULL: all are awake */
 } update;
 
 /* Components of a state variable. */
@@ -352,8 +377,10 @@ static mor_status advance_batch(const update *it, int64_t first, int64_t last, f
 
 static mor_status advance_block(void *job, int64_t first, int64_t last)
 {
+    const update *it = job;
     failed_update failed = {0};
-    return advance_batch(job, first, last, &failed);
+    return mor_sleep_is(it->asleep, first / MOR_CLUSTER, MOR_SLEEP_ASLEEP) ? MOR_OK
+                                                                         : advance_batch(it, first, last, &failed);
 }
 
 /* A crash tells no particle, so that they are tried one by one; results do not depend on the others in a batch. */
@@ -442,7 +469,8 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
                   .density = mor_view_read(view, MOR_FIELD_DENSITY),
                   .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
                   .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
-                  .stress = mor_view_write(view, MOR_FIELD_STRESS)};
+                  .stress = mor_view_write(view, MOR_FIELD_STRESS),
+                  .asleep = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states)};
     mor_view_write_state(view, soil->state_fields, soil->material->n_state, job.state);
     const mor_blocks blocks = mor_soil_blocks(soil, BATCH, 4);
     const int64_t failed = mor_reduce_status(&blocks, context->n_threads, advance_block, &job, soil->room.statuses);

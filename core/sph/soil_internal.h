@@ -34,8 +34,33 @@ mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *vi
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 
+mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_count_sleep(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+
+/** Proposes a step; an operation of a stepper.
+ *  Returns: MOR_OK; MOR_ERROR_NUMERIC when the material gives none. */
+mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step_length, const char **limit);
+
+/** Whether soil at rest may be left out of steps. */
+bool mor_soil_may_sleep(const void *owner);
+
+/** Finds which blocks see one another and what moves beside them, after each build of the lists.
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil);
+
+/** Lists what a resumed run needs of the soil that slept.
+ *  Returns: MOR_OK; as mor_state_add. */
+mor_status mor_soil_list_sleep(mor_context *context, mor_soil *soil, mor_state_list *list);
+
+/** Whether a particle is left out of the present step. */
+static inline bool mor_soil_is_asleep(const mor_soil *soil, int64_t particle)
+{
+    return mor_sleep_is(soil->sleep.states, particle / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+}
+
 /** Sizes of reductions over particles: particles handed to a material at once, most values of a block. */
-enum { MOR_SOIL_BATCH = 128, MOR_SOIL_BLOCK_VALUES = 2 };
+enum { MOR_SOIL_BATCH = 128, MOR_SOIL_BLOCK_VALUES = 4 };
 
 /** Blocks of particles for reductions.
  *  @param block_items [in]  particles of a block, at least MOR_SOIL_BATCH

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Clusters a thread takes at once. */
-enum { CLUSTERS = 64 };
+enum { CLUSTERS = MOR_SLEEP_CLUSTERS };
 
 /* MEMORY: time over which the recent mean follows the stress, over h / c0. A wave of length l is diffused by y^2 /
  * (1 + y^2) of what diffusion does without the mean, y = 2 pi MEMORY h / l: one as long as the support, 4 h, by 0.98,
@@ -39,7 +39,9 @@ static void run_memory(mor_context *context, const mor_soil *soil, const mor_soi
     const int64_t n = soil->tree.n_clusters;
     MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
         const int64_t last = (chunk + 1) * CLUSTERS;
-        soil->lanes->remember(job, chunk * CLUSTERS, last < n ? last : n);
+        if (!mor_sleep_is(soil->sleep.states, chunk * CLUSTERS, MOR_SLEEP_ASLEEP)) {
+            soil->lanes->remember(job, chunk * CLUSTERS, last < n ? last : n);
+        }
     }
 }
 

@@ -21,6 +21,7 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int l
                              .extra = soil->extra,
                              .of_soil = soil->of_soil,
                              .one_soil = soil->one_soil,
+                             .asleep = soil->sleep.states,
                              .inner = mor_view_read_shared(view, lists, &soil->inner)};
 }
 
@@ -129,6 +130,9 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
         contact->relation.generation = soil->set.generation;
     }
     find_clusters_at_walls(soil);
+    if (soil->sleep.states != NULL) {
+        MOR_TRY(context, mor_soil_list_sleep_neighbors(context, soil));
+    }
     soil->drift = 0.0;
     soil->has_lists = true;
     return MOR_OK;
@@ -269,6 +273,7 @@ typedef struct kick {
     double damping;       /* rate, 1/s */
     double local_damping; /* share, 1 */
     double *velocity, *acceleration, *records;
+    const int8_t *states; /* of sleep, shape [blocks]; NULL: all are awake */
 } kick;
 
 enum { KICK_SPEED, KICK_STRENGTH };
@@ -284,6 +289,9 @@ static void kick_block(void *job, int64_t first, int64_t last, double *values)
     for (int64_t i = first; i < last; ++i) {
         double *v = it->velocity + 3 * i;
         double *a = it->acceleration + 3 * i;
+        if (mor_sleep_is(it->states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
+            continue;
+        }
         for (int k = 0; k < 3; ++k) {
             a[k] += soil->gravity[k] - damping * v[k];
         }
@@ -345,7 +353,8 @@ mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, cons
                 is_damped ? scheme->local_damping : 0.0,
                 mor_view_write(view, MOR_FIELD_VELOCITY),
                 mor_view_write(view, MOR_FIELD_ACCELERATION),
-                mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
+                mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
+                mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states)};
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
     mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 2, kick_block, &job, soil->room.values, largest);
     mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->largest_speed);

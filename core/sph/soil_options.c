@@ -101,6 +101,10 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
                            sum);
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {
         const double reference = mor_soil_kind_of(soil, i)->reference_density;
+        if (mor_soil_is_asleep(soil, i)) {
+            records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i] / density[i];
+            continue;
+        }
         const double summed = sum[i] / soil->lattice_sum;
         const double missing = density[i] - summed;
         density[i] = missing > 0.0 ? summed + missing * reference / density[i] : summed;

@@ -33,6 +33,7 @@ mor_status mor_soil_list_state(mor_context *context, void *owner, mor_state_list
             mor_state_add(context, list, name, "outflow", MOR_STATE_DOUBLE, MOR_SOIL_OUTFLOW_STATE, soil->outflow));
     MOR_TRY(context, list_walls(context, soil, list));
     MOR_TRY(context, list_boundaries(context, soil, list));
+    MOR_TRY(context, mor_soil_list_sleep(context, soil, list));
     return mor_soil_list_energy(context, soil, list);
 }
 

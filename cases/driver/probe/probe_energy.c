@@ -27,7 +27,14 @@ static mor_status numerical_dissipation(mor_context *context, const view *v, dou
     *value = taken(v, MOR_SOIL_ENERGY_RIEMANN) + taken(v, MOR_SOIL_ENERGY_ARTIFICIAL) +
              taken(v, MOR_SOIL_ENERGY_HOURGLASS) + taken(v, MOR_SOIL_ENERGY_DIFFUSION) +
              taken(v, MOR_SOIL_ENERGY_DAMPING) + taken(v, MOR_SOIL_ENERGY_REGULARIZATION) +
-             taken(v, MOR_SOIL_ENERGY_CORRECTION);
+             taken(v, MOR_SOIL_ENERGY_CORRECTION) + v->simulation->soil.sleep.kinetic;
+    return MOR_OK;
+}
+
+static mor_status sleep_energy(mor_context *context, const view *v, double *value)
+{
+    (void)context;
+    *value = v->simulation->soil.sleep.kinetic;
     return MOR_OK;
 }
 
@@ -234,6 +241,9 @@ const mor_probe_measure mor_probe_energy_measures[] =
      {.type = {"stress_diffusion_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
                "part of numerical_dissipation: stress diffusion"},
       .run = stress_diffusion_energy},
+     {.type = {"sleep_energy", "J", "J/m", 0, 0, OF_SOIL, 100.0,
+               "part of numerical_dissipation: kinetic energy of soil when it fell asleep"},
+      .run = sleep_energy},
      {.type = {"boundary_dissipation", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
                "energy the soil lost to friction and impact at walls and rocks since the start"},
       .run = boundary_dissipation},

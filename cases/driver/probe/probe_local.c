@@ -80,7 +80,22 @@ static mor_status unbalanced_force_largest(mor_context *context, const mor_probe
     return MOR_OK;
 }
 
+static mor_status asleep_share(mor_context *context, const mor_probe_view *v, double *value)
+{
+    const mor_soil *soil = &v->simulation->soil;
+    int64_t n = 0;
+    (void)context;
+    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+        n += mor_sleep_is(soil->sleep.states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+    }
+    *value = soil->set.n_particles > 0 ? (double)n / (double)soil->set.n_particles : NAN;
+    return MOR_OK;
+}
+
 const mor_probe_measure mor_probe_local_measures[] = {
+    {.type = {"asleep_share", "1", "1", 0, 0, OF_SOIL, 100.0,
+              "share of the soil that sleeps (numerics.sleep_after), of its particles, in the last step"},
+     .run = asleep_share},
     {.type = {"unbalanced_force", "1", "1", 0, 0, STEP, 100.0,
               "mean net force on particles and free bodies / their mean weight; 0: equilibrium"},
      .run = unbalanced_force,

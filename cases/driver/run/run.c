@@ -287,6 +287,9 @@ static void print_end(const mor_run_files *files, const loop_state *p, double sp
     if (s->has_soil) {
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
     }
+    if (s->has_soil && s->soil.sleep.states != NULL) {
+        fprintf(out, ", %.3g %% of particle-steps left out by sleep", 100.0 * mor_soil_slept_share(&s->soil, s->schedule.n_steps));
+    }
     fprintf(out, "\n");
     if (s->has_soil && s->soil.n_outflow > 0) {
         fprintf(out, "%lld particles, %.6g %s, left the domain\n", (long long)s->soil.n_outflow,

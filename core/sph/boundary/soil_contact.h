@@ -6,6 +6,7 @@
 #include "core/geometry/motion.h"
 #include "core/particle/boundary.h"
 #include "core/sph/pair/pair.h"
+#include "core/sph/sleep/sleep.h"
 
 /** @file
  *  Soil against walls and rocks: points with volume, in patches that move. A soil particle sees each patch with
@@ -102,6 +103,7 @@ typedef struct mor_soil_contact {
     double *given;            /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
     double *repulsion;        /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
     double *barrier_steps;    /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
+    const int8_t *sleep;      /* shape [blocks]; which soil sleeps, MOR_SLEEP_...; borrowed; NULL: all is awake */
     int64_t capacity;         /* slots that the arrays above have room for */
     int dimension;            /* 2 or 3 */
     mor_wall_stress stress;
@@ -176,9 +178,10 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
  *  @param n_particles [in]  number of soil particles
  *  @param at_wall     [in]  shape [clusters]; 0 where no boundary is listed: left as it is; NULL: all are solved
+ *  @param sleep       [in]  shape [blocks]; where soil is held it is left as it is; NULL: all is awake
  *  @param corners [in,out]  shape [n_particles] */
 void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *at_wall,
-                                    mor_contact_corner *corners);
+                                    const int8_t *sleep, mor_contact_corner *corners);
 
 /** Gives the faces that meet their part of the rest, each along its normal, so that kernel gradients over soil and all
  *  boundaries together still cancel. What each has brought to the rest itself is kept for the forces on it.

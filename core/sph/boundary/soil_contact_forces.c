@@ -23,15 +23,18 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
     const int64_t n = contact->n_slots;
     const double *points = contact->boundary->records;
     MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
-        const int64_t first = chunk * GRAIN;
-        double *sums = contact->sums + first * MOR_CLUSTER * MOR_KERNEL_SUMS;
-        const mor_pair_kernel_job job = {records, points,        MOR_BOUNDARY_RECORD, &contact->relation,
-                                         sums,    contact->slots};
-        const int64_t last = first + GRAIN < n ? first + GRAIN : n;
-        table->kernel(constants, &job, first, last);
-        if (contact->normals != NULL) {
-            const mor_pair_faces_job faces = {records, points, contact->normals, contact->slots, contact->seen_faces};
-            table->faces(constants, &faces, first, last);
+        const int64_t last = (chunk + 1) * GRAIN < n ? (chunk + 1) * GRAIN : n;
+        int64_t first = chunk * GRAIN;
+        for (int64_t end; end = mor_soil_contact_next_run(contact, &first, last), first < last; first = end) {
+            double *sums = contact->sums + first * MOR_CLUSTER * MOR_KERNEL_SUMS;
+            const mor_pair_kernel_job job = {records, points,        MOR_BOUNDARY_RECORD, &contact->relation,
+                                             sums,    contact->slots};
+            table->kernel(constants, &job, first, end);
+            if (contact->normals != NULL) {
+                const mor_pair_faces_job faces = {records, points, contact->normals, contact->slots,
+                                                  contact->seen_faces};
+                table->faces(constants, &faces, first, end);
+            }
         }
     }
     mor_soil_contact_update_velocity(context, contact, table, constants, records);
@@ -63,8 +66,11 @@ void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *con
     }
     const mor_pair_tangent_job job = {records, inner, contact->slots, contact->sums, contact->divergence};
     MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
-        const int64_t first = chunk * GRAIN;
-        table->tangent(constants, &job, first, first + GRAIN < n ? first + GRAIN : n);
+        const int64_t last = (chunk + 1) * GRAIN < n ? (chunk + 1) * GRAIN : n;
+        int64_t first = chunk * GRAIN;
+        for (int64_t end; end = mor_soil_contact_next_run(contact, &first, last), first < last; first = end) {
+            table->tangent(constants, &job, first, end);
+        }
     }
 }
 
@@ -333,7 +339,8 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
         mor_soil_contact_repel(context, contact, soil->records, soil->n_particles);
     }
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
-        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+        const bool is_held = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_HELD);
+        for (int64_t slot = contact->first_slot[place]; !is_held && slot < contact->first_slot[place + 1]; ++slot) {
             add_slot_acceleration(contact, soil, slot, acceleration);
         }
     }
@@ -387,7 +394,8 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
                                    int64_t n_particles, double *velocity_gradient, double *density_rate)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
-        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+        const bool sleeps = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_ASLEEP);
+        for (int64_t slot = contact->first_slot[place]; !sleeps && slot < contact->first_slot[place + 1]; ++slot) {
             add_slot_gradient(contact, slot, records, n_particles, velocity_gradient, density_rate);
         }
     }
@@ -421,7 +429,8 @@ void mor_soil_contact_add_moments(mor_context *context, const mor_soil_contact *
                                   double *closed, double *continued)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
-        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+        const bool sleeps = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_ASLEEP);
+        for (int64_t slot = contact->first_slot[place]; !sleeps && slot < contact->first_slot[place + 1]; ++slot) {
             add_slot_moments(contact, slot, n_particles, closed, continued);
         }
     }

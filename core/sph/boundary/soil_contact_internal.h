@@ -17,6 +17,27 @@ static inline int64_t mor_soil_contact_lanes(const mor_pair_slot *slot, int64_t 
     return left < MOR_CLUSTER ? left : MOR_CLUSTER;
 }
 
+/** Whether what the boundary does to the soil of a slot is known from the step before: neither has moved. */
+static inline bool mor_soil_contact_is_held(const mor_soil_contact *contact, int64_t slot)
+{
+    return mor_sleep_is(contact->sleep, contact->slots[slot].cluster, MOR_SLEEP_HELD);
+}
+
+/** Finds the first run of slots that are not held.
+ *  @param first [in,out]  of the slots [first, last); then where the run begins, or last
+ *  Returns: the end of the run. */
+static inline int64_t mor_soil_contact_next_run(const mor_soil_contact *contact, int64_t *first, int64_t last)
+{
+    while (*first < last && mor_soil_contact_is_held(contact, *first)) {
+        ++*first;
+    }
+    int64_t end = *first;
+    while (end < last && !mor_soil_contact_is_held(contact, end)) {
+        ++end;
+    }
+    return end;
+}
+
 /** Velocity of the boundary as one particle of a slot sees it, shape [3], unit m/s; lane counts from the first slot. */
 static inline const double *mor_soil_contact_velocity(const mor_soil_contact *contact, int64_t lane)
 {

@@ -150,7 +150,8 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                               mor_contact_corner *corners)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
-        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+        const bool is_held = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_HELD);
+        for (int64_t slot = contact->first_slot[place]; !is_held && slot < contact->first_slot[place + 1]; ++slot) {
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
             const bool limits = mor_soil_contact_limits_all(contact, coulomb_pulls) &&
                                 may_have_coulomb_friction(&contact->boundary->patches[contact->slots[slot].patch]);
@@ -168,10 +169,11 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
 }
 
 void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *at_wall,
-                                    mor_contact_corner *corners)
+                                    const int8_t *sleep, mor_contact_corner *corners)
 {
     MOR_PARALLEL_FOR (context, cluster, (n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER, MOR_BLOCK / MOR_CLUSTER) {
-        const bool is_at_wall = at_wall == NULL || at_wall[cluster];
+        const bool is_held = mor_sleep_is(sleep, cluster, MOR_SLEEP_HELD);
+        const bool is_at_wall = !is_held && (at_wall == NULL || at_wall[cluster]);
         const int64_t first = cluster * MOR_CLUSTER;
         for (int64_t i = first; is_at_wall && i < first + MOR_CLUSTER && i < n_particles; ++i) {
             if (corners[i].sees_any) {
@@ -185,7 +187,8 @@ void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *cont
                                     const mor_contact_corner *corners)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
-        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+        const bool is_held = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_HELD);
+        for (int64_t slot = contact->first_slot[place]; !is_held && slot < contact->first_slot[place + 1]; ++slot) {
             const mor_contact_corner *own = corners + (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
                 const int64_t lane = slot * MOR_CLUSTER + k;

@@ -132,6 +132,7 @@ static const mor_case_key scale_keys[] = {
 #define SUM MOR_CASE_NEEDS_SUM
 #define ANGULAR MOR_CASE_NEEDS_ANGULAR
 #define DAMPING MOR_CASE_NEEDS_DAMPING
+#define SLEEP MOR_CASE_NEEDS_SLEEP
 #define MOR_SETTING(type, storage, key, kind, unit, fallback, paper, words, need, computed_default, plane, text, ...)  \
     {{#key, MOR_SCHEMA_##kind, 1, unit, DEFAULT(fallback), __VA_ARGS__, words, text},                                  \
      MOR_CASE_STORE_##storage,                                                                                         \

@@ -36,7 +36,8 @@ static const struct {
              {MOR_CASE_NEEDS_LATTICE, "with soil of particles = \"lattice\""},
              {MOR_CASE_NEEDS_SUM, "with velocity_gradient = \"sum\""},
              {MOR_CASE_NEEDS_ANGULAR, "with angular_momentum = true"},
-             {MOR_CASE_NEEDS_DAMPING, "with damping or local_damping above 0"}};
+             {MOR_CASE_NEEDS_DAMPING, "with damping or local_damping above 0"},
+             {MOR_CASE_NEEDS_SLEEP, "with sleep_after above 0"}};
 
 static unsigned find_given(const mor_case *c)
 {
@@ -59,6 +60,7 @@ static unsigned find_given(const mor_case *c)
     given |= n->angular_momentum ? MOR_CASE_NEEDS_ANGULAR : 0U;
     given |= n->velocity_gradient == 0 ? MOR_CASE_NEEDS_SUM : 0U;
     given |= n->damping > 0.0 || n->local_damping > 0.0 ? MOR_CASE_NEEDS_DAMPING : 0U;
+    given |= n->sleep_after > 0.0 ? MOR_CASE_NEEDS_SLEEP : 0U;
     return given | (c->placement_angle != 0.0 ? MOR_CASE_NEEDS_ROTATION : 0U);
 }
 
@@ -196,11 +198,26 @@ static void warn_of_fit(const mor_case_reader *reader, const mor_case *c)
     }
 }
 
+/* XSPH and shifting move particles by their neighbors, asleep or not. */
+static mor_status check_sleep(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    if (!(c->numerics.sleep_after > 0.0) || !(c->numerics.xsph > 0.0 || c->numerics.shifting)) {
+        return MOR_OK;
+    }
+    const mor_case_node *node = mor_case_node_find(mor_case_node_find(root, "numerics"), "sleep_after");
+    return MOR_CASE_NODE_FAIL(reader->context, node,
+                              "found numerics.sleep_after = %g s with %s, which moves soil that sleeps; allowed: one of "
+                              "the two; leave out sleep_after or %s",
+                              c->numerics.sleep_after, c->numerics.shifting ? "shifting" : "xsph",
+                              c->numerics.shifting ? "shifting" : "xsph");
+}
+
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)
 {
     MOR_TRY(reader->context, check_ramp(reader, root, the_case));
     MOR_TRY(reader->context, check_series(reader, root, the_case));
     MOR_TRY(reader->context, check_barrier(reader, root, the_case));
+    MOR_TRY(reader->context, check_sleep(reader, root, the_case));
     warn_of_idle_settings(reader, root, the_case);
     warn_of_fit(reader, the_case);
     return MOR_OK;

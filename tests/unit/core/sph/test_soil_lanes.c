@@ -3,7 +3,7 @@
 #include "core/base/isa.h"
 #include "core/base/random.h"
 #include "core/sph/pair/pair.h"
-#include "core/sph/soil_lanes.h"
+#include "core/sph/lanes/soil_lanes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

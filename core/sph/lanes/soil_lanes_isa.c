@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Compiled once per instruction set; MOR_ISA is its name. In plane strain what is exactly zero is left out: velocity
  * gradients and moments have no part out of the plane. */
-#include "core/sph/soil_lanes.h"
+#include "core/sph/lanes/soil_lanes.h"
 
 #include "core/sph/pair/lane_math.h"
 #include "core/sph/pair/pair.h"

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/sph/soil_lanes.h"
+#include "core/sph/lanes/soil_lanes.h"
 
 #include "core/base/isa.h"
 

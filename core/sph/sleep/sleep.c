@@ -1,0 +1,184 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/sph/sleep/sleep.h"
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Blocks a thread takes at once. */
+enum { GRAIN = 8 };
+
+static int64_t count_blocks(int64_t n_particles)
+{
+    return (n_particles + MOR_SLEEP_PARTICLES - 1) / MOR_SLEEP_PARTICLES;
+}
+
+mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_particles)
+{
+    const int64_t n = count_blocks(n_particles);
+    memset(sleep, 0, sizeof *sleep);
+    sleep->n_blocks = n;
+    MOR_TRY(context, MOR_NEW(context, &sleep->states, n, "states of sleep"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->calm, n, "states of sleep"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->deep, n, "states of sleep"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->at_bodies, n, "states of sleep"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->mark, n, "search for blocks that sleep"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of blocks"));
+    return MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of blocks");
+}
+
+void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
+{
+    MOR_FREE(context, &sleep->neighbors);
+    MOR_FREE(context, &sleep->boxes);
+    MOR_FREE(context, &sleep->first);
+    MOR_FREE(context, &sleep->mark);
+    MOR_FREE(context, &sleep->at_bodies);
+    MOR_FREE(context, &sleep->deep);
+    MOR_FREE(context, &sleep->calm);
+    MOR_FREE(context, &sleep->states);
+    memset(sleep, 0, sizeof *sleep);
+}
+
+/* Counts the blocks on the lists of each block; keeps as many as there is room for. */
+static int64_t walk_lists(mor_sleep *sleep, const mor_relation *inner)
+{
+    int64_t n = 0;
+    memset(sleep->mark, 0xff, (size_t)sleep->n_blocks * sizeof *sleep->mark);
+    for (int64_t block = 0; block < sleep->n_blocks; ++block) {
+        const int64_t last = (block + 1) * MOR_SLEEP_CLUSTERS;
+        sleep->first[block] = n;
+        sleep->mark[block] = (int32_t)block;
+        for (int64_t c = block * MOR_SLEEP_CLUSTERS; c < last && c < inner->n_clusters; ++c) {
+            for (int32_t k = 0; k < inner->counts[c]; ++k) {
+                const int32_t other = inner->lists[c][k] / MOR_SLEEP_PARTICLES;
+                if (sleep->mark[other] != (int32_t)block) {
+                    sleep->mark[other] = (int32_t)block;
+                    if (n < sleep->capacity) {
+                        sleep->neighbors[n] = other;
+                    }
+                    n += 1;
+                }
+            }
+        }
+    }
+    sleep->first[sleep->n_blocks] = n;
+    return n;
+}
+
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_relation *inner,
+                                    int64_t n_particles)
+{
+    sleep->n_blocks = count_blocks(n_particles);
+    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
+    memset(sleep->at_bodies, 0, (size_t)sleep->n_blocks);
+    const int64_t needed = walk_lists(sleep, inner);
+    if (needed > sleep->capacity) {
+        MOR_FREE(context, &sleep->neighbors);
+        sleep->capacity = 0;
+        MOR_TRY(context, MOR_NEW(context, &sleep->neighbors, needed + needed / 4, "neighbors of blocks"));
+        sleep->capacity = needed + needed / 4;
+        walk_lists(sleep, inner);
+    }
+    return MOR_OK;
+}
+
+void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies)
+{
+    for (int64_t place = 0; place < bodies->n_occupied; ++place) {
+        sleep->at_bodies[bodies->occupied[place] / MOR_SLEEP_CLUSTERS] = 1;
+    }
+}
+
+/* Squared distance of two boxes given by their corners, m2. */
+static double find_distance2(const double *minimum, const double *maximum, const double *other_minimum,
+                             const double *other_maximum)
+{
+    double distance2 = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double gap = fmax(0.0, fmax(other_minimum[a] - maximum[a], minimum[a] - other_maximum[a]));
+        distance2 += gap * gap;
+    }
+    return distance2;
+}
+
+/* The box of a block, and whether all its particles have been quiet for long enough. */
+static bool scan_block(const mor_sleep_job *job, int64_t block, double *box)
+{
+    const int64_t end = (block + 1) * MOR_SLEEP_PARTICLES;
+    const int64_t last = end < job->n_particles ? end : job->n_particles;
+    bool is_quiet = true;
+    for (int a = 0; a < 3; ++a) {
+        box[a] = INFINITY;
+        box[3 + a] = -INFINITY;
+    }
+    for (int64_t i = block * MOR_SLEEP_PARTICLES; i < last; ++i) {
+        is_quiet = is_quiet && job->quiet_time[i] >= job->after;
+        for (int a = 0; a < 3; ++a) {
+            box[a] = fmin(box[a], job->position[3 * i + a]);
+            box[3 + a] = fmax(box[3 + a], job->position[3 * i + a]);
+        }
+    }
+    return is_quiet;
+}
+
+static bool sees_motion(const mor_sleep_job *job, const double *box)
+{
+    for (int k = 0; k < job->n_moving; ++k) {
+        if (find_distance2(box, box + 3, job->moving[k].minimum, job->moving[k].maximum) <= job->reach * job->reach) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether all blocks within reach have a mark. Lists hold more than what is in reach, so that distances decide. */
+static bool have_all(const mor_sleep *sleep, double reach, int64_t block, const int8_t *marks, int8_t least)
+{
+    const double *box = sleep->boxes + 6 * block;
+    for (int64_t k = sleep->first[block]; k < sleep->first[block + 1]; ++k) {
+        const int32_t other = sleep->neighbors[k];
+        const double *beside = sleep->boxes + 6 * (int64_t)other;
+        if (marks[other] < least && find_distance2(box, box + 3, beside, beside + 3) <= reach * reach) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job)
+{
+    const int64_t n = sleep->n_blocks;
+    MOR_PARALLEL_FOR (context, block, n, GRAIN) {
+        double *box = sleep->boxes + 6 * block;
+        sleep->calm[block] = (int8_t)(scan_block(job, block, box) && !sees_motion(job, box));
+    }
+    MOR_PARALLEL_FOR (context, block, n, GRAIN) {
+        const bool sleeps = sleep->calm[block] && have_all(sleep, job->reach, block, sleep->calm, 1);
+        sleep->states[block] = sleeps ? MOR_SLEEP_ASLEEP : MOR_SLEEP_AWAKE;
+    }
+    /* Held is more than asleep, so that marking some does not hide others. */
+    MOR_PARALLEL_FOR (context, block, n, GRAIN) {
+        const bool is_deep = sleep->states[block] != MOR_SLEEP_AWAKE && !sleep->at_bodies[block] &&
+                             have_all(sleep, job->reach, block, sleep->states, MOR_SLEEP_ASLEEP);
+        sleep->calm[block] = (int8_t)is_deep;
+    }
+    sleep->n_asleep = 0;
+    for (int64_t block = 0; block < n; ++block) {
+        sleep->n_asleep += sleep->states[block] != MOR_SLEEP_AWAKE;
+        if (sleep->calm[block] && sleep->deep[block]) {
+            sleep->states[block] = MOR_SLEEP_HELD;
+        }
+        sleep->deep[block] = sleep->calm[block];
+    }
+}
+
+void mor_sleep_wake(mor_sleep *sleep)
+{
+    memset(sleep->states, 0, (size_t)sleep->n_blocks);
+    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
+    sleep->n_asleep = 0;
+}

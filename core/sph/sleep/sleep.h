@@ -1,0 +1,101 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_SLEEP_SLEEP_H
+#define MOR_CORE_SPH_SLEEP_SLEEP_H
+
+#include "core/particle/relation.h"
+
+/** @file
+ *  Soil that has come to rest sleeps: it is left out of the steps until something moves beside it. Particles are taken
+ *  in blocks of 256 that follow one another in the order of the tree, and so lie together. A block is calm when all its
+ *  particles have stayed below the limits for a time and no body or wall moves within its reach; it sleeps while it and
+ *  all blocks within its reach are calm, so that soil that is computed never loses a neighbor that moves. What is
+ *  decided is a function of positions, times of calm and order alone, whenever the lists were built, so that a resumed
+ *  run decides alike. Theory: docs/theory/sleep.md. */
+
+enum {
+    MOR_SLEEP_CLUSTERS = 32,                            /* clusters in a block */
+    MOR_SLEEP_PARTICLES = MOR_SLEEP_CLUSTERS * MOR_CLUSTER /* particles in a block */
+};
+
+/** What a block does in a step. */
+enum {
+    MOR_SLEEP_AWAKE,  /* it is computed */
+    MOR_SLEEP_ASLEEP, /* it stands still, but what walls do to it is found, for its neighbors may move */
+    MOR_SLEEP_HELD    /* it and all its neighbors slept in the last step, too: what walls do to it is known */
+};
+
+/** Particles by blocks, and which of them sleep. Owner: the soil. */
+typedef struct mor_sleep {
+    int8_t *states;       /* shape [blocks]; as above; NULL: none ever sleeps */
+    int8_t *calm;         /* shape [blocks]; scratch, 1: no particle and nothing beside it moves */
+    int8_t *deep;         /* shape [blocks]; 1: it and all its neighbors slept in the last step */
+    int8_t *at_bodies;    /* shape [blocks]; 1: points of bodies are on its lists */
+    double *boxes;        /* shape [blocks, 6]; minimum and maximum corner of the particles, m */
+    int32_t *mark;        /* shape [blocks]; scratch of the search */
+    int64_t *first;       /* shape [blocks + 1]; of each block's neighbors, and one past the last */
+    int32_t *neighbors;   /* shape [capacity]; blocks on the lists of each block, without itself */
+    int64_t capacity;     /* neighbors there is room for */
+    int64_t n_blocks;     /* in use */
+    int64_t n_asleep;     /* blocks that sleep in this step */
+    double momentum[3];   /* taken from particles that fell asleep, kg m/s (kg/s) */
+    double kinetic;       /* energy taken likewise, J (J/m) */
+    double impulse[3];    /* given by soil that was computed to soil that slept, N s (N s/m) */
+    uint64_t n_left_out;  /* particle-steps that were not computed */
+} mor_sleep;
+
+/** Something that moves: what is near does not sleep. */
+typedef struct mor_sleep_box {
+    double minimum[3], maximum[3]; /* corners, m */
+} mor_sleep_box;
+
+/** What is decided by. Borrowed. */
+typedef struct mor_sleep_job {
+    int64_t n_particles;
+    const double *position;      /* shape [n_particles, 3], m */
+    const double *quiet_time;    /* shape [n_particles]; for which each has stayed below the limits, s */
+    double after;                /* time of calm after which a particle may sleep, s */
+    double reach;                /* support of the kernel, m */
+    const mor_sleep_box *moving; /* shape [n_moving] */
+    int n_moving;
+} mor_sleep_job;
+
+/** Makes room for a number of particles; all are awake.
+ *  @param sleep       [out]  cleared with mor_sleep_clear, also after a failure
+ *  @param n_particles [in]   largest number of particles there will be, >= 1
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
+mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_particles);
+
+/** Frees what it owns; accepts a zeroed one. */
+void mor_sleep_clear(mor_context *context, mor_sleep *sleep);
+
+/** Finds which blocks see one another, after each build of the lists.
+ *  @param inner       [in]      particle -> particle, current, with lists of all that come within reach before the
+ *                              next build
+ *  @param n_particles [in]      number of particles, at most those there is room for
+ *  Gives: no block is held, and none is at bodies.
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more neighbors than ever before. */
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_relation *inner,
+                                    int64_t n_particles);
+
+/** Keeps blocks that list points of bodies from being held: forces on bodies are found in every step.
+ *  @param bodies [in]      particle -> points of bodies, current */
+void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies);
+
+/** Decides which blocks sleep in this step.
+ *  @param sleep [in,out]  states and n_asleep are set */
+void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job);
+
+/** Wakes all blocks for this step. */
+void mor_sleep_wake(mor_sleep *sleep);
+
+/** Whether the block of a cluster is at least in a state.
+ *  @param states  [in]  shape [blocks]; NULL: all are awake
+ *  @param cluster [in]  of the soil
+ *  @param state   [in]  MOR_SLEEP_ASLEEP or MOR_SLEEP_HELD */
+static inline bool mor_sleep_is(const int8_t *states, int64_t cluster, int state)
+{
+    return states != NULL && states[cluster / MOR_SLEEP_CLUSTERS] >= state;
+}
+
+#endif

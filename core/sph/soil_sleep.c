@@ -1,0 +1,235 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Stages by which soil at rest is left out of the steps; which soil that is: core/sph/sleep/sleep.h. */
+#include "core/sph/soil_internal.h"
+
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/particle/kernel.h"
+
+#include <math.h>
+#include <string.h>
+
+bool mor_soil_may_sleep(const void *owner)
+{
+    return ((const mor_soil *)owner)->sleep.states != NULL;
+}
+
+/* Limits below which a particle is quiet. Waves in soil that stands still go on for long, but nowhere: displacement
+ * tells them from creep. */
+typedef struct limits {
+    double displacement; /* in the time after which soil sleeps, m */
+    double speed;        /* m/s */
+} limits;
+
+static limits find_limits(const mor_soil *soil)
+{
+    const mor_scheme *scheme = &soil->settings.scheme;
+    const double gravity = mor_vector_length(soil->settings.gravity);
+    return (limits){scheme->sleep_displacement * soil->settings.spacing,
+                    scheme->sleep_speed * sqrt(gravity * soil->settings.spacing)};
+}
+
+mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil)
+{
+    mor_sleep *sleep = &soil->sleep;
+    int n_patches = soil->n_walls;
+    MOR_TRY(context, mor_sleep_find_neighbors(context, sleep, &soil->inner, soil->set.n_particles));
+    for (int k = 0; k < soil->n_boundaries; ++k) {
+        n_patches += soil->boundaries[k].boundary->n_patches;
+        mor_sleep_mark_bodies(sleep, &soil->boundaries[k].relation);
+    }
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact_at(soil, k)->sleep = sleep->states;
+    }
+    if (n_patches > soil->n_moving_room) {
+        MOR_FREE(context, &soil->moving);
+        soil->n_moving_room = 0;
+        MOR_TRY(context, MOR_NEW(context, &soil->moving, n_patches, "boxes of what moves"));
+        soil->n_moving_room = n_patches;
+    }
+    return MOR_OK;
+}
+
+/* The box of the points of a patch, and the largest of their speeds, m/s. */
+static double find_patch_box(const mor_boundary *boundary, const mor_boundary_patch *patch, mor_sleep_box *box)
+{
+    double fastest2 = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        box->minimum[a] = INFINITY;
+        box->maximum[a] = -INFINITY;
+    }
+    for (int64_t i = patch->first; i < patch->first + patch->n_points; ++i) {
+        const double *record = boundary->records + i * MOR_BOUNDARY_RECORD;
+        const double *v = record + MOR_BOUNDARY_VELOCITY;
+        fastest2 = fmax(fastest2, mor_vector_dot(v, v));
+        for (int a = 0; a < 3; ++a) {
+            box->minimum[a] = fmin(box->minimum[a], record[MOR_BOUNDARY_POSITION + a]);
+            box->maximum[a] = fmax(box->maximum[a], record[MOR_BOUNDARY_POSITION + a]);
+        }
+    }
+    return sqrt(fastest2);
+}
+
+/* Bodies and walls that move faster than soil at rest, and where some were that are there no longer. */
+static int find_moving(mor_soil *soil, double speed)
+{
+    int n = 0;
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        const double least = contact->is_wall ? 0.0 : speed;
+        const bool may_move = mor_soil_contact_speed(contact) > least;
+        for (int p = 0; p < contact->boundary->n_patches; ++p) {
+            const mor_boundary_patch *patch = &contact->boundary->patches[p];
+            if (patch->is_removed || may_move) {
+                const double fastest = find_patch_box(contact->boundary, patch, &soil->moving[n]);
+                n += patch->is_removed || fastest > least;
+            }
+        }
+    }
+    return n;
+}
+
+/* What falling asleep reads and writes. */
+typedef struct falling {
+    const int8_t *states;
+    const double *mass;
+    double *velocity, *density_rate;
+} falling;
+
+enum { TAKEN_MOMENTUM, TAKEN_ENERGY = 3, TAKEN };
+
+/* Stops the particles of blocks that sleep; adds what is taken from them. */
+static void stop_block(void *job, int64_t first, int64_t last, double *values)
+{
+    const falling *it = job;
+    for (int64_t i = first; i < last; ++i) {
+        double *v = it->velocity + 3 * i;
+        if (!mor_sleep_is(it->states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
+            continue;
+        }
+        values[TAKEN_ENERGY] += 0.5 * it->mass[i] * mor_vector_dot(v, v);
+        for (int a = 0; a < 3; ++a) {
+            values[TAKEN_MOMENTUM + a] += it->mass[i] * v[a];
+            v[a] = 0.0;
+        }
+        it->density_rate[i] = 0.0;
+    }
+}
+
+mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    const limits limit = find_limits(soil);
+    mor_sleep *sleep = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->sleep);
+    falling job = {sleep->states, mor_view_read(view, MOR_FIELD_MASS), mor_view_write(view, MOR_FIELD_VELOCITY),
+                   mor_view_write(view, MOR_FIELD_DENSITY_RATE)};
+    mor_sleep_job decision = {.n_particles = soil->set.n_particles,
+                              .position = mor_view_read(view, MOR_FIELD_POSITION),
+                              .quiet_time = mor_view_read(view, MOR_FIELD_QUIET),
+                              .after = soil->settings.scheme.sleep_after,
+                              .reach = MOR_KERNEL_SUPPORT * soil->smoothing_length,
+                              .moving = soil->moving};
+    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
+    /* While gravity grows all soil is loaded. */
+    if (mor_soil_gravity_part(soil, step) < 1.0 || soil->is_relaxing) {
+        mor_sleep_wake(sleep);
+        return MOR_OK;
+    }
+    decision.n_moving = find_moving(soil, limit.speed);
+    mor_sleep_decide(context, sleep, &decision);
+    double taken[TAKEN] = {0.0};
+    const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
+    mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SUM, TAKEN, stop_block, &job, soil->room.values, taken);
+    for (int a = 0; a < 3; ++a) {
+        sleep->momentum[a] += taken[TAKEN_MOMENTUM + a];
+    }
+    sleep->kinetic += taken[TAKEN_ENERGY];
+    return MOR_OK;
+}
+
+/* Mass times acceleration. */
+typedef struct pushing {
+    const double *mass, *acceleration;
+} pushing;
+
+static void push_block(void *job, int64_t first, int64_t last, double *values)
+{
+    const pushing *it = job;
+    for (int64_t i = first; i < last; ++i) {
+        for (int a = 0; a < 3; ++a) {
+            values[a] += it->mass[i] * it->acceleration[3 * i + a];
+        }
+    }
+}
+
+/* Forces between particles cancel over all of them: what is left over those that are awake came from the others. */
+mor_status mor_soil_count_sleep(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    mor_sleep *sleep = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->sleep);
+    pushing job = {mor_view_read(view, MOR_FIELD_MASS), mor_view_read(view, MOR_FIELD_ACCELERATION)};
+    double force[3] = {0.0};
+    if (sleep->n_asleep == 0) {
+        return MOR_OK;
+    }
+    const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
+    mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SUM, 3, push_block, &job, soil->room.values, force);
+    for (int a = 0; a < 3; ++a) {
+        sleep->impulse[a] -= step->length * force[a];
+    }
+    for (int64_t block = 0; block < sleep->n_blocks; ++block) {
+        const int64_t left = soil->set.n_particles - block * MOR_SLEEP_PARTICLES;
+        const int64_t n = left < MOR_SLEEP_PARTICLES ? left : MOR_SLEEP_PARTICLES;
+        sleep->n_left_out += sleep->states[block] != MOR_SLEEP_AWAKE ? (uint64_t)n : 0U;
+    }
+    return MOR_OK;
+}
+
+static bool is_below(const limits *limit, const double *moved, const double *velocity)
+{
+    return mor_vector_dot(moved, moved) < limit->displacement * limit->displacement &&
+           mor_vector_dot(velocity, velocity) < limit->speed * limit->speed;
+}
+
+mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    const limits limit = find_limits(soil);
+    const int8_t *states = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states);
+    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
+    const double *velocity = mor_view_read(view, MOR_FIELD_VELOCITY);
+    double *quiet = mor_view_write(view, MOR_FIELD_QUIET);
+    double *place = mor_view_write(view, MOR_FIELD_QUIET_PLACE);
+    double *span = mor_view_write(view, MOR_FIELD_QUIET_SPAN);
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
+        const double *x = position + 3 * i;
+        double *from = place + 3 * i;
+        const double moved[3] = {x[0] - from[0], x[1] - from[1], x[2] - from[2]};
+        if (mor_sleep_is(states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
+            continue;
+        }
+        const bool is_quiet = !soil->is_relaxing && is_below(&limit, moved, velocity + 3 * i);
+        quiet[i] = is_quiet ? quiet[i] + step->length : 0.0;
+        span[i] += step->length;
+        if (!is_quiet || span[i] >= soil->settings.scheme.sleep_after) {
+            span[i] = 0.0;
+            memcpy(from, x, 3 * sizeof *from);
+        }
+    }
+    return MOR_OK;
+}
+
+mor_status mor_soil_list_sleep(mor_context *context, mor_soil *soil, mor_state_list *list)
+{
+    mor_sleep *sleep = &soil->sleep;
+    const char *name = soil->set.name;
+    if (sleep->states == NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_state_add(context, list, name, "sleep_momentum", MOR_STATE_DOUBLE, 3, sleep->momentum));
+    MOR_TRY(context, mor_state_add(context, list, name, "sleep_energy", MOR_STATE_DOUBLE, 1, &sleep->kinetic));
+    MOR_TRY(context, mor_state_add(context, list, name, "sleep_impulse", MOR_STATE_DOUBLE, 3, sleep->impulse));
+    return mor_state_add(context, list, name, "sleep_steps", MOR_STATE_UINT64, 1, &sleep->n_left_out);
+}

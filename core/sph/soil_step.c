@@ -1,0 +1,79 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The longest step that the soil allows. */
+#include "core/sph/soil_internal.h"
+
+#include "core/material/checked.h"
+
+#include <math.h>
+
+/* Step limit of the material, for models that have one. */
+static mor_status limit_by_material(mor_context *context, const mor_soil *soil, double *step_length, const char **limit)
+{
+    enum { BATCH = 128 };
+    if (soil->material->material->operations.max_step == NULL) {
+        return MOR_OK;
+    }
+    for (int64_t first = 0; first < soil->set.n_particles; first += BATCH) {
+        const int64_t left = soil->set.n_particles - first;
+        const double *state[MOR_MATERIAL_STATES_MAX];
+        double steps[BATCH];
+        for (int k = 0; k < soil->material->n_state; ++k) {
+            const int field = soil->state_fields[k];
+            state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
+        }
+        const mor_batch batch = {.n = left < BATCH ? left : BATCH,
+                                 .density = soil->set.data[MOR_FIELD_DENSITY] + first,
+                                 .stress_in = soil->set.data[MOR_FIELD_STRESS] + 6 * first,
+                                 .state_in = state};
+        const mor_status status = soil->material->operations.max_step(soil->material, &batch, steps);
+        MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
+        MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' gave no longest step",
+                  soil->material->material->name);
+        for (int64_t i = 0; i < batch.n; ++i) {
+            if (!(steps[i] >= *step_length)) {
+                *step_length = steps[i];
+                *limit = "the material";
+            }
+        }
+    }
+    return MOR_OK;
+}
+
+/* Z (51) and the limit by acceleration; the speed of waves counts from moving particles. */
+mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
+{
+    mor_soil *soil = owner;
+    const double h = soil->smoothing_length;
+    double fastest = soil->largest_speed;
+    double by_barrier = INFINITY;
+    double added_mass_ratio = 1.0;
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        fastest = fmax(fastest, mor_soil_contact_speed(mor_soil_contact_at(soil, k)));
+        by_barrier = fmin(by_barrier, mor_soil_contact_at(soil, k)->longest_step);
+        added_mass_ratio = fmax(added_mass_ratio, mor_soil_contact_at(soil, k)->boundary->added_mass_ratio);
+    }
+    *step_length = soil->settings.scheme.courant * h / (soil->sound_speed + fastest);
+    *limit = "the speed of sound in the soil";
+    if (added_mass_ratio > 1.0) {
+        *step_length /= sqrt(added_mass_ratio);
+        *limit = "a body lighter than its added mass of soil";
+        by_barrier /= sqrt(added_mass_ratio);
+    }
+    if (soil->largest_acceleration > 0.0) {
+        const double by_acceleration = 0.25 * sqrt(h / soil->largest_acceleration);
+        if (by_acceleration < *step_length) {
+            *step_length = by_acceleration;
+            *limit = "the acceleration of the soil";
+        }
+    }
+    if (by_barrier < *step_length) {
+        *step_length = by_barrier;
+        *limit = "the barrier between soil and rocks";
+    }
+    if (soil->settings.scheme.damping * *step_length > 0.5) {
+        *step_length = 0.5 / soil->settings.scheme.damping;
+        *limit = "the damping";
+    }
+    return limit_by_material(context, soil, step_length, limit);
+}

@@ -1,0 +1,180 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Which blocks of particles sleep, against a search over all pairs of blocks. */
+#include "core/base/random.h"
+#include "core/sph/sleep/sleep.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { BLOCKS = 60, N = BLOCKS * MOR_SLEEP_PARTICLES - 37, CLUSTERS = BLOCKS * MOR_SLEEP_CLUSTERS };
+
+/* Blocks are boxes one meter wide in a row that has gaps, filled at random; a particle sees all within REACH. */
+#define REACH 0.3
+#define AFTER 0.5
+
+typedef struct row {
+    mor_context context;
+    mor_tree tree;
+    mor_relation inner;
+    mor_sleep sleep;
+    double position[3 * N + 3 * MOR_CLUSTER];
+    double quiet[N];
+} row;
+
+static row it;
+
+static int open_row(void **state)
+{
+    (void)state;
+    memset(&it, 0, sizeof it);
+    mor_context_init(&it.context);
+    it.context.n_threads = 2;
+    for (int64_t i = 0; i < N; ++i) {
+        const int64_t block = i / MOR_SLEEP_PARTICLES;
+        const double gap = 0.25 * (double)(block % 3); /* 0, 0.25 and 0.5 m: the last one is out of reach */
+        for (int a = 0; a < 3; ++a) {
+            it.position[3 * i + a] = mor_random_uniform(1, (uint64_t)i, (uint64_t)a);
+        }
+        it.position[3 * i] += 1.5 * (double)block + gap - 0.5 * (double)(block % 5);
+        it.quiet[i] = 1.0;
+    }
+    assert_int_equal(mor_tree_init(&it.context, &it.tree, N), MOR_OK);
+    mor_tree_fit(&it.tree, it.position, 3);
+    const mor_relation_points points = {&it.tree, it.position, 3};
+    assert_int_equal(mor_relation_init(&it.context, &it.inner, MOR_CONFIGURATION_CURRENT, it.tree.n_clusters), MOR_OK);
+    assert_int_equal(mor_relation_build(&it.context, &it.inner, &points, &points, 2.0 * REACH), MOR_OK);
+    assert_int_equal(mor_sleep_init(&it.context, &it.sleep, N), MOR_OK);
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.inner, N), MOR_OK);
+    return 0;
+}
+
+static int close_row(void **state)
+{
+    (void)state;
+    mor_sleep_clear(&it.context, &it.sleep);
+    mor_relation_clear(&it.context, &it.inner);
+    mor_tree_clear(&it.context, &it.tree);
+    assert_int_equal(it.context.memory_bytes, 0);
+    return 0;
+}
+
+static void decide(const mor_sleep_box *moving, int n_moving)
+{
+    const mor_sleep_job job = {.n_particles = N,
+                               .position = it.position,
+                               .quiet_time = it.quiet,
+                               .after = AFTER,
+                               .reach = REACH,
+                               .moving = moving,
+                               .n_moving = n_moving};
+    mor_sleep_decide(&it.context, &it.sleep, &job);
+}
+
+/* Least distance of two blocks' boxes, m. */
+static double find_gap(int64_t a, int64_t b)
+{
+    double least[2][3];
+    double most[2][3];
+    double sum = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        const int64_t block = k == 0 ? a : b;
+        for (int axis = 0; axis < 3; ++axis) {
+            least[k][axis] = INFINITY;
+            most[k][axis] = -INFINITY;
+            for (int64_t i = block * MOR_SLEEP_PARTICLES; i < (block + 1) * MOR_SLEEP_PARTICLES && i < N; ++i) {
+                least[k][axis] = fmin(least[k][axis], it.position[3 * i + axis]);
+                most[k][axis] = fmax(most[k][axis], it.position[3 * i + axis]);
+            }
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const double gap = fmax(0.0, fmax(least[1][axis] - most[0][axis], least[0][axis] - most[1][axis]));
+        sum += gap * gap;
+    }
+    return sqrt(sum);
+}
+
+/* One particle in each of some blocks is not quiet. */
+static void block_sleeps_where_all_blocks_in_reach_are_calm(void **state)
+{
+    (void)state;
+    bool is_calm[BLOCKS];
+    int n_asleep = 0;
+    for (int64_t block = 0; block < BLOCKS; ++block) {
+        is_calm[block] = mor_random_uniform(2, (uint64_t)block, 0) > 0.2;
+        it.quiet[block * MOR_SLEEP_PARTICLES + 100] = is_calm[block] ? 1.0 : 0.9 * AFTER;
+    }
+    decide(NULL, 0);
+    for (int64_t block = 0; block < BLOCKS; ++block) {
+        bool sleeps = true;
+        for (int64_t other = 0; other < BLOCKS; ++other) {
+            sleeps = sleeps && (is_calm[other] || find_gap(block, other) > REACH);
+        }
+        assert_int_equal(it.sleep.states[block] != MOR_SLEEP_AWAKE, sleeps);
+        n_asleep += sleeps;
+    }
+    assert_int_equal(it.sleep.n_asleep, n_asleep);
+    assert_true(n_asleep > 5 && n_asleep < BLOCKS - 5);
+}
+
+static void block_beside_something_that_moves_is_awake(void **state)
+{
+    (void)state;
+    const double x = it.position[3 * 30 * MOR_SLEEP_PARTICLES];
+    const mor_sleep_box box = {{x, 0.5, 0.5}, {x + 0.1, 0.6, 0.6}};
+    decide(&box, 1);
+    assert_int_equal(it.sleep.states[30], MOR_SLEEP_AWAKE);
+    assert_int_not_equal(it.sleep.states[0], MOR_SLEEP_AWAKE);
+}
+
+/* What walls do to a block is known once it and all around it have slept in the step before; not where bodies are, and
+ * not after new lists. */
+static void block_is_held_from_the_second_step_of_sleep_on(void **state)
+{
+    (void)state;
+    decide(NULL, 0);
+    for (int64_t block = 0; block < BLOCKS; ++block) {
+        assert_int_equal(it.sleep.states[block], MOR_SLEEP_ASLEEP);
+    }
+    it.sleep.at_bodies[7] = 1;
+    decide(NULL, 0);
+    decide(NULL, 0);
+    for (int64_t block = 0; block < BLOCKS; ++block) {
+        assert_int_equal(it.sleep.states[block], block == 7 ? MOR_SLEEP_ASLEEP : MOR_SLEEP_HELD);
+    }
+    it.quiet[20 * MOR_SLEEP_PARTICLES] = 0.0;
+    decide(NULL, 0);
+    assert_int_equal(it.sleep.states[20], MOR_SLEEP_AWAKE);
+    for (int64_t block = 0; block < BLOCKS; ++block) {
+        const bool is_near = find_gap(block, 20) <= REACH;
+        assert_true(it.sleep.states[block] == MOR_SLEEP_AWAKE || !is_near);
+        for (int64_t other = 0; other < BLOCKS; ++other) { /* none that sees one that is awake */
+            assert_true(it.sleep.states[block] != MOR_SLEEP_HELD || it.sleep.states[other] != MOR_SLEEP_AWAKE ||
+                        find_gap(block, other) > REACH);
+        }
+    }
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.inner, N), MOR_OK);
+    decide(NULL, 0);
+    for (int64_t block = 0; block < BLOCKS; ++block) {
+        assert_int_not_equal(it.sleep.states[block], MOR_SLEEP_HELD);
+    }
+    mor_sleep_wake(&it.sleep);
+    assert_int_equal(it.sleep.n_asleep, 0);
+    assert_false(mor_sleep_is(it.sleep.states, 0, MOR_SLEEP_ASLEEP));
+    assert_false(mor_sleep_is(NULL, 0, MOR_SLEEP_ASLEEP));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(block_sleeps_where_all_blocks_in_reach_are_calm, open_row, close_row),
+        cmocka_unit_test_setup_teardown(block_beside_something_that_moves_is_awake, open_row, close_row),
+        cmocka_unit_test_setup_teardown(block_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
