@@ -5,6 +5,7 @@
 /* The one list of commands, in the order of help: command_<name>.c each. */
 #define COMMANDS(X)                                                                                                    \
     X(run)                                                                                                             \
+    X(sweep)                                                                                                           \
     X(check)                                                                                                           \
     X(explain)                                                                                                         \
     X(preview)                                                                                                         \
