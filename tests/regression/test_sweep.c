@@ -344,7 +344,7 @@ static void folder_of_another_sweep_is_refused(void **state)
     program_expect_text(outcome.errors, "line 1 of mine/design.txt tells another member");
     program_clear(&outcome);
     outcome = program_run(folder, varied, 2);
-    program_expect_text(outcome.errors, "found the key of a variable of the sweep (sweep.cfg:1)");
+    program_expect_text(outcome.errors, "which is also set by 'soil[0].material.cohesion=1' as an override");
     program_clear(&outcome);
     sweep_to_the_end(folder, resumed);
     /* The same settings over another case: members that have ended are not taken for those of this one. */

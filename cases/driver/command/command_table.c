@@ -5,9 +5,9 @@
 /* The one list of commands, in the order of help: command_<name>.c each. */
 #define COMMANDS(X)                                                                                                    \
     X(run)                                                                                                             \
-    X(sweep)                                                                                                           \
     X(check)                                                                                                           \
     X(explain)                                                                                                         \
+    X(sweep)                                                                                                           \
     X(preview)                                                                                                         \
     X(relax)                                                                                                           \
     X(render)                                                                                                          \

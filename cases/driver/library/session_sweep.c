@@ -19,31 +19,14 @@
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-/* An override of the session under the key of a variable would be without effect, unseen. */
-static mor_status check_overrides(const mor_session_sweeper *it)
-{
-    for (int k = 0; k < it->session->n_overrides; ++k) {
-        const char *setting = it->session->overrides[k];
-        for (int v = 0; v < it->sweep.n_variables; ++v) {
-            const char *key = it->sweep.variables[v].key;
-            const size_t n = strlen(key);
-            MOR_CHECK(
-                &it->session->context, n == 0 || strncmp(setting, key, n) != 0 || setting[n] != '=', MOR_ERROR_CONFIG,
-                "override '%s': found the key of a variable of the sweep (%s:%d); allowed: keys that do not vary; "
-                "remove it, or change the values in the sweep file",
-                setting, it->sweep.variables[v].place.file, it->sweep.variables[v].place.line);
-        }
-    }
-    return MOR_OK;
-}
-
 static mor_status read_sweep(mor_session_sweeper *it, const char *path)
 {
     mor_session *session = it->session;
     mor_context *context = &session->context;
     MOR_TRY(context, mor_units_new(context, &it->units));
     MOR_TRY(context, mor_sweep_read(context, path, it->units, &it->sweep));
-    MOR_TRY(context, check_overrides(it));
+    it->sweep.overrides = (const char *const *)session->overrides;
+    it->sweep.n_overrides = session->n_overrides;
     MOR_TRY(context, mor_sweep_design_make(context, &it->sweep, &it->design));
     MOR_TRY(context, mor_sweep_table_make(context, &it->design, &it->table));
     MOR_TRY(context, MOR_NEW(context, &it->is_done, it->design.n_members, "members of a sweep"));
@@ -51,8 +34,6 @@ static mor_status read_sweep(mor_session_sweeper *it, const char *path)
     it->provenance = (mor_sweep_provenance){.run_word = mor_element_names_find(&session->names, "run"),
                                             .set_word = mor_element_names_find(&session->names, "set"),
                                             .units = it->units,
-                                            .settings = (const char *const *)session->overrides,
-                                            .n_settings = session->n_overrides,
                                             .version = MOR_VERSION,
                                             .commit = MOR_COMMIT,
                                             .command = session->command,

@@ -28,9 +28,6 @@ static mor_status add_settings(mor_session_sweeper *it, int member, mor_session 
     char *command = NULL;
     size_t n_bytes = 0;
     mor_sweep_design_settings(&it->design, it->units, member, &settings);
-    for (int k = 0; k < it->provenance.n_settings; ++k) {
-        MOR_TRY(&own->context, mor_session_override(own, it->provenance.settings[k]));
-    }
     for (int k = 0; k < settings.n; ++k) {
         MOR_TRY(&own->context, mor_session_override(own, settings.texts[k]));
     }

@@ -89,7 +89,9 @@ typedef struct mor_sweep {
     int n_samples;                       /* of the Latin hypercube; 1 where nothing is at random */
     uint64_t seed;
     mor_sweep_refused refused;
-    mor_sweep_texts settings; /* of all members */
+    mor_sweep_texts settings;     /* of all members */
+    const char *const *overrides; /* shape [n_overrides] of "key=value": given beside the file, of all members, too */
+    int n_overrides;              /* 0 after reading; set by the caller, who owns them */
     mor_sweep_variable variables[MOR_SWEEP_VARIABLES_MAX];
     int n_variables;
     mor_sweep_measure results[MOR_SWEEP_MEASURES_MAX]; /* shape [n_results] */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/sweep/sweep_design.h"
 
+#include "cases/driver/sweep/sweep_keys.h"
 #include "cases/driver/sweep/sweep_quantity.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
@@ -114,6 +115,7 @@ mor_status mor_sweep_design_make(mor_context *context, const mor_sweep *sweep, m
 {
     double *quantiles = NULL;
     *design = (mor_sweep_design){.sweep = sweep};
+    MOR_TRY(context, mor_sweep_keys_check(context, sweep));
     maker m = {.design = design};
     expand(&m, 0, 0u);
     MOR_CHECK(context, design->n_members <= MOR_SWEEP_MEMBERS_MAX, MOR_ERROR_CONFIG,
@@ -170,6 +172,9 @@ void mor_sweep_design_settings(const mor_sweep_design *design, const mor_units *
     const mor_sweep *sweep = design->sweep;
     settings->n = 0;
     add_texts(&sweep->settings, settings);
+    for (int k = 0; k < sweep->n_overrides && k < MOR_SWEEP_OVERRIDES_MAX; ++k) {
+        settings->texts[settings->n++] = sweep->overrides[k];
+    }
     for (int v = 0; v < sweep->n_variables; ++v) {
         const mor_sweep_variable *it = &sweep->variables[v];
         const mor_sweep_choice *choice = find_choice(design, member, v);

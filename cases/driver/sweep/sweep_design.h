@@ -10,7 +10,8 @@
  *  hypercube. Members that differ in replicates and samples alone are a group. */
 
 enum {
-    MOR_SWEEP_ALL_SETTINGS_MAX = MOR_SWEEP_SETTINGS_MAX * (MOR_SWEEP_VARIABLES_MAX + 1),
+    MOR_SWEEP_OVERRIDES_MAX = 256, /* of them that a member can take */
+    MOR_SWEEP_ALL_SETTINGS_MAX = MOR_SWEEP_SETTINGS_MAX * (MOR_SWEEP_VARIABLES_MAX + 1) + MOR_SWEEP_OVERRIDES_MAX,
     MOR_SWEEP_LABEL_BYTES = 128
 };
 
@@ -35,13 +36,14 @@ typedef struct mor_sweep_settings {
 /** Lists the members of a sweep.
  *  @param sweep  [in]   whole; outlives the design
  *  @param design [out]  clear it with mor_sweep_design_clear, after a failure, too
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are too many; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are too many, or something that is set would have no effect;
+ *  MOR_ERROR_MEMORY. */
 mor_status mor_sweep_design_make(mor_context *context, const mor_sweep *sweep, mor_sweep_design *design);
 
 /** Frees a design; accepts a zeroed one. */
 void mor_sweep_design_clear(mor_context *context, mor_sweep_design *design);
 
-/** Lists what a member sets: that of the sweep, then of its variables.
+/** Lists what a member sets: what the sweep sets, overrides, then its variables.
  *  @param member   [in]   0 <= member < n_members
  *  @param settings [out]  one record; valid as long as the sweep and itself
  *  Threads: safe to call concurrently. */

@@ -128,6 +128,9 @@ static mor_status find_unit(const mor_case_reader *reader, const mor_case_node *
             memcpy(variable->unit, found.unit, sizeof variable->unit);
         }
     }
+    if (!variable->is_number) {
+        variable->unit[0] = '\0';
+    }
     for (const mor_case_node *child = list->first_child; child != NULL; child = child->next, ++k) {
         mor_sweep_choice *choice = &variable->choices[k];
         choice->value = NAN;
@@ -295,6 +298,7 @@ static mor_status check_distribution(const mor_case_reader *reader, const mor_ca
                                      const mor_sweep_distribution *it)
 {
     const double least_share = 1.0e-6; /* beyond it the tails of double precision are cut, not the distribution */
+    const double rare = 1.0e-9;
     const char *why = NULL;
     if (!(it->minimum < it->maximum)) {
         why = "min is not below max; exchange or correct them";
@@ -309,6 +313,10 @@ static mor_status check_distribution(const mor_case_reader *reader, const mor_ca
                      least_share)) {
             why = "less than a millionth of the distribution lies between min and max; correct them";
         }
+    }
+    if (why == NULL && !(isfinite(mor_sweep_distribution_quantile(it, rare)) &&
+                         isfinite(mor_sweep_distribution_quantile(it, 1.0 - rare)))) {
+        why = "values are beyond the range of numbers; correct mean and deviation";
     }
     return why == NULL ? MOR_OK : MOR_CASE_NODE_FAIL(reader->context, node, "found a distribution whose %s", why);
 }

@@ -50,10 +50,6 @@ mor_status mor_sweep_write_command(mor_context *context, const mor_sweep_design 
     mor_sweep_design_settings(design, provenance->units, member, &settings);
     fprintf(out, "%s ", provenance->run_word);
     write_word(path, out);
-    for (int k = 0; k < provenance->n_settings; ++k) {
-        fprintf(out, " %s ", provenance->set_word);
-        write_word(provenance->settings[k], out);
-    }
     for (int k = 0; k < settings.n; ++k) {
         fprintf(out, " %s ", provenance->set_word);
         write_word(settings.texts[k], out);
@@ -69,9 +65,6 @@ void mor_sweep_write_design(const mor_sweep_design *design, const mor_sweep_prov
         mor_sweep_write_number(m, number);
         mor_sweep_design_settings(design, provenance->units, m, &settings);
         fprintf(out, "%s %s", number, mor_sweep_design_case(design, m));
-        for (int k = 0; k < provenance->n_settings; ++k) {
-            fprintf(out, " | %s", provenance->settings[k]);
-        }
         for (int k = 0; k < settings.n; ++k) {
             fprintf(out, " | %s", settings.texts[k]);
         }

@@ -18,8 +18,6 @@
 typedef struct mor_sweep_provenance {
     const char *run_word, *set_word; /* what runs a case, and what stands before a setting */
     const mor_units *units;
-    const char *const *settings; /* shape [n_settings] of "key=value": given beside the sweep file, set before it */
-    int n_settings;
     const char *version, *commit, *command; /* of the program */
     int n_threads;
     uint64_t sweep_hash; /* of the sweep file */

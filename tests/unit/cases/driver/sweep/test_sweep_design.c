@@ -222,6 +222,45 @@ static void wrong_files_are_refused_with_a_reason(void **state)
     }
 }
 
+/* Of two settings of one key the later would count, unseen. */
+static void keys_that_are_set_twice_are_refused(void **state)
+{
+    static const struct {
+        const char *text, *override, *part;
+    } wrong[] = {
+        {"case = 'c'; set = ( 'a = 1' ); vary = ( { key = 'a'; values = (1, 2); } );", NULL, "'a = 1' for all members"},
+        {"case = 'c'; vary = ( { key = 'a'; values = (1, 2); } );", "a=3", "'a=3' as an override"},
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('a=1'); } ); } );", "a=3",
+         "'a=3' as an override"},
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('a=1'); } ); },"
+         "                     { key = 'a'; values = (1); } );",
+         NULL, "'a=1' of another variable"},
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('a=1'); } ); },"
+         "                     { name = 'y'; choices = ( { label = 'l'; set = ('b=1', 'a=2'); } ); } );",
+         NULL, "'a=2' of another variable"}};
+    bench *b = *state;
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
+        assert_int_equal(read_text(b, wrong[k].text), MOR_OK);
+        b->sweep.overrides = &wrong[k].override;
+        b->sweep.n_overrides = wrong[k].override != NULL;
+        assert_int_equal(mor_sweep_design_make(&b->context, &b->sweep, &b->design), MOR_ERROR_CONFIG);
+        if (strstr(b->context.message, wrong[k].part) == NULL) {
+            fail_msg("'%s' does not hold '%s'", b->context.message, wrong[k].part);
+        }
+        mor_sweep_design_clear(&b->context, &b->design);
+        mor_sweep_clear(&b->context, &b->sweep);
+    }
+    /* A choice may differ from what is set for all; overrides come between the two. */
+    assert_int_equal(
+        read_text(b, "case = 'c'; set = ( 'a=1', 'd=1' ); vary = ( { name = 'x'; choices = ("
+                     "{ label = 'l'; }, { label = 'm'; set = ('a=2'); } ); }, { key = 'c.a'; values = (1); } );"),
+        MOR_OK);
+    b->sweep.overrides = (const char *const[]){"d=2"};
+    b->sweep.n_overrides = 1;
+    assert_int_equal(mor_sweep_design_make(&b->context, &b->sweep, &b->design), MOR_OK);
+    expect_settings(b, 1, "a=1 | d=1 | d=2 | a=2 | c.a=1");
+}
+
 static void too_many_members_are_refused(void **state)
 {
     bench *b = *state;
@@ -242,6 +281,7 @@ int main(void)
         WITH_BENCH(choices_leave_out_what_has_no_meaning_with_them),
         WITH_BENCH(combinations_share_their_latin_hypercube),
         WITH_BENCH(wrong_files_are_refused_with_a_reason),
+        WITH_BENCH(keys_that_are_set_twice_are_refused),
         WITH_BENCH(too_many_members_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

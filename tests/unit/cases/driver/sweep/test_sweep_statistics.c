@@ -80,7 +80,7 @@ static void order_of_values_changes_no_bit(void **state)
             continue;
         }
         mor_sweep_statistics_find(values, N, order == 0 ? &first : &it);
-        assert_true(order == 0 || memcmp(&first, &it, sizeof it) == 0);
+        assert_true(order == 0 || memcmp(&first.mean, &it.mean, sizeof it - offsetof(mor_sweep_statistics, mean)) == 0);
     }
 }
 
