@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Any bytes as a sweep file. Whatever they are, the reader must refuse them with a place, or give members whose settings
- * have a key and a value, and samples within their limits. */
+/* Any bytes as a sweep file. Whatever they are, the reader must refuse them with a place, or give members whose
+ * settings have a key and a value, and samples within their limits. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes);
 

@@ -466,6 +466,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_margin_keeps_curves_off_the_frame, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(bars_reach_from_end_to_end, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_logarithmic_axis_gives_decades_equal_room, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(long_texts_never_leave_their_place, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

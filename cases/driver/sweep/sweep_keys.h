@@ -10,7 +10,7 @@
  *  without effect, unseen. */
 
 /** Refuses a key that two variables set, and one of a variable that is set for all members as well. A choice may set
- *  what the sweep file sets for all: its value for the other choices. An override, given by hand, may not be set by any.
+ *  what the sweep file sets for all: its value for the other choices. What is given by hand may not be set by any.
  *  @param sweep [in]  whole, with overrides
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_sweep_keys_check(mor_context *context, const mor_sweep *sweep);
