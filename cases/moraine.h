@@ -352,6 +352,34 @@ mor_status mor_session_render(mor_session *session, const char *folder);
 mor_status mor_session_combine_maps(mor_session *session, const char *runs, const char *map, const char *value,
                                     const char *folder);
 
+/* ---- Sweeps ------------------------------------------------------------------------------------------------------ */
+
+/** How the members of a sweep ended. */
+typedef struct mor_session_sweep_counts {
+    int n_members;
+    int n_used;    /* ran to their end: statistics are over them */
+    int n_failed;  /* could not be built, or broke down; their reasons are in the results */
+    int n_missed;  /* of those used: missed an expectation of their case */
+    bool is_ended; /* nothing is left to be done; else it was stopped, and may be resumed */
+} mor_session_sweep_counts;
+
+/** Runs a sweep: an ensemble of runs of a case, of which the sweep file says what varies and what is asked. Each member
+ *  is a run by a session of its own with one thread, as mor_session_run in <folder>/members/NNN; as many as this
+ *  session has threads run at once, which changes no result. Overrides of this session hold for all members, its
+ *  materials too. Members that fail do not stop the others. Writes tables, sweep.json and charts once all have ended.
+ *  A case that this session holds stays. Guide: docs/guide/sweep.md.
+ *  @param path      [in]   zero-terminated; of the sweep file
+ *  @param folder    [in]   zero-terminated; made when missing; NULL: nothing runs, but the cases of all members are
+ *                          read, and what each would set is printed
+ *  @param is_resume [in]   go on with the sweep that the folder holds: members that have ended are kept, failed ones
+ *                          are tried again; else a folder that holds a sweep is refused
+ *  @param counts    [out]  one record
+ *  Returns: MOR_OK, also when members failed or it was stopped; MOR_ERROR_CONFIG for a sweep file or a case that is
+ *  wrong: every one is logged as an error before anything runs; likewise for a folder that cannot be made, holds
+ *  something else, is resumed with another sweep or is in use; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_sweep(mor_session *session, const char *path, const char *folder, bool is_resume,
+                             mor_session_sweep_counts *counts);
+
 /* ---- Reports: printed to the stream of mor_session_set_output ---------------------------------------------------- */
 
 /** Prints how many particles, bodies, walls and probes were built, and warns of what the method cannot resolve.
@@ -369,8 +397,8 @@ mor_status mor_session_explain(mor_session *session);
  *  @param index [in]  >= 0 */
 const char *mor_list_name(int index);
 
-/** Prints a list: materials (with those added), probes, fields, stages, shapes, keys of a case, or settings of element
- *  tests.
+/** Prints a list: materials (with those added), probes, fields, stages, shapes, keys of a case, settings of element
+ *  tests, or keys of a sweep.
  *  @param name [in]  zero-terminated; one of mor_list_name, else MOR_ERROR_ARGUMENT
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_IO when the stream refuses; MOR_ERROR_MEMORY. */
 mor_status mor_session_print_list(mor_session *session, const char *name);

@@ -452,3 +452,9 @@ mor_status mor_hdf5_file_get_number(mor_context *context, mor_hdf5_file *file, c
     H5Aclose(handle);
     return status;
 }
+
+bool mor_hdf5_file_is_thread_safe(void)
+{
+    hbool_t is_safe = false;
+    return H5is_library_threadsafe(&is_safe) >= 0 && is_safe;
+}

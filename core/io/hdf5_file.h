@@ -154,4 +154,7 @@ mor_status mor_hdf5_file_set_number(mor_context *context, mor_hdf5_file *file, c
 mor_status mor_hdf5_file_get_number(mor_context *context, mor_hdf5_file *file, const char *object,
                                     const char *attribute, mor_hdf5_kind kind, void *value);
 
+/** Whether several threads may work with files of their own at the same time: HDF5 was built for it. */
+bool mor_hdf5_file_is_thread_safe(void);
+
 #endif

@@ -512,12 +512,17 @@ static double read_number(const json_t *number)
     return json_is_null(number) ? NAN : json_number_value(number);
 }
 
-mor_status mor_summary_read_status(mor_context *context, const char *path, bool *is_failed)
+mor_status mor_summary_read_outcome(mor_context *context, const char *path, mor_summary_outcome *outcome)
 {
-    *is_failed = false;
+    *outcome = (mor_summary_outcome){.is_failed = false};
     json_t *document = NULL;
     MOR_TRY(context, load_document(context, path, &document));
-    *is_failed = strcmp(json_string_value(json_object_get(document, "status")), FAILED) == 0;
+    const json_t *expectations = json_object_get(document, "expect");
+    outcome->is_failed = strcmp(json_string_value(json_object_get(document, "status")), FAILED) == 0;
+    outcome->n_warnings = (int)json_array_size(json_object_get(document, "warnings"));
+    for (size_t k = 0; k < json_array_size(expectations); ++k) {
+        outcome->n_missed += !json_is_true(json_object_get(json_array_get(expectations, k), "pass"));
+    }
     json_decref(document);
     return MOR_OK;
 }

@@ -160,11 +160,18 @@ mor_status mor_summary_check(mor_context *context, const char *path);
 mor_status mor_summary_read_result(mor_context *context, const char *path, const char *probe, double *value, char *unit,
                                    size_t n_bytes);
 
-/** Returns whether a summary is of a run that failed, after checking the file.
- *  @param path      [in]      zero-terminated
- *  @param is_failed [out]     one flag
+/** How a run ended, as its summary tells. */
+typedef struct mor_summary_outcome {
+    bool is_failed; /* before its end */
+    int n_missed;   /* expectations that were not met; of a run that failed, all of them */
+    int n_warnings;
+} mor_summary_outcome;
+
+/** Reads how a run ended from a summary after checking the file.
+ *  @param path    [in]      zero-terminated
+ *  @param outcome [out]     one record
  *  Returns: MOR_OK; MOR_ERROR_IO. */
-mor_status mor_summary_read_status(mor_context *context, const char *path, bool *is_failed);
+mor_status mor_summary_read_outcome(mor_context *context, const char *path, mor_summary_outcome *outcome);
 
 /** Reads the statistics of a probe from a summary after checking the file.
  *  @param path       [in]      zero-terminated

@@ -273,22 +273,28 @@ static void charts_show_each_curve_and_refuse_gaps(void **state)
     assert_non_null(strstr(folder->context.message, "series 1 (computed): point 5"));
 }
 
+/* Whether a pixel has the color of a category. */
+static bool has_color(const mor_canvas *canvas, int category, int column, int row)
+{
+    double linear[3];
+    uint8_t rgb[3];
+    int difference = 0;
+    mor_colormap_category(category, linear);
+    mor_canvas_pixel(canvas, column, row, rgb);
+    for (int c = 0; c < 3; ++c) {
+        difference += abs(rgb[c] - (int)(255.0 * mor_colormap_encode(linear[c]) + 0.5));
+    }
+    return difference < 12;
+}
+
 /* Middle of the dots of a category, columns, left of a column; unit px. */
 static double find_dots(const mor_canvas *canvas, int category, int first, int last)
 {
-    double linear[3];
-    int color[3];
     double sum = 0.0;
     int n = 0;
-    mor_colormap_category(category, linear);
-    for (int c = 0; c < 3; ++c) {
-        color[c] = (int)(255.0 * mor_colormap_encode(linear[c]) + 0.5);
-    }
     for (int row = 0; row < 625; ++row) {
         for (int column = first; column < last; ++column) {
-            uint8_t rgb[3];
-            mor_canvas_pixel(canvas, column, row, rgb);
-            if (abs(rgb[0] - color[0]) + abs(rgb[1] - color[1]) + abs(rgb[2] - color[2]) < 12) {
+            if (has_color(canvas, category, column, row)) {
                 sum += column;
                 n += 1;
             }
@@ -296,6 +302,46 @@ static double find_dots(const mor_canvas *canvas, int category, int first, int l
     }
     assert_true(n > 10);
     return sum / n;
+}
+
+/* Rows from the first to the last that has the color of a category, between two columns; unit px. */
+static int measure_height(const mor_canvas *canvas, int category, int first, int last)
+{
+    int rows[2] = {625, 0};
+    for (int row = 0; row < 625; ++row) {
+        for (int column = first; column < last; ++column) {
+            if (has_color(canvas, category, column, row)) {
+                rows[0] = row < rows[0] ? row : rows[0];
+                rows[1] = row;
+            }
+        }
+    }
+    return rows[1] - rows[0];
+}
+
+/* Bars are as long as their intervals, and the axis holds them whole. */
+static void bars_reach_from_end_to_end(void **state)
+{
+    run_folder *folder = *state;
+    const double x[2] = {1.0, 2.0};
+    const double y[2] = {1.0, 1.0};
+    const double low[2] = {-8.0, 0.0};
+    double high[2] = {8.0, 4.0};
+    mor_chart_series series = {.x = x, .y = y, .low = low, .high = high, .n_points = 2, .style = MOR_CHART_POINTS};
+    const mor_chart chart = {.series = &series, .n_series = 1, .has_margin = true, .width = 1000, .height = 625};
+    mor_canvas *canvas = NULL;
+    assert_int_equal(mor_chart_draw(&folder->context, &chart, &canvas), MOR_OK);
+    const int long_bar = measure_height(canvas, 0, 0, 500);
+    const int short_bar = measure_height(canvas, 0, 500, 1000);
+    assert_true(long_bar > 350);
+    assert_near(short_bar, 0.25 * long_bar, 3.0); /* the width of a line */
+    mor_canvas_free(&folder->context, &canvas);
+    high[1] = INFINITY;
+    assert_int_equal(mor_chart_draw(&folder->context, &chart, &canvas), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(folder->context.message, "the bar of point 1"));
+    series.high = NULL;
+    assert_int_equal(mor_chart_draw(&folder->context, &chart, &canvas), MOR_ERROR_ARGUMENT);
+    assert_non_null(strstr(folder->context.message, "it needs both, or none"));
 }
 
 /* Dots at 1, 10 and 100 are evenly spaced where the axis is logarithmic. */
@@ -418,6 +464,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(light_falls_from_above, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(charts_show_each_curve_and_refuse_gaps, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_margin_keeps_curves_off_the_frame, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(bars_reach_from_end_to_end, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_logarithmic_axis_gives_decades_equal_room, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(long_texts_never_leave_their_place, run_folder_setup, run_folder_teardown),

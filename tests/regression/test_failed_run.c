@@ -64,10 +64,10 @@ static void check_last_snapshot(run_folder *folder, const char *run)
 static void check_folder(run_folder *folder, const char *run, const program_outcome *outcome)
 {
     char path[MOR_PATH_BYTES];
-    bool is_failed = false;
+    mor_summary_outcome summary;
     finished_run_file(folder, path, run, MOR_SUMMARY_FILE);
-    assert_int_equal(mor_summary_read_status(&folder->context, path, &is_failed), MOR_OK);
-    assert_true(is_failed);
+    assert_int_equal(mor_summary_read_outcome(&folder->context, path, &summary), MOR_OK);
+    assert_true(summary.is_failed);
     program_expect_text(outcome->output, "incomplete: the run stopped at t = ");
     program_expect_text(outcome->output, "kinetic_energy");
     check_last_snapshot(folder, run);
@@ -119,7 +119,7 @@ static void failed_run_goes_on_in_a_larger_domain(void **state)
     run_folder *folder = *state;
     char case_path[MOR_PATH_BYTES];
     char path[MOR_PATH_BYTES];
-    bool is_failed = true;
+    mor_summary_outcome summary;
     finished_run_store_case(folder, case_path);
     program_outcome outcome = fail_run(folder, "run", LEAVES, "seed=1", NULL);
     program_clear(&outcome);
@@ -127,8 +127,8 @@ static void failed_run_goes_on_in_a_larger_domain(void **state)
     outcome = program_run(folder, resumed, 0);
     program_clear(&outcome);
     finished_run_file(folder, path, "run", MOR_SUMMARY_FILE);
-    assert_int_equal(mor_summary_read_status(&folder->context, path, &is_failed), MOR_OK);
-    assert_false(is_failed);
+    assert_int_equal(mor_summary_read_outcome(&folder->context, path, &summary), MOR_OK);
+    assert_false(summary.is_failed);
     mor_snapshot_list list;
     assert_int_equal(mor_snapshot_list_init(&folder->context, &list, run_folder_file(folder, path, "run")), MOR_OK);
     assert_int_equal(list.n, 7);

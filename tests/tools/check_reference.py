@@ -13,6 +13,7 @@ FOLDER = "docs/reference"
 # page: what is listed, title, lead. A page without a title is printed by the program as it stands.
 PAGES = {
     "case_file.md": ("keys", None, None),
+    "sweep_file.md": ("sweep", None, None),
     "fields.md": ("fields", "Fields of particles", """
 Each line: name, components x [unit], whether snapshots hold it, meaning, and the stage or the material that writes it.
 Six components are a symmetric tensor in the order xx, yy, zz, xy, yz, zx; nine are a matrix by rows. Stress is positive

@@ -151,6 +151,7 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
     case MOR_OPTION_VALUE:
         command->value = value;
         return MOR_OK;
+    case MOR_OPTION_PLAN: /* given is all there is to know */
     case MOR_OPTION_HELP:
     case MOR_OPTION_VERSION: /* answered once the whole line is read */
     case MOR_OPTION_COUNT:

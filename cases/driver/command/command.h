@@ -32,6 +32,7 @@ typedef enum mor_command_option_kind {
     MOR_OPTION_SET,
     MOR_OPTION_RESUME,
     MOR_OPTION_STOP_AT,
+    MOR_OPTION_PLAN,
     MOR_OPTION_SPACING,
     MOR_OPTION_DIAMETER,
     MOR_OPTION_LENGTH,
@@ -158,7 +159,7 @@ bool mor_command_takes(const mor_command_info *info, mor_command_option_kind kin
 mor_status mor_command_build_case(mor_command *command);
 
 /** Names the folder of a case's results: runs/ and the name of the case's folder (or of its file, when that is not
- *  case.cfg), without the last extension, and a suffix.
+ *  case.cfg or sweep.cfg), without the last extension, and a suffix.
  *  @param suffix [in]   zero-terminated
  *  @param folder [out]  shape [MOR_COMMAND_PATH_BYTES]; zero-terminated
  *  Returns: MOR_OK; MOR_ERROR_CONFIG for a name that is too long. */

@@ -22,7 +22,8 @@ mor_status mor_command_name_folder(const mor_command *command, const char *suffi
     }
     char *file = strrchr(resolved, '/') + 1;
     const char *name = file;
-    if (strcmp(file, "case.cfg") == 0 && file > resolved + 1) {
+    const bool is_standard = strcmp(file, "case.cfg") == 0 || strcmp(file, "sweep.cfg") == 0;
+    if (is_standard && file > resolved + 1) {
         file[-1] = '\0';
         name = strrchr(resolved, '/') + 1;
     } else if (strrchr(file, '.') > file) {

@@ -4,10 +4,12 @@
 
 /* The one list of options. */
 const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
-    [MOR_OPTION_OUTPUT] = {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
-                           "run: runs/NAME; preview: runs/NAME-preview; relax: runs/relax-NAME; material: "
-                           "runs/material-NAME, of the soil or the model; maps: RUNS"},
-    [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE, "threads; results do not depend on their number",
+    [MOR_OPTION_OUTPUT] =
+        {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
+         "run: runs/NAME; sweep: runs/NAME-sweep; preview: runs/NAME-preview; relax: runs/relax-NAME; material: "
+         "runs/material-NAME, of the soil or the model; maps: RUNS"},
+    [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE,
+                            "threads, of a sweep members at once; results do not depend on their number",
                             "as many as the machine has cores"},
     [MOR_OPTION_SET] =
         {"set", 's', "KEY=VALUE", MOR_WORD_NONE,
@@ -21,6 +23,8 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_STOP_AT] = {"stop-at", '\0', "T", MOR_WORD_NONE,
                             "stop with a checkpoint once the simulated time reaches T, such as 0.5 or '20 ms'",
                             "the end of the case"},
+    [MOR_OPTION_PLAN] = {"plan", '\0', NULL, MOR_WORD_NONE,
+                         "read the cases of all members, print the command of each, and run nothing", "a sweep"},
     [MOR_OPTION_SPACING] = {"spacing", '\0', "L", MOR_WORD_NONE, "spacing of the particles, such as 0.05 or '5 cm'",
                             "it must be given"},
     [MOR_OPTION_DIAMETER] = {"diameter", '\0', "L", MOR_WORD_NONE,

@@ -7,6 +7,7 @@
     X(run)                                                                                                             \
     X(check)                                                                                                           \
     X(explain)                                                                                                         \
+    X(sweep)                                                                                                           \
     X(preview)                                                                                                         \
     X(relax)                                                                                                           \
     X(render)                                                                                                          \

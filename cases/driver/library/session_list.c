@@ -6,6 +6,7 @@
 
 #include "cases/driver/case/schema/case_schema.h"
 #include "cases/driver/element/element_settings.h"
+#include "cases/driver/sweep/sweep.h"
 #include "core/material/params.h"
 #include "core/material/plugin.h"
 #include "core/particle/field.h"
@@ -110,11 +111,17 @@ static void list_tests(const mor_registry *registry, FILE *out)
     mor_element_settings_print(out);
 }
 
+static void list_sweep(const mor_registry *registry, FILE *out)
+{
+    (void)registry;
+    mor_sweep_schema_print(out);
+}
+
 static const struct {
     const char *name;
     void (*print)(const mor_registry *registry, FILE *out);
 } lists[] = {{"materials", list_materials}, {"probes", list_probes}, {"fields", list_fields}, {"stages", list_stages},
-             {"shapes", list_shapes},       {"keys", list_keys},     {"tests", list_tests}};
+             {"shapes", list_shapes},       {"keys", list_keys},     {"tests", list_tests},   {"sweep", list_sweep}};
 
 enum { N_LISTS = sizeof lists / sizeof *lists };
 

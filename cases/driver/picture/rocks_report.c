@@ -94,8 +94,8 @@ static mor_status draw_curve(mor_context *context, const mor_case *the_case, int
         asked[1][k] = rocks->sizes[k].passing;
     }
     const mor_chart_series series[2] = {
-        {"requested", asked[0], asked[1], rocks->n_sizes, MOR_CHART_LINE, 0},
-        {"placed", room, room + rocks->n_rocks, n_rocks, MOR_CHART_POINTS, 0},
+        {.name = "requested", .x = asked[0], .y = asked[1], .n_points = rocks->n_sizes, .style = MOR_CHART_LINE},
+        {.name = "placed", .x = room, .y = room + rocks->n_rocks, .n_points = n_rocks, .style = MOR_CHART_POINTS},
     };
     const mor_chart chart = {.title = rocks->body.name,
                              .x_name = "diameter",

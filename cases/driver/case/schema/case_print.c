@@ -135,6 +135,11 @@ static void print_group(FILE *stream, int level, const mor_case_group *group, co
     }
 }
 
+void mor_case_schema_print_group(const mor_case_group *group, int level, const char *type, FILE *stream)
+{
+    print_group(stream, level, group, type);
+}
+
 static void print_probe_types(mor_case_probe_catalog catalog, FILE *stream)
 {
     fprintf(stream, "\n### Types of probes\n\nUnits in parentheses hold in plane strain. A key that a type does not "

@@ -239,6 +239,12 @@ mor_schema mor_case_key_schema(const mor_case_key *key, int dimension);
  *  @param name [in]  zero-terminated */
 int mor_case_key_find(const mor_case_key *keys, const char *name);
 
+/** Prints the keys and parts of a group as a table in Markdown, under a heading.
+ *  @param level  [in]      of the heading, 1 to 4
+ *  @param type   [in]      zero-terminated; word of the key type, which a shape has beside its keys; NULL: none
+ *  @param stream [in,out]  one open stream, to be checked by the caller */
+void mor_case_schema_print_group(const mor_case_group *group, int level, const char *type, FILE *stream);
+
 /** Prints the reference of case files in Markdown: every key of every group and every model.
  *  @param registry [in]      the models to list
  *  @param stream   [in,out]  one open stream, to be checked by the caller */

@@ -34,6 +34,8 @@ static mor_status check_series(mor_context *context, const mor_chart_series *ser
     MOR_CHECK(context, series->color_of >= 0 && series->color_of <= index, MOR_ERROR_ARGUMENT,
               "series %d (%s) has the color of series %d; allowed are those before it", index, name,
               series->color_of - 1);
+    MOR_CHECK(context, (series->low == NULL) == (series->high == NULL), MOR_ERROR_ARGUMENT,
+              "series %d (%s) has one end of its bars; it needs both, or none", index, name);
     MOR_CHECK(context, series->n_points >= 1 && series->x != NULL && series->y != NULL, MOR_ERROR_ARGUMENT,
               "series %d (%s) has %lld points; a series needs arrays of at least one point", index, name,
               (long long)series->n_points);
@@ -42,6 +44,13 @@ static mor_status check_series(mor_context *context, const mor_chart_series *ser
                   MOR_ERROR_ARGUMENT,
                   "series %d (%s): point %lld is (%g, %g); only finite numbers below %g can be drawn", index, name,
                   (long long)k, series->x[k], series->y[k], MOR_TICKS_LARGEST);
+        MOR_CHECK(context,
+                  series->low == NULL ||
+                      (fabs(series->low[k]) < MOR_TICKS_LARGEST && fabs(series->high[k]) < MOR_TICKS_LARGEST),
+                  MOR_ERROR_ARGUMENT,
+                  "series %d (%s): the bar of point %lld is from %g to %g; only finite numbers below "
+                  "%g can be drawn",
+                  index, name, (long long)k, series->low[k], series->high[k], MOR_TICKS_LARGEST);
         MOR_CHECK(context, !has_log_x || series->x[k] > 0.0, MOR_ERROR_ARGUMENT,
                   "series %d (%s): point %lld is (%g, %g); on a logarithmic axis x must be > 0", index, name,
                   (long long)k, series->x[k], series->y[k]);
@@ -82,8 +91,8 @@ static void find_side(sheet *s, int side)
         const mor_chart_series *series = chart->series + index;
         const double *values = side == 0 ? series->x : series->y;
         for (int64_t k = 0; k < series->n_points; ++k) {
-            low = fmin(low, values[k]);
-            high = fmax(high, values[k]);
+            low = fmin(low, side == 1 && series->low != NULL ? fmin(series->low[k], values[k]) : values[k]);
+            high = fmax(high, side == 1 && series->low != NULL ? fmax(series->high[k], values[k]) : values[k]);
         }
     }
     const char *unit = side == 0 ? chart->x_unit : chart->y_unit;
@@ -113,11 +122,15 @@ static void find_side(sheet *s, int side)
     s->axes.high[side] = high;
 }
 
+static void place_value(const sheet *s, double x, double y, double *place)
+{
+    const double value[2] = {s->chart->has_log_x ? log10(s->factor[0] * x) : s->factor[0] * x, s->factor[1] * y};
+    mor_axes_place(&s->axes, value, place);
+}
+
 static void place_point(const sheet *s, const mor_chart_series *series, int64_t k, double *place)
 {
-    const double x = s->factor[0] * series->x[k];
-    const double value[2] = {s->chart->has_log_x ? log10(x) : x, s->factor[1] * series->y[k]};
-    mor_axes_place(&s->axes, value, place);
+    place_value(s, series->x[k], series->y[k], place);
 }
 
 /* Colors are counted over the series that have one of their own. */
@@ -174,10 +187,29 @@ static mor_status draw_curve(mor_context *context, sheet *s, const mor_chart_ser
     return MOR_OK;
 }
 
+/* From one end to the other, with a short line across each. */
+static void draw_bars(sheet *s, int index)
+{
+    const mor_chart_series *series = s->chart->series + index;
+    const mor_canvas_pen pen = choose_pen(s, index, MOR_CHART_LINE);
+    for (int64_t k = 0; k < series->n_points && series->low != NULL; ++k) {
+        double ends[2][2];
+        place_value(s, series->x[k], series->low[k], ends[0]);
+        place_value(s, series->x[k], series->high[k], ends[1]);
+        mor_canvas_line(s->canvas, ends[0], 2, &pen);
+        for (int end = 0; end < 2; ++end) {
+            const double cap[4] = {ends[end][0] - 9.0 * s->unit, ends[end][1], ends[end][0] + 9.0 * s->unit,
+                                   ends[end][1]};
+            mor_canvas_line(s->canvas, cap, 2, &pen);
+        }
+    }
+}
+
 static mor_status draw_series(mor_context *context, sheet *s, int index)
 {
     const mor_chart_series *series = s->chart->series + index;
     const bool is_single = series->n_points == 1;
+    draw_bars(s, index);
     const mor_chart_style style = is_single ? MOR_CHART_POINTS : series->style;
     const mor_canvas_pen pen = choose_pen(s, index, style);
     if (style != MOR_CHART_POINTS) {
