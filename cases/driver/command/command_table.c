@@ -9,6 +9,7 @@
     X(explain)                                                                                                         \
     X(preview)                                                                                                         \
     X(relax)                                                                                                           \
+    X(fos)                                                                                                             \
     X(render)                                                                                                          \
     X(list)                                                                                                            \
     X(check_material)                                                                                                  \
