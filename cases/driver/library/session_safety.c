@@ -117,7 +117,7 @@ static mor_status write_mechanism(mor_session *session, const mor_safety *it, co
     const int n_sets = mor_simulation_sets(it->mechanism, false, sets);
     MOR_TRY(context, mor_durable_file_join(context, inner, folder, MECHANISM_FOLDER));
     MOR_TRY(context, mor_run_folder_make(context, inner));
-    MOR_TRY(context, mor_session_write_snapshot(session, inner, sets, n_sets));
+    MOR_TRY(context, mor_session_write_snapshot(session, inner, sets, n_sets, it->trials[it->mechanism_trial].seconds));
     if (session->the_case.dimension == 2) {
         return MOR_OK;
     }

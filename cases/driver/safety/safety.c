@@ -87,13 +87,27 @@ static void keep_mechanism(mor_context *context, mor_safety *it, mor_simulation 
     }
 }
 
+/* A computation that breaks down says nothing of the slope: such a trial is undecided, and the search goes on. */
+static mor_status accept_breakdown(mor_context *context, mor_safety_trial *trial, mor_status status)
+{
+    if (status != MOR_ERROR_NUMERIC || trial->n_samples == 0) {
+        return status;
+    }
+    trial->finding.verdict = MOR_SAFETY_UNDECIDED;
+    trial->finding.reason = "the computation broke down";
+    mor_context_log(context, MOR_LOG_WARNING, "the trial at F = %g broke down: %s", trial->factor, context->message);
+    mor_context_clear_error(context);
+    return MOR_OK;
+}
+
 /* Makes a trial; is_start: the state at its end becomes that which the others start from, if it stands. */
 static mor_status make_trial(mor_context *context, const mor_safety_request *request, mor_safety *it, double factor,
                              bool is_start)
 {
     mor_simulation *simulation = NULL;
     mor_safety_trial *trial = &it->trials[it->n_trials];
-    const mor_status status = mor_safety_trial_run(context, &it->setup, factor, trial, &simulation);
+    const mor_status status =
+        accept_breakdown(context, trial, mor_safety_trial_run(context, &it->setup, factor, trial, &simulation));
     it->is_stopped = is_stopping(request);
     if (status != MOR_OK || it->is_stopped) {
         MOR_FREE(context, &trial->samples);

@@ -7,7 +7,7 @@
 
 /** @file
  *  The critical body: what has moved more than a share of the largest displacement when a trial failed.
- *  Theory: docs/theory/strength_reduction.md (F7). */
+ *  Theory: docs/theory/strength_reduction.md (F4). */
 
 /** The body. Owner: the caller, who ends it with mor_safety_body_clear. */
 typedef struct mor_safety_body {

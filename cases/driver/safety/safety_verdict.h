@@ -8,7 +8,7 @@
 /** @file
  *  Whether a trial stands: two criteria on its history, which must agree. Numbers have no units: times are over
  *  sqrt(H / g), lengths over H, speeds over sqrt(g H), with H the height of the slope. It knows no particles.
- *  Theory: docs/theory/strength_reduction.md (F3) to (F6). */
+ *  Theory: docs/theory/strength_reduction.md (F2), (F3). */
 
 enum { MOR_SAFETY_SAMPLES_MAX = 1024 };
 
