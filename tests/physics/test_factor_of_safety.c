@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#define SLOPE MOR_SOURCE_DIR "/cases/cohesive-slope/case.cfg"
+
 static const double pi = 3.14159265358979323846;
 
 /* What the leak sanitizer is to ignore: Fontconfig keeps what it knows of fonts until the process ends. */
@@ -59,22 +61,32 @@ static double find_factor(double weight, double height, double cohesion, double 
 
 /* ---- Searches ---------------------------------------------------------------------------------------------------- */
 
-/* Searches with settings, a list ended by NULL, into a folder of the scratch folder; returns the status. */
-static mor_status search(run_folder *folder, const char *name, const char *case_path, const char *const *settings,
-                         int n_threads, char *message)
+/* What is asked; settings are a list ended by NULL. */
+typedef struct question {
+    const char *name; /* of the folder in the scratch folder */
+    const char *case_path;
+    const char *const *settings;
+    const char *spacings; /* NULL: that of the case */
+    int n_threads;
+} question;
+
+/* Searches; returns the status. */
+static mor_status search(run_folder *folder, const question *it, char *message)
 {
+    const char *const *settings = it->settings;
     char path[MOR_PATH_BYTES];
     mor_session *session = NULL;
     mor_session_safety options;
     bool is_found = false;
     assert_int_equal(mor_session_new(&session), MOR_OK);
-    assert_int_equal(mor_session_set_threads(session, n_threads), MOR_OK);
+    assert_int_equal(mor_session_set_threads(session, it->n_threads), MOR_OK);
     for (; *settings != NULL; ++settings) {
         assert_int_equal(mor_session_override(session, *settings), MOR_OK);
     }
     mor_session_safety_init(&options);
+    options.spacings = it->spacings;
     const mor_status status =
-        mor_session_find_safety(session, case_path, &options, run_folder_file(folder, path, name), &is_found);
+        mor_session_find_safety(session, it->case_path, &options, run_folder_file(folder, path, it->name), &is_found);
     snprintf(message, MOR_CONTEXT_MESSAGE_BYTES, "%s", mor_session_message(session));
     mor_session_free(&session);
     assert_true(status != MOR_OK || is_found);
@@ -119,12 +131,13 @@ static void cohesive_slope_has_the_factor_of_limit_analysis(void **state)
     double stable = 0.0;
     double fails = 0.0;
     const double expected = find_factor(2038.74 * 9.81, 5.0, 10694.0, 20.0 * pi / 180.0, 60.0 * pi / 180.0);
-    assert_int_equal(search(folder, "one", MOR_SOURCE_DIR "/cases/cohesive-slope/case.cfg", coarse, 1, message),
-                     MOR_OK);
+    question it = {.name = "one", .case_path = SLOPE, .settings = coarse, .n_threads = 1};
+    assert_int_equal(search(folder, &it, message), MOR_OK);
     read_band(folder, "one", &stable, &fails);
     assert_true(fabs(0.5 * (stable + fails) / expected - 1.0) < 0.03); /* a spacing of H / 10 only */
-    assert_int_equal(search(folder, "two", MOR_SOURCE_DIR "/cases/cohesive-slope/case.cfg", coarse, 2, message),
-                     MOR_OK);
+    it.name = "two";
+    it.n_threads = 2;
+    assert_int_equal(search(folder, &it, message), MOR_OK);
     static const char *const files[] = {"trials.csv", "history.csv"};
     for (int k = 0; k < 2; ++k) { /* exact: results do not depend on the number of threads, nor on another try */
         char *left = load(folder, "one", files[k]);
@@ -153,10 +166,15 @@ static void strong_block_has_the_factor_of_coulomb(void **state)
     double stable = 0.0;
     double fails = 0.0;
     run_folder_store(run_folder_file(folder, path, "block.cfg"), block, strlen(block));
-    if (search(folder, "block", path, none, 1, message) != MOR_OK) {
+    const question it = {
+        .name = "block", .case_path = path, .settings = none, .spacings = "0.1 m, 5 cm", .n_threads = 1};
+    if (search(folder, &it, message) != MOR_OK) {
         fail_msg("%s", message);
     }
-    read_band(folder, "block", &stable, &fails);
+    char *table = load(folder, "block", "spacings.csv");
+    assert_non_null(strstr(table, "smallest_failing [1]"));
+    free(table);
+    read_band(folder, "block/spacing-0.05", &stable, &fails);
     const double expected = 0.5 / tan(17.0 * pi / 180.0);
     assert_true(0.5 * (stable + fails) / expected < 1.03);
     assert_true(0.5 * (stable + fails) / expected > 0.85); /* 3 % were measured: the front edge lifts */
@@ -174,12 +192,43 @@ static void cases_without_a_strength_to_reduce_are_refused(void **state)
     char message[MOR_CONTEXT_MESSAGE_BYTES];
     for (size_t k = 0; k < sizeof faults / sizeof *faults; ++k) {
         const char *const settings[] = {faults[k].setting, "numerics.gravity_ramp=0", NULL};
-        assert_int_equal(
-            search(folder, "refused", MOR_SOURCE_DIR "/cases/cohesive-slope/case.cfg", settings, 1, message),
-            MOR_ERROR_CONFIG);
+        const question it = {.name = "refused", .case_path = SLOPE, .settings = settings, .n_threads = 1};
+        assert_int_equal(search(folder, &it, message), MOR_ERROR_CONFIG);
         if (strstr(message, faults[k].part) == NULL) {
             fail_msg("the message is '%s'; it does not hold '%s'", message, faults[k].part);
         }
+    }
+}
+
+static void options_out_of_range_are_refused_with_what_is_allowed(void **state)
+{
+    static const struct {
+        mor_session_safety options;
+        const char *part;
+    } faults[] = {{{-1.0, NAN, 0.01, NAN, NULL}, "lower factor of -1"},
+                  {{NAN, NAN, 0.01, NAN, NULL}, "lower factor"},
+                  {{0.5, 0.4, 0.01, NAN, NULL}, "upper factor of 0.4"},
+                  {{0.5, 65.0, 0.01, NAN, NULL}, "at most 64"},
+                  {{0.5, NAN, 0.0, NAN, NULL}, "tolerance of 0"},
+                  {{0.5, NAN, NAN, NAN, NULL}, "tolerance"},
+                  {{0.5, NAN, 0.01, 0.0, NULL}, "height"},
+                  {{0.5, NAN, 0.01, NAN, ""}, "empty list"},
+                  {{0.5, NAN, 0.01, NAN, "1 m,,2 m"}, "spacings"},
+                  {{0.5, NAN, 0.01, NAN, "1 kg"}, "spacing"}};
+    run_folder *folder = *state;
+    for (size_t k = 0; k < sizeof faults / sizeof *faults; ++k) {
+        char path[MOR_PATH_BYTES];
+        mor_session *session = NULL;
+        bool is_found = false;
+        assert_int_equal(mor_session_new(&session), MOR_OK);
+        assert_int_equal(mor_session_find_safety(session, SLOPE, &faults[k].options,
+                                                 run_folder_file(folder, path, "refused"), &is_found),
+                         MOR_ERROR_CONFIG);
+        if (strstr(mor_session_message(session), faults[k].part) == NULL) {
+            fail_msg("the message is '%s'; it does not hold '%s'", mor_session_message(session), faults[k].part);
+        }
+        mor_session_free(&session);
+        assert_int_not_equal(access(path, F_OK), 0); /* nothing is left behind */
     }
 }
 
@@ -190,6 +239,8 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(strong_block_has_the_factor_of_coulomb, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(cases_without_a_strength_to_reduce_are_refused, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(options_out_of_range_are_refused_with_what_is_allowed, run_folder_setup,
                                         run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

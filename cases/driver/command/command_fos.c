@@ -23,8 +23,10 @@ static mor_status read_numbers(const mor_command *command, const mor_units *unit
             continue;
         }
         const mor_status status = mor_units_convert(command->context, units, text, numbers[k].unit, numbers[k].value);
-        MOR_CHECK(command->context, status == MOR_OK, MOR_ERROR_CONFIG, "found --%s '%s': %s",
-                  mor_command_options[numbers[k].kind].name, text, command->context->message);
+        MOR_CHECK(command->context, status == MOR_OK, MOR_ERROR_CONFIG,
+                  "found --%s '%s': %s; allowed is a number in the unit %s, such as '%s'",
+                  mor_command_options[numbers[k].kind].name, text, command->context->message, numbers[k].unit,
+                  numbers[k].kind == MOR_OPTION_HEIGHT ? "10 m" : "0.9");
     }
     return MOR_OK;
 }

@@ -17,6 +17,7 @@ static const double title_room = 120.0;     /* px, above the plot: title and leg
 static const double bar_room = 190.0;       /* px, right of the plot: color bar */
 static const double right_margin = 40.0;    /* px, of the color bar's numbers */
 static const double highest_percent = 0.99; /* of the particles lie within the colors */
+static const double overlap = 1.04;         /* of neighboring squares, which would show a hairline between them */
 static const double rock_color[3] = {0.62, 0.62, 0.60};
 static const double outline_color[3] = {0.85, 0.05, 0.10};
 
@@ -140,7 +141,7 @@ static void draw_soil(const sheet *s)
         double color[3];
         place_of(s, id, x);
         find_color(s, s->values[id] / s->top, color);
-        draw_square(s, x, spacing, color);
+        draw_square(s, x, overlap * spacing, color);
     }
 }
 
@@ -246,8 +247,8 @@ static void draw_bar(const sheet *s, const char *name, const char *unit)
         find_color(s, (k + 0.5) / STEPS, color);
         const mor_canvas_pen pen = {.color = {color[0], color[1], color[2]}, .opacity = 1.0};
         const double height = plot[3] / STEPS;
-        mor_canvas_rectangle(s->canvas,
-                             (const double[4]){left, plot[1] + plot[3] - (k + 1) * height, 30.0, height + 0.5}, &pen);
+        mor_canvas_rectangle(
+            s->canvas, (const double[4]){left, plot[1] + plot[3] - (k + 1) * height, 30.0, overlap * height}, &pen);
     }
     const mor_ticks ticks = mor_ticks_choose(0.0, prefix * s->top, LABEL_TICKS);
     const mor_canvas_font font = {.size = text_size};
