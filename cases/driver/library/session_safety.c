@@ -156,7 +156,9 @@ static mor_status find(mor_session *session, const mor_session_safety *options, 
         .report = session->progress != NULL ? show_progress : NULL,
         .user = &progress,
         .output = session->output};
+    mor_stop_enter(&session->stop, MOR_STOP_AFTER_STEP); /* a stop is waited for: the trials so far are written */
     const mor_status status = mor_safety_find(&session->context, &request, it);
+    mor_stop_enter(&session->stop, MOR_STOP_AT_ONCE);
     mor_run_progress_end(&progress);
     MOR_TRY(&session->context, status);
     return it->n_trials > 0 ? write_results(session, it, &request, folder) : MOR_OK;
