@@ -18,6 +18,7 @@ static const double bar_room = 190.0;       /* px, right of the plot: color bar 
 static const double right_margin = 40.0;    /* px, of the color bar's numbers */
 static const double highest_percent = 0.99; /* of the particles lie within the colors */
 static const double overlap = 1.04;         /* of neighboring squares, which would show a hairline between them */
+static const double rock_overlap = 1.3;     /* likewise of rocks, whose particles stand on no lattice */
 static const double rock_color[3] = {0.62, 0.62, 0.60};
 static const double outline_color[3] = {0.85, 0.05, 0.10};
 
@@ -155,7 +156,7 @@ static void draw_rocks(const sheet *s)
         for (int64_t i = 0; i < sets[k]->n_particles; ++i) {
             double place[3];
             mor_simulation_take_point_back(c, sets[k]->data[MOR_FIELD_POSITION] + 3 * i, place);
-            draw_square(s, place, c->spacing, rock_color);
+            draw_square(s, place, rock_overlap * c->spacing, rock_color);
         }
     }
 }
@@ -278,7 +279,8 @@ static void draw_title(const sheet *s, mor_mechanism_color color)
     const mor_canvas_pen pen = {
         .width = 4.0, .color = {outline_color[0], outline_color[1], outline_color[2]}, .opacity = 1.0};
     mor_canvas_line(s->canvas, (const double[4]){left, 98.0, left + 50.0, 98.0}, 2, &pen);
-    snprintf(text, sizeof text, "critical body: moved more than %.3g m; %.4g m²", it->body.limit, it->body.volume);
+    snprintf(text, sizeof text, "critical body: soil that moved more than %.3g m; %.4g m²", it->body.limit,
+             it->body.volume);
     mor_canvas_text(s->canvas, (const double[2]){left + 60.0, 98.0}, text, &font);
 }
 

@@ -204,7 +204,8 @@ static void print_body(const mor_safety *it, FILE *out)
     const mor_safety_body *body = &it->body;
     const bool is_plane = it->setup.reduced->original->dimension == 2;
     fprintf(out,
-            "critical body at F = %.5g: %s %.4g %s, %" PRId64 " particles that moved more than %.3g m (%.2g of the "
+            "critical body at F = %.5g: soil of %s %.4g %s, %" PRId64
+            " particles that moved more than %.3g m (%.2g of the "
             "largest displacement)\n",
             it->trials[it->mechanism_trial].factor, is_plane ? "area" : "volume", body->volume, is_plane ? "m2" : "m3",
             body->n, body->limit, body->share);
