@@ -123,6 +123,23 @@ static void read_band(run_folder *folder, const char *name, double *stable, doub
     assert_true(*fails - *stable <= 0.0101); /* the tolerance: nothing was undecided */
 }
 
+/* The critical body leaves the level crest behind its edge, and the face of the slope near its toe. */
+static void expect_ends_on_the_surface(run_folder *folder, const char *name, double spacing)
+{
+    char *text = load(folder, name, "fos.json");
+    const double top[2] = {read_number(text, "\"top_x [m]\": "), read_number(text, "\"top_y [m]\": ")};
+    const double toe[2] = {read_number(text, "\"toe_x [m]\": "), read_number(text, "\"toe_y [m]\": ")};
+    const double area = read_number(text, "\"area [m2]\": ");
+    free(text);
+    assert_true(fabs(top[1] - 7.0) < 0.5 * spacing); /* elastic settlement; half a spacing is a row */
+    assert_true(top[0] > 6.887 + 1.0 && top[0] < 6.887 + 4.0);
+    assert_true(fabs(toe[1] - 2.0 - tan(pi / 3.0) * (toe[0] - 4.0)) < 2.0 * spacing); /* the staircase of the face */
+    assert_true(toe[1] < 2.0 + 0.4 * 5.0);
+    /* Between the triangle of toe, crest and upper end, and twice that: the band is curved. */
+    const double triangle = 0.5 * 5.0 * (top[0] - 6.887);
+    assert_true(area > triangle && area < 2.0 * triangle);
+}
+
 static void cohesive_slope_has_the_factor_of_limit_analysis(void **state)
 {
     static const char *const coarse[] = {"spacing=0.5 m", NULL};
@@ -135,6 +152,7 @@ static void cohesive_slope_has_the_factor_of_limit_analysis(void **state)
     assert_int_equal(search(folder, &it, message), MOR_OK);
     read_band(folder, "one", &stable, &fails);
     assert_true(fabs(0.5 * (stable + fails) / expected - 1.0) < 0.03); /* a spacing of H / 10 only */
+    expect_ends_on_the_surface(folder, "one", 0.5);
     it.name = "two";
     it.n_threads = 2;
     assert_int_equal(search(folder, &it, message), MOR_OK);
