@@ -429,6 +429,34 @@ mor_status mor_session_check_material(mor_session *session, const char *name, in
  *  MOR_ERROR_NUMERIC when the law fails: results up to there are written; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_test_material(mor_session *session, const char *model, const char *folder);
 
+/** How a factor of safety is looked for. */
+typedef struct mor_session_safety {
+    double lower;         /* factor of the state that trials start from, > 0, 1; halved where soil does not stand */
+    double upper;         /* first factor that is tried above it, 1; NaN: 1, then twice the last one */
+    double tolerance;     /* width of the band, 0.0001 to 1, 1 */
+    double height;        /* of the slope, over which displacements are judged, m; NaN: that of the soil's surface */
+    const char *spacings; /* zero-terminated list, as "1 m, 0.5 m"; NULL: the spacing of the case */
+} mor_session_safety;
+
+/** Fills in the usual options: from 0.5 on, to 0.01, at the spacing of the case.
+ *  @param options [out]  one record */
+void mor_session_safety_init(mor_session_safety *options);
+
+/** Finds the factor of safety of a case by reducing the strength of its soil, at each of the spacings; prints trials,
+ *  band and critical body, writes fos.json, trials.csv, history.csv, pictures and the state of the first trial that
+ *  failed. Several spacings have a folder each, and a table in spacings.csv. The case is loaded in place of the case
+ *  before, with overrides. Guide: docs/guide/factor_of_safety.md.
+ *  @param path     [in]   zero-terminated; of the case
+ *  @param options  [in]   one record
+ *  @param folder   [in]   zero-terminated; made when missing; one that holds a run is refused
+ *  @param is_found [out]  whether both ends of the band were found at each spacing
+ *  Returns: MOR_OK, also when a stop was requested: the trials so far are written; MOR_ERROR_CONFIG for options out of
+ *  range, a case that cannot be read or built, soil whose law tells no strength, and for a folder that holds a run or
+ *  cannot be made; MOR_NOT_CONVERGED when the soil does not come to rest at the lower factor nor at smaller ones;
+ *  MOR_ERROR_NUMERIC when the computation broke down; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_find_safety(mor_session *session, const char *path, const mor_session_safety *options,
+                                   const char *folder, bool *is_found);
+
 /** Which length or volume of a mesh is given. */
 typedef enum mor_session_size {
     MOR_SESSION_SIZE_OF_FILE,  /* none: lengths are those of the file, in meters */

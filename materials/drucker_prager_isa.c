@@ -339,18 +339,21 @@ static const mor_schema PARAMETERS[] = {
                                             .maximum = INFINITY,
                                             .text = "plastic strain at which friction, cohesion and dilation have "
                                                     "become the residual ones; 0: they do not change"},
-    [MOR_DRUCKER_PRAGER_RESIDUAL_FRICTION_ANGLE] = MOR_FRICTIONAL_ANGLE_SCHEMA(
-        "residual_friction_angle", "friction angle from residual_strain on; 0: as friction_angle"),
+    [MOR_DRUCKER_PRAGER_RESIDUAL_FRICTION_ANGLE] =
+        MOR_FRICTIONAL_ANGLE_SCHEMA("residual_friction_angle", MOR_ROLE_RESIDUAL_FRICTION_ANGLE,
+                                    "friction angle from residual_strain on; 0: as friction_angle"),
     [MOR_DRUCKER_PRAGER_RESIDUAL_COHESION] =
         {.key = "residual_cohesion",
+         .role = MOR_ROLE_RESIDUAL_COHESION,
          .kind = MOR_SCHEMA_REAL,
          .n_components = 1,
          .unit = "Pa",
          .minimum = 0.0,
          .maximum = INFINITY,
          .text = "cohesion from residual_strain on; 0, also where it is left out: all of it is lost"},
-    [MOR_DRUCKER_PRAGER_RESIDUAL_DILATION_ANGLE] = MOR_FRICTIONAL_ANGLE_SCHEMA(
-        "residual_dilation_angle", "dilation angle from residual_strain on; 0: shear at constant volume"),
+    [MOR_DRUCKER_PRAGER_RESIDUAL_DILATION_ANGLE] =
+        MOR_FRICTIONAL_ANGLE_SCHEMA("residual_dilation_angle", MOR_ROLE_RESIDUAL_DILATION_ANGLE,
+                                    "dilation angle from residual_strain on; 0: shear at constant volume"),
     [MOR_DRUCKER_PRAGER_COUNT] = {.key = NULL},
 };
 

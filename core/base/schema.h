@@ -35,6 +35,10 @@ typedef enum mor_role {
     MOR_ROLE_SUB_STEPS_MAX,      /* a whole number, 1 */
     MOR_ROLE_GAS_DENSITY_RATIO,  /* density below which soil has no stress, over its first one; 0: none; 1 */
     MOR_ROLE_FIELD_TIME_SCALE,   /* of the field of a nonlocal law, s: soils that share the field share it */
+    /* Strength once softening is complete. */
+    MOR_ROLE_RESIDUAL_FRICTION_ANGLE, /* 0: the friction angle stays; rad */
+    MOR_ROLE_RESIDUAL_COHESION,       /* Pa */
+    MOR_ROLE_RESIDUAL_DILATION_ANGLE, /* rad */
     MOR_ROLE_COUNT
 } mor_role;
 

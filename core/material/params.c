@@ -62,6 +62,9 @@ static const struct {
     [MOR_ROLE_SUB_STEPS_MAX] = {"largest number of sub-steps", "1", NULL},
     [MOR_ROLE_GAS_DENSITY_RATIO] = {"gas density ratio", "1", NULL},
     [MOR_ROLE_FIELD_TIME_SCALE] = {"time scale of the field", "s", NULL},
+    [MOR_ROLE_RESIDUAL_FRICTION_ANGLE] = {"residual friction angle", "rad", NULL},
+    [MOR_ROLE_RESIDUAL_COHESION] = {"residual cohesion", "Pa", NULL},
+    [MOR_ROLE_RESIDUAL_DILATION_ANGLE] = {"residual dilation angle", "rad", NULL},
 };
 
 const char *mor_role_text(mor_role role)

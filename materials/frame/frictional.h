@@ -36,10 +36,10 @@
         .text = "dilation angle, at most the friction angle"                                                           \
     }
 
-/** Schema entry of an angle without a role, from 0, which is the default, to below a right angle. */
-#define MOR_FRICTIONAL_ANGLE_SCHEMA(word, line)                                                                        \
+/** Schema entry of a further angle, from 0, which is the default, to below a right angle; part is its role. */
+#define MOR_FRICTIONAL_ANGLE_SCHEMA(word, part, line)                                                                  \
     {                                                                                                                  \
-        .key = (word), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "rad", .minimum = 0.0,                      \
+        .key = (word), .role = (part), .kind = MOR_SCHEMA_REAL, .n_components = 1, .unit = "rad", .minimum = 0.0,      \
         .maximum = 1.57079632679489662, .excludes_maximum = 1, .text = (line)                                          \
     }
 

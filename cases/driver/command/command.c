@@ -137,6 +137,13 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
         return set_stop(command, value);
     case MOR_OPTION_PLUGIN:
         return add_plugin(command, value);
+    case MOR_OPTION_LOWER:
+    case MOR_OPTION_UPPER:
+    case MOR_OPTION_TOLERANCE:
+    case MOR_OPTION_SPACINGS:
+    case MOR_OPTION_HEIGHT:
+        command->words[kind] = value;
+        return MOR_OK;
     case MOR_OPTION_PATH:
     case MOR_OPTION_STRESS:
     case MOR_OPTION_STRAIN:

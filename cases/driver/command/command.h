@@ -20,6 +20,7 @@ enum {
     MOR_EXIT_FAILED = 1,    /* the run failed */
     MOR_EXIT_BAD_INPUT = 2, /* the command line or the case is wrong */
     MOR_EXIT_MISSED = 3,    /* an expectation was missed */
+    MOR_EXIT_UNBOUNDED = 3, /* one end of a band was not found */
     MOR_EXIT_INTERRUPTED = 130
 };
 
@@ -47,6 +48,11 @@ typedef enum mor_command_option_kind {
     MOR_OPTION_REPLAY,
     MOR_OPTION_MAP,
     MOR_OPTION_VALUE,
+    MOR_OPTION_LOWER,
+    MOR_OPTION_UPPER,
+    MOR_OPTION_TOLERANCE,
+    MOR_OPTION_SPACINGS,
+    MOR_OPTION_HEIGHT,
     MOR_OPTION_HELP,
     MOR_OPTION_VERSION,
     MOR_OPTION_COUNT
@@ -117,6 +123,7 @@ typedef struct mor_command {
     const char *map;                      /* of maps; NULL: not asked */
     const char *value;                    /* of maps, as written; NULL: not asked */
     const char *sizes[MOR_SESSION_SIZES]; /* by mor_session_size, of relax, as written; NULL: not asked */
+    const char *words[MOR_OPTION_COUNT];  /* values, as written, of options that fos reads itself; NULL: not asked */
     char line[MOR_COMMAND_TEXT_BYTES];    /* the whole command line */
     FILE *output;                         /* results */
     FILE *errors;                         /* messages */

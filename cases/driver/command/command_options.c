@@ -6,7 +6,8 @@
 const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_OUTPUT] =
         {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
-         "run: runs/NAME; sweep: runs/NAME-sweep; preview: runs/NAME-preview; relax: runs/relax-NAME; material: "
+         "run: runs/NAME; sweep: runs/NAME-sweep; fos: runs/NAME-fos; preview: runs/NAME-preview; relax: "
+         "runs/relax-NAME; material: "
          "runs/material-NAME, of the soil or the model; maps: RUNS"},
     [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE,
                             "threads, of a sweep members at once; results do not depend on their number",
@@ -56,6 +57,17 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
     [MOR_OPTION_VALUE] = {"value", '\0', "X", MOR_WORD_NONE,
                           "from which on a cell counts (of an arrival: up to which), such as '0.5 m'",
                           "it must be given"},
+    [MOR_OPTION_LOWER] = {"lower", '\0', "F", MOR_WORD_NONE,
+                          "factor of the state that trials start from, at which the soil must stand", "0.5"},
+    [MOR_OPTION_UPPER] = {"upper", '\0', "F", MOR_WORD_NONE, "first factor that is tried above it",
+                          "1, then twice the last one until the soil fails"},
+    [MOR_OPTION_TOLERANCE] = {"tolerance", '\0', "D", MOR_WORD_NONE, "width of the band of factors that is looked for",
+                              "0.01"},
+    [MOR_OPTION_SPACINGS] = {"spacings", '\0', "L,L,...", MOR_WORD_NONE,
+                             "finds it at several spacings and compares them, such as '1 m, 0.5 m, 0.25 m'",
+                             "the spacing of the case"},
+    [MOR_OPTION_HEIGHT] = {"height", '\0', "L", MOR_WORD_NONE,
+                           "height of the slope, over which displacements are judged", "that of the soil's surface"},
     [MOR_OPTION_HELP] = {"help", 'h', NULL, MOR_WORD_NONE, "what there is; behind a command, what that command does",
                          NULL},
     [MOR_OPTION_VERSION] = {"version", '\0', NULL, MOR_WORD_NONE, "version and commit", NULL}};

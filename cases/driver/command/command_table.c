@@ -10,6 +10,7 @@
     X(sweep)                                                                                                           \
     X(preview)                                                                                                         \
     X(relax)                                                                                                           \
+    X(fos)                                                                                                             \
     X(render)                                                                                                          \
     X(maps)                                                                                                            \
     X(list)                                                                                                            \

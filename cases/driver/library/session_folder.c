@@ -87,12 +87,13 @@ mor_status mor_session_preview(mor_session *session, const char *folder)
     MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
     MOR_TRY(context, mor_durable_file_join(context, images, folder, "images"));
     MOR_TRY(context, mor_run_folder_make(context, images));
-    MOR_TRY(context, mor_session_write_snapshot(session, folder, sets, n_sets));
+    MOR_TRY(context, mor_session_write_snapshot(session, folder, sets, n_sets, 0.0));
     mor_rocks_report_print(&session->the_case, session->output);
     return mor_pictures_render(context, &session->the_case, folder, MOR_PICTURES_FIRST, session->output);
 }
 
-mor_status mor_session_write_snapshot(mor_session *session, const char *folder, mor_set *const *sets, int n_sets)
+mor_status mor_session_write_snapshot(mor_session *session, const char *folder, mor_set *const *sets, int n_sets,
+                                      double time)
 {
     mor_context *context = &session->context;
     mor_snapshot_writer writer;
@@ -100,7 +101,7 @@ mor_status mor_session_write_snapshot(mor_session *session, const char *folder, 
         {"version", mor_version()}, {"commit", mor_commit()}, {"command", session->command}};
     const mor_snapshot_options options = {.facts = facts, .n_facts = 3};
     MOR_TRY(context, mor_snapshot_writer_init(context, &writer, folder, &options, -1));
-    const mor_status status = mor_snapshot_writer_add(context, &writer, sets, n_sets, 0, 0.0);
+    const mor_status status = mor_snapshot_writer_add(context, &writer, sets, n_sets, 0, time);
     mor_snapshot_writer_clear(context, &writer);
     return status;
 }

@@ -93,7 +93,9 @@ void mor_session_set_folder(mor_session *session, const char *folder, bool is_re
 /** Writes particle sets as the only snapshot of a folder.
  *  @param folder [in]  zero-terminated; there already
  *  @param sets   [in]  shape [n_sets]
+ *  @param time   [in]  that the snapshot tells, s
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
-mor_status mor_session_write_snapshot(mor_session *session, const char *folder, mor_set *const *sets, int n_sets);
+mor_status mor_session_write_snapshot(mor_session *session, const char *folder, mor_set *const *sets, int n_sets,
+                                      double time);
 
 #endif

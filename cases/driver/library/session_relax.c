@@ -235,7 +235,7 @@ static mor_status write_snapshot(mor_session *session, const filling *it, const 
     MOR_TRY(context, mor_set_init(context, &set, "particles", it->points.n_points, 1u << MOR_FIELD_POSITION));
     mor_status status = fill_set(context, it, &set);
     if (status == MOR_OK) {
-        status = mor_session_write_snapshot(session, folder, sets, 1);
+        status = mor_session_write_snapshot(session, folder, sets, 1, 0.0);
     }
     mor_set_clear(context, &set);
     if (status == MOR_OK) {

@@ -1,0 +1,204 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/safety/safety.h"
+
+#include "cases/driver/probe/probe_track.h"
+#include "cases/driver/scene/build/simulation_build.h"
+#include "cases/driver/scene/check/simulation_warnings.h"
+#include "core/base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The lower bound is halved so often where soil does not stand at it. */
+enum { HALVES_MAX = 4 };
+
+static bool is_stopping(const mor_safety_request *request)
+{
+    return request->stop != NULL && *request->stop != 0;
+}
+
+/* ---- The state at the start -------------------------------------------------------------------------------------- */
+
+/* Brings the weight onto the soil as the case asks. */
+static mor_status load(mor_context *context, const mor_safety_request *request, const mor_safety *it,
+                       mor_simulation *simulation)
+{
+    const mor_reduced_case *reduced = it->setup.reduced;
+    const mor_settle_observer observer = {.stop = request->stop};
+    MOR_TRY(context, mor_simulation_settle(context, simulation, &observer));
+    mor_schedule *schedule = &simulation->schedule;
+    const int64_t until = reduced->start == MOR_REDUCED_RAMPED ? mor_schedule_ticks(schedule, reduced->loaded) : 0;
+    while (schedule->now < until && !is_stopping(request)) {
+        MOR_TRY(context, mor_schedule_step(context, schedule, until));
+    }
+    return MOR_OK;
+}
+
+static mor_status prepare(mor_context *context, const mor_safety_request *request, mor_safety *it, bool is_first)
+{
+    mor_simulation *simulation = NULL;
+    mor_reduced_case_begin_loading(it->setup.reduced);
+    MOR_TRY(context, mor_safety_simulation_new(context, &it->setup, &simulation));
+    mor_status status = is_first ? mor_simulation_warn(context, simulation) : MOR_OK;
+    if (status == MOR_OK) {
+        status = load(context, request, it, simulation);
+    }
+    if (status == MOR_OK) {
+        status = mor_safety_setup_keep(context, &it->setup, simulation, request->height);
+    }
+    if (status == MOR_OK) {
+        const mor_safety_reference *r = &it->setup.reference;
+        mor_safety_rules_init(r->settlement / r->height, r->period / mor_safety_reference_time(r), &it->setup.rules);
+    }
+    mor_safety_simulation_free(context, &simulation);
+    return status;
+}
+
+/* ---- Trials ------------------------------------------------------------------------------------------------------ */
+
+static void print_trial(const mor_safety *it, const mor_safety_trial *trial, FILE *output)
+{
+    const mor_safety_reference *r = &it->setup.reference;
+    const mor_safety_finding *found = &trial->finding;
+    const mor_safety_sample *last = trial->n_samples > 0 ? &trial->samples[trial->n_samples - 1] : NULL;
+    if (last == NULL) {
+        return;
+    }
+    fprintf(output, "%9.5f  %-9s  %9.2e %-8s  %9.4f %-8s  %7.2f  %7llu%s%s\n", trial->factor,
+            mor_safety_verdict_word(found->verdict), found->speed * mor_safety_reference_speed(r),
+            mor_safety_sign_word(found->by_speed), last->displacement * r->height,
+            mor_safety_sign_word(found->by_displacement), trial->seconds, (unsigned long long)trial->n_steps,
+            found->reason[0] != '\0' ? "  " : "", found->reason);
+    fflush(output);
+}
+
+/* Keeps the simulation of a trial that failed at a smaller factor than those before. */
+static void keep_mechanism(mor_context *context, mor_safety *it, mor_simulation **simulation)
+{
+    const int last = it->n_trials - 1;
+    const bool is_better = it->trials[last].finding.verdict == MOR_SAFETY_FAILS &&
+                           (it->mechanism == NULL || it->trials[last].factor < it->trials[it->mechanism_trial].factor);
+    if (is_better) {
+        mor_safety_simulation_free(context, &it->mechanism);
+        it->mechanism = *simulation;
+        it->mechanism_trial = last;
+        *simulation = NULL;
+    }
+}
+
+/* A computation that breaks down says nothing of the slope: such a trial is undecided, and the search goes on. */
+static mor_status accept_breakdown(mor_context *context, mor_safety_trial *trial, mor_status status)
+{
+    if (status != MOR_ERROR_NUMERIC || trial->n_samples == 0) {
+        return status;
+    }
+    trial->finding.verdict = MOR_SAFETY_UNDECIDED;
+    trial->finding.reason = "the computation broke down";
+    mor_context_log(context, MOR_LOG_WARNING, "the trial at F = %g broke down: %s", trial->factor, context->message);
+    mor_context_clear_error(context);
+    return MOR_OK;
+}
+
+/* Makes a trial; is_start: the state at its end becomes that which the others start from, if it stands. */
+static mor_status make_trial(mor_context *context, const mor_safety_request *request, mor_safety *it, double factor,
+                             bool is_start)
+{
+    mor_simulation *simulation = NULL;
+    mor_safety_trial *trial = &it->trials[it->n_trials];
+    const mor_status status =
+        accept_breakdown(context, trial, mor_safety_trial_run(context, &it->setup, factor, trial, &simulation));
+    it->is_stopped = is_stopping(request);
+    if (status != MOR_OK || it->is_stopped) {
+        MOR_FREE(context, &trial->samples);
+        mor_safety_simulation_free(context, &simulation);
+        return status;
+    }
+    it->n_trials += 1;
+    print_trial(it, trial, request->output);
+    mor_status kept = MOR_OK;
+    if (is_start && trial->finding.verdict == MOR_SAFETY_STABLE) {
+        it->stands = true;
+        kept = mor_safety_setup_keep(context, &it->setup, simulation, it->setup.reference.height);
+    }
+    keep_mechanism(context, it, &simulation);
+    mor_safety_simulation_free(context, &simulation);
+    return kept;
+}
+
+static mor_status start(mor_context *context, const mor_safety_request *request, mor_safety *it)
+{
+    double factor = request->lower;
+    for (int k = 0; k < HALVES_MAX && !it->stands && !is_stopping(request); ++k, factor *= 0.5) {
+        mor_safety_simulation_free(context, &it->mechanism); /* what failed from another start is not compared */
+        mor_reduced_case_set_factor(it->setup.reduced, factor);
+        const mor_status status = prepare(context, request, it, k == 0);
+        if (status == MOR_NOT_CONVERGED && k + 1 < HALVES_MAX) {
+            fprintf(request->output, "at F = %g the soil does not come to rest: %s\n", factor, context->message);
+            mor_context_clear_error(context);
+            continue;
+        }
+        MOR_TRY(context, status);
+        MOR_TRY(context, make_trial(context, request, it, factor, true));
+    }
+    it->is_stopped = is_stopping(request);
+    return MOR_OK;
+}
+
+static void list_trials(const mor_safety *it, double *factors, mor_safety_verdict *verdicts)
+{
+    for (int k = 0; k < it->n_trials; ++k) {
+        factors[k] = it->trials[k].factor;
+        verdicts[k] = it->trials[k].finding.verdict;
+    }
+}
+
+static mor_status search(mor_context *context, const mor_safety_request *request, mor_safety *it)
+{
+    double factors[MOR_SAFETY_TRIALS_MAX];
+    mor_safety_verdict verdicts[MOR_SAFETY_TRIALS_MAX];
+    list_trials(it, factors, verdicts);
+    double next = it->stands ? mor_safety_next(&request->bracket, factors, verdicts, it->n_trials) : NAN;
+    while (!isnan(next) && !it->is_stopped) {
+        MOR_TRY(context, make_trial(context, request, it, next, false));
+        list_trials(it, factors, verdicts);
+        next = mor_safety_next(&request->bracket, factors, verdicts, it->n_trials);
+    }
+    mor_safety_find_band(factors, verdicts, it->n_trials, &it->band);
+    return MOR_OK;
+}
+
+static mor_status find_body(mor_context *context, mor_safety *it)
+{
+    const mor_safety_trial *trial = &it->trials[it->mechanism_trial];
+    const double largest = trial->samples[trial->n_samples - 1].displacement * it->setup.reference.height;
+    return mor_safety_body_find(context, it->mechanism, &it->setup.reference, largest, &it->body);
+}
+
+mor_status mor_safety_find(mor_context *context, const mor_safety_request *request, mor_safety *it)
+{
+    memset(it, 0, sizeof *it);
+    it->setup.registry = request->registry;
+    it->setup.stop = request->stop;
+    it->setup.report = request->report;
+    it->setup.user = request->user;
+    MOR_TRY(context, mor_reduced_case_new(context, request->the_case, &it->setup.reduced));
+    mor_reduced_case_describe(it->setup.reduced, request->output);
+    fprintf(request->output, "\n%9s  %-9s  %18s  %18s  %7s  %7s\n%9s  %-9s  %9s %-8s  %9s %-8s  %7s  %7s\n", "F",
+            "verdict", "speed", "displacement", "time", "steps", "[1]", "", "[m/s]", "", "[m]", "", "[s]", "[1]");
+    MOR_TRY(context, start(context, request, it));
+    MOR_TRY(context, search(context, request, it));
+    return it->mechanism != NULL ? find_body(context, it) : MOR_OK;
+}
+
+void mor_safety_clear(mor_context *context, mor_safety *it)
+{
+    mor_safety_body_clear(context, &it->body);
+    mor_safety_simulation_free(context, &it->mechanism);
+    mor_safety_setup_clear(context, &it->setup);
+    for (int k = 0; k < it->n_trials; ++k) {
+        MOR_FREE(context, &it->trials[k].samples);
+    }
+    mor_reduced_case_free(context, &it->setup.reduced);
+    memset(it, 0, sizeof *it);
+}

@@ -1,0 +1,107 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/safety/safety_body.h"
+
+#include "cases/driver/scene/soil_columns.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+
+/* Half of what moves most: inside a body that slides as a whole displacements hardly differ, outside they vanish. */
+static const double usual_share = 0.5;
+
+static void find_parts(const mor_simulation *simulation, const mor_safety_reference *reference, mor_safety_body *body)
+{
+    const mor_set *set = &simulation->soil.set;
+    double rest = 0.0; /* compensated sum, in the order of the numbers */
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        body->is_part[set->id[i]] = mor_safety_displacement(reference, set, i) > body->limit;
+        reference->values[set->id[i]] = set->data[MOR_FIELD_MASS][i] / set->data[MOR_FIELD_DENSITY][i];
+    }
+    for (int64_t id = 0; id < reference->n; ++id) {
+        const double term = (body->is_part[id] ? reference->values[id] : 0.0) - rest;
+        const double sum = body->volume + term;
+        rest = (sum - body->volume) - term;
+        body->volume = sum;
+        body->n += body->is_part[id];
+    }
+}
+
+/* The longest row of neighboring columns whose highest particle is part of the body; places sorted by column. */
+static bool find_row(const mor_safety_body *body, const mor_set *set, const mor_soil_place *places, int64_t *first,
+                     int64_t *last)
+{
+    int64_t length = 0;
+    int64_t present = 0;
+    int64_t previous = -1; /* the last highest particle of the present row */
+    int64_t begin = -1;
+    for (int64_t k = 0; k < set->n_particles; ++k) {
+        if (k > 0 && places[k].column == places[k - 1].column) {
+            continue;
+        }
+        const bool is_part = body->is_part[set->id[places[k].particle]];
+        const bool goes_on = present > 0 && is_part && places[k].column == places[previous].column + 1;
+        begin = goes_on ? begin : k;
+        present = !is_part ? 0 : goes_on ? present + 1 : 1;
+        previous = k;
+        if (present > length) {
+            length = present;
+            *first = begin;
+            *last = k;
+        }
+    }
+    return length > 0;
+}
+
+static void tell_end(const mor_simulation *simulation, const mor_safety_reference *reference, int64_t particle,
+                     double *end)
+{
+    const double *start = reference->position + 3 * simulation->soil.set.id[particle];
+    double surface[3];
+    double place[3];
+    for (int a = 0; a < 3; ++a) {
+        surface[a] = start[a] + 0.5 * simulation->the_case->spacing * simulation->up[a];
+    }
+    mor_simulation_take_point_back(simulation->the_case, surface, place);
+    end[0] = place[0];
+    end[1] = place[1];
+}
+
+static mor_status find_ends(mor_context *context, const mor_simulation *simulation,
+                            const mor_safety_reference *reference, mor_safety_body *body)
+{
+    mor_soil_columns columns;
+    mor_soil_place *places = NULL;
+    int64_t row[2] = {0, 0};
+    MOR_TRY(context, MOR_NEW(context, &places, simulation->soil.set.n_particles, "surface of a slope that failed"));
+    mor_soil_columns_find(simulation, &columns);
+    mor_soil_columns_sort(simulation, &columns, places);
+    body->has_ends = find_row(body, &simulation->soil.set, places, &row[0], &row[1]);
+    if (body->has_ends) {
+        const int upper = places[row[0]].height > places[row[1]].height ? 0 : 1;
+        tell_end(simulation, reference, places[row[upper]].particle, body->top);
+        tell_end(simulation, reference, places[row[1 - upper]].particle, body->toe);
+    }
+    MOR_FREE(context, &places);
+    return MOR_OK;
+}
+
+mor_status mor_safety_body_find(mor_context *context, const mor_simulation *simulation,
+                                const mor_safety_reference *reference, double largest, mor_safety_body *body)
+{
+    *body =
+        (mor_safety_body){.share = usual_share, .limit = usual_share * largest, .top = {NAN, NAN}, .toe = {NAN, NAN}};
+    MOR_TRY(context, MOR_NEW(context, &body->is_part, reference->n, "the critical body"));
+    find_parts(simulation, reference, body);
+    const mor_status status =
+        simulation->the_case->dimension == 2 ? find_ends(context, simulation, reference, body) : MOR_OK;
+    if (status != MOR_OK) {
+        mor_safety_body_clear(context, body);
+    }
+    return status;
+}
+
+void mor_safety_body_clear(mor_context *context, mor_safety_body *body)
+{
+    MOR_FREE(context, &body->is_part);
+    *body = (mor_safety_body){.n = 0};
+}

@@ -1,0 +1,148 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/safety/safety_measure.h"
+
+#include "cases/driver/scene/simulation_balance.h"
+#include "cases/driver/scene/soil_columns.h"
+#include "core/base/math.h"
+#include "core/base/memory.h"
+#include "core/sph/measure/measure.h"
+
+#include <string.h>
+
+/* The smallest body that counts as a failure of the slope has this area over H^2, in space this volume over H^3. */
+static const double smallest_body = 0.05;
+
+/* Soil this much deeper than its surface is uneven is no slope by its surface: a cut, a heap against a wall. */
+static const double deep = 4.0;
+
+static mor_status find_height(mor_context *context, const mor_simulation *simulation, double *height)
+{
+    mor_soil_columns columns;
+    double *tops = NULL;
+    double low = INFINITY;
+    double high = -INFINITY;
+    mor_soil_columns_find(simulation, &columns);
+    const int64_t n = columns.n[0] * columns.n[1];
+    MOR_TRY(context, MOR_NEW(context, &tops, n, "surface of a slope"));
+    for (int64_t k = 0; k < n; ++k) {
+        tops[k] = -INFINITY;
+    }
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        const double *x = simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
+        double *top = &tops[mor_soil_columns_of(&columns, x)];
+        *top = fmax(*top, mor_vector_dot(x, columns.up));
+    }
+    for (int64_t k = 0; k < n; ++k) {
+        low = tops[k] > -INFINITY ? fmin(low, tops[k]) : low;
+        high = fmax(high, tops[k]);
+    }
+    MOR_FREE(context, &tops);
+    *height = deep * (high - low) < simulation->soil_depth ? simulation->soil_depth : high - low;
+    return MOR_OK;
+}
+
+static double find_slowest_wave(const mor_soil *soil)
+{
+    double slowest = soil->sound_speed;
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        slowest = fmin(slowest, soil->kinds[k].sound_speed);
+    }
+    return slowest;
+}
+
+static void set_scales(const mor_simulation *simulation, double height, mor_safety_reference *reference)
+{
+    const mor_case *c = simulation->the_case;
+    const double wave = find_slowest_wave(&simulation->soil);
+    const double cells = smallest_body * pow(height / c->spacing, (double)c->dimension);
+    const double n = (double)simulation->soil.set.n_particles;
+    reference->height = height;
+    reference->gravity = mor_vector_length(simulation->soil.settings.gravity);
+    reference->settlement = 0.5 * reference->gravity * pow(simulation->soil_depth / wave, 2.0);
+    reference->period = 4.0 * simulation->soil_depth / wave;
+    reference->percent = 100.0 * (1.0 - fmin(fmax(cells, 1.0) / n, 0.5));
+}
+
+static mor_status copy_state(mor_context *context, const mor_set *set, mor_safety_reference *reference)
+{
+    const int field = mor_set_find_field(set, "plastic_strain");
+    reference->n = set->n_created;
+    MOR_TRY(context, MOR_NEW(context, &reference->position, 3 * reference->n, "positions at the start of trials"));
+    MOR_TRY(context, MOR_NEW(context, &reference->values, reference->n, "displacements of a trial"));
+    if (field >= 0 && set->data[field] != NULL) {
+        MOR_TRY(context, MOR_NEW(context, &reference->plastic_strain, reference->n, "strains at the start of trials"));
+    }
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        memcpy(reference->position + 3 * set->id[i], set->data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof(double));
+        if (reference->plastic_strain != NULL) {
+            reference->plastic_strain[set->id[i]] = set->data[field][i];
+        }
+    }
+    return MOR_OK;
+}
+
+mor_status mor_safety_reference_init(mor_context *context, const mor_simulation *simulation, double height,
+                                     mor_safety_reference *reference)
+{
+    *reference = (mor_safety_reference){.n = 0};
+    if (isnan(height)) {
+        MOR_TRY(context, find_height(context, simulation, &height));
+    }
+    set_scales(simulation, height, reference);
+    const mor_status status = copy_state(context, &simulation->soil.set, reference);
+    if (status != MOR_OK) {
+        mor_safety_reference_clear(context, reference);
+    }
+    return status;
+}
+
+void mor_safety_reference_clear(mor_context *context, mor_safety_reference *reference)
+{
+    MOR_FREE(context, &reference->position);
+    MOR_FREE(context, &reference->plastic_strain);
+    MOR_FREE(context, &reference->values);
+    *reference = (mor_safety_reference){.n = 0};
+}
+
+double mor_safety_reference_time(const mor_safety_reference *reference)
+{
+    return sqrt(reference->height / reference->gravity);
+}
+
+double mor_safety_reference_speed(const mor_safety_reference *reference)
+{
+    return sqrt(reference->height * reference->gravity);
+}
+
+double mor_safety_displacement(const mor_safety_reference *reference, const mor_set *set, int64_t particle)
+{
+    const double *start = reference->position + 3 * set->id[particle];
+    const double *now = set->data[MOR_FIELD_POSITION] + 3 * particle;
+    const double way[3] = {now[0] - start[0], now[1] - start[1], now[2] - start[2]};
+    return mor_vector_length(way);
+}
+
+mor_status mor_safety_measure(mor_context *context, const mor_simulation *simulation, mor_safety_reference *reference,
+                              mor_safety_sample *sample)
+{
+    const mor_set *set = &simulation->soil.set;
+    mor_simulation_imbalance imbalance;
+    double speed = 0.0;
+    double moved = 0.0;
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        reference->values[i] = mor_vector_length(set->data[MOR_FIELD_VELOCITY] + 3 * i);
+    }
+    MOR_TRY(context,
+            mor_measure_percentile(context, reference->values, NULL, set->n_particles, reference->percent, &speed));
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        reference->values[i] = mor_safety_displacement(reference, set, i);
+    }
+    MOR_TRY(context,
+            mor_measure_percentile(context, reference->values, NULL, set->n_particles, reference->percent, &moved));
+    mor_simulation_find_imbalance(simulation, context->n_threads, &imbalance);
+    sample->speed = speed / mor_safety_reference_speed(reference);
+    sample->displacement = moved / reference->height;
+    sample->force = imbalance.mean;
+    return MOR_OK;
+}

@@ -1,0 +1,158 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/safety/safety_pictures.h"
+
+#include "cases/driver/picture/draw/chart.h"
+#include "cases/driver/safety/mechanism_picture.h"
+#include "core/base/memory.h"
+#include "core/io/durable_file.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Trials on either side of the answer whose speeds are drawn. */
+enum { NEAR_MAX = 3, NAME_BYTES = 64 };
+
+static mor_status write_chart(mor_context *context, const mor_chart *chart, const char *folder, const char *name,
+                              FILE *output)
+{
+    char path[MOR_PATH_BYTES];
+    mor_canvas *canvas = NULL;
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
+    MOR_TRY(context, mor_chart_draw(context, chart, &canvas));
+    const mor_status status = mor_canvas_write(context, canvas, path);
+    mor_canvas_free(context, &canvas);
+    if (status == MOR_OK) {
+        fprintf(output, "picture: %s\n", path);
+    }
+    return status;
+}
+
+/* ---- Displacement against factor --------------------------------------------------------------------------------- */
+
+static double final_displacement(const mor_safety *it, int trial)
+{
+    return it->trials[trial].samples[it->trials[trial].n_samples - 1].displacement * it->setup.reference.height;
+}
+
+static mor_status draw_displacement(mor_context *context, const mor_safety *it, const char *folder, FILE *output)
+{
+    static const mor_safety_verdict verdicts[] = {MOR_SAFETY_STABLE, MOR_SAFETY_UNDECIDED, MOR_SAFETY_FAILS};
+    double x[3][MOR_SAFETY_TRIALS_MAX];
+    double y[3][MOR_SAFETY_TRIALS_MAX];
+    mor_chart_series series[4];
+    int n = 0;
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (int v = 0; v < 3; ++v) {
+        int n_points = 0;
+        for (int k = 0; k < it->n_trials; ++k) {
+            low = fmin(low, it->trials[k].factor);
+            high = fmax(high, it->trials[k].factor);
+            if (it->trials[k].finding.verdict == verdicts[v]) {
+                x[v][n_points] = it->trials[k].factor;
+                y[v][n_points++] = final_displacement(it, k);
+            }
+        }
+        if (n_points > 0) {
+            series[n++] = (mor_chart_series){.name = mor_safety_verdict_word(verdicts[v]),
+                                             .x = x[v],
+                                             .y = y[v],
+                                             .n_points = n_points,
+                                             .style = MOR_CHART_POINTS};
+        }
+    }
+    const double far = it->setup.rules.far * it->setup.reference.height;
+    const double ends[2] = {low, high};
+    const double level[2] = {far, far};
+    series[n++] =
+        (mor_chart_series){.name = "criterion", .x = ends, .y = level, .n_points = 2, .style = MOR_CHART_DASHED};
+    const mor_chart chart = {.title = it->setup.reduced->original->title,
+                             .x_name = "factor that strength is divided by",
+                             .x_unit = "1",
+                             .y_name = "displacement at the end of the trial",
+                             .y_unit = "m",
+                             .series = series,
+                             .n_series = n,
+                             .has_margin = true};
+    return write_chart(context, &chart, folder, "images/displacement.png", output);
+}
+
+/* ---- Speed over time --------------------------------------------------------------------------------------------- */
+
+/* The trials nearest to the middle of the band, at most NEAR_MAX below and above; shape [2 * NEAR_MAX]. */
+static int find_near(const mor_safety *it, int *near)
+{
+    const double middle = isnan(it->band.stable)  ? it->band.fails
+                          : isnan(it->band.fails) ? it->band.stable
+                                                  : 0.5 * (it->band.stable + it->band.fails);
+    int n = 0;
+    bool is_taken[MOR_SAFETY_TRIALS_MAX] = {false};
+    while (n < 2 * NEAR_MAX && n < it->n_trials) {
+        int best = -1;
+        for (int k = 0; k < it->n_trials; ++k) {
+            const bool is_nearer =
+                best < 0 || fabs(it->trials[k].factor - middle) < fabs(it->trials[best].factor - middle);
+            best = !is_taken[k] && is_nearer ? k : best;
+        }
+        is_taken[best] = true;
+        near[n++] = best;
+    }
+    return n;
+}
+
+static mor_status draw_speed(mor_context *context, const mor_safety *it, const char *folder, FILE *output)
+{
+    mor_chart_series series[2 * NEAR_MAX];
+    char names[2 * NEAR_MAX][NAME_BYTES];
+    int near[2 * NEAR_MAX];
+    double *room = NULL;
+    const int n = find_near(it, near);
+    const double time = mor_safety_reference_time(&it->setup.reference);
+    const double speed = mor_safety_reference_speed(&it->setup.reference);
+    MOR_TRY(context, MOR_NEW(context, &room, (int64_t)4 * NEAR_MAX * MOR_SAFETY_SAMPLES_MAX, "speeds of trials"));
+    for (int k = 0; k < n; ++k) {
+        const mor_safety_trial *trial = &it->trials[near[k]];
+        double *x = room + (ptrdiff_t)2 * k * MOR_SAFETY_SAMPLES_MAX;
+        double *y = x + MOR_SAFETY_SAMPLES_MAX;
+        for (int s = 0; s < trial->n_samples; ++s) {
+            x[s] = trial->samples[s].time * time;
+            y[s] = log10(fmax(trial->samples[s].speed * speed, 1.0e-12));
+        }
+        snprintf(names[k], NAME_BYTES, "F = %.5g %s", trial->factor, mor_safety_verdict_word(trial->finding.verdict));
+        series[k] = (mor_chart_series){.name = names[k], .x = x, .y = y, .n_points = trial->n_samples};
+    }
+    const mor_chart chart = {.title = it->setup.reduced->original->title,
+                             .x_name = "time since the strength was reduced",
+                             .x_unit = "s",
+                             .y_name = "decimal logarithm of the speed in m/s",
+                             .y_unit = "1",
+                             .series = series,
+                             .n_series = n,
+                             .has_margin = true};
+    const mor_status status = write_chart(context, &chart, folder, "images/speed.png", output);
+    MOR_FREE(context, &room);
+    return status;
+}
+
+mor_status mor_safety_draw(mor_context *context, const mor_safety *it, const char *folder, FILE *output)
+{
+    char path[MOR_PATH_BYTES];
+    if (it->n_trials == 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, draw_displacement(context, it, folder, output));
+    MOR_TRY(context, draw_speed(context, it, folder, output));
+    if (it->mechanism == NULL || it->setup.reduced->original->dimension != 2) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, "images/mechanism-displacement.png"));
+    MOR_TRY(context, mor_mechanism_draw(context, it, MOR_MECHANISM_DISPLACEMENT, path));
+    fprintf(output, "picture: %s\n", path);
+    if (it->setup.reference.plastic_strain != NULL) {
+        MOR_TRY(context, mor_durable_file_join(context, path, folder, "images/mechanism-strain.png"));
+        MOR_TRY(context, mor_mechanism_draw(context, it, MOR_MECHANISM_STRAIN, path));
+        fprintf(output, "picture: %s\n", path);
+    }
+    return MOR_OK;
+}

@@ -1,0 +1,136 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The case of a trial: strength and friction of soil over the factor, everything else as it was, nothing that moves. */
+#include "cases/driver/safety/reduced_case.h"
+
+#include "cases/driver/library/session_internal.h"
+#include "core/base/memory.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define HEAD                                                                                                           \
+    "title = \"reduced\"; dimension = 2; spacing = 0.1; end = 3; gravity = (0, -9.81);\n"                              \
+    "domain = { min = (-1, -1); max = (5, 5); };\n"                                                                    \
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (0, 0); normal = (0, 1); };\n"             \
+    "  friction = \"coulomb\"; friction_coefficient = 0.5; velocity = (0.1, 0);\n"                                     \
+    "  friction_with = ( { soil = \"sand\"; friction = \"coulomb\"; friction_coefficient = 0.25; } ); } );\n"          \
+    "bodies = ( { name = \"rock\"; shape = { type = \"box\"; min = (-0.3, -0.3); max = (0.3, 0.3); };\n"               \
+    "  position = (1, 0.6); velocity = (1, 0); friction = \"coulomb\"; friction_coefficient = 0.4;\n"                  \
+    "  material = { model = \"rigid\"; density = 2500; }; } );\n"
+#define SOIL(more)                                                                                                     \
+    "soil = ( { name = \"sand\"; shape = { type = \"box\"; min = (0, 0); max = (2, 2); }; velocity = (0.5, 0);\n"      \
+    "  material = { model = \"mohr_coulomb\"; density = 2000; youngs_modulus = 1e7; poissons_ratio = 0.3;\n"           \
+    "    cohesion = 1000; friction_angle = 0.5; }; " more " } );\n"
+
+/* A session with a case, and the case of its trials; both to be ended by the caller. */
+typedef struct loaded {
+    mor_session *session;
+    mor_reduced_case *it;
+} loaded;
+
+static loaded load(const char *text)
+{
+    loaded l = {NULL, NULL};
+    assert_int_equal(mor_session_new(&l.session), MOR_OK);
+    if (mor_session_load_text(l.session, "reduced.cfg", text) != MOR_OK) {
+        fail_msg("%s", mor_session_message(l.session));
+    }
+    assert_int_equal(mor_reduced_case_new(&l.session->context, &l.session->the_case, &l.it), MOR_OK);
+    return l;
+}
+
+static void end(loaded *l)
+{
+    mor_reduced_case_free(&l->session->context, &l->it);
+    mor_session_free(&l->session);
+}
+
+static void friction_of_soil_is_reduced_and_rocks_stay(void **state)
+{
+    (void)state;
+    loaded l = load(HEAD SOIL(""));
+    const mor_case *c = &l.it->the_case;
+    const mor_case *original = &l.session->the_case;
+    mor_reduced_case_set_factor(l.it, 0.5);
+    mor_reduced_case_set_factor(l.it, 2.0);                /* of the original, not of what was reduced before */
+    assert_true(c->walls[0].friction_coefficient == 0.25); /* exact: powers of two */
+    assert_true(c->walls[0].friction_with.of[0].coefficient == 0.125);
+    assert_true(c->bodies[0].soil_friction_coefficient == 0.2);
+    assert_true(c->bodies[0].density == 2500.0);
+    assert_memory_equal(&c->contact, &original->contact, sizeof c->contact);
+    assert_true(original->bodies[0].soil_friction_coefficient == 0.4); /* the case itself is left alone */
+    assert_true(original->walls[0].friction_coefficient == 0.5);
+    end(&l);
+}
+
+static void nothing_moves_and_lateral_stress_is_that_of_the_whole_strength(void **state)
+{
+    (void)state;
+    loaded l = load(HEAD SOIL("initial_stress = { type = \"k0\"; };"));
+    const mor_case *c = &l.it->the_case;
+    const double none[3] = {0.0, 0.0, 0.0};
+    mor_reduced_case_set_factor(l.it, 3.0);
+    assert_memory_equal(c->walls[0].velocity, none, sizeof none);
+    assert_memory_equal(c->bodies[0].velocity, none, sizeof none);
+    assert_memory_equal(c->soils[0].velocity, none, sizeof none);
+    assert_true(fabs(c->soils[0].lateral_ratio - (1.0 - sin(0.5))) < 1.0e-15); /* rounding */
+    end(&l);
+}
+
+static void the_start_follows_what_the_case_asks_for(void **state)
+{
+    (void)state;
+    loaded settled = load(HEAD SOIL("initial_stress = { type = \"settled\"; };"));
+    assert_int_equal(settled.it->start, MOR_REDUCED_SETTLED);
+    end(&settled);
+    loaded ramped = load(HEAD SOIL("") "numerics = { gravity_ramp = 0.5; damping = 1.0; damping_time = 0.75; };");
+    assert_int_equal(ramped.it->start, MOR_REDUCED_RAMPED);
+    assert_true(ramped.it->loaded == 0.75); /* exact: copied */
+    mor_reduced_case_begin_trial(ramped.it, 2.0);
+    assert_true(ramped.it->the_case.numerics.damping == 0.0);
+    assert_true(ramped.it->the_case.numerics.local_damping > 0.0);
+    assert_true(ramped.it->the_case.numerics.damping_time == 2.0);
+    mor_reduced_case_begin_loading(ramped.it);
+    assert_true(ramped.it->the_case.numerics.damping == 1.0);
+    assert_true(ramped.it->the_case.numerics.local_damping == 0.0);
+    end(&ramped);
+    loaded plain = load(HEAD SOIL(""));
+    assert_int_equal(plain.it->start, MOR_REDUCED_RELAXED);
+    assert_int_equal(plain.it->the_case.soils[0].initial_stress, MOR_CASE_STRESS_SETTLED);
+    assert_int_equal(plain.it->the_case.soils[0].settle_from, 1); /* it had no stress */
+    assert_true(plain.it->the_case.soils[0].settle_time == 3.0);
+    end(&plain);
+}
+
+static void a_uniform_stress_is_no_start(void **state)
+{
+    (void)state;
+    mor_session *session = NULL;
+    mor_reduced_case *it = NULL;
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    if (mor_session_load_text(session, "reduced.cfg",
+                              HEAD SOIL("initial_stress = { type = \"uniform\"; pressure = 1000; };")) != MOR_OK) {
+        fail_msg("%s", mor_session_message(session));
+    }
+    assert_int_equal(mor_reduced_case_new(&session->context, &session->the_case, &it), MOR_ERROR_CONFIG);
+    assert_non_null(strstr(session->context.message, "reduced.cfg:"));
+    assert_non_null(strstr(session->context.message, "uniform"));
+    assert_null(it);
+    mor_session_free(&session);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(friction_of_soil_is_reduced_and_rocks_stay),
+        cmocka_unit_test(nothing_moves_and_lateral_stress_is_that_of_the_whole_strength),
+        cmocka_unit_test(the_start_follows_what_the_case_asks_for),
+        cmocka_unit_test(a_uniform_stress_is_no_start),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,113 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* The search on slopes that are nothing but two thresholds: stable up to one, failing from the other on. */
+#include "cases/driver/safety/safety_search.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+/* A whole search. */
+typedef struct search {
+    double factors[MOR_SAFETY_TRIALS_MAX];
+    mor_safety_verdict verdicts[MOR_SAFETY_TRIALS_MAX];
+    int n;
+    mor_safety_band band;
+} search;
+
+static void run(search *it, const mor_safety_bracket *bracket, double lower, double stable, double fails)
+{
+    double next = lower;
+    for (it->n = 0; !isnan(next) && it->n < MOR_SAFETY_TRIALS_MAX; ++it->n) {
+        it->factors[it->n] = next;
+        it->verdicts[it->n] = next <= stable  ? MOR_SAFETY_STABLE
+                              : next >= fails ? MOR_SAFETY_FAILS
+                                              : MOR_SAFETY_UNDECIDED;
+        next = mor_safety_next(bracket, it->factors, it->verdicts, it->n + 1);
+    }
+    mor_safety_find_band(it->factors, it->verdicts, it->n, &it->band);
+}
+
+static void the_band_holds_the_threshold_and_is_as_narrow_as_asked(void **state)
+{
+    (void)state;
+    static const double thresholds[] = {0.51, 0.999, 1.0, 1.37, 2.4, 7.3};
+    for (size_t k = 0; k < sizeof thresholds / sizeof *thresholds; ++k) {
+        const mor_safety_bracket bracket = {.upper = NAN, .most = 64.0, .tolerance = 0.01};
+        search it;
+        run(&it, &bracket, 0.5, thresholds[k], thresholds[k]);
+        assert_true(it.band.stable <= thresholds[k] && it.band.fails >= thresholds[k]);
+        assert_true(it.band.fails - it.band.stable <= 0.01 * (1.0 + 1.0e-9)); /* the tolerance, to rounding */
+        assert_true(it.n < 20); /* bisection: two more than the logarithm of width over tolerance, and the expansion */
+        assert_false(it.band.is_contradicted);
+    }
+}
+
+static void what_is_undecided_lies_inside_the_band_and_both_ends_are_narrowed(void **state)
+{
+    (void)state;
+    const mor_safety_bracket bracket = {.upper = 2.0, .most = 64.0, .tolerance = 0.01};
+    search it;
+    run(&it, &bracket, 0.5, 1.2, 1.3);
+    assert_true(it.band.stable <= 1.2 && it.band.stable > 1.2 - 0.0101); /* within the tolerance of each end */
+    assert_true(it.band.fails >= 1.3 && it.band.fails < 1.3 + 0.0101);
+    assert_true(it.band.n_undecided > 0);
+}
+
+static void a_slope_that_never_fails_is_not_given_a_bound(void **state)
+{
+    (void)state;
+    const mor_safety_bracket bracket = {.upper = NAN, .most = 64.0, .tolerance = 0.01};
+    search it;
+    run(&it, &bracket, 0.5, INFINITY, INFINITY);
+    assert_true(it.band.stable == 64.0); /* exact: powers of two */
+    assert_true(isnan(it.band.fails));
+    assert_int_equal(it.n, 8); /* 0.5, 1, 2, 4, 8, 16, 32, 64 */
+}
+
+static void an_upper_factor_that_stands_is_passed(void **state)
+{
+    (void)state;
+    const mor_safety_bracket bracket = {.upper = 1.2, .most = 64.0, .tolerance = 0.01};
+    search it;
+    run(&it, &bracket, 0.5, 1.9, 1.9);
+    assert_true(it.factors[1] == 1.2 && it.factors[2] == 2.4); /* exact: the one given, then twice it */
+    assert_true(it.band.stable <= 1.9 && it.band.fails >= 1.9);
+}
+
+static void a_start_that_does_not_stand_ends_the_search(void **state)
+{
+    (void)state;
+    const mor_safety_bracket bracket = {.upper = NAN, .most = 64.0, .tolerance = 0.01};
+    search it;
+    run(&it, &bracket, 0.5, 0.1, 0.1);
+    assert_int_equal(it.n, 1);
+    assert_true(isnan(it.band.stable) && it.band.fails == 0.5);
+}
+
+static void verdicts_that_contradict_the_factor_are_told_and_the_band_is_cautious(void **state)
+{
+    (void)state;
+    const double factors[] = {0.5, 2.0, 1.0, 1.5};
+    const mor_safety_verdict verdicts[] = {MOR_SAFETY_STABLE, MOR_SAFETY_FAILS, MOR_SAFETY_FAILS, MOR_SAFETY_STABLE};
+    mor_safety_band band;
+    mor_safety_find_band(factors, verdicts, 4, &band);
+    assert_true(band.is_contradicted);
+    assert_true(band.stable == 0.5 && band.fails == 2.0); /* exact: the widest that all verdicts allow */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_band_holds_the_threshold_and_is_as_narrow_as_asked),
+        cmocka_unit_test(what_is_undecided_lies_inside_the_band_and_both_ends_are_narrowed),
+        cmocka_unit_test(a_slope_that_never_fails_is_not_given_a_bound),
+        cmocka_unit_test(an_upper_factor_that_stands_is_passed),
+        cmocka_unit_test(a_start_that_does_not_stand_ends_the_search),
+        cmocka_unit_test(verdicts_that_contradict_the_factor_are_told_and_the_band_is_cautious),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
