@@ -52,6 +52,21 @@ typedef struct mor_contact_settings {
                              * ones, m/s; no less than by a fall over the size of a body */
 } mor_contact_settings;
 
+/** A force of contact, as it acts in one sub-step. */
+typedef struct mor_contact_load {
+    const mor_body_group *group, *other_group; /* of the two sides; other_group NULL: a wall */
+    int body, other_body;                      /* in their groups */
+    int wall;                                  /* index of the wall; -1: a body */
+    const double *place;                       /* shape [3]; where it acts, m */
+    const double *force; /* shape [3]; on the first side; the opposite acts on the other, N (N/m) */
+} mor_contact_load;
+
+/** Looks at each force of contact when it is applied; nothing depends on whether anybody does. */
+typedef struct mor_contact_watch {
+    void *owner;
+    void (*run)(void *owner, const mor_contact_load *load); /* takes one force; NULL: nobody looks */
+} mor_contact_watch;
+
 /** Contact among all groups and walls. Owner: the run. */
 typedef struct mor_contact {
     mor_body_group *groups[MOR_BODY_GROUPS_MAX]; /* borrowed; group g belongs to the stepper with bit stepper_bits[g] */
@@ -60,19 +75,20 @@ typedef struct mor_contact {
     mor_contact_wall *walls; /* shape [n_walls]; owned */
     int n_walls;
     mor_contact_settings settings;
-    double time;            /* to which walls have moved; set by the exchange, s */
-    double spring_energy;   /* stored in normal and tangential springs at the last sub-step, J (J/m) */
-    double friction_energy; /* lost to sliding since the start, J (J/m) */
-    double damping_energy;  /* lost to restitution since the start, J (J/m) */
-    double wall_energy;     /* that bodies gave to moving walls since the start, J (J/m) */
-    double deepest;         /* deepest penetration at the last sub-step, m */
-    double deepest_share;   /* largest so far of a penetration over what is allowed, 1 */
-    double driven_share;    /* likewise, of sides that no force moves, when it was warned of, 1; 0: never */
-    double *group_spring;   /* shape [n_groups]; spring energy of each at its last sub-step, J (J/m) */
-    double *group_deepest;  /* shape [n_groups]; deepest penetration of each at its last sub-step, m */
-    double *wall_force;     /* shape [n_groups, n_walls, 3]; of each on each wall at its last sub-step, N (N/m) */
-    mor_set history;        /* one entry per surface node of all groups: history of friction; its fields evolve */
-    double *impacts;        /* shape [n_impacts]; impact speeds of touching pairs, m/s */
+    mor_contact_watch watch; /* what it owns is borrowed */
+    double time;             /* to which walls have moved; set by the exchange, s */
+    double spring_energy;    /* stored in normal and tangential springs at the last sub-step, J (J/m) */
+    double friction_energy;  /* lost to sliding since the start, J (J/m) */
+    double damping_energy;   /* lost to restitution since the start, J (J/m) */
+    double wall_energy;      /* that bodies gave to moving walls since the start, J (J/m) */
+    double deepest;          /* deepest penetration at the last sub-step, m */
+    double deepest_share;    /* largest so far of a penetration over what is allowed, 1 */
+    double driven_share;     /* likewise, of sides that no force moves, when it was warned of, 1; 0: never */
+    double *group_spring;    /* shape [n_groups]; spring energy of each at its last sub-step, J (J/m) */
+    double *group_deepest;   /* shape [n_groups]; deepest penetration of each at its last sub-step, m */
+    double *wall_force;      /* shape [n_groups, n_walls, 3]; of each on each wall at its last sub-step, N (N/m) */
+    mor_set history;         /* one entry per surface node of all groups: history of friction; its fields evolve */
+    double *impacts;         /* shape [n_impacts]; impact speeds of touching pairs, m/s */
     int64_t n_impacts;
     struct mor_contact_work *work; /* lists and scratch; owned */
 } mor_contact;

@@ -3,6 +3,7 @@
 #include "cases/driver/picture/pictures.h"
 
 #include "cases/driver/picture/charts.h"
+#include "cases/driver/picture/gauge_charts.h"
 #include "cases/driver/picture/picture_color.h"
 #include "cases/driver/picture/picture_soils.h"
 #include "cases/driver/picture/picture_wall.h"
@@ -534,7 +535,11 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
         return MOR_OK;
     }
     MOR_TRY(context, mor_rocks_report_draw(context, g->the_case, g->folder, output));
-    return choice == MOR_PICTURES_FIRST ? MOR_OK : mor_charts_render(context, g->folder, output);
+    if (choice == MOR_PICTURES_FIRST) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_gauge_charts_render(context, g->the_case, g->folder, output));
+    return mor_charts_render(context, g->folder, output);
 }
 
 static mor_status render_gallery(mor_context *context, gallery *g, mor_pictures_choice choice, FILE *output)

@@ -528,7 +528,7 @@ static const mor_probe_measure measures[] =
 const mor_case_probe_type *mor_probe_type_at(int index)
 {
     static const mor_probe_measure *const tables[] = {measures, mor_probe_local_measures, mor_probe_energy_measures,
-                                                      mor_probe_body_measures};
+                                                      mor_probe_body_measures, mor_probe_gauge_measures};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
         for (const mor_probe_measure *it = tables[t]; it->run != NULL; ++it) {
             if (index-- == 0) {

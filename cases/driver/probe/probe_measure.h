@@ -88,6 +88,9 @@ extern const mor_probe_measure mor_probe_body_measures[];
 /** Probes of the soil at a place. */
 extern const mor_probe_measure mor_probe_local_measures[];
 
+/** Probes that read gauges. */
+extern const mor_probe_measure mor_probe_gauge_measures[];
+
 /** Probes of where energy goes. */
 extern const mor_probe_measure mor_probe_energy_measures[];
 

@@ -51,6 +51,7 @@ static mor_status find_partners(mor_context *context, void *owner, double length
 static mor_status run_contact(mor_context *context, void *owner, uint64_t members, const mor_step *step)
 {
     mor_probe_track *track = owner;
+    track->gauges.contact_length = step->length;
     MOR_TRY(context, track->contact->run(context, track->contact->owner, members, step));
     for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
         if ((traits_of(track->simulation, k) & MOR_CASE_PROBE_OF_CONTACT) != 0) {
@@ -60,11 +61,11 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     return MOR_OK;
 }
 
-/* Steps in between the schedule and contact, only where a probe asks. */
+/* Steps in between the schedule and contact, only where a probe or a gauge asks. */
 static void watch_contact(mor_probe_track *track)
 {
     mor_simulation *s = track->simulation;
-    bool is_asked = false;
+    bool is_asked = s->the_case->n_gauges > 0;
     for (int k = 0; k < s->the_case->n_probes; ++k) {
         is_asked = is_asked || (traits_of(s, k) & MOR_CASE_PROBE_OF_CONTACT) != 0;
     }
@@ -164,6 +165,7 @@ mor_status mor_probe_track_new(mor_context *context, mor_simulation *simulation)
             isnan(window[0]) ? whole_run : (mor_probe_window){window[0], window[1] < c->end ? window[1] : INFINITY};
     }
     watch_contact(track);
+    MOR_TRY(context, mor_gauges_init(context, simulation, &track->gauges));
     MOR_TRY(context, mor_probe_scan_new(context, simulation, &track->scan));
     choose_intervals(track);
     return try_probes(context, simulation);
@@ -173,6 +175,7 @@ void mor_probe_track_free(mor_context *context, mor_probe_track **track)
 {
     if (*track != NULL) {
         mor_probe_scan_free(context, &(*track)->scan);
+        mor_gauges_clear(context, &(*track)->gauges);
         MOR_FREE(context, track);
     }
 }
@@ -185,7 +188,8 @@ mor_status mor_probe_track_list_state(mor_context *context, mor_probe_track *tra
     MOR_TRY(context, mor_state_add(context, list, own, "records", MOR_STATE_DOUBLE, n_numbers, track->records));
     MOR_TRY(context, mor_state_add(context, list, own, "past", MOR_STATE_DOUBLE, n_numbers, track->past));
     MOR_TRY(context, mor_state_add(context, list, own, "values", MOR_STATE_DOUBLE, n, track->values));
-    return mor_state_add(context, list, own, "measured_at", MOR_STATE_INT64, n, track->measured_at);
+    MOR_TRY(context, mor_state_add(context, list, own, "measured_at", MOR_STATE_INT64, n, track->measured_at));
+    return mor_gauges_list_state(context, &track->gauges, list);
 }
 
 /* ---- Each step --------------------------------------------------------------------------------------------------- */
@@ -248,6 +252,7 @@ void mor_probe_track_resume(mor_probe_track *track)
 mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track)
 {
     forget(track);
+    mor_gauges_start(&track->gauges);
     for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
         track->records[k][MOR_PROBE_RECORD_BEGAN] = 0.0;
     }
@@ -257,6 +262,7 @@ mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track)
 mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation)
 {
     mor_probe_track *track = simulation->probes;
+    mor_gauges_follow(&track->gauges);
     mor_probe_scan_begin(track->scan);
     for (int k = 0; k < simulation->the_case->n_probes; ++k) {
         if (simulation->schedule.n_steps % (uint64_t)track->intervals[k] == 0) {

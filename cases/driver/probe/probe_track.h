@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_PROBE_PROBE_TRACK_H
 
 #include "cases/driver/case/case.h"
+#include "cases/driver/probe/gauge.h"
 #include "cases/driver/probe/probe_record.h"
 #include "core/particle/state.h"
 #include "core/time/stepper.h"
@@ -31,6 +32,7 @@ typedef struct mor_probe_track {
     mor_exchange exchange;           /* contact, then a look at its forces; in use when a probe asks for them */
     const mor_exchange *contact;     /* what it stands before; borrowed; NULL: not in use */
     struct mor_probe_scan *scan;     /* what probes of one measurement share; owned */
+    mor_gauges gauges;               /* owned */
 } mor_probe_track;
 
 /** Prepares to follow the probes of a simulation that is built but for this: fills in simulation->probes.

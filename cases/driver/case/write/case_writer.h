@@ -78,9 +78,26 @@ void mor_case_writer_close(mor_case_writer *w, const char *bracket);
 mor_status mor_case_writer_keys(const mor_case_writer *w, const mor_case_group *group, const void *record,
                                 mor_case_key_presence presence_of);
 
+/** Decides whether a key of a shape is written: not-a-number means not given. */
+mor_case_presence mor_case_presence_of_shape(const mor_case_key *key, const void *record);
+
+/** Writes the hash of a file's content, by which a run that is resumed with another one is recognized; 0: nothing.
+ *  @param file_hash [in]  of the content */
+void mor_case_writer_hash(const mor_case_writer *w, uint64_t file_hash);
+
+/** Writes a shape.
+ *  @param name [in]  zero-terminated; "": an entry of a list
+ *  @param end  [in]  zero-terminated bracket that closes it
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_shape(mor_case_writer *w, const char *name, const mor_case_shape *outline, const char *end);
+
+/** Writes a gauge.
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_gauge(mor_case_writer *w, const mor_case_gauge *gauge);
+
 /** Writes a probe.
  *  Returns: as mor_case_writer_numbers. */
-mor_status mor_case_writer_probe(const mor_case_writer *w, const mor_case_probe *probe);
+mor_status mor_case_writer_probe(mor_case_writer *w, const mor_case_probe *probe);
 
 /** Writes an expectation.
  *  @param the_case    [in]  whose probes tell the units
