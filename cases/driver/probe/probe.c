@@ -25,12 +25,12 @@ static bool is_same_frame(const mor_measure_frame *a, const mor_measure_frame *b
 static mor_status find_profile(mor_context *context, const view *v)
 {
     mor_probe_scan *scan = v->scan;
-    if (!scan->has_profile || scan->profile_soil != v->soil || !is_same_frame(&scan->profile_frame, &v->frame)) {
+    if (!scan->has_profile || scan->profile_part != v->part || !is_same_frame(&scan->profile_frame, &v->frame)) {
         scan->has_profile = false;
         MOR_TRY(context,
                 mor_measure_profile_fill(context, &v->points, &v->frame, v->points.spacing, 0.0, &scan->profile));
         scan->profile_frame = v->frame;
-        scan->profile_soil = v->soil;
+        scan->profile_part = v->part;
         scan->has_profile = true;
     }
     return MOR_OK;
@@ -153,7 +153,7 @@ static mor_status repose_angle(mor_context *context, const view *v, double *valu
 static mor_status soil_kinetic_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
-    if (v->soil >= 0) {
+    if (v->part >= 0) {
         *value = mor_measure_kinetic_energy(&v->points, v->velocity);
         return MOR_OK;
     }
@@ -426,17 +426,19 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
 }
 
 static const mor_probe_measure measures[] =
-    {{.type = {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "run-out distance of the deposit"},
+    {{.type = {"run_out", "m", "m", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
+               "run-out distance of the deposit; along a path, from its first point"},
       .run = run_out,
       .cost = MOR_PROBE_COST_PERCENTILE},
      {.type = {"toe", "m", "m", SOIL | ALONG, 0, 0, 100.0,
                "largest distance of a particle, of soil or rocks, that lies higher than origin; 0: there is none"},
       .run = toe,
       .cost = MOR_PROBE_COST_SUM},
-     {.type = {"front_speed", "m/s", "m/s", FRONT, 0, OF_SOIL, 99.5, "speed of the front of the deposit"},
+     {.type = {"front_speed", "m/s", "m/s", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
+               "speed of the front of the deposit; along a path, on the map"},
       .run = front_speed,
       .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"height", "m", "m", SOIL | PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0,
+     {.type = {"height", "m", "m", SOIL | REGION | PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0,
                "height of the deposit, against gravity"},
       .run = height,
       .cost = MOR_PROBE_COST_PERCENTILE},
@@ -445,7 +447,7 @@ static const mor_probe_measure measures[] =
                "distance beyond the top, from 20 to 80 % of the height"},
       .run = repose_angle,
       .cost = MOR_PROBE_COST_PROFILE},
-     {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS, 0, OF_SOIL, 100.0,
+     {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS | REGION | PATH, 0, OF_SOIL, 100.0,
                "share of the mass outside the deposit"},
       .run = stray_share,
       .cost = MOR_PROBE_COST_PROFILE},
@@ -471,7 +473,7 @@ static const mor_probe_measure measures[] =
                "initial total energy - total energy - energy that left the domain, of soil and bodies"},
       .run = dissipated_energy,
       .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"mass", "kg", "kg/m", SOIL, 0, OF_SOIL, 100.0, "mass of the soil"},
+     {.type = {"mass", "kg", "kg/m", SOIL | REGION, 0, OF_SOIL, 100.0, "mass of the soil"},
       .run = mass,
       .cost = MOR_PROBE_COST_SUM},
      {.type = {"outflow_mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0,
@@ -488,7 +490,7 @@ static const mor_probe_measure measures[] =
                "momentum of soil and bodies along direction"},
       .run = momentum,
       .cost = MOR_PROBE_COST_SUM},
-     {.type = {"center_of_mass", "m", "m", SOIL | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+     {.type = {"center_of_mass", "m", "m", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
                "center of mass of the soil from origin along direction"},
       .run = center_of_mass,
       .cost = MOR_PROBE_COST_SUM},
@@ -502,7 +504,8 @@ static const mor_probe_measure measures[] =
                "smallest distance of a soil particle from the surface of a wall; negative: inside"},
       .run = wall_gap,
       .cost = MOR_PROBE_COST_DISTANCE},
-     {.type = {"largest_speed", "m/s", "m/s", SOIL | PERCENTILE, 0, OF_SOIL, 100.0, "largest speed of a soil particle"},
+     {.type = {"largest_speed", "m/s", "m/s", SOIL | REGION | PERCENTILE, 0, OF_SOIL, 100.0,
+               "largest speed of a soil particle"},
       .run = largest_speed,
       .cost = MOR_PROBE_COST_PERCENTILE},
      {.type = {"density_drift", "1", "1", SOIL | PERCENTILE, 0, OF_SOIL, 99.0,
@@ -520,7 +523,7 @@ static const mor_probe_measure measures[] =
                "standard deviation of the vertical stress from its least-squares line over height"},
       .run = stress_noise,
       .cost = MOR_PROBE_COST_STRESS},
-     {.type = {"soil_kinetic_energy", "J", "J/m", SOIL, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
+     {.type = {"soil_kinetic_energy", "J", "J/m", SOIL | REGION, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
       .run = soil_kinetic_energy,
       .cost = MOR_PROBE_COST_KINETIC},
      {.run = NULL}};
@@ -554,6 +557,9 @@ void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
                 .wall = track->walls[probe],
                 .number = probe,
                 .soil = mor_probe_find_soil(c, probe),
+                .part = -1,
+                .path = it->n_path > 0 ? &track->scan->paths[probe] : NULL,
+                .memory = track->memory[probe],
                 .velocity = data[MOR_FIELD_VELOCITY],
                 .points = {simulation->soil.set.n_particles, c->dimension, c->spacing, data[MOR_FIELD_POSITION],
                            data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY], 0, &track->scan->orders[probe]},

@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const mor_probe_window whole_run = {0.0, INFINITY};
@@ -105,6 +106,9 @@ static mor_probe_cost find_cost(const mor_simulation *s, int probe)
 {
     mor_probe_view view;
     mor_probe_view_set(s, probe, &view);
+    if (view.probe->region != NULL || view.probe->n_path > 0) {
+        return MOR_PROBE_COST_DISTANCE;
+    }
     const bool is_profile =
         view.measure->cost == MOR_PROBE_COST_PERCENTILE && strcmp(s->the_case->probes[probe].measure, "thickness") == 0;
     return is_profile ? MOR_PROBE_COST_PROFILE : view.measure->cost;
@@ -140,6 +144,18 @@ static void forget(mor_probe_track *track)
     }
 }
 
+/* Room for what single probes remember. */
+static mor_status reserve_memory(mor_context *context, mor_probe_track *track)
+{
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        mor_probe_view view;
+        mor_probe_view_set(track->simulation, k, &view);
+        track->n_memory[k] = view.measure->count != NULL ? view.measure->count(&view) : 0;
+        MOR_TRY(context, MOR_NEW(context, &track->memory[k], track->n_memory[k], "what a probe remembers"));
+    }
+    return MOR_OK;
+}
+
 /* Measures each probe once, so that one that does not suit the case is refused before anything runs. */
 static mor_status try_probes(mor_context *context, const mor_simulation *simulation)
 {
@@ -167,6 +183,7 @@ mor_status mor_probe_track_new(mor_context *context, mor_simulation *simulation)
     watch_contact(track);
     MOR_TRY(context, mor_gauges_init(context, simulation, &track->gauges));
     MOR_TRY(context, mor_probe_scan_new(context, simulation, &track->scan));
+    MOR_TRY(context, reserve_memory(context, track));
     choose_intervals(track);
     return try_probes(context, simulation);
 }
@@ -176,6 +193,9 @@ void mor_probe_track_free(mor_context *context, mor_probe_track **track)
     if (*track != NULL) {
         mor_probe_scan_free(context, &(*track)->scan);
         mor_gauges_clear(context, &(*track)->gauges);
+        for (int k = 0; k < MOR_CASE_PROBES_MAX; ++k) {
+            MOR_FREE(context, &(*track)->memory[k]);
+        }
         MOR_FREE(context, track);
     }
 }
@@ -189,6 +209,14 @@ mor_status mor_probe_track_list_state(mor_context *context, mor_probe_track *tra
     MOR_TRY(context, mor_state_add(context, list, own, "past", MOR_STATE_DOUBLE, n_numbers, track->past));
     MOR_TRY(context, mor_state_add(context, list, own, "values", MOR_STATE_DOUBLE, n, track->values));
     MOR_TRY(context, mor_state_add(context, list, own, "measured_at", MOR_STATE_INT64, n, track->measured_at));
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        char member[32];
+        if (track->n_memory[k] > 0) {
+            snprintf(member, sizeof member, "memory_%d", k);
+            MOR_TRY(context,
+                    mor_state_add(context, list, own, member, MOR_STATE_DOUBLE, track->n_memory[k], track->memory[k]));
+        }
+    }
     return mor_gauges_list_state(context, &track->gauges, list);
 }
 
@@ -227,6 +255,12 @@ static mor_status measure(mor_context *context, mor_probe_track *track, int k)
     mor_probe_view view;
     double value = NAN;
     mor_probe_view_set(track->simulation, k, &view);
+    if (view.measure->remember != NULL) {
+        mor_probe_view whole = view;
+        whole.points.n_threads = context->n_threads;
+        mor_probe_scan_part(&whole);
+        view.measure->remember(&whole, track->simulation->schedule.n_steps == 0, track->memory[k]);
+    }
     if (view.measure->past != NULL) {
         double remembered = NAN;
         view.points.n_threads = context->n_threads;

@@ -23,6 +23,8 @@ typedef struct mor_probe_track {
      * probe needs to know of the past to have a value. */
     double records[MOR_CASE_PROBES_MAX][MOR_PROBE_RECORD_NUMBERS];
     double past[MOR_CASE_PROBES_MAX][MOR_PROBE_RECORD_NUMBERS];
+    double *memory[MOR_CASE_PROBES_MAX];      /* what single probes remember; owned; NULL: nothing */
+    int64_t n_memory[MOR_CASE_PROBES_MAX];    /* doubles of it */
     double values[MOR_CASE_PROBES_MAX];       /* last measured, unit of the probe */
     int64_t measured_at[MOR_CASE_PROBES_MAX]; /* number of steps done then; -1: not measured yet */
     int intervals[MOR_CASE_PROBES_MAX];       /* steps from one measurement to the next, >= 1 */
