@@ -8,6 +8,7 @@
 #include "cases/driver/picture/picture_soils.h"
 #include "cases/driver/picture/picture_wall.h"
 #include "cases/driver/picture/rocks_report.h"
+#include "cases/driver/picture/time_distance.h"
 #include "cases/driver/picture/view/camera.h"
 #include "cases/driver/picture/view/picture.h"
 #include "cases/driver/scene/build/simulation_build.h"
@@ -538,6 +539,7 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
     if (choice == MOR_PICTURES_FIRST) {
         return MOR_OK;
     }
+    MOR_TRY(context, mor_time_distance_render(context, g->the_case, g->folder, output));
     MOR_TRY(context, mor_gauge_charts_render(context, g->the_case, g->folder, output));
     return mor_charts_render(context, g->folder, output);
 }

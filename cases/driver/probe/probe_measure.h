@@ -74,6 +74,7 @@ typedef enum mor_probe_cost {
     MOR_PROBE_COST_SUM,        /* over all particles */
     MOR_PROBE_COST_PERCENTILE, /* of all particles */
     MOR_PROBE_COST_DISTANCE,   /* of all particles from a shape */
+    MOR_PROBE_COST_BODIES,     /* of all particles from each body */
     MOR_PROBE_COSTS
 } mor_probe_cost;
 
@@ -86,8 +87,9 @@ typedef struct mor_probe_measure {
     mor_status (*past)(mor_context *context, const mor_probe_view *view, double *value);
     /** Returns how many doubles `remember` keeps from the start of the run on; NULL: nothing. */
     int64_t (*count)(const mor_probe_view *view);
-    /** Updates what is kept, shape [count], mixed units; is_start: at the start of the run, what was there is of no
-     *  meaning. A type with it has the trait MOR_CASE_PROBE_OF_PAST. */
+    /** Updates what is kept, shape [count], mixed units, in each step; is_start: at the start of the run, when what was
+     *  there is of no meaning and the points of the view are those that the probe measures; else they are all. Goes with
+     *  the trait MOR_CASE_PROBE_OF_PAST. */
     void (*remember)(const mor_probe_view *view, bool is_start, double *memory);
     /** Of contact, NULL for others: writes the value after a sub-step of the steppers with the bits of members, and the
      *  part of it that they gave, both in the unit of the type. */
@@ -100,6 +102,18 @@ extern const mor_probe_measure mor_probe_body_measures[];
 
 /** Probes of the soil at a place. */
 extern const mor_probe_measure mor_probe_local_measures[];
+
+/** Probes of the soil at walls. */
+extern const mor_probe_measure mor_probe_wall_measures[];
+
+/** Probes of volumes, of what passes a plane, and of how far soil has come. */
+extern const mor_probe_measure mor_probe_flow_measures[];
+
+/** Probes of how far a slide reaches. */
+extern const mor_probe_measure mor_probe_reach_measures[];
+
+/** Probes of the boulders in a flow. */
+extern const mor_probe_measure mor_probe_boulder_measures[];
 
 /** Probes that read gauges. */
 extern const mor_probe_measure mor_probe_gauge_measures[];

@@ -10,7 +10,8 @@
 
 static bool has_percentile(const mor_case_probe *probe)
 {
-    static const char *const types[] = {"run_out", "front_speed", "height", "largest_speed", "density_drift"};
+    static const char *const types[] = {"run_out",       "front_speed",  "height",         "largest_speed",
+                                        "density_drift", "displacement", "angle_of_reach", "boulders_in_front"};
     bool is_found = false;
     for (size_t k = 0; k < sizeof types / sizeof *types; ++k) {
         is_found = is_found || strcmp(probe->type, types[k]) == 0;
@@ -42,7 +43,7 @@ static mor_status reserve_part(mor_context *context, int64_t n, mor_probe_part *
 /* Whether a probe measures particles of its own choice. */
 static bool has_own_part(const mor_case_probe *probe)
 {
-    return (probe->region != NULL && (probe->kind->traits & MOR_CASE_PROBE_OF_SOIL) != 0) || probe->n_path > 0;
+    return probe->region != NULL || probe->n_path > 0;
 }
 
 /* The path of a probe in the placed frame. */
@@ -217,7 +218,10 @@ void mor_probe_scan_part(mor_probe_view *view)
     double axes[3][3];
     if (view->path != NULL) {
         set_path_frame(view->frame.up, view->points.dimension, axes);
-        memset(view->frame.origin, 0, sizeof view->frame.origin);
+        const double height = mor_vector_dot(view->frame.origin, view->frame.up);
+        for (int a = 0; a < 3; ++a) {
+            view->frame.origin[a] = height * view->frame.up[a]; /* the path begins at 0 */
+        }
         memcpy(view->frame.direction, axes[0], sizeof view->frame.direction);
         view->frame.is_radial = false;
     }

@@ -100,13 +100,14 @@ static const double share_allowed = 0.02;
 static const double costs[MOR_PROBE_COSTS] = {
     [MOR_PROBE_COST_ENERGIES] = 15.0, [MOR_PROBE_COST_KINETIC] = 2.0, [MOR_PROBE_COST_PROFILE] = 40.0,
     [MOR_PROBE_COST_STRESS] = 60.0,   [MOR_PROBE_COST_SUM] = 6.0,     [MOR_PROBE_COST_PERCENTILE] = 5.0,
-    [MOR_PROBE_COST_DISTANCE] = 40.0};
+    [MOR_PROBE_COST_DISTANCE] = 40.0, [MOR_PROBE_COST_BODIES] = 3.0};
 
 static mor_probe_cost find_cost(const mor_simulation *s, int probe)
 {
     mor_probe_view view;
     mor_probe_view_set(s, probe, &view);
-    if (view.probe->region != NULL || view.probe->n_path > 0) {
+    const bool is_chosen = view.probe->region != NULL || view.probe->n_path > 0;
+    if (is_chosen && view.measure->cost != MOR_PROBE_COST_BODIES) {
         return MOR_PROBE_COST_DISTANCE;
     }
     const bool is_profile =
@@ -124,7 +125,8 @@ static void choose_intervals(mor_probe_track *track)
     for (int k = 0; k < s->the_case->n_probes; ++k) {
         const mor_probe_cost cost = find_cost(s, k);
         const bool is_shared = cost < MOR_PROBE_COST_STRESS;
-        sum += is_shared && is_counted[cost] ? 0.0 : costs[cost];
+        const double times = cost == MOR_PROBE_COST_BODIES ? (double)s->the_case->n_bodies : 1.0;
+        sum += is_shared && is_counted[cost] ? 0.0 : times * costs[cost];
         is_counted[cost] = true;
     }
     const double ratio = ceil(sum / (step_cost * share_allowed));
@@ -255,12 +257,6 @@ static mor_status measure(mor_context *context, mor_probe_track *track, int k)
     mor_probe_view view;
     double value = NAN;
     mor_probe_view_set(track->simulation, k, &view);
-    if (view.measure->remember != NULL) {
-        mor_probe_view whole = view;
-        whole.points.n_threads = context->n_threads;
-        mor_probe_scan_part(&whole);
-        view.measure->remember(&whole, track->simulation->schedule.n_steps == 0, track->memory[k]);
-    }
     if (view.measure->past != NULL) {
         double remembered = NAN;
         view.points.n_threads = context->n_threads;
@@ -293,11 +289,30 @@ mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track)
     return mor_probe_follow(context, track->simulation);
 }
 
+/* What single probes remember, in each step: most only at the start, when the particles they choose are gathered. */
+static void remember(const mor_context *context, mor_probe_track *track)
+{
+    const bool is_start = track->simulation->schedule.n_steps == 0;
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        mor_probe_view view;
+        if ((traits_of(track->simulation, k) & MOR_CASE_PROBE_OF_PAST) == 0) {
+            continue;
+        }
+        mor_probe_view_set(track->simulation, k, &view);
+        view.points.n_threads = context->n_threads;
+        if (is_start) {
+            mor_probe_scan_part(&view);
+        }
+        view.measure->remember(&view, is_start, track->memory[k]);
+    }
+}
+
 mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation)
 {
     mor_probe_track *track = simulation->probes;
     mor_gauges_follow(&track->gauges);
     mor_probe_scan_begin(track->scan);
+    remember(context, track);
     for (int k = 0; k < simulation->the_case->n_probes; ++k) {
         if (simulation->schedule.n_steps % (uint64_t)track->intervals[k] == 0) {
             MOR_TRY(context, measure(context, track, k));

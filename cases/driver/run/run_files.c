@@ -155,6 +155,7 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
     }
     MOR_TRY(context, mor_run_gauges_open(context, &files->gauges, files->the_case, folder, is_resume,
                                          mor_schedule_time(schedule)));
+    MOR_TRY(context, mor_run_boulders_open(context, &files->boulders, files->simulation, folder, is_resume));
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_TABLE_SERIES_FILE));
     return is_resume ? mor_table_resume(context, &files->series, path, files->columns, files->n_columns,
                                         mor_schedule_time(schedule))
@@ -210,6 +211,7 @@ void mor_run_files_close(mor_context *context, mor_run_files *files)
         mor_table_close(context, &files->series);
     }
     mor_run_gauges_close(context, &files->gauges);
+    mor_run_boulders_close(context, &files->boulders);
     mor_snapshot_writer_clear(context, &files->snapshots);
     end_log(context, files);
     free(files->early_text);
@@ -233,6 +235,7 @@ mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
         MOR_TRY(context, mor_probe_value(context, files->simulation, k, &row[files->first_probe + k]));
     }
     MOR_TRY(context, mor_run_gauges_add_row(context, &files->gauges, &files->simulation->probes->gauges, row[0]));
+    MOR_TRY(context, mor_run_boulders_add_row(context, &files->boulders, files->simulation));
     return mor_table_append(context, &files->series, row);
 }
 
@@ -250,6 +253,7 @@ mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
     const mor_checkpoint checkpoint = {&files->simulation->state, files->case_text};
     if (files->series.stream != NULL) { /* a state may be saved without a series */
         MOR_TRY(context, mor_run_gauges_sync(context, &files->gauges));
+        MOR_TRY(context, mor_run_boulders_sync(context, &files->boulders));
         MOR_TRY(context, mor_table_sync(context, &files->series));
     }
     return mor_checkpoint_write(context, files->options->folder, &checkpoint);

@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_RUN_RUN_FILES_H
 #define MOR_CASES_DRIVER_RUN_RUN_FILES_H
 
+#include "cases/driver/run/run_boulders.h"
 #include "cases/driver/run/run_folder.h"
 #include "cases/driver/run/run_gauges.h"
 #include "cases/driver/run/run_progress.h"
@@ -72,6 +73,7 @@ typedef struct mor_run_files {
     int n_columns;
     int first_probe; /* column of the first probe */
     mor_run_gauges gauges;
+    mor_run_boulders boulders;
     mor_run_progress progress;
 } mor_run_files;
 

@@ -193,11 +193,13 @@ static void print_failure(FILE *out, const mor_summary *summary)
     }
 }
 
-static mor_status conclude_gauges(mor_context *context, const mor_run_files *files)
+/* Files and tables of gauges, boulders and particles. */
+static mor_status conclude_parts(mor_context *context, const mor_run_files *files)
 {
     const mor_gauges *gauges = &files->simulation->probes->gauges;
     mor_run_gauges_print(gauges, files->options->output);
-    return mor_run_gauges_conclude(context, gauges, files->options->folder);
+    MOR_TRY(context, mor_run_gauges_conclude(context, gauges, files->options->folder));
+    return mor_run_boulders_conclude(context, files->simulation, files->options->folder);
 }
 
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
@@ -254,7 +256,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     MOR_TRY(context, mor_summary_write(context, path, &summary));
     print_failure(files->options->output, &summary);
     MOR_TRY(context, mor_run_table_print(context, c, &summary, files->options->output));
-    MOR_TRY(context, conclude_gauges(context, files));
+    MOR_TRY(context, conclude_parts(context, files));
     print_integration(files->options->output, summary.integration);
     print_settling(files->options->output, summary.settling);
     print_warnings(files->options->output, &files->warnings);
