@@ -3,8 +3,11 @@
 #include "tests/common/session_run.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
-/* Gauges of a run that was stopped and resumed leave the same files behind as those of one that never stopped. */
+/* Gauges, and probes that look back to the start, of a run that was stopped and resumed leave the same files behind as
+ * those of one that never stopped. */
 
 static const char text[] =
     "title = 'gauges'; dimension = 2; spacing = '20 mm'; gravity = ('0 m/s2', '-9.81 m/s2', '0 m/s2');"
@@ -25,7 +28,12 @@ static const char text[] =
     "  { name = 'low_pass'; wall = 'stop'; direction = (1, 0); cutoff = '50 Hz'; },"
     "  { name = 'ball'; body = 'ball'; direction = (0, -1); } );"
     "probes = ( { type = 'gauge_normal'; gauge = 'mean'; }, { type = 'gauge_height'; gauge = 'mean'; },"
-    "  { type = 'gauge_moment'; gauge = 'low_pass'; }, { type = 'gauge_shear'; gauge = 'ball'; } );"
+    "  { type = 'gauge_moment'; gauge = 'low_pass'; }, { type = 'gauge_shear'; gauge = 'ball'; },"
+    "  { type = 'mass_passed'; origin = ('0.305 m', 0); direction = (1, 0); }, { type = 'displacement'; },"
+    "  { type = 'boulder_travel'; }, { name = 'line'; type = 'passages'; origin = ('0.255 m', 0); direction = (1, 0); "
+    "},"
+    "  { type = 'passage_energy'; origin = ('0.255 m', 0); direction = (1, 0); },"
+    "  { type = 'angle_of_reach'; direction = (1, 0); }, { type = 'angle_of_centers'; direction = (1, 0); } );"
     "numerics = { sort_interval = 11; }; output = { snapshots = 6; pictures = false; series_interval = '1 ms'; };";
 
 static void run_case(run_folder *folder, const char *name, double stop_at, bool is_resume, int n_threads)
@@ -39,7 +47,8 @@ static void run_case(run_folder *folder, const char *name, double stop_at, bool 
 
 static void gauges_go_on_as_if_never_stopped(void **state)
 {
-    static const char *const names[] = {"gauges.csv", "gauge_peaks.csv", "gauge_mean_map.csv"};
+    static const char *const names[] = {"gauges.csv",   "gauge_peaks.csv",   "gauge_mean_map.csv",
+                                        "boulders.csv", "boulder_paths.csv", "displacements.csv"};
     run_folder *folder = *state;
     run_case(folder, "whole", NAN, false, 1);
     run_case(folder, "stopped", 0.0111, false, 1);
@@ -81,11 +90,68 @@ static void rows_add_up_to_the_impulse(void **state)
     assert_true(fabs(it.impulse / sum - 1.0) < 0.12);
 }
 
+/* boulders.csv holds what the probes tell of the one body. */
+static void boulders_have_a_line_each(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    double numbers[16];
+    run_case(folder, "run", NAN, false, 1);
+    char *bytes = (char *)run_folder_load(finished_run_file(folder, path, "run", "boulders.csv"), &n_bytes);
+    assert_non_null(bytes);
+    const char *line = strchr(bytes, '\n') + 1;
+    assert_int_equal(strncmp(line, "ball,", 5), 0);
+    line = strchr(line, ',');
+    for (int k = 0; k < 16; ++k) { /* diameter, mass, start, end, path, fastest, its time, last, rest, passage */
+        assert_non_null(line);
+        numbers[k] = strtod(line + 1, NULL);
+        line = strchr(line + 1, ',');
+    }
+    assert_null(line);
+    assert_true(fabs(numbers[0] - 0.12) < 1e-3); /* of the shape, by its volume */
+    assert_true(fabs(numbers[2] - 0.25) < 1e-9 && fabs(numbers[3] - 0.27) < 1e-9);
+    const double way = hypot(numbers[5] - numbers[2], numbers[6] - numbers[3]);
+    assert_true(numbers[8] >= way * (1.0 - 1e-9) && numbers[8] < 0.1); /* no shorter than straight, at 1 m/s */
+    assert_true(numbers[9] >= 1.0 && numbers[13] == 0.0); /* it comes back from the wall */
+    assert_true(fabs(numbers[14] - 0.005) < 0.001);                  /* 5 mm at 1 m/s */
+    assert_true(fabs(numbers[15] / (0.5 * numbers[1]) - 1.0) < 0.1); /* it falls by a few centimeters per second */
+    free(bytes);
+}
+
+/* What looks back to the start cannot be added to a run that goes on. */
+static void probes_of_the_start_cannot_be_appended(void **state)
+{
+    run_folder *folder = *state;
+    char case_path[MOR_PATH_BYTES];
+    char path[MOR_PATH_BYTES];
+    char more[sizeof text + 128];
+    mor_session *session = NULL;
+    mor_session_outcome outcome = MOR_SESSION_FINISHED;
+    run_case(folder, "run", 0.0111, false, 1);
+    const char *end = strstr(text, "numerics = {");
+    assert_non_null(end);
+    const int n = (int)(end - text);
+    snprintf(more, sizeof more, "%.*s", n, text);
+    char *close = strrchr(more, ')');
+    assert_non_null(close);
+    snprintf(close, sizeof more - (size_t)(close - more), ", { name = 'late'; type = 'displacement'; } ); %s", end);
+    finished_run_store_text(folder, more, case_path);
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, case_path), MOR_OK);
+    assert_int_equal(mor_session_run(session, run_folder_file(folder, path, "run"), true, NAN, &outcome),
+                     MOR_ERROR_CONFIG);
+    assert_non_null(strstr(mor_session_message(session), "begins at the start of a run"));
+    mor_session_free(&session);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(gauges_go_on_as_if_never_stopped, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(rows_add_up_to_the_impulse, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(boulders_have_a_line_each, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(probes_of_the_start_cannot_be_appended, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 #include "cases/driver/picture/draw/ticks.h"
 #include "cases/driver/picture/gauge_map_picture.h"
 #include "cases/driver/picture/view/picture.h"
-#include "cases/driver/probe/gauge_table.h"
+#include "cases/driver/gauge/gauge_table.h"
 #include "core/base/memory.h"
 #include "core/io/table.h"
 

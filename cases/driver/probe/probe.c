@@ -474,6 +474,7 @@ static const mor_probe_measure measures[] =
 const mor_case_probe_type *mor_probe_type_at(int index)
 {
     static const mor_probe_measure *const tables[] = {measures,
+                                                      mor_probe_wall_measures,
                                                       mor_probe_local_measures,
                                                       mor_probe_flow_measures,
                                                       mor_probe_reach_measures,

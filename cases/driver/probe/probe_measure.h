@@ -87,9 +87,9 @@ typedef struct mor_probe_measure {
     mor_status (*past)(mor_context *context, const mor_probe_view *view, double *value);
     /** Returns how many doubles `remember` keeps from the start of the run on; NULL: nothing. */
     int64_t (*count)(const mor_probe_view *view);
-    /** Updates what is kept, shape [count], mixed units, in each step; is_start: at the start of the run, when what was
-     *  there is of no meaning and the points of the view are those that the probe measures; else they are all. Goes with
-     *  the trait MOR_CASE_PROBE_OF_PAST. */
+    /** Updates what is kept, shape [count], mixed units, in each step; is_start: at the start of the run, when what is
+     *  there has no meaning and the points of the view are those that the probe measures; else they are all. Goes
+     *  with the trait MOR_CASE_PROBE_OF_PAST. */
     void (*remember)(const mor_probe_view *view, bool is_start, double *memory);
     /** Of contact, NULL for others: writes the value after a sub-step of the steppers with the bits of members, and the
      *  part of it that they gave, both in the unit of the type. */

@@ -80,11 +80,13 @@ mor_status mor_probe_scan_new(mor_context *context, const mor_simulation *simula
 {
     const int64_t n = simulation->soil.set.n_particles;
     MOR_TRY(context, MOR_NEW(context, scan, 1, "what probes share"));
+    for (int k = 0; k < simulation->the_case->n_probes; ++k) {
+        MOR_TRY(context, prepare_own(context, simulation, k, *scan));
+    }
     for (int k = 0; k < simulation->the_case->n_probes && n > 0; ++k) {
         if (has_percentile(&simulation->the_case->probes[k])) {
             MOR_TRY(context, mor_measure_order_reserve(context, &(*scan)->orders[k], n));
         }
-        MOR_TRY(context, prepare_own(context, simulation, k, *scan));
         const int soil = mor_probe_find_soil(simulation->the_case, k);
         if (soil >= 0) {
             MOR_TRY(context, reserve_part(context, n, &(*scan)->parts[soil]));

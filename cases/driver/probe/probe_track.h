@@ -4,7 +4,7 @@
 #define MOR_CASES_DRIVER_PROBE_PROBE_TRACK_H
 
 #include "cases/driver/case/case.h"
-#include "cases/driver/probe/gauge.h"
+#include "cases/driver/gauge/gauge.h"
 #include "cases/driver/probe/probe_record.h"
 #include "core/particle/state.h"
 #include "core/time/stepper.h"

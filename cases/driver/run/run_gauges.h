@@ -3,8 +3,8 @@
 #ifndef MOR_CASES_DRIVER_RUN_RUN_GAUGES_H
 #define MOR_CASES_DRIVER_RUN_RUN_GAUGES_H
 
-#include "cases/driver/probe/gauge.h"
-#include "cases/driver/probe/gauge_table.h"
+#include "cases/driver/gauge/gauge.h"
+#include "cases/driver/gauge/gauge_table.h"
 #include "core/io/table.h"
 
 /** @file

@@ -12,7 +12,7 @@
 
 /* Probes and expectations. */
 
-enum { WORDS_MAX = MOR_CASE_PROBES_MAX };
+enum { WORDS_MAX = 2 * MOR_CASE_PROBES_MAX }; /* types of probes, or names of them */
 
 /* ---- Probes ------------------------------------------------------------------------------------------------------ */
 

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* The map of pressure of a gauge. */
-#include "cases/driver/probe/gauge.h"
+#include "cases/driver/gauge/gauge.h"
 
 #include "cases/driver/scene/simulation.h"
 #include "core/base/math.h"

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/probe/gauge.h"
+#include "cases/driver/gauge/gauge.h"
 
 #include "cases/driver/scene/simulation.h"
 #include "core/base/math.h"

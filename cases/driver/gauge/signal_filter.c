@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/probe/signal_filter.h"
+#include "cases/driver/gauge/signal_filter.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_PROBE_SIGNAL_FILTER_H
-#define MOR_CASES_DRIVER_PROBE_SIGNAL_FILTER_H
+#ifndef MOR_CASES_DRIVER_GAUGE_SIGNAL_FILTER_H
+#define MOR_CASES_DRIVER_GAUGE_SIGNAL_FILTER_H
 
 #include <stdint.h>
 

@@ -1,10 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_PROBE_GAUGE_H
-#define MOR_CASES_DRIVER_PROBE_GAUGE_H
+#ifndef MOR_CASES_DRIVER_GAUGE_GAUGE_H
+#define MOR_CASES_DRIVER_GAUGE_GAUGE_H
 
 #include "cases/driver/case/case.h"
-#include "cases/driver/probe/signal_filter.h"
+#include "cases/driver/gauge/signal_filter.h"
 #include "core/particle/state.h"
 
 /** @file

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_PROBE_GAUGE_TABLE_H
-#define MOR_CASES_DRIVER_PROBE_GAUGE_TABLE_H
+#ifndef MOR_CASES_DRIVER_GAUGE_GAUGE_TABLE_H
+#define MOR_CASES_DRIVER_GAUGE_GAUGE_TABLE_H
 
 /** @file
  *  The files of gauges in the folder of a run, as those who write and those who draw them know them. */
