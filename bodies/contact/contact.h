@@ -59,6 +59,21 @@ typedef struct mor_contact_settings {
     bool has_removals;      /* walls or bodies are removed in the course of the run */
 } mor_contact_settings;
 
+/** A force of contact, as it acts in one sub-step. */
+typedef struct mor_contact_load {
+    const mor_body_group *group, *other_group; /* of the two sides; other_group NULL: a wall */
+    int body, other_body;                      /* in their groups */
+    int wall;                                  /* index of the wall; -1: a body */
+    const double *place;                       /* shape [3]; where it acts, m */
+    const double *force; /* shape [3]; on the first side; the opposite acts on the other, N (N/m) */
+} mor_contact_load;
+
+/** Looks at each force of contact when it is applied; nothing depends on whether anybody does. */
+typedef struct mor_contact_watch {
+    void *owner;
+    void (*run)(void *owner, const mor_contact_load *load); /* takes one force; NULL: nobody looks */
+} mor_contact_watch;
+
 /** Contact among all groups and walls. Owner: the run. */
 typedef struct mor_contact {
     mor_body_group *groups[MOR_BODY_GROUPS_MAX]; /* borrowed; group g belongs to the stepper with bit stepper_bits[g] */
@@ -67,6 +82,7 @@ typedef struct mor_contact {
     mor_contact_wall *walls; /* shape [n_walls]; owned */
     int n_walls;
     mor_contact_settings settings;
+    mor_contact_watch watch; /* what it owns is borrowed */
     double time;            /* to which walls have moved; set by the exchange, s */
     double spring_energy;   /* stored in normal and tangential springs at the last sub-step, J (J/m) */
     double friction_energy; /* lost to sliding since the start, J (J/m) */

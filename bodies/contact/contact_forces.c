@@ -150,6 +150,27 @@ static void apply_to_whole(mor_contact *contact, int second, const double *place
     }
 }
 
+/* Tells whoever looks of a force on the first side of a pair. */
+static void tell_load(const mor_contact *contact, const mor_contact_near *near, const double *place,
+                      const double *force)
+{
+    const mor_contact_work *work = contact->work;
+    const bool is_wall = near->second >= work->n_bodies;
+    const mor_contact_body *first = &work->bodies[near->first];
+    if (contact->watch.run == NULL) {
+        return;
+    }
+    const mor_contact_load load = {
+        .group = first->group,
+        .body = first->body,
+        .other_group = mor_contact_group(contact, near->second),
+        .other_body = is_wall ? -1 : work->bodies[near->second].body,
+        .wall = is_wall ? mor_contact_find_part(contact, near->second - work->n_bodies, place) : -1,
+        .place = place,
+        .force = force};
+    contact->watch.run(contact->watch.owner, &load);
+}
+
 static void apply_to_wall(mor_contact *contact, const mor_contact_near *near, const double *place, const double *force)
 {
     const mor_contact_work *work = contact->work;
@@ -191,6 +212,7 @@ static void apply_to_both(mor_contact *contact, const mor_contact_near *near, in
     } else {
         apply_to_wall(contact, near, touch->place, force);
     }
+    tell_load(contact, near, touch->place, touch->side == 0 ? force : opposite);
 }
 
 /* Normal force of a node without damping, N. */
@@ -282,6 +304,7 @@ static void damp_whole(mor_contact *contact, pair_sums *sums, double closing, do
     apply_to_whole(contact, sums->near->first, sums->center, force);
     apply_to_whole(contact, sums->near->second, sums->center, opposite);
     apply_to_wall(contact, sums->near, sums->center, force);
+    tell_load(contact, sums->near, sums->center, force);
     /* What the motion loses is force times the velocity in the middle of the kick; of that, the pair's own part, as
      * if nothing rotates. */
     const double kick = (resultant + extra) * inverse * sums->length;

@@ -74,6 +74,16 @@ typedef struct mor_soil_failure {
     double state[9 * MOR_MATERIAL_STATES_MAX]; /* shape [n_values]; at the start; units of the law's schema */
 } mor_soil_failure;
 
+/** Looks at the forces of the soil on each boundary right after they have been summed; the results do not depend on
+ *  whether anybody does. */
+typedef struct mor_soil_watch {
+    void *owner;
+    /** Looks at one boundary; records: shape [n_particles padded to 8, 16]; units of MOR_RECORD_...; NULL: nobody
+     *  looks. */
+    void (*run)(mor_context *context, void *owner, const mor_soil_contact *contact, const double *records,
+                int64_t n_particles);
+} mor_soil_watch;
+
 /** One soil. Owner: the run. */
 typedef struct mor_soil {
     mor_soil_settings settings;
@@ -116,6 +126,7 @@ typedef struct mor_soil {
     int n_walls;
     mor_soil_contact boundaries[MOR_SOIL_BOUNDARIES_MAX]; /* moved by others */
     int n_boundaries;
+    mor_soil_watch watch;                       /* of the forces on them; what it owns is borrowed */
     double sound_speed;                         /* c0, m/s; the largest of several soils */
     double smoothing_length;                    /* h, m */
     double lattice_moment;                      /* moment of the kernel gradient on it, 1 */

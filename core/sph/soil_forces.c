@@ -208,6 +208,9 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
         mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner);
         mor_soil_contact_sum_forces(context, contact, &seen, acceleration);
+        if (soil->watch.run != NULL) {
+            soil->watch.run(context, soil->watch.owner, contact, arrays.records, arrays.n_particles);
+        }
         mor_soil_contact_share_forces(context, contact, soil->table, &soil->constants, arrays.records,
                                       arrays.n_particles);
     }

@@ -37,6 +37,8 @@ enum {
     MOR_CASE_PATH_ROWS_MAX = 1024,
     MOR_CASE_EXCAVATIONS_MAX = 32,
     MOR_CASE_PROBES_MAX = 64,
+    MOR_CASE_GAUGES_MAX = 64,
+    MOR_CASE_PATH_POINTS_MAX = 256,
     MOR_CASE_EXPECTATIONS_MAX = 32
 };
 
@@ -345,6 +347,21 @@ typedef struct mor_case_contact {
     uint64_t written;
 } mor_case_contact;
 
+/** One gauge: the force on a structure, or on a part of it. */
+typedef struct mor_case_gauge {
+    char name[MOR_CASE_NAME_BYTES];
+    mor_case_place place;
+    char wall[MOR_CASE_NAME_BYTES], body[MOR_CASE_NAME_BYTES]; /* the structure: one of the two, the other "" */
+    double origin[3];                                          /* of moments and heights, m */
+    double direction[3];                                       /* unit vector; of the normal force, 1 */
+    double filter;                                             /* length of a running mean, s; NaN: none */
+    double cutoff;                                             /* frequency of a low pass, 1/s; NaN: none */
+    double cell;                                               /* side of the cells of a pressure map, m; NaN: no map */
+    mor_shape *region;             /* that restricts it to a part; frame of the case; owned by the case; NULL: all */
+    mor_case_shape region_outline; /* what region was built from; owned by the case */
+    uint64_t written;
+} mor_case_gauge;
+
 /** Keys of a probe that only some types take. */
 enum {
     MOR_CASE_PROBE_WALL = 1,
@@ -355,7 +372,13 @@ enum {
     MOR_CASE_PROBE_DIRECTION = 32,
     MOR_CASE_PROBE_RADIAL = 64,
     MOR_CASE_PROBE_BODY = 128,
-    MOR_CASE_PROBE_SOIL = 256
+    MOR_CASE_PROBE_SOIL = 256,
+    MOR_CASE_PROBE_GAUGE = 512,
+    MOR_CASE_PROBE_REGION = 1024,
+    MOR_CASE_PROBE_PATH = 2048,
+    MOR_CASE_PROBE_SPEED = 4096,
+    MOR_CASE_PROBE_STRAIN = 8192,
+    MOR_CASE_PROBE_FRICTION = 16384
 };
 
 /** What sets a type of probe apart, beside its keys. */
@@ -366,6 +389,7 @@ enum {
     MOR_CASE_PROBE_OF_AUDIT = 8,    /* needs the audit of the soil's energy */
     MOR_CASE_PROBE_OF_STEP = 16,    /* holds over a step, as a force; others have a value at each instant */
     MOR_CASE_PROBE_OF_FORCE = 32,   /* a force, which has an impulse */
+    MOR_CASE_PROBE_OF_PAST = 128,   /* remembers from the start on, so that it cannot be added to a run that goes on */
     MOR_CASE_PROBE_OF_CONTACT = 64  /* changes with each sub-step of the bodies */
 };
 
@@ -395,12 +419,20 @@ typedef struct mor_case_probe {
     char wall[MOR_CASE_NAME_BYTES];    /* of a wall force */
     char body[MOR_CASE_NAME_BYTES];    /* of a probe of one body */
     char soil[MOR_CASE_NAME_BYTES];    /* of a probe of one soil; "": of all */
+    char gauge[MOR_CASE_NAME_BYTES];   /* of a probe that reads a gauge */
     bool is_radial;                    /* run-out measured as a radius about origin, else along direction */
     double origin[3];                  /* m */
     double direction[3];               /* unit vector; run-out and force component */
     double percentile;                 /* percent of the mass (or of the particles sorted by the value), 0 to 100 */
     double thickness;                  /* threshold, m; default half the spacing */
     double window[2];                  /* times between which statistics are taken, s; NaN: the whole run */
+    double speed;                      /* threshold, m/s */
+    double strain;                     /* threshold of the plastic strain, 1 */
+    double friction_coefficient;       /* of the ground, 1 */
+    mor_shape *region;             /* that restricts it to a part; frame of the case; owned by the case; NULL: all */
+    mor_case_shape region_outline; /* what region was built from; owned by the case */
+    double *path;                  /* shape [n_path, 3]; corners of a polyline, m; owned by the case; NULL: none */
+    int n_path;
     uint64_t written;
 } mor_case_probe;
 
@@ -499,6 +531,8 @@ typedef struct mor_case {
     int n_rocks;
     mor_case_contact contact;
     mor_scheme numerics;
+    mor_case_gauge gauges[MOR_CASE_GAUGES_MAX];
+    int n_gauges;
     mor_case_probe_catalog probe_types; /* that the case was read with; NULL: none */
     mor_case_probe probes[MOR_CASE_PROBES_MAX];
     int n_probes;

@@ -66,6 +66,15 @@ void mor_case_clear(mor_context *context, mor_case *the_case)
     for (int k = 0; k < the_case->n_rocks; ++k) {
         clear_rocks(context, &the_case->rocks[k]); /* after the bodies, which view their shapes */
     }
+    for (int k = 0; k < the_case->n_gauges; ++k) {
+        mor_shape_free(context, &the_case->gauges[k].region);
+        mor_case_shape_clear(context, &the_case->gauges[k].region_outline);
+    }
+    for (int k = 0; k < the_case->n_probes; ++k) {
+        mor_shape_free(context, &the_case->probes[k].region);
+        mor_case_shape_clear(context, &the_case->probes[k].region_outline);
+        MOR_FREE(context, &the_case->probes[k].path);
+    }
     mor_registry_free(context, &the_case->registry);
     for (int k = 0; k < the_case->n_plugins; ++k) {
         mor_plugin_unload(context, &the_case->plugins[k].plugin);

@@ -372,7 +372,11 @@ mor_status mor_session_print_check(mor_session *session)
         fprintf(out, "%d bod%s of %lld particles, ", c->n_bodies, c->n_bodies == 1 ? "y" : "ies",
                 (long long)(mor_simulation_particles(s) - s->soil.set.n_particles));
     }
-    fprintf(out, "%d wall%s, %d probe%s, %d expectation%s\n", c->n_walls, c->n_walls == 1 ? "" : "s", c->n_probes,
-            c->n_probes == 1 ? "" : "s", c->n_expectations, c->n_expectations == 1 ? "" : "s");
+    fprintf(out, "%d wall%s, ", c->n_walls, c->n_walls == 1 ? "" : "s");
+    if (c->n_gauges > 0) {
+        fprintf(out, "%d gauge%s, ", c->n_gauges, c->n_gauges == 1 ? "" : "s");
+    }
+    fprintf(out, "%d probe%s, %d expectation%s\n", c->n_probes, c->n_probes == 1 ? "" : "s", c->n_expectations,
+            c->n_expectations == 1 ? "" : "s");
     return mor_simulation_print_warnings(&session->context, s, out);
 }

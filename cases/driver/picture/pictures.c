@@ -4,10 +4,12 @@
 
 #include "cases/driver/map/map_picture.h"
 #include "cases/driver/picture/charts.h"
+#include "cases/driver/picture/gauge_charts.h"
 #include "cases/driver/picture/picture_color.h"
 #include "cases/driver/picture/picture_soils.h"
 #include "cases/driver/picture/picture_wall.h"
 #include "cases/driver/picture/rocks_report.h"
+#include "cases/driver/picture/time_distance.h"
 #include "cases/driver/picture/view/camera.h"
 #include "cases/driver/picture/view/picture.h"
 #include "cases/driver/scene/build/simulation_build.h"
@@ -543,6 +545,8 @@ static mor_status render_list(mor_context *context, gallery *g, const mor_snapsh
         return MOR_OK;
     }
     MOR_TRY(context, mor_map_pictures_render(context, g->the_case, g->folder, output));
+    MOR_TRY(context, mor_time_distance_render(context, g->the_case, g->folder, output));
+    MOR_TRY(context, mor_gauge_charts_render(context, g->the_case, g->folder, output));
     return mor_charts_render(context, g->folder, output);
 }
 

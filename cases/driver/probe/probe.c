@@ -26,12 +26,12 @@ static bool is_same_frame(const mor_measure_frame *a, const mor_measure_frame *b
 static mor_status find_profile(mor_context *context, const view *v)
 {
     mor_probe_scan *scan = v->scan;
-    if (!scan->has_profile || scan->profile_soil != v->soil || !is_same_frame(&scan->profile_frame, &v->frame)) {
+    if (!scan->has_profile || scan->profile_part != v->part || !is_same_frame(&scan->profile_frame, &v->frame)) {
         scan->has_profile = false;
         MOR_TRY(context,
                 mor_measure_profile_fill(context, &v->points, &v->frame, v->points.spacing, 0.0, &scan->profile));
         scan->profile_frame = v->frame;
-        scan->profile_soil = v->soil;
+        scan->profile_part = v->part;
         scan->has_profile = true;
     }
     return MOR_OK;
@@ -154,7 +154,7 @@ static mor_status repose_angle(mor_context *context, const view *v, double *valu
 static mor_status soil_kinetic_energy(mor_context *context, const view *v, double *value)
 {
     (void)context;
-    if (v->soil >= 0) {
+    if (v->part >= 0) {
         *value = mor_measure_kinetic_energy(&v->points, v->velocity);
         return MOR_OK;
     }
@@ -292,42 +292,6 @@ static mor_status center_of_mass(mor_context *context, const view *v, double *va
     return MOR_OK;
 }
 
-/* Component of a vector that the soil keeps for each wall. */
-static mor_status of_wall(mor_context *context, const view *v, const double vectors[][3], double *value)
-{
-    if (v->wall < 0) {
-        return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                        "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
-    }
-    *value = mor_vector_dot(vectors[v->wall], v->frame.direction);
-    return MOR_OK;
-}
-
-static mor_status wall_force(mor_context *context, const view *v, double *value)
-{
-    return of_wall(context, v, v->simulation->soil.wall_force, value);
-}
-
-static mor_status wall_impulse(mor_context *context, const view *v, double *value)
-{
-    return of_wall(context, v, v->simulation->soil.wall_impulse, value);
-}
-
-/* Least distance of a soil particle from the shape of a wall, which moves with its velocity. */
-static mor_status wall_gap(mor_context *context, const view *v, double *value)
-{
-    const mor_case *c = v->simulation->the_case;
-    const double time = mor_schedule_time(&v->simulation->schedule);
-    for (int w = 0; w < c->n_walls; ++w) {
-        if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
-            *value = mor_simulation_wall_gap(v->simulation, w, time, v->points.position, v->points.n_points);
-            return MOR_OK;
-        }
-    }
-    return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
-}
-
 static mor_status largest_speed(mor_context *context, const view *v, double *value)
 {
     return mor_measure_speed(context, &v->points, v->velocity, v->probe->percentile, value);
@@ -416,17 +380,19 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
 }
 
 static const mor_probe_measure measures[] =
-    {{.type = {"run_out", "m", "m", FRONT, 0, OF_SOIL, 99.5, "run-out distance of the deposit"},
+    {{.type = {"run_out", "m", "m", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
+               "run-out distance of the deposit; along a path, from its first point"},
       .run = run_out,
       .cost = MOR_PROBE_COST_PERCENTILE},
      {.type = {"toe", "m", "m", SOIL | ALONG, 0, 0, 100.0,
                "largest distance of a particle, of soil or rocks, that lies higher than origin; 0: there is none"},
       .run = toe,
       .cost = MOR_PROBE_COST_SUM},
-     {.type = {"front_speed", "m/s", "m/s", FRONT, 0, OF_SOIL, 99.5, "speed of the front of the deposit"},
+     {.type = {"front_speed", "m/s", "m/s", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
+               "speed of the front of the deposit; along a path, on the map"},
       .run = front_speed,
       .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"height", "m", "m", SOIL | PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0,
+     {.type = {"height", "m", "m", SOIL | REGION | PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0,
                "height of the deposit, against gravity"},
       .run = height,
       .cost = MOR_PROBE_COST_PERCENTILE},
@@ -435,7 +401,7 @@ static const mor_probe_measure measures[] =
                "distance beyond the top, from 20 to 80 % of the height"},
       .run = repose_angle,
       .cost = MOR_PROBE_COST_PROFILE},
-     {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS, 0, OF_SOIL, 100.0,
+     {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS | REGION | PATH, 0, OF_SOIL, 100.0,
                "share of the mass outside the deposit"},
       .run = stray_share,
       .cost = MOR_PROBE_COST_PROFILE},
@@ -461,7 +427,7 @@ static const mor_probe_measure measures[] =
                "initial total energy - total energy - energy that left the domain, of soil and bodies"},
       .run = dissipated_energy,
       .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"mass", "kg", "kg/m", SOIL, 0, OF_SOIL, 100.0, "mass of the soil"},
+     {.type = {"mass", "kg", "kg/m", SOIL | REGION, 0, OF_SOIL, 100.0, "mass of the soil"},
       .run = mass,
       .cost = MOR_PROBE_COST_SUM},
      {.type = {"outflow_mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0,
@@ -478,21 +444,12 @@ static const mor_probe_measure measures[] =
                "momentum of soil and bodies along direction"},
       .run = momentum,
       .cost = MOR_PROBE_COST_SUM},
-     {.type = {"center_of_mass", "m", "m", SOIL | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+     {.type = {"center_of_mass", "m", "m", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
                "center of mass of the soil from origin along direction"},
       .run = center_of_mass,
       .cost = MOR_PROBE_COST_SUM},
-     {.type = {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL | FORCE, 100.0,
-               "force of the soil on a wall along direction"},
-      .run = wall_force},
-     {.type = {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
-               "impulse of the soil on a wall since the start along direction"},
-      .run = wall_impulse},
-     {.type = {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
-               "smallest distance of a soil particle from the surface of a wall; negative: inside"},
-      .run = wall_gap,
-      .cost = MOR_PROBE_COST_DISTANCE},
-     {.type = {"largest_speed", "m/s", "m/s", SOIL | PERCENTILE, 0, OF_SOIL, 100.0, "largest speed of a soil particle"},
+     {.type = {"largest_speed", "m/s", "m/s", SOIL | REGION | PERCENTILE, 0, OF_SOIL, 100.0,
+               "largest speed of a soil particle"},
       .run = largest_speed,
       .cost = MOR_PROBE_COST_PERCENTILE},
      {.type = {"density_drift", "1", "1", SOIL | PERCENTILE, 0, OF_SOIL, 99.0,
@@ -510,15 +467,22 @@ static const mor_probe_measure measures[] =
                "standard deviation of the vertical stress from its least-squares line over height"},
       .run = stress_noise,
       .cost = MOR_PROBE_COST_STRESS},
-     {.type = {"soil_kinetic_energy", "J", "J/m", SOIL, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
+     {.type = {"soil_kinetic_energy", "J", "J/m", SOIL | REGION, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
       .run = soil_kinetic_energy,
       .cost = MOR_PROBE_COST_KINETIC},
      {.run = NULL}};
 
 const mor_case_probe_type *mor_probe_type_at(int index)
 {
-    static const mor_probe_measure *const tables[] = {measures, mor_probe_local_measures, mor_probe_energy_measures,
-                                                      mor_probe_body_measures};
+    static const mor_probe_measure *const tables[] = {measures,
+                                                      mor_probe_wall_measures,
+                                                      mor_probe_local_measures,
+                                                      mor_probe_flow_measures,
+                                                      mor_probe_reach_measures,
+                                                      mor_probe_energy_measures,
+                                                      mor_probe_body_measures,
+                                                      mor_probe_boulder_measures,
+                                                      mor_probe_gauge_measures};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
         for (const mor_probe_measure *it = tables[t]; it->run != NULL; ++it) {
             if (index-- == 0) {
@@ -544,6 +508,9 @@ void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
                 .wall = track->walls[probe],
                 .number = probe,
                 .soil = mor_probe_find_soil(c, probe),
+                .part = -1,
+                .path = it->n_path > 0 ? &track->scan->paths[probe] : NULL,
+                .memory = track->memory[probe],
                 .velocity = data[MOR_FIELD_VELOCITY],
                 .points = {simulation->soil.set.n_particles, c->dimension, c->spacing, data[MOR_FIELD_POSITION],
                            data[MOR_FIELD_MASS], data[MOR_FIELD_DENSITY], 0, &track->scan->orders[probe]},

@@ -5,17 +5,19 @@
 
 #include "cases/driver/probe/probe.h"
 #include "core/sph/measure/measure.h"
+#include "core/sph/measure/measure_path.h"
 
 /** @file
  *  What the files of probes share among themselves. Not for others. */
 
 struct mor_probe_measure;
 
-/** The particles of one soil, gathered. */
+/** Some of the particles, gathered: those of one soil, or those that one probe measures. */
 typedef struct mor_probe_part {
     bool is_current;                              /* of this measurement */
     int64_t n;                                    /* particles */
     double *position, *velocity, *mass, *density; /* room for all particles; owned; m, m/s, kg (kg/m), kg/m3 */
+    int64_t *index;                               /* likewise; in the set; NULL: not kept */
 } mor_probe_part;
 
 /** What the probes of one measurement share, so that it is found once, and their scratch. Owner: the track. */
@@ -26,10 +28,12 @@ typedef struct mor_probe_scan {
     double soil_kinetic; /* J (J/m) */
     bool has_profile;
     mor_measure_frame profile_frame;               /* that the profile was made in */
-    int profile_soil;                              /* that it was made of; -1: all */
+    int profile_part;                              /* `part` of the view that it was made of */
     mor_measure_profile profile;                   /* owned */
     mor_measure_order orders[MOR_CASE_PROBES_MAX]; /* of the percentile of each probe; owned */
     mor_probe_part parts[MOR_CASE_SOILS_MAX];      /* of the soils that probes name; owned */
+    mor_probe_part own[MOR_CASE_PROBES_MAX];       /* of probes with a region or a path; owned */
+    mor_measure_path paths[MOR_CASE_PROBES_MAX];   /* in the placed frame; no points: none; owned */
 } mor_probe_scan;
 
 /** Everything a measurement may need, in the placed frame. */
@@ -43,8 +47,12 @@ typedef struct mor_probe_view {
     int wall;                        /* number in the case; -1: of none */
     int number;                      /* of the probe in the case */
     int soil;                        /* number of the soil region that it measures; -1: all */
-    const double *velocity;          /* shape [points.n_points, 3], m/s */
-    mor_measure_points points;       /* of the soil */
+    int part;                     /* that points are: -1: all; a soil region; behind those, the own part of the probe */
+    const int64_t *index;         /* shape [points.n_points]; of the points in the set; NULL: as they are */
+    const mor_measure_path *path; /* NULL: none. Points then stand in its frame: along, beside, height */
+    const double *memory;         /* shape of what `remember` of the measure keeps; NULL: nothing */
+    const double *velocity;       /* shape [points.n_points, 3], m/s */
+    mor_measure_points points;    /* of the soil */
     mor_measure_frame frame;
 } mor_probe_view;
 
@@ -66,6 +74,7 @@ typedef enum mor_probe_cost {
     MOR_PROBE_COST_SUM,        /* over all particles */
     MOR_PROBE_COST_PERCENTILE, /* of all particles */
     MOR_PROBE_COST_DISTANCE,   /* of all particles from a shape */
+    MOR_PROBE_COST_BODIES,     /* of all particles from each body */
     MOR_PROBE_COSTS
 } mor_probe_cost;
 
@@ -76,6 +85,12 @@ typedef struct mor_probe_measure {
     mor_status (*run)(mor_context *context, const mor_probe_view *view, double *value);
     /** Writes what is recorded over the whole run so that `run` can look back, one number, any unit; NULL: nothing. */
     mor_status (*past)(mor_context *context, const mor_probe_view *view, double *value);
+    /** Returns how many doubles `remember` keeps from the start of the run on; NULL: nothing. */
+    int64_t (*count)(const mor_probe_view *view);
+    /** Updates what is kept, shape [count], mixed units, in each step; is_start: at the start of the run, when what is
+     *  there has no meaning and the points of the view are those that the probe measures; else they are all. Goes
+     *  with the trait MOR_CASE_PROBE_OF_PAST. */
+    void (*remember)(const mor_probe_view *view, bool is_start, double *memory);
     /** Of contact, NULL for others: writes the value after a sub-step of the steppers with the bits of members, and the
      *  part of it that they gave, both in the unit of the type. */
     mor_probe_contact (*contact)(const mor_probe_view *view, uint64_t members, double *whole, double *part);
@@ -87,6 +102,21 @@ extern const mor_probe_measure mor_probe_body_measures[];
 
 /** Probes of the soil at a place. */
 extern const mor_probe_measure mor_probe_local_measures[];
+
+/** Probes of the soil at walls. */
+extern const mor_probe_measure mor_probe_wall_measures[];
+
+/** Probes of volumes, of what passes a plane, and of how far soil has come. */
+extern const mor_probe_measure mor_probe_flow_measures[];
+
+/** Probes of how far a slide reaches. */
+extern const mor_probe_measure mor_probe_reach_measures[];
+
+/** Probes of the boulders in a flow. */
+extern const mor_probe_measure mor_probe_boulder_measures[];
+
+/** Probes that read gauges. */
+extern const mor_probe_measure mor_probe_gauge_measures[];
 
 /** Probes of where energy goes. */
 extern const mor_probe_measure mor_probe_energy_measures[];
@@ -107,8 +137,13 @@ void mor_probe_scan_begin(mor_probe_scan *scan);
  *  @param probe [in]  index of the probe in the case */
 int mor_probe_find_soil(const mor_case *the_case, int probe);
 
-/** Restricts a view of one soil to its particles, which are gathered once for each measurement. */
+/** Restricts a view of one soil, of a region or along a path to its particles, which are gathered once for each
+ *  measurement. */
 void mor_probe_scan_part(mor_probe_view *view);
+
+/** Whether a place lies in the region of a probe; anywhere without one.
+ *  @param place [in]  shape [3]; placed frame, unit m */
+bool mor_probe_is_inside(const mor_probe_view *view, const double *place);
 
 /** Prepares the measurement of a probe.
  *  @param probe      [in]   index of the probe in the case */

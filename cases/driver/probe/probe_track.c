@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const mor_probe_window whole_run = {0.0, INFINITY};
@@ -51,6 +52,7 @@ static mor_status find_partners(mor_context *context, void *owner, double length
 static mor_status run_contact(mor_context *context, void *owner, uint64_t members, const mor_step *step)
 {
     mor_probe_track *track = owner;
+    track->gauges.contact_length = step->length;
     MOR_TRY(context, track->contact->run(context, track->contact->owner, members, step));
     for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
         if ((traits_of(track->simulation, k) & MOR_CASE_PROBE_OF_CONTACT) != 0) {
@@ -60,11 +62,11 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     return MOR_OK;
 }
 
-/* Steps in between the schedule and contact, only where a probe asks. */
+/* Steps in between the schedule and contact, only where a probe or a gauge asks. */
 static void watch_contact(mor_probe_track *track)
 {
     mor_simulation *s = track->simulation;
-    bool is_asked = false;
+    bool is_asked = s->the_case->n_gauges > 0;
     for (int k = 0; k < s->the_case->n_probes; ++k) {
         is_asked = is_asked || (traits_of(s, k) & MOR_CASE_PROBE_OF_CONTACT) != 0;
     }
@@ -98,12 +100,16 @@ static const double share_allowed = 0.02;
 static const double costs[MOR_PROBE_COSTS] = {
     [MOR_PROBE_COST_ENERGIES] = 15.0, [MOR_PROBE_COST_KINETIC] = 2.0, [MOR_PROBE_COST_PROFILE] = 40.0,
     [MOR_PROBE_COST_STRESS] = 60.0,   [MOR_PROBE_COST_SUM] = 6.0,     [MOR_PROBE_COST_PERCENTILE] = 5.0,
-    [MOR_PROBE_COST_DISTANCE] = 40.0};
+    [MOR_PROBE_COST_DISTANCE] = 40.0, [MOR_PROBE_COST_BODIES] = 3.0};
 
 static mor_probe_cost find_cost(const mor_simulation *s, int probe)
 {
     mor_probe_view view;
     mor_probe_view_set(s, probe, &view);
+    const bool is_chosen = view.probe->region != NULL || view.probe->n_path > 0;
+    if (is_chosen && view.measure->cost != MOR_PROBE_COST_BODIES) {
+        return MOR_PROBE_COST_DISTANCE;
+    }
     const bool is_profile =
         view.measure->cost == MOR_PROBE_COST_PERCENTILE && strcmp(s->the_case->probes[probe].measure, "thickness") == 0;
     return is_profile ? MOR_PROBE_COST_PROFILE : view.measure->cost;
@@ -119,7 +125,8 @@ static void choose_intervals(mor_probe_track *track)
     for (int k = 0; k < s->the_case->n_probes; ++k) {
         const mor_probe_cost cost = find_cost(s, k);
         const bool is_shared = cost < MOR_PROBE_COST_STRESS;
-        sum += is_shared && is_counted[cost] ? 0.0 : costs[cost];
+        const double times = cost == MOR_PROBE_COST_BODIES ? (double)s->the_case->n_bodies : 1.0;
+        sum += is_shared && is_counted[cost] ? 0.0 : times * costs[cost];
         is_counted[cost] = true;
     }
     const double ratio = ceil(sum / (step_cost * share_allowed));
@@ -137,6 +144,18 @@ static void forget(mor_probe_track *track)
         track->values[k] = NAN;
         track->measured_at[k] = -1;
     }
+}
+
+/* Room for what single probes remember. */
+static mor_status reserve_memory(mor_context *context, mor_probe_track *track)
+{
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        mor_probe_view view;
+        mor_probe_view_set(track->simulation, k, &view);
+        track->n_memory[k] = view.measure->count != NULL ? view.measure->count(&view) : 0;
+        MOR_TRY(context, MOR_NEW(context, &track->memory[k], track->n_memory[k], "what a probe remembers"));
+    }
+    return MOR_OK;
 }
 
 /* Measures each probe once, so that one that does not suit the case is refused before anything runs. */
@@ -164,7 +183,9 @@ mor_status mor_probe_track_new(mor_context *context, mor_simulation *simulation)
             isnan(window[0]) ? whole_run : (mor_probe_window){window[0], window[1] < c->end ? window[1] : INFINITY};
     }
     watch_contact(track);
+    MOR_TRY(context, mor_gauges_init(context, simulation, &track->gauges));
     MOR_TRY(context, mor_probe_scan_new(context, simulation, &track->scan));
+    MOR_TRY(context, reserve_memory(context, track));
     choose_intervals(track);
     return try_probes(context, simulation);
 }
@@ -173,6 +194,10 @@ void mor_probe_track_free(mor_context *context, mor_probe_track **track)
 {
     if (*track != NULL) {
         mor_probe_scan_free(context, &(*track)->scan);
+        mor_gauges_clear(context, &(*track)->gauges);
+        for (int k = 0; k < MOR_CASE_PROBES_MAX; ++k) {
+            MOR_FREE(context, &(*track)->memory[k]);
+        }
         MOR_FREE(context, track);
     }
 }
@@ -185,7 +210,16 @@ mor_status mor_probe_track_list_state(mor_context *context, mor_probe_track *tra
     MOR_TRY(context, mor_state_add(context, list, own, "records", MOR_STATE_DOUBLE, n_numbers, track->records));
     MOR_TRY(context, mor_state_add(context, list, own, "past", MOR_STATE_DOUBLE, n_numbers, track->past));
     MOR_TRY(context, mor_state_add(context, list, own, "values", MOR_STATE_DOUBLE, n, track->values));
-    return mor_state_add(context, list, own, "measured_at", MOR_STATE_INT64, n, track->measured_at);
+    MOR_TRY(context, mor_state_add(context, list, own, "measured_at", MOR_STATE_INT64, n, track->measured_at));
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        char member[32];
+        if (track->n_memory[k] > 0) {
+            snprintf(member, sizeof member, "memory_%d", k);
+            MOR_TRY(context,
+                    mor_state_add(context, list, own, member, MOR_STATE_DOUBLE, track->n_memory[k], track->memory[k]));
+        }
+    }
+    return mor_gauges_list_state(context, &track->gauges, list);
 }
 
 /* ---- Each step --------------------------------------------------------------------------------------------------- */
@@ -248,16 +282,37 @@ void mor_probe_track_resume(mor_probe_track *track)
 mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track)
 {
     forget(track);
+    mor_gauges_start(&track->gauges);
     for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
         track->records[k][MOR_PROBE_RECORD_BEGAN] = 0.0;
     }
     return mor_probe_follow(context, track->simulation);
 }
 
+/* What single probes remember, in each step: most only at the start, when the particles they choose are gathered. */
+static void remember(const mor_context *context, mor_probe_track *track)
+{
+    const bool is_start = track->simulation->schedule.n_steps == 0;
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        mor_probe_view view;
+        if ((traits_of(track->simulation, k) & MOR_CASE_PROBE_OF_PAST) == 0) {
+            continue;
+        }
+        mor_probe_view_set(track->simulation, k, &view);
+        view.points.n_threads = context->n_threads;
+        if (is_start) {
+            mor_probe_scan_part(&view);
+        }
+        view.measure->remember(&view, is_start, track->memory[k]);
+    }
+}
+
 mor_status mor_probe_follow(mor_context *context, mor_simulation *simulation)
 {
     mor_probe_track *track = simulation->probes;
+    mor_gauges_follow(&track->gauges);
     mor_probe_scan_begin(track->scan);
+    remember(context, track);
     for (int k = 0; k < simulation->the_case->n_probes; ++k) {
         if (simulation->schedule.n_steps % (uint64_t)track->intervals[k] == 0) {
             MOR_TRY(context, measure(context, track, k));

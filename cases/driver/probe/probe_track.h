@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_PROBE_PROBE_TRACK_H
 
 #include "cases/driver/case/case.h"
+#include "cases/driver/gauge/gauge.h"
 #include "cases/driver/probe/probe_record.h"
 #include "core/particle/state.h"
 #include "core/time/stepper.h"
@@ -22,6 +23,8 @@ typedef struct mor_probe_track {
      * probe needs to know of the past to have a value. */
     double records[MOR_CASE_PROBES_MAX][MOR_PROBE_RECORD_NUMBERS];
     double past[MOR_CASE_PROBES_MAX][MOR_PROBE_RECORD_NUMBERS];
+    double *memory[MOR_CASE_PROBES_MAX];      /* what single probes remember; owned; NULL: nothing */
+    int64_t n_memory[MOR_CASE_PROBES_MAX];    /* doubles of it */
     double values[MOR_CASE_PROBES_MAX];       /* last measured, unit of the probe */
     int64_t measured_at[MOR_CASE_PROBES_MAX]; /* number of steps done then; -1: not measured yet */
     int intervals[MOR_CASE_PROBES_MAX];       /* steps from one measurement to the next, >= 1 */
@@ -31,6 +34,7 @@ typedef struct mor_probe_track {
     mor_exchange exchange;           /* contact, then a look at its forces; in use when a probe asks for them */
     const mor_exchange *contact;     /* what it stands before; borrowed; NULL: not in use */
     struct mor_probe_scan *scan;     /* what probes of one measurement share; owned */
+    mor_gauges gauges;               /* owned */
 } mor_probe_track;
 
 /** Prepares to follow the probes of a simulation that is built but for this: fills in simulation->probes.

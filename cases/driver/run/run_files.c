@@ -153,6 +153,9 @@ mor_status mor_run_files_start(mor_context *context, mor_run_files *files, bool 
     for (int k = 0; k < files->the_case->n_probes; ++k) {
         add_column(files, files->the_case->probes[k].name, mor_probe_unit(files->the_case, k));
     }
+    MOR_TRY(context, mor_run_gauges_open(context, &files->gauges, files->the_case, folder, is_resume,
+                                         mor_schedule_time(schedule)));
+    MOR_TRY(context, mor_run_boulders_open(context, &files->boulders, files->simulation, folder, is_resume));
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_TABLE_SERIES_FILE));
     return is_resume ? mor_table_resume(context, &files->series, path, files->columns, files->n_columns,
                                         mor_schedule_time(schedule))
@@ -207,6 +210,8 @@ void mor_run_files_close(mor_context *context, mor_run_files *files)
     if (files->series.stream != NULL) {
         mor_table_close(context, &files->series);
     }
+    mor_run_gauges_close(context, &files->gauges);
+    mor_run_boulders_close(context, &files->boulders);
     mor_snapshot_writer_clear(context, &files->snapshots);
     end_log(context, files);
     free(files->early_text);
@@ -229,6 +234,8 @@ mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
     for (int k = 0; k < files->the_case->n_probes; ++k) {
         MOR_TRY(context, mor_probe_value(context, files->simulation, k, &row[files->first_probe + k]));
     }
+    MOR_TRY(context, mor_run_gauges_add_row(context, &files->gauges, &files->simulation->probes->gauges, row[0]));
+    MOR_TRY(context, mor_run_boulders_add_row(context, &files->boulders, files->simulation));
     return mor_table_append(context, &files->series, row);
 }
 
@@ -245,6 +252,8 @@ mor_status mor_run_files_save(mor_context *context, mor_run_files *files)
 {
     const mor_checkpoint checkpoint = {&files->simulation->state, files->case_text};
     if (files->series.stream != NULL) { /* a state may be saved without a series */
+        MOR_TRY(context, mor_run_gauges_sync(context, &files->gauges));
+        MOR_TRY(context, mor_run_boulders_sync(context, &files->boulders));
         MOR_TRY(context, mor_table_sync(context, &files->series));
     }
     return mor_checkpoint_write(context, files->options->folder, &checkpoint);

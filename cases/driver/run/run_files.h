@@ -3,7 +3,9 @@
 #ifndef MOR_CASES_DRIVER_RUN_RUN_FILES_H
 #define MOR_CASES_DRIVER_RUN_RUN_FILES_H
 
+#include "cases/driver/run/run_boulders.h"
 #include "cases/driver/run/run_folder.h"
+#include "cases/driver/run/run_gauges.h"
 #include "cases/driver/run/run_progress.h"
 #include "cases/driver/run/run_warnings.h"
 #include "cases/driver/run/stop.h"
@@ -59,17 +61,19 @@ typedef struct mor_run_files {
     mor_snapshot_writer snapshots;
     mor_snapshot_fact facts[MOR_RUN_FACTS_MAX]; /* provenance, shape [n_facts] */
     int n_facts;
-    char seed_text[24]; /* seed as text, for the provenance */
-    char hash_text[24]; /* hash of the case file as text */
+    char seed_text[24];                                            /* seed as text, for the provenance */
+    char hash_text[24];                                            /* hash of the case file as text */
     char plugin_text[MOR_CASE_PLUGINS_MAX * MOR_RUN_PLUGIN_BYTES]; /* path, models and hash of each plug-in, by lines */
-    uint64_t case_hash; /* of the case file; set by the caller */
-    char *case_text;    /* zero-terminated; the case as it is used, which every checkpoint carries; freed by close */
-    char *saved_text;   /* zero-terminated; the case the folder was started with; NULL: a new run; likewise */
+    uint64_t case_hash;                                            /* of the case file; set by the caller */
+    char *case_text;  /* zero-terminated; the case as it is used, which every checkpoint carries; freed by close */
+    char *saved_text; /* zero-terminated; the case the folder was started with; NULL: a new run; likewise */
     mor_run_kept kept;
     mor_table series;
     mor_table_column columns[MOR_RUN_COLUMNS_MAX]; /* shape [n_columns] */
     int n_columns;
     int first_probe; /* column of the first probe */
+    mor_run_gauges gauges;
+    mor_run_boulders boulders;
     mor_run_progress progress;
 } mor_run_files;
 

@@ -225,6 +225,15 @@ static mor_status write_maps(mor_context *context, const mor_run_files *files, c
     return MOR_OK;
 }
 
+/* Files and tables of gauges, boulders and particles. */
+static mor_status conclude_parts(mor_context *context, const mor_run_files *files)
+{
+    const mor_gauges *gauges = &files->simulation->probes->gauges;
+    mor_run_gauges_print(gauges, files->options->output);
+    MOR_TRY(context, mor_run_gauges_conclude(context, gauges, files->options->folder));
+    return mor_run_boulders_conclude(context, files->simulation, files->options->folder);
+}
+
 mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, double particle_steps_per_second,
                                   const mor_summary_failure *failure, int *n_missed)
 {
@@ -274,6 +283,7 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     print_failure(files->options->output, &summary);
     MOR_TRY(context, mor_run_table_print(context, c, &summary, files->options->output));
     mor_map_print(files->simulation->maps, &maps, files->options->output);
+    MOR_TRY(context, conclude_parts(context, files));
     print_integration(files->options->output, summary.integration);
     print_settling(files->options->output, summary.settling);
     print_warnings(files->options->output, &files->warnings);

@@ -216,6 +216,28 @@ void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *con
 void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, const mor_contact_soil *soil,
                                  double *acceleration);
 
+/** A force of the soil on a patch: that of one particle. */
+typedef struct mor_soil_contact_load {
+    int patch;
+    const double *place;    /* shape [3]; of the particle, m */
+    const double *gradient; /* shape [3]; of the kernel over the patch, towards it, 1/m */
+    double force[3];        /* on the patch, N (N/m) */
+} mor_soil_contact_load;
+
+/** Takes one force. */
+typedef void (*mor_soil_contact_take)(void *job, const mor_soil_contact_load *load);
+
+/** Tells the forces of the soil on all patches one by one, for those who ask where they act. Those of a patch add up to
+ *  its force. To be called after mor_soil_contact_sum_forces, before the lists are built again.
+ *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
+ *  @param n_particles [in]      number of soil particles
+ *  @param first       [in]      first cluster of the soil
+ *  @param last        [in]      the one behind the last
+ *  @param take        [in]      called for each particle that sees a patch and gives it a force, in a fixed order
+ *  @param job         [in,out]  first argument of take */
+void mor_soil_contact_visit(const mor_soil_contact *contact, const double *records, int64_t n_particles, int64_t first,
+                            int64_t last, mor_soil_contact_take take, void *job);
+
 /** Distributes the boundary forces to the points of a borrowed boundary, so that force and moment of each patch are
  *  kept to rounding. Does nothing for a wall.
  *  @param contact     [in,out]  the boundary forces must be current

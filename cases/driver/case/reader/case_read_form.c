@@ -331,5 +331,11 @@ int mor_case_inputs(const mor_case *the_case, mor_case_input *inputs, int room)
             list_files(&the_case->rocks[k].forms[form], inputs, room, &n_inputs);
         }
     }
+    for (int k = 0; k < the_case->n_gauges; ++k) {
+        list_files(&the_case->gauges[k].region_outline, inputs, room, &n_inputs);
+    }
+    for (int k = 0; k < the_case->n_probes; ++k) {
+        list_files(&the_case->probes[k].region_outline, inputs, room, &n_inputs);
+    }
     return n_inputs;
 }

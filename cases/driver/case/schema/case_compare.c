@@ -181,12 +181,15 @@ static bool find_value(const char *text, const char *path, char *value)
     return is_found;
 }
 
-/* Number of probes, and whether one of them needs the audit of the soil's energy. */
-static int count_probes(mor_case_probe_catalog probe_types, const char *text, bool *has_audit)
+/* Number of probes, and whether one of them needs the audit of the soil's energy; of those from a first one on, whether
+ * one remembers from the start of a run on. */
+static int count_probes(mor_case_probe_catalog probe_types, const char *text, int first, bool *has_audit,
+                        bool *has_past)
 {
     walk w = {.at = text};
     int n = 0;
     *has_audit = false;
+    *has_past = false;
     for (step_on(&w); !w.is_over; step_on(&w)) {
         const int probe = find_probe(w.path);
         n = probe >= n ? probe + 1 : n;
@@ -194,6 +197,7 @@ static int count_probes(mor_case_probe_catalog probe_types, const char *text, bo
             char name[MOR_CASE_NAME_BYTES];
             snprintf(name, sizeof name, "%.*s", (int)strcspn(w.value + 1, "\""), w.value + 1);
             const mor_case_probe_type *type = mor_case_probe_type_find(probe_types, name);
+            *has_past = *has_past || (probe >= first && type != NULL && (type->traits & MOR_CASE_PROBE_OF_PAST) != 0);
             *has_audit = *has_audit || (type != NULL && (type->traits & MOR_CASE_PROBE_OF_AUDIT) != 0);
         }
     }
@@ -287,11 +291,21 @@ void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, con
 {
     bool has_audit = false;
     bool had_audit = false;
-    const int n_probes = count_probes(probe_types, saved, &had_audit);
-    const int n_given = count_probes(probe_types, given, &has_audit);
+    bool has_past = false;
+    const int n_probes = count_probes(probe_types, saved, 0, &had_audit, &has_past);
+    const int n_given = count_probes(probe_types, given, n_probes, &has_audit, &has_past);
     *difference = (mor_case_difference){.is_found = false};
     compare_fixed(given, saved, n_probes, difference);
-    if (!difference->is_found && !compare_domain(given, saved, difference) && has_audit && !had_audit) {
+    if (difference->is_found || compare_domain(given, saved, difference)) {
+        return;
+    }
+    if (has_past) {
+        *difference = (mor_case_difference){
+            .is_found = true,
+            .reason = "; what such a probe tells begins at the start of a run, so that it cannot be added later"};
+        snprintf(difference->found, sizeof difference->found, "a probe that looks back to the start among %d", n_given);
+        snprintf(difference->expected, sizeof difference->expected, "%d probes", n_probes);
+    } else if (has_audit && !had_audit) {
         *difference = (mor_case_difference){
             .is_found = true,
             .reason = "; the audit of energy begins at the start of a run, so that such a probe cannot be added later"};

@@ -229,6 +229,7 @@ void mor_case_schema_print(const mor_registry *registry, mor_case_probe_catalog 
     for (int k = 0; k < MOR_CASE_SHAPE_COUNT; ++k) {
         print_group(stream, 3, &mor_case_shape_groups[k], mor_case_shape_groups[k].name);
     }
+    print_group(stream, 2, &mor_case_gauge_group, NULL);
     print_group(stream, 2, &mor_case_probe_group, NULL);
     print_probe_types(probe_types, stream);
     print_group(stream, 2, &mor_case_expectation_group, NULL);

@@ -51,6 +51,7 @@ static const mor_case_part root_parts[] = {
     {"rocks", false, "list of groups", "rocks packed at random into a region; each becomes a body"},
     {"contact", false, "group", "contact of bodies with bodies and walls"},
     {"numerics", false, "group", "settings of the numerical scheme"},
+    {"gauges", false, "list of groups", "forces on structures, or on parts of them"},
     {"probes", false, "list of groups", "results to measure"},
     {"expect", false, "list of groups", "reference values that results are compared with"},
     {"maps", false, "group", "maps of depth, speed, arrival and deposit on a grid; in three dimensions"},

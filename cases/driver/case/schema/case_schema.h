@@ -105,10 +105,10 @@ extern const char *const mor_case_lock_words[MOR_CASE_LOCKS];
 /** Models of bodies that do not deform and have no material, one for each such kind; ends with NULL. */
 extern const char *const mor_case_rigid_words[];
 
-/** Members of the lists soil, walls, probes and expect, and the groups of a soil; records mor_case_soil, mor_case_wall,
- *  mor_case_probe, mor_case_expectation. */
+/** Members of the lists soil, walls, gauges, probes and expect, and the groups of a soil; records mor_case_soil,
+ *  mor_case_wall, mor_case_gauge, mor_case_probe, mor_case_expectation. */
 extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
-    mor_case_probe_group, mor_case_expectation_group;
+    mor_case_gauge_group, mor_case_probe_group, mor_case_expectation_group;
 
 /** The group path of walls and bodies, and the members of its list table; records mor_case_path and
  *  mor_case_path_row. */

@@ -26,6 +26,9 @@ static const mor_case_key probe_keys[] = {
     {{"soil", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the soil that is measured; without it, all soil"},
      MOR_CASE_STORE_TEXT,
      AT(mor_case_probe, soil)},
+    {{"gauge", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the gauge that is read"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_probe, gauge)},
     {{"measure", MOR_SCHEMA_CHOICE, 1, "1", 0, 0.0, ANY, "mass_percentile|thickness",
       "definition of the edge of the deposit: distance that contains percentile of the mass, or where it becomes "
       "thinner "
@@ -55,6 +58,18 @@ static const mor_case_key probe_keys[] = {
      MOR_CASE_STORE_BOOL,
      AT(mor_case_probe, is_radial),
      .computed = "true in 3D unless direction is given"},
+    {{"speed", MOR_SCHEMA_REAL, 1, "m/s", 0, NAN, NOT_NEGATIVE, NULL, "speed up to which soil or a body is at rest"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, speed),
+     .computed = "sqrt(gravity * spacing) / 10"},
+    {{"strain", MOR_SCHEMA_REAL, 1, "1", 0, 0.05, ABOVE(0.0, INFINITY), NULL,
+      "plastic shear strain from which on soil counts as yielded"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, strain)},
+    {{"friction_coefficient", MOR_SCHEMA_REAL, 1, "1", 0, 0.0, NOT_NEGATIVE, NULL,
+      "Coulomb friction coefficient of the ground"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_probe, friction_coefficient)},
     {{"window", MOR_SCHEMA_VECTOR, 2, "s", 0, NAN, NOT_NEGATIVE, NULL,
       "first and last time of the interval for maximum, minimum, mean and impulse"},
      MOR_CASE_STORE_REALS,
@@ -92,8 +107,58 @@ static const mor_case_key maps_keys[] = {
 
 const mor_case_group mor_case_maps_group = {"maps", "Maps of a run", maps_keys, NULL, offsetof(mor_case_maps, written)};
 
-const mor_case_group mor_case_probe_group = {"probes", "Results to measure (list)", probe_keys, NULL,
+static const mor_case_part probe_parts[] = {
+    {"region", false, "shape", "part of space to which the measurement is restricted"},
+    {"path", false, "list of points [m]",
+     "corners of a line that the flow follows, as a thalweg, two or more; distances count along it"},
+    {NULL, false, NULL, NULL}};
+
+const mor_case_group mor_case_probe_group = {"probes", "Results to measure (list)", probe_keys, probe_parts,
                                              offsetof(mor_case_probe, written)};
+
+static const mor_case_key gauge_keys[] = {
+    {{"name", MOR_SCHEMA_TEXT, 1, "1", 1, 0.0, ANY, NULL, "name of the gauge"},
+     MOR_CASE_STORE_NAME,
+     AT(mor_case_gauge, name)},
+    {{"wall", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the wall on which forces are measured"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_gauge, wall)},
+    {{"body", MOR_SCHEMA_TEXT, 1, "1", 0, 0.0, ANY, NULL, "name of the body, instead of a wall"},
+     MOR_CASE_STORE_TEXT,
+     AT(mor_case_gauge, body)},
+    {{"direction", MOR_SCHEMA_VECTOR, 3, "1", 1, 0.0, ANY, NULL,
+      "direction of the normal force: into the structure, as a rule that of the flow; the rest of a force is shear"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_gauge, direction),
+     .is_direction = true},
+    {{"origin", MOR_SCHEMA_VECTOR, 3, "m", 0, 0.0, ANY, NULL,
+      "point about which moments are taken and over which heights count, against gravity"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_gauge, origin)},
+    {{"filter", MOR_SCHEMA_REAL, 1, "s", 0, NAN, ABOVE(0.0, INFINITY), NULL,
+      "peaks are those of the running mean over this time, which looks back only"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_gauge, filter),
+     .computed = "none: peaks of single steps"},
+    {{"cutoff", MOR_SCHEMA_REAL, 1, "1/s", 0, NAN, ABOVE(0.0, INFINITY), NULL,
+      "or of a Butterworth low pass of second order with this cut-off frequency"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_gauge, cutoff),
+     .computed = "none"},
+    {{"cell", MOR_SCHEMA_REAL, 1, "m", 0, NAN, ABOVE(0.0, INFINITY), NULL,
+      "side of the cells of a map of pressure, in the plane across direction; no less than a spacing resolves "
+      "anything"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_gauge, cell),
+     .computed = "no map"},
+    END};
+
+static const mor_case_part gauge_parts[] = {
+    {"region", false, "shape", "part of space to which it is restricted, by the places where forces act"},
+    {NULL, false, NULL, NULL}};
+
+const mor_case_group mor_case_gauge_group = {"gauges", "Forces on structures (list)", gauge_keys, gauge_parts,
+                                             offsetof(mor_case_gauge, written)};
 
 const char mor_case_statistic_words[] = "value|maximum|minimum|mean|impulse";
 
@@ -134,8 +199,11 @@ const mor_case_group mor_case_expectation_group = {"expect", "Reference values (
 const mor_case_own_column mor_case_own_columns[] = {
     {"time", "s"}, {"step", "1"}, {"step_length", "s"}, {"rate_ratio", "1"}, {NULL, NULL}};
 
-const char *const mor_case_probe_key_names[] = {"wall",      "measure", "percentile", "thickness", "origin",
-                                                "direction", "radial",  "body",       "soil",      NULL};
+const char *const mor_case_probe_key_names[] = {
+    "wall",      "measure", "percentile", "thickness", "origin",
+    "direction", "radial",  "body",       "soil",      "gauge",
+    "region",    "path",    "speed",      "strain",    "friction_coefficient",
+    NULL};
 
 const mor_case_probe_type *mor_case_probe_type_find(mor_case_probe_catalog catalog, const char *name)
 {

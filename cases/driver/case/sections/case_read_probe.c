@@ -3,6 +3,7 @@
 #include "cases/driver/case/sections/case_sections.h"
 
 #include "core/base/math.h"
+#include "core/base/memory.h"
 #include "core/material/params.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 
 /* Probes and expectations. */
 
-enum { WORDS_MAX = MOR_CASE_PROBES_MAX };
+enum { WORDS_MAX = 2 * MOR_CASE_PROBES_MAX }; /* types of probes, or names of them */
 
 /* ---- Probes ------------------------------------------------------------------------------------------------------ */
 
@@ -81,23 +82,6 @@ static mor_status refuse_idle(const mor_case_reader *reader, const mor_case_node
                               "found '%s', which has no effect here; allowed: with %s; remove it", key, needed);
 }
 
-/* Brings a direction to length 1, leaving one that has it as it is, so that reading it again changes no bit. */
-static void normalize(double *direction)
-{
-    const double largest = fmax(fabs(direction[0]), fmax(fabs(direction[1]), fabs(direction[2])));
-    double scaled[3];
-    for (int a = 0; a < 3; ++a) {
-        scaled[a] = direction[a] / largest; /* so that squares neither vanish nor overflow */
-    }
-    const double length = mor_vector_length(scaled) * largest;
-    if (fabs(length - 1.0) <= 1.0e-15) { /* a few units in the last place: what a second pass would change */
-        return;
-    }
-    for (int a = 0; a < 3; ++a) {
-        direction[a] /= length;
-    }
-}
-
 /* A share and a percentage are a factor of a hundred apart; a number with its unit is accepted as written. */
 static void warn_of_share(const mor_case_reader *reader, const mor_case_node *node, const char *words)
 {
@@ -140,9 +124,42 @@ static void warn_of_tolerance(const mor_case_reader *reader, const mor_case_node
     }
 }
 
-static mor_status complete_probe(const mor_case_reader *reader, const mor_case_node *node, double spacing,
+/* Corners of a polyline: neighbors must be apart, else they have no direction. */
+static mor_status read_path(const mor_case_reader *reader, const mor_case_node *node, mor_case_probe *probe)
+{
+    static const mor_schema corner = {.key = "path",
+                                      .kind = MOR_SCHEMA_VECTOR,
+                                      .n_components = 3,
+                                      .unit = "m",
+                                      .minimum = -INFINITY,
+                                      .maximum = INFINITY};
+    const mor_case_node *list = mor_case_node_find(node, "path");
+    if (list == NULL) {
+        return MOR_OK;
+    }
+    MOR_TRY(reader->context, mor_case_reader_member(reader, node, "path", MOR_CASE_NODE_LIST, &list));
+    if (list->n_children < 2 || list->n_children > MOR_CASE_PATH_POINTS_MAX) {
+        return MOR_CASE_NODE_FAIL(reader->context, list, "found a path of %d points; allowed: 2 to %d; correct it",
+                                  list->n_children, MOR_CASE_PATH_POINTS_MAX);
+    }
+    MOR_TRY(reader->context, MOR_NEW(reader->context, &probe->path, 3 * (int64_t)list->n_children, "a path"));
+    for (const mor_case_node *child = list->first_child; child != NULL; child = child->next) {
+        double *point = probe->path + 3 * (int64_t)probe->n_path;
+        MOR_TRY(reader->context, mor_case_reader_numbers(reader, child, &corner, false, point));
+        if (probe->n_path > 0 && memcmp(point - 3, point, 3 * sizeof *point) == 0) {
+            return MOR_CASE_NODE_FAIL(reader->context, child,
+                                      "found the same point of a path twice in a row; allowed: points apart; remove "
+                                      "one of them");
+        }
+        probe->n_path += 1;
+    }
+    return MOR_OK;
+}
+
+static mor_status complete_probe(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
                                  const mor_case_probe_type *type, mor_case_probe *probe)
 {
+    const double spacing = the_case->spacing;
     const mor_case_group *group = &mor_case_probe_group;
     const bool has_direction = mor_case_reader_has(group, probe->written, "direction");
     if (!mor_case_reader_has(group, probe->written, "name")) {
@@ -155,6 +172,9 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
     if (!mor_case_reader_has(group, probe->written, "thickness")) {
         probe->thickness = 0.5 * spacing;
     }
+    if (!mor_case_reader_has(group, probe->written, "speed")) {
+        probe->speed = 0.1 * sqrt(mor_vector_length(the_case->gravity) * spacing);
+    }
     if (!has_direction) {
         const bool is_plane_rotation = reader->dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_ROTATION) != 0;
         memset(probe->direction, 0, sizeof probe->direction);
@@ -164,7 +184,7 @@ static mor_status complete_probe(const mor_case_reader *reader, const mor_case_n
     } else {
         MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "direction", probe->direction));
     }
-    normalize(probe->direction);
+    mor_case_reader_unit_vector(probe->direction);
     if (!mor_case_reader_has(group, probe->written, "radial")) {
         const bool can_be_radial = (type->allowed & MOR_CASE_PROBE_RADIAL) != 0;
         probe->is_radial = can_be_radial && reader->dimension == 3 && !has_direction;
@@ -192,88 +212,6 @@ static mor_status check_window(const mor_case_reader *reader, const mor_case_nod
                               "found the window from %.9g s to %.9g s of probe '%s'; allowed: two times of the run, "
                               "which lasts from 0 to %.9g s, the first before the second; correct the window or 'end'",
                               window[0], window[1], probe->name, end);
-}
-
-/* Child: the key that holds the name; NULL when it was not written. */
-static mor_status check_name(const mor_case_reader *reader, const mor_case_node *child, const char *what,
-                             const char *name, const char *const *words, int n_words)
-{
-    for (int k = 0; k < n_words; ++k) {
-        if (strcmp(words[k], name) == 0) {
-            return MOR_OK;
-        }
-    }
-    return child == NULL ? MOR_OK : mor_case_reader_refuse(reader, child, what, words, n_words);
-}
-
-/* The names of bodies without the long list of rocks. */
-static void list_bodies(const mor_case *the_case, char *text, size_t text_bytes)
-{
-    enum { LISTED_MAX = 8 };
-    size_t used = 0;
-    const int n_listed = the_case->n_listed_bodies < LISTED_MAX ? the_case->n_listed_bodies : LISTED_MAX;
-    text[0] = '\0';
-    for (int k = 0; k < n_listed && used < text_bytes; ++k) {
-        used += (size_t)snprintf(text + used, text_bytes - used, "%s%s", k > 0 ? ", " : "", the_case->bodies[k].name);
-    }
-    if (n_listed < the_case->n_listed_bodies && used < text_bytes) {
-        used += (size_t)snprintf(text + used, text_bytes - used, " and %d more", the_case->n_listed_bodies - n_listed);
-    }
-    for (int k = 0; k < the_case->n_rocks && used < text_bytes; ++k) {
-        const mor_case_rocks *rocks = &the_case->rocks[k];
-        used += (size_t)snprintf(text + used, text_bytes - used, "%s%s_1 to %s_%d", used > 0 ? ", " : "",
-                                 rocks->body.name, rocks->body.name, rocks->n_rocks);
-    }
-}
-
-static mor_status check_body(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
-                             const char *name, const char *const *bodies)
-{
-    char found[MOR_CASE_NODE_TEXT_BYTES];
-    char path[MOR_CASE_NODE_TEXT_BYTES];
-    char allowed[MOR_CASE_NODE_TEXT_BYTES];
-    const mor_case_node *child = mor_case_node_find(node, "body");
-    if (the_case->n_rocks == 0) {
-        return check_name(reader, child, "name of a body", name, bodies, the_case->n_bodies);
-    }
-    for (int k = 0; k < the_case->n_bodies; ++k) {
-        if (strcmp(bodies[k], name) == 0) {
-            return MOR_OK;
-        }
-    }
-    if (child == NULL) {
-        return MOR_OK;
-    }
-    mor_case_node_path(child, path, sizeof path);
-    mor_case_node_format(child, found, sizeof found);
-    list_bodies(the_case, allowed, sizeof allowed);
-    return MOR_CASE_NODE_FAIL(
-        reader->context, child,
-        "found %s = %s; allowed: %s (name of a body; rocks are numbered from the largest of those "
-        "that were placed); use one of these",
-        path, found, allowed);
-}
-
-static mor_status check_probe_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
-                                    const mor_case_probe *probe)
-{
-    const char *walls[MOR_CASE_WALLS_MAX];
-    const char *bodies[MOR_CASE_BODIES_MAX];
-    const char *soils[MOR_CASE_SOILS_MAX];
-    for (int k = 0; k < the_case->n_soils; ++k) {
-        soils[k] = the_case->soils[k].name;
-    }
-    for (int k = 0; k < the_case->n_walls; ++k) {
-        walls[k] = the_case->walls[k].name;
-    }
-    for (int k = 0; k < the_case->n_bodies; ++k) {
-        bodies[k] = the_case->bodies[k].name;
-    }
-    MOR_TRY(reader->context, check_name(reader, mor_case_node_find(node, "wall"), "name of a wall", probe->wall, walls,
-                                        the_case->n_walls));
-    MOR_TRY(reader->context, check_name(reader, mor_case_node_find(node, "soil"), "name of a soil", probe->soil, soils,
-                                        the_case->n_soils));
-    return check_body(reader, node, the_case, probe->body, bodies);
 }
 
 /* A probe of what the case does not have would measure nothing for the whole of the run. */
@@ -319,9 +257,14 @@ static mor_status read_probe(const mor_case_reader *reader, const mor_case_node 
     MOR_TRY(reader->context, check_special_keys(reader, node, type));
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_probe_group, probe));
     probe->kind = type;
-    MOR_TRY(reader->context, complete_probe(reader, node, the_case->spacing, type, probe));
+    MOR_TRY(reader->context, complete_probe(reader, node, the_case, type, probe));
     MOR_TRY(reader->context, check_window(reader, node, the_case->end, probe));
-    MOR_TRY(reader->context, check_probe_names(reader, node, the_case, probe));
+    MOR_TRY(reader->context, mor_case_reader_known(reader, node, the_case, "wall", probe->wall));
+    MOR_TRY(reader->context, mor_case_reader_known(reader, node, the_case, "soil", probe->soil));
+    MOR_TRY(reader->context, mor_case_reader_known(reader, node, the_case, "gauge", probe->gauge));
+    MOR_TRY(reader->context, mor_case_reader_known(reader, node, the_case, "body", probe->body));
+    MOR_TRY(reader->context, mor_case_reader_region(reader, node, &probe->region_outline, &probe->region));
+    MOR_TRY(reader->context, read_path(reader, node, probe));
     MOR_TRY(reader->context, check_column(reader, node, probe));
     for (const mor_case_probe *other = the_case->probes; other < probe; ++other) {
         if (strcmp(other->name, probe->name) == 0) {
@@ -451,10 +394,12 @@ static mor_status read_expectation(const mor_case_reader *reader, const mor_case
 mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case)
 {
     const mor_case_node *list = NULL;
+    MOR_TRY(reader->context, mor_case_reader_gauges(reader, root, the_case));
     MOR_TRY(reader->context, mor_case_reader_list(reader, root, "probes", MOR_CASE_PROBES_MAX, &list));
     for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {
-        MOR_TRY(reader->context, read_probe(reader, node, the_case, &the_case->probes[the_case->n_probes]));
-        the_case->n_probes += 1;
+        /* Counted before it is read, so that a half-read one is freed, too. */
+        mor_case_probe *probe = &the_case->probes[the_case->n_probes++];
+        MOR_TRY(reader->context, read_probe(reader, node, the_case, probe));
     }
     MOR_TRY(reader->context, mor_case_reader_list(reader, root, "expect", MOR_CASE_EXPECTATIONS_MAX, &list));
     for (const mor_case_node *node = list == NULL ? NULL : list->first_child; node != NULL; node = node->next) {

@@ -117,7 +117,33 @@ mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_n
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);
 
-/** Reads the lists probes and expect.
+/** Refuses the name of a wall, soil, gauge or body that the case does not have.
+ *  @param node     [in]  the group that holds the key
+ *  @param the_case [in]  walls, soils, bodies and gauges are known
+ *  @param key      [in]  zero-terminated: "wall", "soil", "gauge" or "body"
+ *  @param name     [in]  zero-terminated; of no meaning where the key was not written
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_known(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
+                                 const char *key, const char *name);
+
+/** Reads the shape `region` of a probe or a gauge, where there is one.
+ *  @param node    [in]      its group
+ *  @param outline [in,out]  zeroed before; owned by the case
+ *  @param region  [in,out]  NULL before; owned by the case
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_region(const mor_case_reader *reader, const mor_case_node *node, mor_case_shape *outline,
+                                  mor_shape **region);
+
+/** Brings a direction to length 1, leaving one that has it as it is, so that reading it again changes no bit.
+ *  @param direction [in,out]  shape [3], any length but zero, unit 1 */
+void mor_case_reader_unit_vector(double *direction);
+
+/** Reads the list gauges.
+ *  @param the_case [in,out]  walls and bodies are known
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_gauges(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);
+
+/** Reads the lists gauges, probes and expect.
  *  @param the_case [in,out]  walls and bodies are known
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_results(const mor_case_reader *reader, const mor_case_node *root, mor_case *the_case);

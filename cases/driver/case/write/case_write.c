@@ -13,105 +13,6 @@
 
 /* The case as it was used: the tables of case_schema.c in the other direction. */
 
-/* ---- Shapes ------------------------------------------------------------------------------------------------------ */
-
-static mor_status write_shape(mor_case_writer *w, const char *name, const mor_case_shape *outline, const char *end);
-
-static mor_status write_shape_list(mor_case_writer *w, const char *name, const mor_case_shape *shapes, int n_shapes)
-{
-    mor_case_writer_open(w, name, "(");
-    for (int k = 0; k < n_shapes; ++k) {
-        MOR_TRY(w->reader.context, write_shape(w, "", &shapes[k], k + 1 < n_shapes ? "}," : "}"));
-    }
-    mor_case_writer_close(w, ");");
-    return MOR_OK;
-}
-
-static mor_status write_points(mor_case_writer *w, const char *name, const mor_case_shape *outline)
-{
-    static const mor_schema corner = {.kind = MOR_SCHEMA_VECTOR, .unit = "m"};
-    mor_case_writer_open(w, name, "(");
-    for (int k = 0; k < outline->n_points; ++k) {
-        char value[MOR_CASE_VALUE_BYTES];
-        MOR_TRY(w->reader.context,
-                mor_case_writer_numbers(w, &corner, false, &outline->points[2 * k], 2, value, sizeof value));
-        fprintf(w->stream, "%*s%s%s\n", w->depth * MOR_CASE_INDENT, "", value, k + 1 < outline->n_points ? "," : "");
-    }
-    mor_case_writer_close(w, ");");
-    return MOR_OK;
-}
-
-static mor_status write_flat_box(const mor_case_writer *w, const mor_case_shape *outline)
-{
-    static const mor_schema corner = {.kind = MOR_SCHEMA_VECTOR, .unit = "m"};
-    char value[MOR_CASE_VALUE_BYTES];
-    MOR_TRY(w->reader.context, mor_case_writer_numbers(w, &corner, false, outline->first, 2, value, sizeof value));
-    mor_case_writer_line(w, "min", value, false);
-    MOR_TRY(w->reader.context, mor_case_writer_numbers(w, &corner, false, outline->second, 2, value, sizeof value));
-    mor_case_writer_line(w, "max", value, false);
-    return MOR_OK;
-}
-
-static mor_status write_parts(mor_case_writer *w, const mor_case_shape *outline)
-{
-    switch (outline->kind) {
-    case MOR_CASE_SHAPE_POLYGON:
-    case MOR_CASE_SHAPE_RELEASE:
-        return write_points(w, "points", outline);
-    case MOR_CASE_SHAPE_POSTS:
-        return write_points(w, "at", outline);
-    case MOR_CASE_SHAPE_UNION:
-        return write_shape_list(w, "parts", outline->children, outline->n_children);
-    case MOR_CASE_SHAPE_DIFFERENCE:
-        MOR_TRY(w->reader.context, write_shape(w, "from", &outline->children[0], "};"));
-        return write_shape_list(w, "minus", outline->children + 1, outline->n_children - 1);
-    case MOR_CASE_SHAPE_TRANSLATE:
-    case MOR_CASE_SHAPE_ROTATE:
-        return write_shape(w, "shape", &outline->children[0], "};");
-    case MOR_CASE_SHAPE_BOX:
-    case MOR_CASE_SHAPE_CYLINDER:
-    case MOR_CASE_SHAPE_CONE:
-    case MOR_CASE_SHAPE_SPHERE:
-    case MOR_CASE_SHAPE_ELLIPSOID:
-    case MOR_CASE_SHAPE_HALF_SPACE:
-    case MOR_CASE_SHAPE_TERRAIN:
-    case MOR_CASE_SHAPE_MESH:
-    case MOR_CASE_SHAPE_OUTLINE:
-    case MOR_CASE_SHAPE_ROCK:
-    case MOR_CASE_SHAPE_COUNT:
-        break;
-    }
-    return MOR_OK;
-}
-
-/* Not-a-number means not given, that is a default chosen by the program. */
-static mor_case_presence check_shape_keys(const mor_case_key *key, const void *record)
-{
-    double first = 0.0;
-    if (key->storage == MOR_CASE_STORE_REALS) {
-        memcpy(&first, (const char *)record + key->offset, sizeof first);
-    }
-    return isfinite(first) ? MOR_CASE_WRITE : key->computed != NULL ? MOR_CASE_MENTION : MOR_CASE_OMIT;
-}
-
-static mor_status write_shape(mor_case_writer *w, const char *name, const mor_case_shape *outline, const char *end)
-{
-    const mor_case_group *group = &mor_case_shape_groups[outline->kind];
-    char type[MOR_CASE_NAME_BYTES];
-    mor_case_writer_text(group->name, type, sizeof type);
-    mor_case_writer_open(w, name, "{");
-    mor_case_writer_line(w, "type", type, false);
-    if (outline->is_flat) {
-        MOR_TRY(w->reader.context, write_flat_box(w, outline));
-    } else {
-        MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, outline, check_shape_keys));
-    }
-    mor_case_writer_hash(w, outline->file_hash);
-    MOR_TRY(w->reader.context, write_parts(w, outline));
-    mor_case_writer_close(w, end);
-    return MOR_OK;
-}
-
 /* ---- Soil and walls ---------------------------------------------------------------------------------------------- */
 
 static mor_case_presence presence_of_stress_key(const mor_case_key *key, const void *record)
@@ -215,7 +116,7 @@ static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
     const mor_case_group *group = is_external ? &mor_case_external_group : &mor_case_material_group;
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_soil_group, soil, presence_of_soil_key));
     mor_case_writer_formulas(w, "velocity_formula", soil->velocity_formula, 3);
-    MOR_TRY(w->reader.context, write_shape(w, "shape", &soil->outline, "};"));
+    MOR_TRY(w->reader.context, mor_case_writer_shape(w, "shape", &soil->outline, "};"));
     mor_case_writer_open(w, "material", "{");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, soil, presence_of_material_key));
     MOR_TRY(w->reader.context, write_parameters(w, soil->law, soil->parameters, soil->written_parameters));
@@ -271,7 +172,7 @@ static mor_status write_wall(mor_case_writer *w, const mor_case_wall *wall)
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_wall_group, wall, presence_of_wall_key));
     MOR_TRY(w->reader.context, write_frictions(w, &wall->friction_with));
     MOR_TRY(w->reader.context, mor_case_writer_path(w, &wall->path));
-    return write_shape(w, "shape", &wall->outline, "};");
+    return mor_case_writer_shape(w, "shape", &wall->outline, "};");
 }
 
 /* ---- Bodies and contact ------------------------------------------------------------------------------------------ */
@@ -355,7 +256,7 @@ static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_body_group, body, presence_of_body_key));
     MOR_TRY(w->reader.context, mention_modulus(w, the_case, body));
     MOR_TRY(w->reader.context, write_frictions(w, &body->friction_with));
-    MOR_TRY(w->reader.context, write_shape(w, "shape", &body->outline, "};"));
+    MOR_TRY(w->reader.context, mor_case_writer_shape(w, "shape", &body->outline, "};"));
     MOR_TRY(w->reader.context, write_body_material(w, body));
     MOR_TRY(w->reader.context, mor_case_writer_path(w, &body->path));
     write_locks(w, body);
@@ -365,7 +266,7 @@ static mor_status write_body(mor_case_writer *w, const mor_case *the_case, const
         mor_case_writer_close(w, "};");
     }
     if (body->clamp != NULL) {
-        MOR_TRY(w->reader.context, write_shape(w, "clamp", &body->clamp_outline, "};"));
+        MOR_TRY(w->reader.context, mor_case_writer_shape(w, "clamp", &body->clamp_outline, "};"));
     }
     if (mor_case_body_condition(body, "start") == NULL) {
         mor_case_writer_open(w, "start", "{");
@@ -407,14 +308,14 @@ static mor_status write_form(mor_case_writer *w, const mor_case_shape *form)
     char type[MOR_CASE_NAME_BYTES];
     mor_case_writer_text(group->name, type, sizeof type);
     mor_case_writer_line(w, "type", type, false);
-    MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, form, check_shape_keys));
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, group, form, mor_case_presence_of_shape));
     mor_case_writer_hash(w, form->file_hash);
     return MOR_OK;
 }
 
 static mor_status write_packing(mor_case_writer *w, const mor_case_rocks *rocks)
 {
-    MOR_TRY(w->reader.context, write_shape(w, "region", &rocks->region_outline, "};"));
+    MOR_TRY(w->reader.context, mor_case_writer_shape(w, "region", &rocks->region_outline, "};"));
     mor_case_writer_open(w, "sizes", "(");
     for (int k = 0; k < rocks->n_sizes; ++k) {
         mor_case_writer_open(w, "", "{");
@@ -447,7 +348,7 @@ static mor_status write_rocks(mor_case_writer *w, const mor_case_rocks *rocks)
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
 /* The lists, so that one function writes all of them. */
-typedef enum list_kind { SOIL, WALLS, BODIES, ROCKS, PAIRS, PROBES, EXPECT, LIST_COUNT } list_kind;
+typedef enum list_kind { SOIL, WALLS, BODIES, ROCKS, PAIRS, GAUGES, PROBES, EXPECT, LIST_COUNT } list_kind;
 
 static mor_status write_entry(mor_case_writer *w, const mor_case *the_case, list_kind kind, int k)
 {
@@ -462,6 +363,8 @@ static mor_status write_entry(mor_case_writer *w, const mor_case *the_case, list
         return write_rocks(w, &the_case->rocks[k]);
     case PAIRS:
         return mor_case_writer_keys(w, &mor_case_pair_group, &the_case->contact.pairs[k], mor_case_presence_always);
+    case GAUGES:
+        return mor_case_writer_gauge(w, &the_case->gauges[k]);
     case PROBES:
         return mor_case_writer_probe(w, &the_case->probes[k]);
     case EXPECT:
@@ -474,10 +377,11 @@ static mor_status write_entry(mor_case_writer *w, const mor_case *the_case, list
 
 static mor_status write_list(mor_case_writer *w, const mor_case *the_case, list_kind kind)
 {
-    static const char *const names[LIST_COUNT] = {"soil", "walls", "bodies", "rocks", "pairs", "probes", "expect"};
-    const int counts[LIST_COUNT] = {the_case->n_soils,       the_case->n_walls,         the_case->n_listed_bodies,
-                                    the_case->n_rocks,       the_case->contact.n_pairs, the_case->n_probes,
-                                    the_case->n_expectations};
+    static const char *const names[LIST_COUNT] = {"soil",  "walls",  "bodies", "rocks",
+                                                  "pairs", "gauges", "probes", "expect"};
+    const int counts[LIST_COUNT] = {the_case->n_soils,  the_case->n_walls,         the_case->n_listed_bodies,
+                                    the_case->n_rocks,  the_case->contact.n_pairs, the_case->n_gauges,
+                                    the_case->n_probes, the_case->n_expectations};
     if (counts[kind] == 0) {
         return MOR_OK;
     }
@@ -536,7 +440,7 @@ static mor_status write_stage(mor_case_writer *w, const mor_case_stage *stage)
     mor_case_writer_hash(w, stage->hash);
     return stage->n_excavations == 0
                ? MOR_OK
-               : write_shape_list(w, "excavate", stage->excavation_outlines, stage->n_excavations);
+               : mor_case_writer_shapes(w, "excavate", stage->excavation_outlines, stage->n_excavations);
 }
 
 static mor_status write_case(mor_case_writer *w, const mor_case *the_case)

@@ -18,7 +18,8 @@ static mor_case_presence presence_of_probe_key(const mor_case_key *key, const vo
     }
     const bool has_measure = (type->allowed & MOR_CASE_PROBE_MEASURE) != 0;
     const bool is_by_thickness = strcmp(probe->measure, "thickness") == 0;
-    const bool is_idle = (strcmp(name, "soil") == 0 && probe->soil[0] == '\0') ||
+    const bool is_idle = (strcmp(name, "gauge") == 0 && probe->gauge[0] == '\0') ||
+                         (strcmp(name, "soil") == 0 && probe->soil[0] == '\0') ||
                          (strcmp(name, "window") == 0 && isnan(probe->window[0])) ||
                          (strcmp(name, "direction") == 0 && probe->is_radial) ||
                          (strcmp(name, "percentile") == 0 && has_measure && is_by_thickness) ||
@@ -26,9 +27,45 @@ static mor_case_presence presence_of_probe_key(const mor_case_key *key, const vo
     return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
 }
 
-mor_status mor_case_writer_probe(const mor_case_writer *w, const mor_case_probe *probe)
+static mor_status write_path(mor_case_writer *w, const mor_case_probe *probe)
 {
-    return mor_case_writer_keys(w, &mor_case_probe_group, probe, presence_of_probe_key);
+    static const mor_schema point = {.kind = MOR_SCHEMA_VECTOR, .unit = "m"};
+    mor_case_writer_open(w, "path", "(");
+    for (int k = 0; k < probe->n_path; ++k) {
+        char value[MOR_CASE_VALUE_BYTES];
+        MOR_TRY(w->reader.context,
+                mor_case_writer_numbers(w, &point, false, &probe->path[3 * k], 3, value, sizeof value));
+        fprintf(w->stream, "%*s%s%s\n", w->depth * MOR_CASE_INDENT, "", value, k + 1 < probe->n_path ? "," : "");
+    }
+    mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
+mor_status mor_case_writer_probe(mor_case_writer *w, const mor_case_probe *probe)
+{
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_probe_group, probe, presence_of_probe_key));
+    if (probe->region != NULL) {
+        MOR_TRY(w->reader.context, mor_case_writer_shape(w, "region", &probe->region_outline, "};"));
+    }
+    return probe->n_path > 0 ? write_path(w, probe) : MOR_OK;
+}
+
+static mor_case_presence presence_of_gauge_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_gauge *gauge = record;
+    const char *name = key->schema.key;
+    const bool is_idle = (strcmp(name, "wall") == 0 && gauge->wall[0] == '\0') ||
+                         (strcmp(name, "body") == 0 && gauge->body[0] == '\0') ||
+                         (strcmp(name, "filter") == 0 && isnan(gauge->filter)) ||
+                         (strcmp(name, "cutoff") == 0 && isnan(gauge->cutoff)) ||
+                         (strcmp(name, "cell") == 0 && isnan(gauge->cell));
+    return is_idle ? MOR_CASE_OMIT : MOR_CASE_WRITE;
+}
+
+mor_status mor_case_writer_gauge(mor_case_writer *w, const mor_case_gauge *gauge)
+{
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_gauge_group, gauge, presence_of_gauge_key));
+    return gauge->region != NULL ? mor_case_writer_shape(w, "region", &gauge->region_outline, "};") : MOR_OK;
 }
 
 static const char *find_unit(const mor_case *the_case, const char *probe, mor_case_statistic statistic)

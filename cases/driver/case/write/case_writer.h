@@ -93,9 +93,29 @@ void mor_case_writer_formulas(const mor_case_writer *w, const char *key, const c
  *  Returns: as mor_case_writer_numbers. */
 mor_status mor_case_writer_path(mor_case_writer *w, const mor_case_path *path);
 
+/** Decides whether a key of a shape is written: not-a-number means not given. */
+mor_case_presence mor_case_presence_of_shape(const mor_case_key *key, const void *record);
+
+/** Writes a shape.
+ *  @param name [in]  zero-terminated; "": an entry of a list
+ *  @param end  [in]  zero-terminated bracket that closes it
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_shape(mor_case_writer *w, const char *name, const mor_case_shape *outline, const char *end);
+
+/** Writes a list of shapes.
+ *  @param name     [in]  zero-terminated
+ *  @param shapes   [in]  shape [n_shapes]
+ *  @param n_shapes [in]  number of shapes
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_shapes(mor_case_writer *w, const char *name, const mor_case_shape *shapes, int n_shapes);
+
+/** Writes a gauge.
+ *  Returns: as mor_case_writer_numbers. */
+mor_status mor_case_writer_gauge(mor_case_writer *w, const mor_case_gauge *gauge);
+
 /** Writes a probe.
  *  Returns: as mor_case_writer_numbers. */
-mor_status mor_case_writer_probe(const mor_case_writer *w, const mor_case_probe *probe);
+mor_status mor_case_writer_probe(mor_case_writer *w, const mor_case_probe *probe);
 
 /** Writes an expectation.
  *  @param the_case    [in]  whose probes tell the units

@@ -94,7 +94,8 @@ static int list_groups(const mor_case_group **groups)
         &mor_case_root_group,          &mor_case_soil_group,     &mor_case_material_group,    &mor_case_stress_group,
         &mor_case_wall_group,          &mor_case_probe_group,    &mor_case_expectation_group, &mor_case_body_group,
         &mor_case_body_material_group, &mor_case_spring_group,   &mor_case_start_group,       &mor_case_contact_group,
-        &mor_case_pair_group,          &mor_case_friction_group, &mor_case_maps_group};
+        &mor_case_pair_group,          &mor_case_friction_group, &mor_case_maps_group,
+        &mor_case_gauge_group};
     int n = 0;
     for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
         groups[n++] = single[k];
@@ -132,7 +133,11 @@ static void the_tables_are_sound(void **state)
         assert_ptr_equal(mor_case_probe_type_find(mor_probe_type_at, type->name), type);
     }
     for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
-        assert_true(mor_case_key_find(mor_case_probe_group.keys, mor_case_probe_key_names[k]) >= 0);
+        bool is_known = mor_case_key_find(mor_case_probe_group.keys, mor_case_probe_key_names[k]) >= 0;
+        for (const mor_case_part *part = mor_case_probe_group.parts; part->name != NULL; ++part) {
+            is_known = is_known || strcmp(part->name, mor_case_probe_key_names[k]) == 0;
+        }
+        assert_true(is_known);
     }
 }
 

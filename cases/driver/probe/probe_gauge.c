@@ -1,0 +1,89 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Probes that read a gauge, so that its numbers can be expected and stand in the series. */
+#include "cases/driver/probe/probe_row_internal.h"
+
+#include <string.h>
+
+typedef mor_probe_view view;
+
+/* Filtered loads of the gauge after the last step; false before the first one. */
+static bool read_gauge(const view *v, mor_gauge_reading *reading)
+{
+    const mor_gauges *gauges = &v->simulation->probes->gauges;
+    for (int k = 0; k < gauges->n; ++k) {
+        const mor_gauge *gauge = &gauges->of[k];
+        if (strcmp(gauge->asked->name, v->probe->gauge) == 0 && gauge->numbers[MOR_GAUGE_STEPS] > 0.0) {
+            mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, reading);
+            return true;
+        }
+    }
+    return false;
+}
+
+static mor_status normal(mor_context *context, const view *v, double *value)
+{
+    mor_gauge_reading it;
+    (void)context;
+    *value = read_gauge(v, &it) ? it.normal : NAN;
+    return MOR_OK;
+}
+
+static mor_status normal_soil(mor_context *context, const view *v, double *value)
+{
+    mor_gauge_reading it;
+    (void)context;
+    *value = read_gauge(v, &it) ? it.of_source[MOR_GAUGE_SOIL] : NAN;
+    return MOR_OK;
+}
+
+static mor_status normal_bodies(mor_context *context, const view *v, double *value)
+{
+    mor_gauge_reading it;
+    (void)context;
+    *value = read_gauge(v, &it) ? it.of_source[MOR_GAUGE_BODIES] : NAN;
+    return MOR_OK;
+}
+
+static mor_status shear(mor_context *context, const view *v, double *value)
+{
+    mor_gauge_reading it;
+    (void)context;
+    *value = read_gauge(v, &it) ? it.shear : NAN;
+    return MOR_OK;
+}
+
+static mor_status moment(mor_context *context, const view *v, double *value)
+{
+    mor_gauge_reading it;
+    (void)context;
+    *value = read_gauge(v, &it) ? it.moment : NAN;
+    return MOR_OK;
+}
+
+static mor_status height(mor_context *context, const view *v, double *value)
+{
+    mor_gauge_reading it;
+    (void)context;
+    *value = read_gauge(v, &it) ? it.height : NAN;
+    return MOR_OK;
+}
+
+const mor_probe_measure mor_probe_gauge_measures[] = {
+    {.type = {"gauge_normal", "N", "N/m", GAUGE, GAUGE, FORCE, 100.0,
+              "normal force on a gauge by soil and bodies, along its direction, filtered as the gauge says"},
+     .run = normal},
+    {.type = {"gauge_normal_soil", "N", "N/m", GAUGE, GAUGE, FORCE, 100.0, "the soil's share of gauge_normal"},
+     .run = normal_soil},
+    {.type = {"gauge_normal_bodies", "N", "N/m", GAUGE, GAUGE, FORCE, 100.0, "the bodies' share of gauge_normal"},
+     .run = normal_bodies},
+    {.type = {"gauge_shear", "N", "N/m", GAUGE, GAUGE, STEP, 100.0,
+              "size of the force on a gauge across its direction, filtered likewise"},
+     .run = shear},
+    {.type = {"gauge_moment", "N m", "N", GAUGE, GAUGE, STEP, 100.0,
+              "overturning moment on a gauge about the level axis through its origin, filtered likewise"},
+     .run = moment},
+    {.type = {"gauge_height", "m", "m", GAUGE, GAUGE, STEP, 100.0,
+              "height over the origin of a gauge at which the normal force acts, filtered likewise; NaN without force"},
+     .run = height},
+    {.run = NULL}};

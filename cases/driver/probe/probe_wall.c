@@ -1,0 +1,60 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Probes of the soil at walls. */
+#include "cases/driver/probe/probe_row_internal.h"
+
+#include "cases/driver/scene/simulation_motion.h"
+#include "core/base/math.h"
+
+#include <string.h>
+
+typedef mor_probe_view view;
+
+/* Component of a vector that the soil keeps for each wall. */
+static mor_status of_wall(mor_context *context, const view *v, const double vectors[][3], double *value)
+{
+    if (v->wall < 0) {
+        return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                        "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+    }
+    *value = mor_vector_dot(vectors[v->wall], v->frame.direction);
+    return MOR_OK;
+}
+
+static mor_status wall_force(mor_context *context, const view *v, double *value)
+{
+    return of_wall(context, v, v->simulation->soil.wall_force, value);
+}
+
+static mor_status wall_impulse(mor_context *context, const view *v, double *value)
+{
+    return of_wall(context, v, v->simulation->soil.wall_impulse, value);
+}
+
+/* Least distance of a soil particle from the shape of a wall, which moves with its velocity. */
+static mor_status wall_gap(mor_context *context, const view *v, double *value)
+{
+    const mor_case *c = v->simulation->the_case;
+    const double time = mor_schedule_time(&v->simulation->schedule);
+    for (int w = 0; w < c->n_walls; ++w) {
+        if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
+            *value = mor_simulation_wall_gap(v->simulation, w, time, v->points.position, v->points.n_points);
+            return MOR_OK;
+        }
+    }
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "found wall '%s'; allowed are the names of the case's walls; correct the name", v->probe->wall);
+}
+
+const mor_probe_measure mor_probe_wall_measures[] = {
+    {.type = {"wall_force", "N", "N/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL | FORCE, 100.0,
+              "force of the soil on a wall along direction"},
+     .run = wall_force},
+    {.type = {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
+              "impulse of the soil on a wall since the start along direction"},
+     .run = wall_impulse},
+    {.type = {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
+              "smallest distance of a soil particle from the surface of a wall; negative: inside"},
+     .run = wall_gap,
+     .cost = MOR_PROBE_COST_DISTANCE},
+    {.run = NULL}};

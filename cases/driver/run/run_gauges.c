@@ -1,0 +1,223 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/run/run_gauges.h"
+
+#include "cases/driver/scene/simulation.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Over time --------------------------------------------------------------------------------------------------- */
+
+/* What a row says of a gauge, in the order of its columns. */
+static const struct {
+    const char *suffix, *unit, *unit_plane;
+} columns[MOR_GAUGE_COLUMNS] = {{"normal", "N", "N/m"},          {"normal_soil", "N", "N/m"},
+                                {"normal_bodies", "N", "N/m"},   {"shear", "N", "N/m"},
+                                {"moment", "N m", "N"},          {"height", "m", "m"},
+                                {"normal_filtered", "N", "N/m"}, {"normal_largest", "N", "N/m"}};
+
+mor_status mor_run_gauges_open(mor_context *context, mor_run_gauges *it, const mor_case *the_case, const char *folder,
+                               bool is_resume, double time)
+{
+    enum { MOST = 1 + MOR_CASE_GAUGES_MAX * MOR_GAUGE_COLUMNS };
+    mor_table_column table[MOST];
+    char path[MOR_PATH_BYTES];
+    int n = 0;
+    if (the_case->n_gauges == 0) {
+        return MOR_OK;
+    }
+    table[n++] = (mor_table_column){"time", "s"};
+    for (int k = 0; k < the_case->n_gauges; ++k) {
+        for (int j = 0; j < MOR_GAUGE_COLUMNS; ++j) {
+            char *name = it->names[n - 1];
+            snprintf(name, MOR_RUN_GAUGE_NAME_BYTES, "%s_%s", the_case->gauges[k].name, columns[j].suffix);
+            table[n++] = (mor_table_column){name, the_case->dimension == 2 ? columns[j].unit_plane : columns[j].unit};
+        }
+    }
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_GAUGE_TABLE_FILE));
+    return is_resume ? mor_table_resume(context, &it->table, path, table, n, time)
+                     : mor_table_create(context, &it->table, path, table, n);
+}
+
+mor_status mor_run_gauges_add_row(mor_context *context, mor_run_gauges *it, mor_gauges *gauges, double time)
+{
+    double row[1 + MOR_CASE_GAUGES_MAX * MOR_GAUGE_COLUMNS];
+    if (it->table.stream == NULL) {
+        return MOR_OK;
+    }
+    row[0] = time;
+    for (int k = 0; k < gauges->n; ++k) {
+        double *cells = row + 1 + k * MOR_GAUGE_COLUMNS;
+        mor_gauge *gauge = &gauges->of[k];
+        mor_gauge_reading mean;
+        mor_gauge_reading filtered = {.normal = NAN};
+        mor_gauge_take_row(gauge, time, &mean, &cells[MOR_GAUGE_COLUMN_LARGEST]);
+        if (gauge->numbers[MOR_GAUGE_STEPS] > 0.0) {
+            mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, &filtered);
+        }
+        cells[MOR_GAUGE_COLUMN_NORMAL] = mean.normal;
+        cells[MOR_GAUGE_COLUMN_NORMAL_SOIL] = mean.of_source[MOR_GAUGE_SOIL];
+        cells[MOR_GAUGE_COLUMN_NORMAL_BODIES] = mean.of_source[MOR_GAUGE_BODIES];
+        cells[MOR_GAUGE_COLUMN_SHEAR] = mean.shear;
+        cells[MOR_GAUGE_COLUMN_MOMENT] = mean.moment;
+        cells[MOR_GAUGE_COLUMN_HEIGHT] = mean.height;
+        cells[MOR_GAUGE_COLUMN_FILTERED] = filtered.normal;
+    }
+    return mor_table_append(context, &it->table, row);
+}
+
+mor_status mor_run_gauges_sync(mor_context *context, mor_run_gauges *it)
+{
+    return it->table.stream != NULL ? mor_table_sync(context, &it->table) : MOR_OK;
+}
+
+void mor_run_gauges_close(mor_context *context, mor_run_gauges *it)
+{
+    if (it->table.stream != NULL) {
+        mor_table_close(context, &it->table);
+    }
+}
+
+/* ---- At the end -------------------------------------------------------------------------------------------------- */
+
+/* How a gauge filters, in words. */
+static void describe_filter(const mor_gauge *gauge, char *text, size_t text_bytes)
+{
+    const mor_signal_filter *filter = &gauge->filter;
+    if (filter->kind == MOR_SIGNAL_MEAN) {
+        snprintf(text, text_bytes, "running mean over %.6g s", filter->length);
+    } else if (filter->kind == MOR_SIGNAL_LOW_PASS) {
+        snprintf(text, text_bytes, "Butterworth low pass at %.6g Hz", filter->cutoff);
+    } else {
+        snprintf(text, text_bytes, "none");
+    }
+}
+
+static void print_cell(FILE *stream, double value)
+{
+    if (isfinite(value)) {
+        fprintf(stream, ",%.9g", value);
+    } else {
+        fputc(',', stream); /* nothing was measured */
+    }
+}
+
+static void write_peaks(const mor_gauges *gauges, FILE *stream)
+{
+    const bool is_plane = gauges->simulation->the_case->dimension == 2;
+    const char *force = is_plane ? "N/m" : "N";
+    const char *moment = is_plane ? "N" : "N m";
+    const char *impulse = is_plane ? "N s/m" : "N s";
+    fprintf(stream,
+            "gauge,structure,filter,peak_normal [%s],time [s],soil_at_peak [%s],bodies_at_peak [%s],"
+            "height_at_peak [m],peak_shear [%s],time_of_shear [s],peak_moment [%s],time_of_moment [s],"
+            "peak_of_single_steps [%s],time_of_it [s],last_normal [%s],impulse_soil [%s],impulse_bodies [%s]\n",
+            force, force, force, force, moment, force, force, impulse, impulse);
+    for (int k = 0; k < gauges->n; ++k) {
+        const mor_gauge *gauge = &gauges->of[k];
+        char filter[64];
+        mor_gauge_reading last;
+        mor_gauge_reading sums;
+        describe_filter(gauge, filter, sizeof filter);
+        mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, &last);
+        mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_SUM, &sums);
+        fprintf(stream, "%s,%s,%s", gauge->asked->name, gauge->wall >= 0 ? gauge->asked->wall : gauge->asked->body,
+                filter);
+        for (int i = 0; i < MOR_GAUGE_PEAKS; ++i) {
+            print_cell(stream, gauge->numbers[MOR_GAUGE_PEAK + i]);
+        }
+        print_cell(stream, gauge->numbers[MOR_GAUGE_STEPS] > 0.0 ? last.normal : NAN);
+        print_cell(stream, sums.of_source[MOR_GAUGE_SOIL]);
+        print_cell(stream, sums.of_source[MOR_GAUGE_BODIES]);
+        fputc('\n', stream);
+    }
+}
+
+static void write_map(const mor_simulation *s, const mor_gauge *gauge, FILE *stream)
+{
+    const mor_gauge_map *map = &gauge->map;
+    const int64_t cells = mor_gauge_map_cells(map);
+    fprintf(stream, "across [m],up [m],x [m],y [m],z [m],peak_soil [Pa],time_soil [s],last_soil [Pa],peak_bodies [Pa],"
+                    "time_bodies [s]\n");
+    for (int64_t k = 0; k < cells; ++k) {
+        double plane[2];
+        double placed[3];
+        double point[3];
+        mor_gauge_map_place(map, k, plane);
+        for (int a = 0; a < 3; ++a) {
+            placed[a] = gauge->origin[a] + plane[0] * map->across[a] + plane[1] * map->up[a];
+        }
+        mor_simulation_take_point_back(s->the_case, placed, point);
+        fprintf(stream, "%.9g,%.9g,%.9g,%.9g,%.9g", plane[0], plane[1], point[0], point[1], point[2]);
+        print_cell(stream, map->peak[k] / map->area);
+        print_cell(stream, map->time[k]);
+        print_cell(stream, map->filtered[k] / map->area);
+        print_cell(stream, map->peak[cells + k] / map->area);
+        print_cell(stream, map->time[cells + k]);
+        fputc('\n', stream);
+    }
+}
+
+mor_status mor_run_gauges_conclude(mor_context *context, const mor_gauges *gauges, const char *folder)
+{
+    char path[MOR_PATH_BYTES];
+    char name[MOR_RUN_GAUGE_NAME_BYTES];
+    mor_durable_file file;
+    if (gauges->n == 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_GAUGE_PEAKS_FILE));
+    MOR_TRY(context, mor_durable_file_open(context, &file, path));
+    write_peaks(gauges, file.stream);
+    MOR_TRY(context, mor_durable_file_commit(context, &file));
+    for (int k = 0; k < gauges->n; ++k) {
+        if (mor_gauge_map_cells(&gauges->of[k].map) > 0) {
+            snprintf(name, sizeof name, "gauge_%s_map.csv", gauges->of[k].asked->name);
+            MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
+            MOR_TRY(context, mor_durable_file_open(context, &file, path));
+            write_map(gauges->simulation, &gauges->of[k], file.stream);
+            MOR_TRY(context, mor_durable_file_commit(context, &file));
+        }
+    }
+    return MOR_OK;
+}
+
+static void print_number(FILE *out, double value)
+{
+    if (isfinite(value)) {
+        fprintf(out, " %11.5g", value);
+    } else {
+        fprintf(out, " %11s", "-");
+    }
+}
+
+void mor_run_gauges_print(const mor_gauges *gauges, FILE *out)
+{
+    static const int shown[] = {MOR_GAUGE_PEAK_NORMAL, MOR_GAUGE_PEAK_TIME,   MOR_GAUGE_PEAK_SOIL,
+                                MOR_GAUGE_PEAK_BODIES, MOR_GAUGE_PEAK_HEIGHT, MOR_GAUGE_PEAK_SHEAR,
+                                MOR_GAUGE_PEAK_MOMENT, MOR_GAUGE_PEAK_SINGLE};
+    const bool is_plane = gauges->n > 0 && gauges->simulation->the_case->dimension == 2;
+    if (gauges->n == 0) {
+        return;
+    }
+    fprintf(out, "\n%-22s %11s %11s %11s %11s %11s %11s %11s %11s %11s  %s\n", "gauge, peaks", "normal", "at time",
+            "by soil", "by bodies", "at height", "shear", "moment", "one step", "last normal", "filter");
+    for (int k = 0; k < gauges->n; ++k) {
+        const mor_gauge *gauge = &gauges->of[k];
+        char filter[64];
+        mor_gauge_reading last;
+        describe_filter(gauge, filter, sizeof filter);
+        mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, &last);
+        fprintf(out, "%-22s", gauge->asked->name);
+        for (size_t i = 0; i < sizeof shown / sizeof *shown; ++i) {
+            print_number(out, gauge->numbers[MOR_GAUGE_PEAK + shown[i]]);
+        }
+        print_number(out, gauge->numbers[MOR_GAUGE_STEPS] > 0.0 ? last.normal : NAN);
+        fprintf(out, "  %s\n", filter);
+    }
+    fprintf(out,
+            "forces in %s, moments in %s, times in s, heights in m; all filtered but for 'one step', the largest "
+            "normal force of a single step; over time: " MOR_GAUGE_TABLE_FILE "\n",
+            is_plane ? "N/m" : "N", is_plane ? "N" : "N m");
+}

@@ -1,0 +1,193 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/math.h"
+#include "tests/common/scene.h"
+
+/* Gauges on walls and bodies, against the sums that soil and contact keep themselves. */
+
+/* Soil falls against a wall in halves, and a ball into it. */
+static const char text[] =
+    "title = 'gauges'; dimension = 3; spacing = '0.05 m'; end = '1 s'; gravity = ('0 m/s2', '0 m/s2', '-9.81 m/s2');"
+    "domain = { min = ('-1 m', '-1 m', '-0.3 m'); max = ('1 m', '1 m', '1 m'); };"
+    "soil = ( { name = 'sand'; velocity = ('2 m/s', 0, 0);"
+    "  shape = { type = 'box'; min = ('-0.4 m', '-0.2 m', '0 m'); max = ('0 m', '0.2 m', '0.4 m'); };"
+    "  material = { model = 'drucker_prager'; density = '2000 kg/m3'; youngs_modulus = '2 MPa';"
+    "    poissons_ratio = 0.3; friction_angle = '25 deg'; }; } );"
+    "walls = ( { name = 'floor'; friction = 'rough';"
+    "    shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (0, 0, 1); }; },"
+    "  { name = 'stop'; friction = 'coulomb'; friction_coefficient = 0.4;"
+    "    shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (-1, 0, 0); }; } );"
+    "bodies = ( { name = 'ball'; position = ('-0.11 m', '0 m', '0.51 m'); velocity = ('1.5 m/s', 0, '-1 m/s');"
+    "  shape = { type = 'sphere'; center = (0, 0, 0); radius = '0.1 m'; }; contact_modulus = '10 MPa';"
+    "  material = { model = 'rigid'; density = '2500 kg/m3'; }; } );"
+    "gauges = ("
+    "  { name = 'all'; wall = 'stop'; direction = (1, 0, 0); origin = ('0 m', '0 m', '0.1 m'); cell = '0.1 m';"
+    "    region = { type = 'box'; min = ('-1 m', '-0.5 m', '-0.3 m'); max = ('1 m', '0.5 m', '0.9 m'); }; },"
+    "  { name = 'left'; wall = 'stop'; direction = (1, 0, 0); origin = ('0 m', '0 m', '0.1 m');"
+    "    region = { type = 'half_space'; point = (0, '0.013 m', 0); normal = (0, 1, 0); }; },"
+    "  { name = 'right'; wall = 'stop'; direction = (1, 0, 0); origin = ('0 m', '0 m', '0.1 m');"
+    "    region = { type = 'half_space'; point = (0, '0.013 m', 0); normal = (0, -1, 0); }; },"
+    "  { name = 'ball'; body = 'ball'; direction = (0, 0, 1); } );"
+    "probes = ( { name = 'wall'; type = 'wall_force'; wall = 'stop'; direction = (1, 0, 0); },"
+    "  { name = 'on_ball'; type = 'body_force_soil'; body = 'ball'; direction = (0, 0, 1); },"
+    "  { name = 'all'; type = 'gauge_normal'; gauge = 'all'; } );";
+
+static const char *const placed[] = {"placement.axis=(1, 2, 3)", "placement.angle=40 deg",
+                                     "placement.translation=(\"3 m\", \"-2 m\", \"1 m\")", NULL};
+
+static scene *build(const char *const *settings, int n_threads)
+{
+    const char *const *const lists[] = {settings};
+    const scene_request request = {
+        .text = text, .settings = lists, .n_lists = settings != NULL ? 1 : 0, .n_threads = n_threads};
+    scene *it = scene_new(&request);
+    scene_advance(it, 0.03); /* soil presses, the ball touches */
+    return it;
+}
+
+static void read(const scene *it, int gauge, mor_gauge_reading *reading)
+{
+    const mor_gauge *g = &it->simulation.probes->gauges.of[gauge];
+    mor_gauge_read(g, g->numbers + MOR_GAUGE_NOW, reading);
+}
+
+static void check_forces(scene *it)
+{
+    mor_gauge_reading all;
+    mor_gauge_reading ball;
+    read(it, 0, &all);
+    read(it, 3, &ball);
+    const double wall = scene_probe(it, "wall");
+    assert_true(wall > 10.0 && scene_probe(it, "on_ball") > 10.0); /* there is something to compare */
+    scene_expect_near("the soil's force", all.of_source[MOR_GAUGE_SOIL], wall, 1e-11 * wall); /* order of sums */
+    scene_expect_near("the probe", scene_probe(it, "all"), all.normal, 0.0);
+    for (int a = 0; a < 3; ++a) {
+        const double component = it->simulation.probes->gauges.of[0].numbers[MOR_GAUGE_NOW + a];
+        scene_expect_near("a component", component, it->simulation.soil.wall_force[1][a], 1e-11 * wall);
+    }
+    const double on_ball = scene_probe(it, "on_ball");
+    scene_expect_near("the force on the ball", ball.of_source[MOR_GAUGE_SOIL], on_ball, 1e-11 * fabs(on_ball));
+}
+
+static void whole_structures_carry_what_soil_and_bodies_give(void **state)
+{
+    (void)state;
+    scene *it = build(NULL, 1);
+    check_forces(it);
+    scene_free(it);
+    it = build(placed, 1);
+    check_forces(it);
+    scene_free(it);
+}
+
+static void parts_add_up_to_the_whole(void **state)
+{
+    (void)state;
+    scene *it = build(NULL, 1);
+    const mor_gauge *g = it->simulation.probes->gauges.of;
+    for (int k = 0; k < MOR_GAUGE_SIGNALS; ++k) {
+        const double whole = g[0].numbers[MOR_GAUGE_SUM + k];
+        const double size = fmax(fabs(g[1].numbers[MOR_GAUGE_SUM + k]), fabs(g[2].numbers[MOR_GAUGE_SUM + k]));
+        const double parts = g[1].numbers[MOR_GAUGE_SUM + k] + g[2].numbers[MOR_GAUGE_SUM + k];
+        scene_expect_near("the sum of the parts", parts, whole, 1e-11 * size); /* order of sums */
+    }
+    /* Neither is all of it. */
+    assert_true(fmin(g[1].numbers[MOR_GAUGE_SUM], g[2].numbers[MOR_GAUGE_SUM]) > 0.2 * g[0].numbers[MOR_GAUGE_SUM]);
+    scene_free(it);
+}
+
+/* Each force times its arm from where its line meets the wall. */
+static void add_by_hand(void *job, const mor_soil_contact_load *load)
+{
+    double *moment = job;
+    const double arm[3] = {-load->place[0], load->place[1], load->place[2] - 0.1}; /* x: the wall is at 0 */
+    const double place[3] = {load->place[0] + arm[0], arm[1], arm[2]};
+    mor_vector_cross_add(1.0, place, load->force, moment);
+    moment[3] += load->force[0] * arm[2];
+}
+
+static void moments_are_taken_on_the_surface(void **state)
+{
+    (void)state;
+    scene *it = build(NULL, 1);
+    const mor_soil *soil = &it->simulation.soil;
+    const mor_gauge *g = &it->simulation.probes->gauges.of[0];
+    double by_hand[4] = {0.0};
+    mor_schedule *schedule = &it->simulation.schedule;
+    scene_require(it, mor_schedule_step(&it->context, schedule, schedule->end));
+    mor_soil_contact_visit(&soil->walls[1], soil->records, soil->set.n_particles, 0, soil->set.n_particles / 8 + 1,
+                           add_by_hand, by_hand);
+    for (int a = 0; a < 3; ++a) {
+        /* Particles have moved by half a step at 2 m/s since the forces acted: 0.2 mm of some 0.1 m. */
+        scene_expect_near("a moment", g->numbers[MOR_GAUGE_NOW + MOR_GAUGE_MOMENT + a], by_hand[a],
+                          0.01 * fabs(by_hand[1]));
+    }
+    scene_expect_near("raised", g->numbers[MOR_GAUGE_NOW + MOR_GAUGE_RAISED], by_hand[3], 0.01 * fabs(by_hand[3]));
+    scene_free(it);
+}
+
+static void maps_hold_the_whole_force(void **state)
+{
+    (void)state;
+    scene *it = build(NULL, 1);
+    const mor_gauge *g = &it->simulation.probes->gauges.of[0];
+    const int64_t cells = mor_gauge_map_cells(&g->map);
+    double sum = 0.0;
+    mor_gauge_reading all;
+    read(it, 0, &all);
+    assert_int_equal(cells, 10 * 12);
+    for (int64_t k = 0; k < cells; ++k) {
+        sum += g->map.filtered[k];
+        double plane[2];
+        mor_gauge_map_place(&g->map, k, plane);
+        /* The soil is 0.4 m wide and fills the lower 0.4 m, from 0.1 m under the origin; it is smeared by a spacing. */
+        assert_true(g->map.filtered[k] == 0.0 || (fabs(plane[0]) < 0.3 && plane[1] < 0.4));
+    }
+    scene_expect_near("the sum of the cells", sum, all.of_source[MOR_GAUGE_SOIL], 1e-11 * sum); /* order of sums */
+    scene_free(it);
+}
+
+static void impulse_of_contact_is_what_the_ball_lost(void **state)
+{
+    (void)state;
+    scene *it = build(NULL, 1);
+    const mor_gauge *g = &it->simulation.probes->gauges.of[0];
+    const mor_simulation_body *ball = &it->simulation.bodies.of[0];
+    const mor_body *body = &ball->group->bodies[ball->index];
+    const double impulse = g->numbers[MOR_GAUGE_SUM + MOR_GAUGE_LOADS];
+    assert_true(impulse > 1.0);
+    /* All contact of the ball is with walls; those on the floor act upwards. */
+    scene_expect_near("the impulse", impulse, -body->contact_impulse[0], 1e-10 * impulse);
+    scene_free(it);
+}
+
+static void numbers_do_not_depend_on_threads_and_change_no_state(void **state)
+{
+    const char *const without[] = {"gauges[0].region.max=(\"1 m\", \"0.1 m\", \"0.9 m\")", NULL};
+    (void)state;
+    scene *one = build(NULL, 1);
+    scene *two = build(NULL, 2);
+    scene *other = build(without, 1);
+    for (int k = 0; k < one->simulation.probes->gauges.n; ++k) {
+        assert_memory_equal(one->simulation.probes->gauges.of[k].numbers, two->simulation.probes->gauges.of[k].numbers,
+                            sizeof one->simulation.probes->gauges.of[k].numbers);
+    }
+    assert_int_equal(mor_set_checksum(&one->simulation.soil.set), mor_set_checksum(&other->simulation.soil.set));
+    assert_true(one->simulation.probes->gauges.of[0].numbers[0] != other->simulation.probes->gauges.of[0].numbers[0]);
+    scene_free(one);
+    scene_free(two);
+    scene_free(other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(whole_structures_carry_what_soil_and_bodies_give),
+        cmocka_unit_test(parts_add_up_to_the_whole),
+        cmocka_unit_test(moments_are_taken_on_the_surface),
+        cmocka_unit_test(maps_hold_the_whole_force),
+        cmocka_unit_test(impulse_of_contact_is_what_the_ball_lost),
+        cmocka_unit_test(numbers_do_not_depend_on_threads_and_change_no_state),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
