@@ -83,21 +83,21 @@ typedef struct mor_contact {
     int n_walls;
     mor_contact_settings settings;
     mor_contact_watch watch; /* what it owns is borrowed */
-    double time;            /* to which walls have moved; set by the exchange, s */
-    double spring_energy;   /* stored in normal and tangential springs at the last sub-step, J (J/m) */
-    double friction_energy; /* lost to sliding since the start, J (J/m) */
-    double damping_energy;  /* lost to restitution since the start, J (J/m) */
-    double wall_energy;     /* that bodies gave to moving walls since the start, J (J/m) */
-    double deepest;         /* deepest penetration at the last sub-step, m */
-    double deepest_share;   /* largest so far of a penetration over what is allowed, 1 */
-    double driven_share;    /* likewise, of sides that no force moves, when it was warned of, 1; 0: never */
-    double *group_spring;   /* shape [n_groups]; spring energy of each at its last sub-step, J (J/m) */
-    double *group_deepest;  /* shape [n_groups]; deepest penetration of each at its last sub-step, m */
-    double *wall_force;     /* shape [n_groups, n_walls, 3]; of each on each wall at its last sub-step, N (N/m) */
-    double *wall_moment;    /* shape [n_groups, n_walls, 3]; likewise about the origin of coordinates, N m (N) */
-    mor_set history;        /* one entry per surface node of all groups: history of friction; its fields evolve */
-    double *impacts;        /* shape [n_impacts]; impact speeds of touching pairs, m/s */
-    double *pair_spring;    /* shape [n_impacts]; spring energy of pairs at the last sub-step of each, J (J/m); NULL
+    double time;             /* to which walls have moved; set by the exchange, s */
+    double spring_energy;    /* stored in normal and tangential springs at the last sub-step, J (J/m) */
+    double friction_energy;  /* lost to sliding since the start, J (J/m) */
+    double damping_energy;   /* lost to restitution since the start, J (J/m) */
+    double wall_energy;      /* that bodies gave to moving walls since the start, J (J/m) */
+    double deepest;          /* deepest penetration at the last sub-step, m */
+    double deepest_share;    /* largest so far of a penetration over what is allowed, 1 */
+    double driven_share;     /* likewise, of sides that no force moves, when it was warned of, 1; 0: never */
+    double *group_spring;    /* shape [n_groups]; spring energy of each at its last sub-step, J (J/m) */
+    double *group_deepest;   /* shape [n_groups]; deepest penetration of each at its last sub-step, m */
+    double *wall_force;      /* shape [n_groups, n_walls, 3]; of each on each wall at its last sub-step, N (N/m) */
+    double *wall_moment;     /* shape [n_groups, n_walls, 3]; likewise about the origin of coordinates, N m (N) */
+    mor_set history;         /* one entry per surface node of all groups: history of friction; its fields evolve */
+    double *impacts;         /* shape [n_impacts]; impact speeds of touching pairs, m/s */
+    double *pair_spring;     /* shape [n_impacts]; spring energy of pairs at the last sub-step of each, J (J/m); NULL
                              * without removals */
     int64_t n_impacts;
     struct mor_contact_work *work; /* lists and scratch; owned */

@@ -144,4 +144,3 @@ mor_status mor_xdmf_write(mor_context *context, const char *path, const mor_snap
     MOR_TRY(context, mor_durable_file_commit(context, &file));
     return MOR_OK;
 }
-

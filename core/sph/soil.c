@@ -133,9 +133,8 @@ static const mor_stage soil_stages[] = {
      BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDS), "positions and densities to the end of the step", NULL},
     {"nonlocal field", mor_soil_diffuse_fields, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS), 0, SHARED(STATE),
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
-    {"stress", mor_soil_advance_stress,
-     BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS), 0,
-     BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
+    {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS),
+     0, BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
     {"memory", mor_soil_remember,
      BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT) | SHARED(MOMENTS) |
          SHARED(WALL_SUMS) | SHARED(LISTS),
@@ -143,7 +142,8 @@ static const mor_stage soil_stages[] = {
      "skew stress, recent mean of the stress and hourglass displacement for the next step, when switched on",
      mor_soil_has_memory},
     {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | SHARED(LISTS), 0,
-     BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN), "for how long each particle has been quiet, when soil may sleep", mor_soil_may_sleep},
+     BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN), "for how long each particle has been quiet, when soil may sleep",
+     mor_soil_may_sleep},
     {"energy of stress", mor_soil_audit_stress,
      SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
          BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
@@ -154,10 +154,11 @@ static const mor_stage soil_stages[] = {
      "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
-static const uint64_t evolving_fields =
-    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
-    BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | SHARED(STATE) |
-    SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) |
+                                        BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
+                                        BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) |
+                                        BIT(SPIN_STRESS) | SHARED(STATE) | SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) |
+                                        SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles; nor what is closed for clusters at walls only. */

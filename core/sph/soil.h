@@ -10,9 +10,9 @@
 #include "core/particle/set.h"
 #include "core/scheme/scheme.h"
 #include "core/sph/boundary/soil_contact.h"
+#include "core/sph/lanes/soil_lanes.h"
 #include "core/sph/sleep/sleep.h"
 #include "core/sph/soil_energy.h"
-#include "core/sph/lanes/soil_lanes.h"
 #include "core/time/stepper.h"
 
 /** @file
@@ -118,8 +118,8 @@ typedef struct mor_soil {
     mor_sleep sleep;             /* soil at rest that is left out of steps */
     mor_sleep_box *moving;       /* shape [n_moving_room]; scratch, boxes of what moves beside it; NULL without */
     int n_moving_room;
-    int32_t *order;              /* shape [n_particles]; scratch of the sort */
-    mor_soil_energy *energy;     /* the audit; NULL: none */
+    int32_t *order;          /* shape [n_particles]; scratch of the sort */
+    mor_soil_energy *energy; /* the audit; NULL: none */
     mor_tree tree;
     mor_relation inner;
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];

@@ -22,9 +22,10 @@ static void clear_outputs(const mor_pair_arrays *arrays, int64_t first, int64_t 
     const struct {
         double *data;
         int width;
-    } outputs[] = {{arrays->acceleration, 3},     {arrays->stress_diffusion, 6}, {arrays->velocity_gradient, 9},
-                   {arrays->density_rate, 1},     {arrays->hourglass_rate, 3},   {arrays->moments, 6},
-                   {arrays->hourglass_moment, 3}, {arrays->diffusion, MOR_PAIR_DIFFUSION_SIZE}};
+    } outputs[] = {{arrays->acceleration, 3},      {arrays->stress_diffusion, 6},
+                   {arrays->velocity_gradient, 9}, {arrays->density_rate, 1},
+                   {arrays->hourglass_rate, 3},    {arrays->moments, 6},
+                   {arrays->hourglass_moment, 3},  {arrays->diffusion, MOR_PAIR_DIFFUSION_SIZE}};
     const int64_t end = last * MOR_CLUSTER < arrays->n_particles ? last * MOR_CLUSTER : arrays->n_particles;
     const int64_t start = first * MOR_CLUSTER;
     for (size_t k = 0; k < sizeof outputs / sizeof *outputs; ++k) {
@@ -383,7 +384,7 @@ static mor_status advance_block(void *job, int64_t first, int64_t last)
     const update *it = job;
     failed_update failed = {0};
     return mor_sleep_is(it->asleep, first / MOR_CLUSTER, MOR_SLEEP_ASLEEP) ? MOR_OK
-                                                                         : advance_batch(it, first, last, &failed);
+                                                                           : advance_batch(it, first, last, &failed);
 }
 
 /* A crash tells no particle, so that they are tried one by one; results do not depend on the others in a batch. */

@@ -5,8 +5,8 @@
 
 #include "core/base/math.h"
 #include "core/material/checked.h"
-#include "core/sph/soil.h"
 #include "core/sph/boundary/soil_contact.h"
+#include "core/sph/soil.h"
 #include "core/time/schedule.h"
 #include "materials/drucker_prager.h"
 #include "tests/common/cloud.h"

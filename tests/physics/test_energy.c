@@ -102,10 +102,13 @@ static void elastic_bounce_gains_nothing(void **state)
 }
 
 static const char *const thrown_with_cohesion[] = {
-    "soil[0].velocity=(0, -0.02, 0)", "numerics.artificial_stress=true", "end='1 s'",
+    "soil[0].velocity=(0, -0.02, 0)",
+    "numerics.artificial_stress=true",
+    "end='1 s'",
     "soil[0].material={model='mohr_coulomb'; density=2000; youngs_modulus='5 MPa'; poissons_ratio=0.3;"
     " cohesion='10 kPa'; friction_angle='25 deg';}",
-    "walls=({name='floor'; friction='smooth'; shape={type='half_space'; point=(0, 0, 0); normal=(0, 1, 0);};})", NULL};
+    "walls=({name='floor'; friction='smooth'; shape={type='half_space'; point=(0, 0, 0); normal=(0, 1, 0);};})",
+    NULL};
 
 /* Beside an elastic stress artificial stress has no potential: it brought a block that had come to rest to a thousand
  * times the energy it had left. It acts where soil flows, so that what rings dies away. */

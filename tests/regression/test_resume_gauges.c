@@ -113,9 +113,9 @@ static void boulders_have_a_line_each(void **state)
     assert_true(fabs(numbers[2] - 0.25) < 1e-9 && fabs(numbers[3] - 0.27) < 1e-9);
     const double way = hypot(numbers[5] - numbers[2], numbers[6] - numbers[3]);
     assert_true(numbers[8] >= way * (1.0 - 1e-9) && numbers[8] < 0.1); /* no shorter than straight, at 1 m/s */
-    assert_true(numbers[9] >= 1.0 && numbers[13] == 0.0); /* it comes back from the wall */
-    assert_true(fabs(numbers[14] - 0.005) < 0.001);                  /* 5 mm at 1 m/s */
-    assert_true(fabs(numbers[15] / (0.5 * numbers[1]) - 1.0) < 0.1); /* it falls by a few centimeters per second */
+    assert_true(numbers[9] >= 1.0 && numbers[13] == 0.0);              /* it comes back from the wall */
+    assert_true(fabs(numbers[14] - 0.005) < 0.001);                    /* 5 mm at 1 m/s */
+    assert_true(fabs(numbers[15] / (0.5 * numbers[1]) - 1.0) < 0.1);   /* it falls by a few centimeters per second */
     free(bytes);
 }
 

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/picture/gauge_charts.h"
 
+#include "cases/driver/gauge/gauge_table.h"
 #include "cases/driver/picture/draw/ticks.h"
 #include "cases/driver/picture/gauge_map_picture.h"
 #include "cases/driver/picture/view/picture.h"
-#include "cases/driver/gauge/gauge_table.h"
 #include "core/base/memory.h"
 #include "core/io/table.h"
 

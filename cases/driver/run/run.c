@@ -288,7 +288,8 @@ static void print_end(const mor_run_files *files, const loop_state *p, double sp
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
     }
     if (s->has_soil && s->soil.sleep.states != NULL) {
-        fprintf(out, ", %.3g %% of particle-steps left out by sleep", 100.0 * mor_soil_slept_share(&s->soil, s->schedule.n_steps));
+        fprintf(out, ", %.3g %% of particle-steps left out by sleep",
+                100.0 * mor_soil_slept_share(&s->soil, s->schedule.n_steps));
     }
     fprintf(out, "\n");
     if (s->has_soil && s->soil.n_outflow > 0) {

@@ -205,11 +205,12 @@ static mor_status check_sleep(const mor_case_reader *reader, const mor_case_node
         return MOR_OK;
     }
     const mor_case_node *node = mor_case_node_find(mor_case_node_find(root, "numerics"), "sleep_after");
-    return MOR_CASE_NODE_FAIL(reader->context, node,
-                              "found numerics.sleep_after = %g s with %s, which moves soil that sleeps; allowed: one of "
-                              "the two; leave out sleep_after or %s",
-                              c->numerics.sleep_after, c->numerics.shifting ? "shifting" : "xsph",
-                              c->numerics.shifting ? "shifting" : "xsph");
+    return MOR_CASE_NODE_FAIL(
+        reader->context, node,
+        "found numerics.sleep_after = %g s with %s, which moves soil that sleeps; allowed: one of "
+        "the two; leave out sleep_after or %s",
+        c->numerics.sleep_after, c->numerics.shifting ? "shifting" : "xsph",
+        c->numerics.shifting ? "shifting" : "xsph");
 }
 
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)

@@ -26,7 +26,7 @@ typedef struct mor_chart_series {
     const double *y;  /* shape [n_points], unit y_unit */
     int64_t n_points; /* >= 1 */
     mor_chart_style style;
-    int color_of; /* 0: a color of its own; else that of series color_of - 1, which comes before it */
+    int color_of;             /* 0: a color of its own; else that of series color_of - 1, which comes before it */
     const double *low, *high; /* shape [n_points], unit y_unit: ends of a bar at each point; NULL: no bars */
 } mor_chart_series;
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/isa.h"
 #include "core/base/random.h"
-#include "core/sph/pair/pair.h"
 #include "core/sph/lanes/soil_lanes.h"
+#include "core/sph/pair/pair.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -15,7 +15,7 @@ static int count(const char *text, const char *part)
     return n;
 }
 
-/* Every style is written: its elements are closed, and it has one item for each class, the last without an upper end. */
+/* Every style is written: its elements are closed, and it has one item for each class, the last without an end. */
 static void a_style_has_an_item_for_each_class(void **state)
 {
     run_folder *folder = *state;

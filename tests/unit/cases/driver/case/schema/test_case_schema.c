@@ -94,8 +94,7 @@ static int list_groups(const mor_case_group **groups)
         &mor_case_root_group,          &mor_case_soil_group,     &mor_case_material_group,    &mor_case_stress_group,
         &mor_case_wall_group,          &mor_case_probe_group,    &mor_case_expectation_group, &mor_case_body_group,
         &mor_case_body_material_group, &mor_case_spring_group,   &mor_case_start_group,       &mor_case_contact_group,
-        &mor_case_pair_group,          &mor_case_friction_group, &mor_case_maps_group,
-        &mor_case_gauge_group};
+        &mor_case_pair_group,          &mor_case_friction_group, &mor_case_maps_group,        &mor_case_gauge_group};
     int n = 0;
     for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
         groups[n++] = single[k];
