@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_SPH_SOIL_LANES_H
-#define MOR_CORE_SPH_SOIL_LANES_H
+#ifndef MOR_CORE_SPH_LANES_SOIL_LANES_H
+#define MOR_CORE_SPH_LANES_SOIL_LANES_H
 
 #include <stdint.h>
 
