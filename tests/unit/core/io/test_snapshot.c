@@ -41,7 +41,7 @@ static void make_sample(mor_context *context, sample *state)
 {
     memset(state, 0, sizeof *state);
     const uint64_t mask = 1u << MOR_FIELD_POSITION | 1u << MOR_FIELD_VELOCITY | 1u << MOR_FIELD_STRESS |
-                          1u << MOR_FIELD_MASS | 1u << MOR_FIELD_DENSITY;
+                          1u << MOR_FIELD_MASS | 1u << MOR_FIELD_DENSITY | 1u << MOR_FIELD_DENSITY_RATE;
     assert_int_equal(mor_set_init(context, &state->soil, "clay & <sand>", N_SOIL, mask), MOR_OK);
     assert_int_equal(mor_set_init(context, &state->rock, "rock", N_ROCK, mask), MOR_OK);
     assert_int_equal(mor_set_init(context, &state->empty, "empty", 0, mask), MOR_OK);
@@ -265,7 +265,7 @@ static void description_for_paraview_names_every_array_once(void **state)
     assert_int_equal(count_text(text, "Name=\"velocity\" AttributeType=\"Vector\""), 4);
     assert_int_equal(count_text(text, "Name=\"deformation\" AttributeType=\"Tensor\""), 2);
     assert_int_equal(count_text(text, "/rock/position</DataItem>"), 2);
-    assert_int_equal(count_text(text, "mass"), 0); /* not an output field */
+    assert_int_equal(count_text(text, "density_rate"), 0); /* not an output field */
     free(text);
     clear_sample(&folder->context, &source);
 }
