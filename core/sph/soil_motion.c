@@ -252,12 +252,6 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
     return MOR_OK;
 }
 
-double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step)
-{
-    const mor_scheme *scheme = &soil->settings.scheme;
-    return mor_ramp(step->time + 0.5 * step->length, scheme->gravity_ramp, scheme->gravity_ramp_form == 1);
-}
-
 static void set_gravity(mor_soil *soil, const mor_step *step)
 {
     const double part = mor_soil_gravity_part(soil, step);

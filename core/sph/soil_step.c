@@ -1,8 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The longest step that the soil allows. */
+/* The longest step that the soil allows, and the part of gravity that acts in one. */
 #include "core/sph/soil_internal.h"
 
+#include "core/base/math.h"
 #include "core/material/checked.h"
 
 #include <math.h>
@@ -76,4 +77,10 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
         *limit = "the damping";
     }
     return limit_by_material(context, soil, step_length, limit);
+}
+
+double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step)
+{
+    const mor_scheme *scheme = &soil->settings.scheme;
+    return mor_ramp(step->time + 0.5 * step->length, scheme->gravity_ramp, scheme->gravity_ramp_form == 1);
 }

@@ -40,8 +40,8 @@ static double find_share(const scene *it)
 }
 
 /* Soil that sleeps had moved by less than 0.4 mm in 20 ms. The toe, which travels 0.3 m over it, may be off by ten
- * times that, the center of mass by a quarter, as half of the soil sleeps and gives nothing way. The weight on the floor
- * swings with waves in the bed, which stop where it falls asleep, by 2 %. */
+ * times that, the center of mass by a quarter, as half of the soil sleeps and gives nothing way. The weight on the
+ * floor swings with waves in the bed, which stop where it falls asleep, by 2 %. */
 static void flow_does_not_notice_that_soil_beside_it_sleeps(void **state)
 {
     double toe[2];
