@@ -20,6 +20,13 @@ typedef struct bench {
     mor_sweep_provenance provenance;
 } bench;
 
+/** What the leak sanitizer is to ignore, as in pile.h: Fontconfig keeps what it knows of fonts until the process ends.
+ *  Returns: zero-terminated rules of the sanitizer's run-time library, which asks for them by this name. */
+__attribute__((weak)) const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig";
+}
+
 /* Texts that a table or JSON must not take as they are. */
 #define ODD_TITLE "a \\\"title\\\", with \\\\ and \xff and \xc3\xa9"
 #define ODD_REASON "x.cfg:3: found \"a\", or b\nand\tc"
