@@ -115,9 +115,21 @@ static bool is_between(const double *a, const double *b, const double *c)
     return fmin(a[0], b[0]) <= c[0] && c[0] <= fmax(a[0], b[0]) && fmin(a[1], b[1]) <= c[1] && c[1] <= fmax(a[1], b[1]);
 }
 
-/* Whether edges ab and cd share a point. */
+/* Puts the ends of an edge in an order of their own. */
+static void order_ends(const double **a, const double **b)
+{
+    if ((*a)[0] > (*b)[0] || ((*a)[0] == (*b)[0] && (*a)[1] > (*b)[1])) {
+        const double *const kept = *a;
+        *a = *b;
+        *b = kept;
+    }
+}
+
+/* Whether edges ab and cd share a point; rounding does not depend on which way round they are given. */
 static bool edges_intersect(const double *a, const double *b, const double *c, const double *d)
 {
+    order_ends(&a, &b);
+    order_ends(&c, &d);
     const double c_side = orient(a, b, c);
     const double d_side = orient(a, b, d);
     const double a_side = orient(c, d, a);

@@ -18,11 +18,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_bytes);
 
 enum { SETTING_BYTES = 512 };
 
-/* libconfig itself loses the text it was collecting when the parser gives up. */
+/* libconfig loses the text that it was collecting when its parser gives up, UDUNITS the word of its scanner. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
-    return "leak:libconfig\n";
+    return "leak:libconfig\nleak:libudunits2\n";
 }
 
 static void require(int condition, const char *what, const char *message)
