@@ -16,11 +16,11 @@ static const double local_damping = 0.8;
 
 static mor_status check_soil(mor_context *context, const mor_case_soil *soil)
 {
-    MOR_CHECK(
-        context, soil->initial_stress != MOR_CASE_STRESS_UNIFORM, MOR_ERROR_CONFIG,
-        "%s:%d: found initial_stress.type = \"uniform\" of soil '%s', which is not that of soil under its weight; "
-        "allowed: settled, k0, none; take \"settled\"",
-        soil->place.file, soil->place.line, soil->name);
+    const bool is_uniform = soil->initial_stress == MOR_CASE_STRESS_UNIFORM;
+    MOR_CHECK(context, !is_uniform && soil->initial_stress != MOR_CASE_STRESS_FORMULA, MOR_ERROR_CONFIG,
+              "%s:%d: found initial_stress.type = \"%s\" of soil '%s', which is not that of soil under its weight; "
+              "allowed: settled, k0, none; take \"settled\"",
+              soil->place.file, soil->place.line, is_uniform ? "uniform" : "formula", soil->name);
     const mor_status status = mor_strength_check(context, soil->law, soil->parameters);
     if (status == MOR_ERROR_CONFIG) {
         char why[MOR_CONTEXT_MESSAGE_BYTES];
@@ -28,6 +28,25 @@ static mor_status check_soil(mor_context *context, const mor_case_soil *soil)
         return MOR_FAIL(context, status, "%s:%d: soil '%s': %s", soil->place.file, soil->place.line, soil->name, why);
     }
     return status;
+}
+
+/* What changes in the course of a run has no place in trials, which begin anew each. */
+static mor_status check_course(mor_context *context, const mor_case *c)
+{
+    MOR_CHECK(context, c->stage.run[0] == '\0', MOR_ERROR_CONFIG,
+              "found start_from in '%s', but a search for a factor of safety settles the soil itself; leave it out and "
+              "give the soil the shape it has then",
+              c->path);
+    for (int k = 0; k < c->n_walls + c->n_bodies; ++k) {
+        const bool is_wall = k < c->n_walls;
+        const char *name = is_wall ? c->walls[k].name : c->bodies[k - c->n_walls].name;
+        MOR_CHECK(context, isnan(is_wall ? c->walls[k].removed_at : c->bodies[k - c->n_walls].removed_at),
+                  MOR_ERROR_CONFIG,
+                  "found removed_at of %s '%s' in '%s', but a factor of safety is that of a slope as it is; leave out "
+                  "removed_at, or the whole %s",
+                  is_wall ? "wall" : "body", name, c->path, is_wall ? "wall" : "body");
+    }
+    return MOR_OK;
 }
 
 static mor_status check_case(mor_context *context, const mor_case *c)
@@ -39,7 +58,7 @@ static mor_status check_case(mor_context *context, const mor_case *c)
     for (int k = 0; k < c->n_soils; ++k) {
         MOR_TRY(context, check_soil(context, &c->soils[k]));
     }
-    return MOR_OK;
+    return check_course(context, c);
 }
 
 /* ---- The start --------------------------------------------------------------------------------------------------- */
@@ -74,20 +93,24 @@ static void keep_lateral_ratio(mor_case_soil *soil)
     }
 }
 
-/* Walls, bodies and soil that are given a velocity stand still. */
+/* Walls, bodies and soil that are given a velocity stand still; no soil sleeps, for it would not feel its strength. */
 static void stop_motion(mor_case *c)
 {
+    c->numerics.sleep_after = 0.0;
     for (int k = 0; k < c->n_soils; ++k) {
         memset(c->soils[k].velocity, 0, sizeof c->soils[k].velocity);
+        memset(c->soils[k].velocity_formula, 0, sizeof c->soils[k].velocity_formula);
         keep_lateral_ratio(&c->soils[k]);
     }
     for (int w = 0; w < c->n_walls; ++w) {
         memset(c->walls[w].velocity, 0, sizeof c->walls[w].velocity);
+        c->walls[w].path.n_rows = 0;
     }
     for (int b = 0; b < c->n_bodies; ++b) {
         memset(c->bodies[b].velocity, 0, sizeof c->bodies[b].velocity);
         memset(c->bodies[b].angular_velocity, 0, sizeof c->bodies[b].angular_velocity);
         c->bodies[b].motion = MOR_CASE_MOTION_UNIFORM;
+        c->bodies[b].path.n_rows = 0;
     }
 }
 

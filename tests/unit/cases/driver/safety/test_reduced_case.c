@@ -107,21 +107,47 @@ static void the_start_follows_what_the_case_asks_for(void **state)
     end(&plain);
 }
 
-static void a_uniform_stress_is_no_start(void **state)
+static void expect_refusal(const char *text, const char *part)
 {
-    (void)state;
     mor_session *session = NULL;
     mor_reduced_case *it = NULL;
     assert_int_equal(mor_session_new(&session), MOR_OK);
-    if (mor_session_load_text(session, "reduced.cfg",
-                              HEAD SOIL("initial_stress = { type = \"uniform\"; pressure = 1000; };")) != MOR_OK) {
+    if (mor_session_load_text(session, "reduced.cfg", text) != MOR_OK) {
         fail_msg("%s", mor_session_message(session));
     }
     assert_int_equal(mor_reduced_case_new(&session->context, &session->the_case, &it), MOR_ERROR_CONFIG);
-    assert_non_null(strstr(session->context.message, "reduced.cfg:"));
-    assert_non_null(strstr(session->context.message, "uniform"));
+    assert_non_null(strstr(session->context.message, "reduced.cfg"));
+    if (strstr(session->context.message, part) == NULL) {
+        fail_msg("the message is '%s'; it does not hold '%s'", session->context.message, part);
+    }
     assert_null(it);
     mor_session_free(&session);
+}
+
+static void a_stress_that_is_not_of_its_weight_is_no_start(void **state)
+{
+    (void)state;
+    expect_refusal(HEAD SOIL("initial_stress = { type = \"uniform\"; pressure = 1000; };"), "uniform");
+}
+
+/* Soil that slept would not feel that its strength was reduced, and stand with any factor. */
+static void no_soil_sleeps(void **state)
+{
+    (void)state;
+    loaded l = load(HEAD SOIL("") "numerics = { sleep_after = 0.1; };");
+    assert_true(l.session->the_case.numerics.sleep_after == 0.1);
+    assert_true(l.it->the_case.numerics.sleep_after == 0.0);
+    end(&l);
+}
+
+static void what_is_removed_in_the_course_of_a_run_is_refused(void **state)
+{
+    (void)state;
+    expect_refusal("dimension = 2; spacing = 0.1; end = 3; gravity = (0, -9.81); title = \"gate\";\n"
+                   "domain = { min = (-1, -1); max = (5, 5); };\n"
+                   "walls = ( { name = \"gate\"; shape = { type = \"half_space\"; point = (0, 0); normal = (0, 1); };\n"
+                   "  removed_at = 1.0; } );\n" SOIL(""),
+                   "removed_at of wall 'gate'");
 }
 
 int main(void)
@@ -130,7 +156,9 @@ int main(void)
         cmocka_unit_test(friction_of_soil_is_reduced_and_rocks_stay),
         cmocka_unit_test(nothing_moves_and_lateral_stress_is_that_of_the_whole_strength),
         cmocka_unit_test(the_start_follows_what_the_case_asks_for),
-        cmocka_unit_test(a_uniform_stress_is_no_start),
+        cmocka_unit_test(a_stress_that_is_not_of_its_weight_is_no_start),
+        cmocka_unit_test(no_soil_sleeps),
+        cmocka_unit_test(what_is_removed_in_the_course_of_a_run_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
