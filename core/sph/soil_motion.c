@@ -284,6 +284,7 @@ static void kick_block(void *job, int64_t first, int64_t last, double *values)
         double *v = it->velocity + 3 * i;
         double *a = it->acceleration + 3 * i;
         if (mor_sleep_is(it->states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
+            memset(a, 0, 3 * sizeof *a); /* what boundaries added is held, and moves nothing */
             continue;
         }
         for (int k = 0; k < 3; ++k) {

@@ -21,7 +21,8 @@ static const char bed[] =
     "probes = ( { name = 'toe'; type = 'toe'; origin = ('0 m', '0.33 m'); direction = (1, 0); },"
     "  { name = 'weight'; type = 'wall_force'; wall = 'floor'; direction = (0, -1); },"
     "  { name = 'center'; type = 'center_of_mass'; origin = ('0 m', '0 m'); direction = (1, 0); },"
-    "  { name = 'momentum'; type = 'momentum'; direction = (1, 0); } );";
+    "  { name = 'momentum'; type = 'momentum'; direction = (1, 0); },"
+    "  { name = 'balance'; type = 'energy_balance'; } );";
 
 #define SLEEP "numerics.sleep_after=20 ms"
 static const char *const nothing[] = {NULL};
@@ -136,6 +137,25 @@ static void momentum_that_sleep_takes_is_accounted_for(void **state)
     scene_free(it);
 }
 
+/* A bed that sleeps from early on: what its soil gave to walls while it moved is 1e-4 J/m, so that the least that it did
+ * asleep would show. What falls asleep in a step has moved for half of it, which nobody counts: 1 % of so little. */
+static void soil_that_sleeps_takes_no_energy(void **state)
+{
+    static const char *const level[] = {
+        "soil[0].shape={type='box';min=(0,0);max=('4 m','0.3 m');}",
+        "probes=({name='balance';type='energy_balance';},{name='boundary';type='boundary_dissipation';})", NULL};
+    (void)state;
+    scene *it = open_bed(sleeping, level, 1);
+    scene_advance(it, 0.3);
+    assert_int_equal(it->simulation.soil.sleep.n_asleep, it->simulation.soil.sleep.n_blocks);
+    const double boundary = scene_probe(it, "boundary");
+    scene_advance(it, 0.5);
+    scene_expect_near("energy lost at walls while all soil sleeps, J/m", scene_probe(it, "boundary"), boundary,
+                      1e-9 * fabs(boundary));
+    scene_expect_near("balance of energy", scene_probe(it, "balance"), 1.0, 0.02);
+    scene_free(it);
+}
+
 /* A ball falls on the bed after it has fallen asleep. */
 static void falling_ball_wakes_the_soil_under_it(void **state)
 {
@@ -165,6 +185,7 @@ int main(void)
         cmocka_unit_test(flow_does_not_notice_that_soil_beside_it_sleeps),
         cmocka_unit_test(sleep_depends_neither_on_threads_nor_on_when_lists_were_built),
         cmocka_unit_test(momentum_that_sleep_takes_is_accounted_for),
+        cmocka_unit_test(soil_that_sleeps_takes_no_energy),
         cmocka_unit_test(falling_ball_wakes_the_soil_under_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -292,7 +292,8 @@ mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *take
     mor_status status = MOR_NEW(context, &values, WIDTH_MAX * taken->n, "a field of the run before");
     for (int field = 0; field < soil->set.n_fields && status == MOR_OK; ++field) {
         const bool is_placed = field == MOR_FIELD_POSITION || field == soil->region_field;
-        if (mor_state_has_field(&soil->set, field) && !is_placed) {
+        /* What the stage changes does not move, so that no soil may sleep on from the run before. */
+        if (mor_state_has_field(&soil->set, field) && !is_placed && field != MOR_FIELD_QUIET) {
             status = apply_field(context, taken, simulation, field, values);
         }
     }
