@@ -137,8 +137,8 @@ static void momentum_that_sleep_takes_is_accounted_for(void **state)
     scene_free(it);
 }
 
-/* A bed that sleeps from early on: what its soil gave to walls while it moved is 1e-4 J/m, so that the least that it did
- * asleep would show. What falls asleep in a step has moved for half of it, which nobody counts: 1 % of so little. */
+/* A bed that sleeps from early on. Its soil gave 1e-4 J/m to walls while it moved, so that the least that it did asleep
+ * would show. What falls asleep in a step has moved for half of it, which nobody counts: 1 % of so little. */
 static void soil_that_sleeps_takes_no_energy(void **state)
 {
     static const char *const level[] = {
