@@ -94,8 +94,8 @@ static void find_axes(const mor_simulation *s, const mor_gauge *gauge, mor_gauge
     mor_vector_cross(map->across, d, map->up);
 }
 
-/* Cells over an extent, from its begin. What is left over by less than a tenth of a cell, as the margin of the box around
- * a body, counts in the cells at the edges, half of it on each side. */
+/* Cells over an extent, from its begin. What is left over by less than a tenth of a cell, as the margin of the box
+ * around a body, counts in the cells at the edges, half of it on each side. */
 static double count_cells(double *extent, double cell)
 {
     const double length = extent[1] - extent[0];
