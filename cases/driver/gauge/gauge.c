@@ -3,6 +3,7 @@
 #include "cases/driver/gauge/gauge.h"
 
 #include "cases/driver/scene/simulation.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/reduce.h"
@@ -18,15 +19,9 @@ enum { BLOCKS = 16 };
 /* Distance of a point from the surface of the structure, m. A body that deforms counts as rigid here. */
 static double find_distance(const mor_simulation *s, const mor_gauge *gauge, const double *point)
 {
-    const mor_case *c = s->the_case;
     double moved[3];
     if (gauge->wall >= 0) {
-        const double time = mor_schedule_time(&s->schedule);
-        mor_matrix_apply(c->rotation, c->walls[gauge->wall].velocity, moved);
-        for (int a = 0; a < 3; ++a) {
-            moved[a] = c->translation[a] + time * moved[a];
-        }
-        return mor_simulation_placed_distance(c->walls[gauge->wall].shape, c->rotation, moved, point);
+        return mor_simulation_wall_gap(s, gauge->wall, mor_schedule_time(&s->schedule), point, 1);
     }
     const mor_simulation_body *it = &s->bodies.of[gauge->body];
     const mor_body *body = &it->group->bodies[it->index];

@@ -94,6 +94,16 @@ static void find_axes(const mor_simulation *s, const mor_gauge *gauge, mor_gauge
     mor_vector_cross(map->across, d, map->up);
 }
 
+/* Cells over an extent, from its begin. What is left over by less than a tenth of a cell, as the margin of the box
+ * around a body, counts in the cells at the edges, half of it on each side. */
+static double count_cells(double *extent, double cell)
+{
+    const double length = extent[1] - extent[0];
+    const double n = fmax(ceil(length / cell - 0.1), length > 0.0 ? 1.0 : 0.0);
+    extent[0] += n * cell > length ? 0.0 : 0.5 * (length - n * cell);
+    return n;
+}
+
 static mor_status size_map(mor_context *context, const mor_simulation *s, mor_gauge *gauge)
 {
     const mor_case_gauge *asked = gauge->asked;
@@ -109,8 +119,8 @@ static mor_status size_map(mor_context *context, const mor_simulation *s, mor_ga
     find_extent(s, gauge, &box, is_placed, map->across, extents[0]);
     find_extent(s, gauge, &box, is_placed, map->up, extents[1]);
     map->cell = asked->cell;
-    const double n_across = is_plane ? 1.0 : ceil((extents[0][1] - extents[0][0]) / asked->cell - 1.0e-9);
-    const double n_up = ceil((extents[1][1] - extents[1][0]) / asked->cell - 1.0e-9);
+    const double n_across = is_plane ? 1.0 : count_cells(extents[0], asked->cell);
+    const double n_up = count_cells(extents[1], asked->cell);
     MOR_CHECK(context, n_across >= 1.0 && n_up >= 1.0, MOR_ERROR_CONFIG,
               "%s:%d: found a gauge '%s' whose region does not touch its structure; allowed: a region that does; "
               "correct it",

@@ -11,12 +11,12 @@
 
 typedef mor_probe_view view;
 
-/* A body of the case; NULL where it is held. */
+/* A body of the case; NULL where it is held or was removed. */
 static const mor_body *find_boulder(const view *v, int k)
 {
     const mor_simulation_body *it = &v->simulation->bodies.of[k];
     const mor_body *body = &it->group->bodies[it->index];
-    return body->is_held ? NULL : body;
+    return body->is_held || it->group->boundary.patches[it->index].is_removed ? NULL : body;
 }
 
 static double find_kinetic(const view *v, int k)

@@ -116,7 +116,8 @@ static void add_bodies(const view *v, double gravity, const double *level, doubl
         double momentum[3];
         double angular[3];
         double along = mor_vector_dot(body->center, level);
-        if (body->is_held || !mor_probe_is_inside(v, body->center)) {
+        if (body->is_held || it->group->boundary.patches[it->index].is_removed ||
+            !mor_probe_is_inside(v, body->center)) {
             continue;
         }
         if (v->path != NULL) {

@@ -96,33 +96,67 @@ static void parts_add_up_to_the_whole(void **state)
     scene_free(it);
 }
 
-/* Each force times its arm from where its line meets the wall. */
+/* Moments of forces by hand: about the origin of the gauge, and the normal force times its height. */
+typedef struct by_hand {
+    double wall; /* x of its face, m */
+    double moment[3], raised;
+} by_hand;
+
+/* Each force acts where its line along x meets the wall. */
 static void add_by_hand(void *job, const mor_soil_contact_load *load)
 {
-    double *moment = job;
-    const double arm[3] = {-load->place[0], load->place[1], load->place[2] - 0.1}; /* x: the wall is at 0 */
-    const double place[3] = {load->place[0] + arm[0], arm[1], arm[2]};
-    mor_vector_cross_add(1.0, place, load->force, moment);
-    moment[3] += load->force[0] * arm[2];
+    by_hand *it = job;
+    const double arm[3] = {it->wall, load->place[1], load->place[2] - 0.1};
+    mor_vector_cross_add(1.0, arm, load->force, it->moment);
+    it->raised += load->force[0] * arm[2];
+}
+
+/* The wall is where its velocity has taken it, 1 m/s or none. */
+static void check_moments(const char *const *settings, double speed)
+{
+    scene *it = build(settings, 1);
+    const mor_soil *soil = &it->simulation.soil;
+    const mor_gauge *g = &it->simulation.probes->gauges.of[0];
+    mor_schedule *schedule = &it->simulation.schedule;
+    by_hand sums = {.wall = speed * mor_schedule_time(schedule)};
+    scene_require(it, mor_schedule_step(&it->context, schedule, schedule->end));
+    mor_soil_contact_visit(&soil->walls[1], soil->records, soil->set.n_particles, 0, soil->set.n_particles / 8 + 1,
+                           add_by_hand, &sums);
+    for (int a = 0; a < 3; ++a) {
+        /* Particles have moved by half a step at 2 m/s since the forces acted: 0.2 mm of some 0.1 m. */
+        scene_expect_near("a moment", g->numbers[MOR_GAUGE_NOW + MOR_GAUGE_MOMENT + a], sums.moment[a],
+                          0.01 * fabs(sums.moment[1]));
+    }
+    scene_expect_near("raised", g->numbers[MOR_GAUGE_NOW + MOR_GAUGE_RAISED], sums.raised, 0.01 * fabs(sums.raised));
+    scene_free(it);
 }
 
 static void moments_are_taken_on_the_surface(void **state)
 {
+    static const char *const moving[] = {"walls[1].velocity=(\"-1 m/s\", 0, 0)", "bodies[0].velocity=(0, 0, 0)",
+                                         "bodies[0].position=(\"-0.3 m\", \"0 m\", \"0.51 m\")", NULL};
     (void)state;
-    scene *it = build(NULL, 1);
-    const mor_soil *soil = &it->simulation.soil;
-    const mor_gauge *g = &it->simulation.probes->gauges.of[0];
-    double by_hand[4] = {0.0};
-    mor_schedule *schedule = &it->simulation.schedule;
-    scene_require(it, mor_schedule_step(&it->context, schedule, schedule->end));
-    mor_soil_contact_visit(&soil->walls[1], soil->records, soil->set.n_particles, 0, soil->set.n_particles / 8 + 1,
-                           add_by_hand, by_hand);
+    check_moments(NULL, 0.0);
+    check_moments(moving, -1.0);
+}
+
+/* A ball of 0.2 m in cells of 0.05 m: the margin of the box around it takes no cells of its own. */
+static void maps_of_bodies_have_no_cells_beside_them(void **state)
+{
+    static const char *const with_map[] = {"gauges[3].cell=0.05 m", NULL};
+    (void)state;
+    scene *it = build(with_map, 1);
+    const mor_gauge *g = &it->simulation.probes->gauges.of[3];
+    double plane[2];
+    assert_true(g->map.n_across == 4 && g->map.n_up == 4);
+    mor_gauge_map_place(&g->map, 0, plane);
+    /* Seen from below, x is to the right or the left, and the ball began at x = -0.11 m, y = 0. */
+    double place[3];
     for (int a = 0; a < 3; ++a) {
-        /* Particles have moved by half a step at 2 m/s since the forces acted: 0.2 mm of some 0.1 m. */
-        scene_expect_near("a moment", g->numbers[MOR_GAUGE_NOW + MOR_GAUGE_MOMENT + a], by_hand[a],
-                          0.01 * fabs(by_hand[1]));
+        place[a] = g->origin[a] + plane[0] * g->map.across[a] + plane[1] * g->map.up[a];
     }
-    scene_expect_near("raised", g->numbers[MOR_GAUGE_NOW + MOR_GAUGE_RAISED], by_hand[3], 0.01 * fabs(by_hand[3]));
+    scene_expect_near("a corner cell", fabs(place[0] + 0.11), 0.075, 1e-9);
+    scene_expect_near("a corner cell", fabs(place[1]), 0.075, 1e-9);
     scene_free(it);
 }
 
@@ -186,6 +220,7 @@ int main(void)
         cmocka_unit_test(parts_add_up_to_the_whole),
         cmocka_unit_test(moments_are_taken_on_the_surface),
         cmocka_unit_test(maps_hold_the_whole_force),
+        cmocka_unit_test(maps_of_bodies_have_no_cells_beside_them),
         cmocka_unit_test(impulse_of_contact_is_what_the_ball_lost),
         cmocka_unit_test(numbers_do_not_depend_on_threads_and_change_no_state),
     };
