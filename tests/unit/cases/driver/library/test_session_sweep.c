@@ -46,12 +46,12 @@ static void members_know_the_laws_of_the_session(void **state)
     mor_session_sweep_counts counts;
     char path[MOR_PATH_BYTES];
     char into[MOR_PATH_BYTES];
-    const mor_material *const *laws = mor_materials_builtin(NULL)->materials;
+    const mor_plugin_list *laws = mor_materials_builtin(NULL);
     int k = 0;
-    while (strcmp(laws[k]->name, "drucker_prager") != 0) {
+    while (strcmp(laws->materials[k]->name, "drucker_prager") != 0) {
         ++k;
     }
-    mor_material mine = *laws[k];
+    mor_material mine = *laws->materials[k];
     mine.name = "law_of_mine";
     assert_int_equal(mor_session_new(&session), MOR_OK);
     finished_run_store_case(folder, path);
