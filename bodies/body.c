@@ -251,6 +251,7 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group)
     MOR_FREE(context, &group->reference_spreads);
     MOR_FREE(context, &group->reference_normals);
     MOR_FREE(context, &group->boundary.normals);
+    MOR_FREE(context, &group->boundary.depths);
     MOR_FREE(context, &group->boundary.records);
     MOR_FREE(context, &group->boundary.patches);
     MOR_FREE(context, &group->boundary.force);

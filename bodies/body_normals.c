@@ -15,6 +15,7 @@ mor_status mor_body_group_use_normals(mor_context *context, mor_body_group *grou
     const int64_t n = group->set.n_particles;
     MOR_TRY(context, MOR_NEW(context, &group->reference_normals, 3 * n, "normals of bodies"));
     MOR_TRY(context, MOR_NEW(context, &group->boundary.normals, 3 * n, "normals of bodies"));
+    MOR_TRY(context, MOR_NEW(context, &group->boundary.depths, n, "normals of bodies"));
     MOR_PARALLEL_FOR (context, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
         const mor_body *body = &group->bodies[piece->body];
@@ -26,7 +27,9 @@ mor_status mor_body_group_use_normals(mor_context *context, mor_body_group *grou
                 arm[a] = group->reference[3 * i + a] - body->shape_translation[a];
             }
             mor_matrix_apply_transposed(body->shape_rotation, arm, place);
-            if (mor_shape_distance(body->shape, place) > -reach) {
+            const double distance = mor_shape_distance(body->shape, place);
+            group->boundary.depths[i] = -distance;
+            if (distance > -reach) {
                 mor_shape_normal(body->shape, place, NORMAL_STEP * group->spacing, normal);
                 mor_matrix_apply(body->shape_rotation, normal, group->reference_normals + 3 * i);
             }

@@ -63,6 +63,7 @@ typedef struct mor_boundary {
     double *records; /* shape [n_points padded to 8, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
     double *normals; /* shape [n_points, 3]; of the face nearest to each at the start of the soil's step, 1, zero where
                       * none is near; NULL: as the points lie */
+    double *depths;  /* shape [n_points]; below that face, > 0 in the patch, m; with normals */
     mor_boundary_patch *patches; /* shape [n_patches]; by rising range, without gaps */
     int n_patches;
     double largest_speed;        /* of any point, m/s; bounds how far points move in a step */

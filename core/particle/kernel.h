@@ -39,6 +39,15 @@ static inline double mor_kernel_derivative(double distance, double smoothing_len
     return -5.0 * mor_kernel_normalization(smoothing_length, dimension) / smoothing_length * q * (u * u * u);
 }
 
+/** Integral of the kernel in space over a plane at a distance [smoothing lengths], over that of a plane through its
+ *  center, 1. In the plane that over a line is within 0.01 of it. */
+static inline double mor_kernel_plane_share(double distance)
+{
+    const double u = distance < 2.0 ? 1.0 - 0.5 * distance : 0.0;
+    const double u2 = u * u;
+    return 14.0 * u2 * u2 * u * (1.0 - 1.5 * u + (4.0 / 7.0) * u2);
+}
+
 /** The factor [1/m^(d+2)] in grad_i W = -factor * (1 - q/2)^3 * (r_i - r_j). */
 static inline double mor_kernel_gradient_factor(double smoothing_length, int dimension)
 {

@@ -74,6 +74,7 @@ static void use_normals(mor_context *context, mor_soil *soil)
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {
             mor_soil_contact_close_corners(context, mor_soil_contact_at(soil, k), n, soil->corners);
+            mor_soil_contact_hold(context, mor_soil_contact_at(soil, k), soil->constants.smoothing_length, n);
         }
     }
 }
@@ -81,7 +82,6 @@ static void use_normals(mor_context *context, mor_soil *soil)
 mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)step;
     const double *records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
@@ -90,6 +90,11 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view,
         mor_soil_contact_sum(context, contact, soil->table, &soil->constants, records);
     }
     use_normals(context, soil);
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        MOR_TRY(context, mor_soil_contact_check_hold(context, contact, records, soil->constants.smoothing_length,
+                                                     soil->set.n_particles, step->time));
+    }
     return MOR_OK;
 }
 

@@ -131,6 +131,7 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
         mor_soil_contact_project(context, &f->wall, f->soil.n, !f->presses_only, corners);
         mor_soil_contact_solve_corners(context, f->soil.n, NULL, NULL, corners);
         mor_soil_contact_close_corners(context, &f->wall, f->soil.n, corners);
+        mor_soil_contact_hold(context, &f->wall, constants->smoothing_length, f->soil.n);
     }
     mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation);
     const mor_contact_soil seen = floor_soil(f, dissipation);

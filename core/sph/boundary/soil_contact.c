@@ -61,6 +61,7 @@ static mor_status make_wall(mor_context *context, mor_soil_contact *contact, con
         .n_points = n, .friction = request->friction, .friction_coefficient = request->friction_coefficient};
     if (request->normals != NULL) {
         MOR_TRY(context, MOR_NEW(context, &contact->normals, 3 * n, "normals of a wall"));
+        MOR_TRY(context, MOR_NEW(context, &contact->depths, n, "normals of a wall"));
     }
     if (boundary->largest_speed > 0.0) {
         MOR_TRY(context, MOR_NEW(context, &contact->base, 3 * n, "wall points at the start"));
@@ -84,6 +85,7 @@ static mor_status copy_points(mor_context *context, mor_soil_contact *contact, c
         memcpy(record + MOR_BOUNDARY_VELOCITY, request->velocity, 3 * sizeof *record);
         if (contact->normals != NULL) {
             memcpy(contact->normals + 3 * i, request->normals + 3 * (int64_t)order[i], 3 * sizeof *record);
+            contact->depths[i] = request->depths[order[i]];
         }
         if (contact->base_normals != NULL) {
             memcpy(contact->base_normals + 3 * i, contact->normals + 3 * i, 3 * sizeof *record);
@@ -164,6 +166,7 @@ mor_status mor_soil_contact_borrow(mor_context *context, mor_soil_contact *conta
     contact->n_points = boundary->n_points;
     contact->boundary = boundary;
     contact->normals = boundary->normals;
+    contact->depths = boundary->depths;
     contact->stress = stress;
     contact->dimension = dimension;
     const mor_status status = prepare_contact(context, contact, n_soil_clusters);
@@ -180,6 +183,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->patch_slots);
     MOR_FREE(context, &contact->mean_velocity);
     MOR_FREE(context, &contact->seen_faces);
+    MOR_FREE(context, &contact->hold);
     MOR_FREE(context, &contact->transfer);
     MOR_FREE(context, &contact->sums);
     MOR_FREE(context, &contact->stick);
@@ -198,6 +202,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
         MOR_FREE(context, &contact->boundary->patches);
         MOR_FREE(context, &contact->boundary);
         MOR_FREE(context, &contact->normals);
+        MOR_FREE(context, &contact->depths);
     }
     MOR_FREE(context, &contact->base);
     MOR_FREE(context, &contact->base_normals);
@@ -355,7 +360,8 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->acceleration, n_lanes * 3, "boundary forces"));
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
     MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_own_velocities * 3, "velocity of a boundary"));
-    MOR_TRY(context, MOR_NEW(context, &contact->seen_faces, n_directed * 6, "faces of a wall"));
+    MOR_TRY(context, MOR_NEW(context, &contact->seen_faces, n_directed * MOR_FACE_SUMS, "faces of a wall"));
+    MOR_TRY(context, MOR_NEW(context, &contact->hold, n_directed / MOR_CLUSTER, "faces of a wall"));
     MOR_TRY(context, MOR_NEW(context, &contact->transfer, n_directed * 3, "corners of a wall"));
     MOR_TRY(context, MOR_NEW(context, &contact->given, n_borrowed * MOR_SHARES, "force given to a boundary"));
     MOR_TRY(context, MOR_NEW(context, &contact->repulsion, n_barrier * 3, "barrier force"));

@@ -29,6 +29,7 @@ typedef struct mor_wall_request {
     int64_t n_points;      /* number of wall particles */
     double point_volume;   /* of each, m3 (m2 in plane strain) */
     const double *normals; /* shape [n_points, 3]; of the face nearest to each, unit 1; NULL: as the points lie */
+    const double *depths;  /* shape [n_points]; below that face, > 0 in the wall, m; with normals */
     const double *shares;  /* shape [n_points]; part of that volume which each has, 1; NULL: all of it */
     mor_wall_friction friction;
     double friction_coefficient; /* Coulomb only, >= 0, 1 */
@@ -78,7 +79,10 @@ typedef struct mor_soil_contact {
     double *normals;    /* shape [n_points, 3]; of faces, 1; a wall's own, otherwise borrowed; NULL: as points lie */
     double *transfer;   /* shape [capacity * 8, 3]; what corners of the kernel gradient are its own, less what it has
                          * been given of them, 1/m; NULL without */
-    double *seen_faces; /* shape [capacity * 8, 6]; sum of V (1 - (q/2)^4) n (x) n, m3 (m2); NULL without */
+    double *depths;     /* shape [n_points]; below those faces, m; a wall's own, otherwise borrowed; with normals */
+    double *seen_faces; /* shape [capacity * 8, MOR_FACE_SUMS]; units of the enum; NULL without */
+    double *hold;       /* shape [capacity]; how deep the particles of a slot lie in the boundary, m; NULL without */
+    double deepest;     /* that soil lay in it in the last step, m; 0: none does */
     double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     mor_tree tree;
@@ -190,6 +194,32 @@ void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, c
  *  @param corners     [in]      shape [n_particles]; solved */
 void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
                                     const mor_contact_corner *corners);
+
+/** Deepest that a face holds soil, smoothing lengths: what presses it deeper meets less and less resistance. */
+#define MOR_SOIL_CONTACT_DEEPEST 1.2
+
+/** Factor on the kernel gradient of a boundary that a particle under its face sees, (W8) of docs/theory/walls.md, >= 1;
+ *  1 over the face.
+ *  @param depth [in]  under the face, smoothing lengths, unit 1 */
+double mor_soil_contact_hold_factor(double depth);
+
+/** Lets kernel gradients go on to grow under a face by that factor, where those of a boundary decay, so that soil which
+ *  is pressed under a face is pushed back; finds how deep soil lies in the boundary.
+ *  @param contact          [in,out]  with normals; projected and closed
+ *  @param smoothing_length [in]      of the soil, unit m
+ *  @param n_particles      [in]      number of soil particles */
+void mor_soil_contact_hold(mor_context *context, mor_soil_contact *contact, double smoothing_length,
+                           int64_t n_particles);
+
+/** Checks that no soil lies deeper in a boundary than its face holds.
+ *  @param contact          [in]  held
+ *  @param records          [in]  shape [n_particles padded to 8, 16]; the soil's, units of MOR_RECORD_...
+ *  @param smoothing_length [in]  of the soil, unit m
+ *  @param n_particles      [in]  number of soil particles
+ *  @param time             [in]  for the message, unit s
+ *  Returns: MOR_OK; MOR_ERROR_NUMERIC with the place of the deepest. */
+mor_status mor_soil_contact_check_hold(mor_context *context, const mor_soil_contact *contact, const double *records,
+                                       double smoothing_length, int64_t n_particles, double time);
 
 /** Updates the velocity of the boundary as the particles see it; to be called when its owner has changed it.
  *  @param contact   [in,out]  lists must be current

@@ -31,8 +31,8 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
                                              sums,    contact->slots};
             table->kernel(constants, &job, first, end);
             if (contact->normals != NULL) {
-                const mor_pair_faces_job faces = {records, points, contact->normals, contact->slots,
-                                                  contact->seen_faces};
+                const mor_pair_faces_job faces = {records,         points,         contact->normals,
+                                                  contact->depths, contact->slots, contact->seen_faces};
                 table->faces(constants, &faces, first, end);
             }
         }

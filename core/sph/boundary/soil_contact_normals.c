@@ -161,7 +161,7 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                 if (contact->given != NULL) {
                     memcpy(contact->given + lane * MOR_SHARES + MOR_SHARE_DIRECTION, gradient, 3 * sizeof *gradient);
                 }
-                project_lane(contact->seen_faces + 6 * lane, limits, gradient, contact->transfer + 3 * lane,
+                project_lane(contact->seen_faces + MOR_FACE_SUMS * lane, limits, gradient, contact->transfer + 3 * lane,
                              corners + first + k);
             }
         }
@@ -197,7 +197,7 @@ void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *cont
                 double more[3];
                 double brought[3];
                 if (own[k].sees_any) {
-                    mor_symmetric_apply(contact->seen_faces + 6 * lane, own[k].rest, more);
+                    mor_symmetric_apply(contact->seen_faces + MOR_FACE_SUMS * lane, own[k].rest, more);
                     mor_symmetric_apply(own[k].faces, transfer, brought);
                     for (int a = 0; a < 3; ++a) {
                         gradient[a] += more[a];

@@ -199,15 +199,24 @@ typedef struct mor_pair_mean_job {
 typedef void (*mor_pair_mean_loop)(const mor_pair_constants *constants, const mor_pair_mean_job *job, int64_t first,
                                    int64_t last);
 
-/** Which faces of a boundary each particle sees: sum of V (1 - (q/2)^4) n (x) n over its points with normals n. The
- *  weight is high up to the end of the support, for a face counts once its points have a part in kernel sums. */
+/** Which faces of a boundary each particle sees: sum of V (1 - (q/2)^4) n (x) n over its points with normals n, and how
+ *  far it is from them. The weight is high up to the end of the support, for a face counts once its points have a part
+ *  in kernel sums. */
 typedef struct mor_pair_faces_job {
     const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */
     const double *normals;      /* shape [n_target, 3], unit 1 */
+    const double *depths;       /* shape [n_target]; below that face, > 0 in the boundary, m */
     const mor_pair_slot *slots; /* shape [n_slots] */
-    double *out;                /* shape [n_slots * 8, 6], symmetric tensors, m3 (m2 in plane strain) */
+    double *out;                /* shape [n_slots * 8, MOR_FACE_SUMS]; units of the enum */
 } mor_pair_faces_job;
+
+/** What a faces job finds of the points of a particle. */
+enum {
+    MOR_FACE_TENSOR = 0,   /* 6: sum of V (1 - (q/2)^4) n (x) n, symmetric, m3 (m2 in plane strain) */
+    MOR_FACE_DISTANCE = 6, /* from a boundary that is near, (W8) of walls.md; otherwise infinity, m */
+    MOR_FACE_SUMS = 7
+};
 
 typedef void (*mor_pair_faces_loop)(const mor_pair_constants *constants, const mor_pair_faces_job *job, int64_t first,
                                     int64_t last);

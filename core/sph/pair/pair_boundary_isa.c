@@ -154,17 +154,32 @@ void MOR_ISA_NAME(mor_pair_mean)(const mor_pair_constants *c, const mor_pair_mea
     }
 }
 
-/* Sum V (1 - (q/2)^4) n (x) n over the points of a slot. */
+/* Smoothing lengths within which a point counts in full for the distance from a boundary: about a spacing, so that any
+ * particle in it has such points, and one that has none is outside. Farther ones count the less, by twice the way
+ * beyond. */
+#define NEAR_FACE 0.75
+#define FAR_FACE 2.0
+
+/* Sum V (1 - (q/2)^4) n (x) n over the points of a slot, and the distance from the planes of their faces. */
 INLINE void faces_part(const mor_pair_constants *c, const mor_pair_faces_job *job, const mor_pair_slot *slot,
                        int64_t first, double *out)
 {
     const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    const double h = c->smoothing_length;
     vec sum[6];
+    vec distance = broadcast(-INFINITY);
+    vec nearest = broadcast(0.0);
     memset(sum, 0, sizeof sum);
     for (int32_t entry = 0; entry < slot->count; ++entry) {
         const double *target = job->target + (int64_t)slot->list[entry] * MOR_BOUNDARY_RECORD;
         const double *n = job->normals + 3 * (int64_t)slot->list[entry];
         const pair p = pair_of(&f, target, 3);
+        const vec plane = dot_r(&p, broadcast(n[0]), broadcast(n[1]), broadcast(n[2]), 3) -
+                          job->depths[slot->list[entry]] -
+                          FAR_FACE * positive_part(2.0 * h * (1.0 - p.reach) - NEAR_FACE * h);
+        const bool has_face = n[0] != 0.0 || n[1] != 0.0 || n[2] != 0.0;
+        nearest = has_face ? larger(nearest, p.reach) : nearest;
+        distance = has_face ? select_lanes(p.reach > 0.0, larger(distance, plane), distance) : distance;
         const vec far = (1.0 - p.reach) * (1.0 - p.reach);
         const vec weight = (1.0 - far * far) * target[MOR_BOUNDARY_VOLUME];
         for (int a = 0; a < 3; ++a) {
@@ -173,8 +188,10 @@ INLINE void faces_part(const mor_pair_constants *c, const mor_pair_faces_job *jo
         }
     }
     for (int a = 0; a < 6; ++a) {
-        store(out, 6, a, LANES, sum[a]);
+        store(out, MOR_FACE_SUMS, MOR_FACE_TENSOR + a, LANES, sum[a]);
     }
+    const vec found = select_lanes(nearest >= 1.0 - 0.5 * NEAR_FACE, distance, broadcast(INFINITY));
+    store(out, MOR_FACE_SUMS, MOR_FACE_DISTANCE, LANES, found);
 }
 
 void MOR_ISA_NAME(mor_pair_faces)(const mor_pair_constants *c, const mor_pair_faces_job *job, int64_t first,
@@ -185,7 +202,7 @@ void MOR_ISA_NAME(mor_pair_faces)(const mor_pair_constants *c, const mor_pair_fa
         for (int64_t part = 0; part < PARTS; ++part) {
             const int64_t lane = part * LANES;
             faces_part(c, job, slot, (int64_t)slot->cluster * MOR_CLUSTER + lane,
-                       job->out + (place * MOR_CLUSTER + lane) * 6);
+                       job->out + (place * MOR_CLUSTER + lane) * MOR_FACE_SUMS);
         }
     }
 }

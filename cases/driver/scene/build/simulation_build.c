@@ -226,17 +226,19 @@ static mor_status number_particles(mor_context *context, mor_simulation *simulat
     return MOR_OK;
 }
 
-/* The normals of the faces of a wall, seen from its points. */
+/* The normals of the faces of a wall, seen from its points, and how deep these lie. */
 static mor_status find_wall_normals(mor_context *context, const mor_case *c, int wall, const mor_lattice_points *points,
-                                    double **normals)
+                                    double **normals, double **depths)
 {
     MOR_TRY(context, MOR_NEW(context, normals, 3 * points->n_points, "normals of a wall"));
+    MOR_TRY(context, MOR_NEW(context, depths, points->n_points, "normals of a wall"));
     for (int64_t i = 0; i < points->n_points; ++i) {
         double place[3];
         double normal[3];
         mor_simulation_take_point_back(c, points->positions + 3 * i, place);
         mor_shape_normal(c->walls[wall].shape, place, 1.0e-3 * c->spacing, normal);
         mor_matrix_apply(c->rotation, normal, *normals + 3 * i);
+        (*depths)[i] = -mor_shape_distance(c->walls[wall].shape, place);
     }
     return MOR_OK;
 }
@@ -262,11 +264,14 @@ static mor_status add_walls(mor_context *context, mor_simulation *simulation)
         request.motion = simulation->wall_motions[w].n_rows > 0 ? &simulation->wall_motions[w] : NULL;
         request.removed_at = c->walls[w].removed_at > 0.0 ? c->walls[w].removed_at : 0.0;
         double *normals = NULL;
+        double *depths = NULL;
         mor_status status =
-            c->numerics.wall_normals == 1 ? find_wall_normals(context, c, w, &points, &normals) : MOR_OK;
+            c->numerics.wall_normals == 1 ? find_wall_normals(context, c, w, &points, &normals, &depths) : MOR_OK;
         request.normals = normals;
+        request.depths = depths;
         status = status == MOR_OK ? mor_soil_add_wall(context, &simulation->soil, &request) : status;
         MOR_FREE(context, &normals);
+        MOR_FREE(context, &depths);
         mor_lattice_clear(context, &points);
         MOR_FREE(context, &shares);
         MOR_TRY(context, status);
