@@ -18,9 +18,10 @@ typedef struct mor_terrain_raster {
     int n[2];         /* columns and rows, >= 1 */
     char *system;     /* reference system as well-known text; NULL: none */
     double *values;   /* shape [n[1], n[0]], any unit, [1]; the first row is the uppermost; NaN: no data */
-    char name[MOR_TERRAIN_RASTER_NAME_BYTES]; /* what the values are, in a word */
-    char unit[MOR_TERRAIN_RASTER_NAME_BYTES]; /* of the values, as "m" */
-    char text[MOR_TERRAIN_RASTER_TEXT_BYTES]; /* what they are in a sentence */
+    char name[MOR_TERRAIN_RASTER_NAME_BYTES];     /* what the values are, in a word */
+    char unit[MOR_TERRAIN_RASTER_NAME_BYTES];     /* of the values, as "m" */
+    char text[MOR_TERRAIN_RASTER_TEXT_BYTES];     /* what they are in a sentence */
+    char settings[MOR_TERRAIN_RASTER_TEXT_BYTES]; /* what they depend on in the run that made them; may be empty */
 } mor_terrain_raster;
 
 /** Writes a raster as GeoTIFF, compressed without loss, in double precision; -9999 marks cells without data. The same

@@ -456,6 +456,9 @@ mor_status mor_terrain_read(mor_context *context, const mor_terrain_request *req
 
 /* ---- Rasters of results ------------------------------------------------------------------------------------------ */
 
+/* Item of the file's metadata that holds the settings. */
+#define SETTINGS "MORAINE_SETTINGS"
+
 /* Number in the file where there is no data: quantities of maps are not negative, and no ground lies there. */
 #define NO_DATA (-9999.0)
 
@@ -481,6 +484,9 @@ static mor_status describe_raster(mor_context *context, GDALDatasetH dataset, co
     }
     if (error == CE_None) {
         error = GDALSetMetadataItem(dataset, "TIFFTAG_IMAGEDESCRIPTION", it->text, NULL);
+    }
+    if (error == CE_None && it->settings[0] != '\0') {
+        error = GDALSetMetadataItem(dataset, SETTINGS, it->settings, NULL);
     }
     if (error == CE_None) {
         error = GDALSetRasterNoDataValue(band, NO_DATA);
@@ -546,7 +552,9 @@ static mor_status read_raster(mor_context *context, raster *from, mor_terrain_ra
               from->n[0], from->n[1], MOR_TERRAIN_NODES_MAX);
     GDALGetGeoTransform(from->dataset, map);
     const char *text = GDALGetMetadataItem(from->dataset, "TIFFTAG_IMAGEDESCRIPTION", NULL);
+    const char *settings = GDALGetMetadataItem(from->dataset, SETTINGS, NULL);
     const char *system = GDALGetProjectionRef(from->dataset);
+    snprintf(it->settings, sizeof it->settings, "%s", settings != NULL ? settings : "");
     snprintf(it->name, sizeof it->name, "%s", GDALGetDescription(from->band));
     snprintf(it->unit, sizeof it->unit, "%s", GDALGetRasterUnitType(from->band));
     snprintf(it->text, sizeof it->text, "%s", text != NULL ? text : "");

@@ -5,6 +5,9 @@
 #include "tests/common/session_run.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 /* Maps of whole runs: a block of soil that moves on as it is, one that slides down a plane, and soil with a rock on a
  * raster. */
@@ -174,6 +177,64 @@ static void cells_never_reached_have_no_data_and_those_that_were_left_have_zero(
     assert_true(find_result(folder, "run", "map.speed_max.maximum") > 1.999);
     mor_terrain_raster_clear(&folder->context, &deposit);
     mor_terrain_raster_clear(&folder->context, &erosion);
+}
+
+/* A run that goes on has no maps until its new end: those of its earlier end are true no longer. */
+static void maps_of_an_earlier_end_are_gone_when_a_run_goes_on(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const later[] = {"end=1 s"};
+    char path[MOR_PATH_BYTES];
+    run_text(folder, moving, "run", NAN, false, 1);
+    finished_run_store_text(folder, moving, path);
+    const session_run longer = {.case_path = path,
+                                .name = "run",
+                                .settings = later,
+                                .n_settings = 1,
+                                .stop_at = 0.8,
+                                .is_resume = true,
+                                .n_threads = 1};
+    assert_int_equal(session_run_do(folder, &longer, "longer"), MOR_SESSION_STOPPED);
+    assert_int_not_equal(access(finished_run_file(folder, path, "run", "maps/deposit.tif"), R_OK), 0);
+}
+
+/* A ball that falls beside a block that is held; the ball is taken away after 0.2 s. */
+static const char two_bodies[] =
+    "title = 'two'; dimension = 3; spacing = '0.1 m'; gravity = (0, 0, -9.81); end = '0.3 s';"
+    "domain = { min = (0, 0, -1); max = (3, 1.2, 3); };"
+    "bodies = ( { name = 'ball'; position = (0.6, 0.6, 2); shape = { type = 'sphere'; center = (0, 0, 0); radius = "
+    "0.3; };"
+    "    removed_at = '0.2 s'; material = { model = 'rigid'; density = '2600 kg/m3'; }; },"
+    "  { name = 'house'; motion = 'prescribed'; position = (2, 0.6, 0); material = { model = 'rigid'; density = 2600; "
+    "};"
+    "    shape = { type = 'box'; min = (-0.3, -0.3, 0); max = (0.3, 0.3, 0.6); }; } );"
+    "probes = ( { type = 'boulder_travel'; } ); maps = { cell = 0.15; interval = 1; };"
+    "output = { snapshots = 1; pictures = false; };";
+
+static void bodies_that_are_gone_or_held_are_no_rocks_of_a_map(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    run_text(folder, two_bodies, "run", NAN, false, 1);
+    mor_terrain_raster volume = read_map(folder, "run", "rock_volume");
+    mor_terrain_raster speed = read_map(folder, "run", "rock_speed_max");
+    assert_true(find_volume(&volume) == 0.0);
+    double fastest = NAN;
+    for (int k = 0; k < speed.n[0] * speed.n[1]; ++k) {
+        fastest = fmax(fastest, speed.values[k]);
+        assert_true(k % speed.n[0] < 10 || isnan(speed.values[k])); /* the house is at 1.7 m to 2.3 m */
+    }
+    assert_true(fastest > 1.7 && fastest < 1.963); /* of a free fall of 0.2 s, and of the last step before */
+    char *bytes = (char *)run_folder_load(finished_run_file(folder, path, "run", "boulders.csv"), &n_bytes);
+    assert_non_null(strstr(bytes, "ball,"));
+    assert_null(strstr(bytes, "house,"));
+    /* without a place, a speed or rest at the end, but with the time of its removal */
+    assert_non_null(strstr(bytes, ",0.6,0.6,2,,,,"));
+    assert_non_null(strstr(bytes, ",,,0.2"));
+    free(bytes);
+    mor_terrain_raster_clear(&folder->context, &volume);
+    mor_terrain_raster_clear(&folder->context, &speed);
 }
 
 /* ---- A block on a plane ------------------------------------------------------------------------------------------ */
@@ -384,6 +445,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_moving_block_has_its_speed_everywhere),
         TEST(arrival_and_duration_of_a_moving_block_are_exact_to_a_step),
+        TEST(maps_of_an_earlier_end_are_gone_when_a_run_goes_on),
+        TEST(bodies_that_are_gone_or_held_are_no_rocks_of_a_map),
         TEST(cells_never_reached_have_no_data_and_those_that_were_left_have_zero),
         TEST(the_arrival_follows_the_front_of_a_sliding_block),
         TEST(maps_lie_on_the_raster_of_the_ground),

@@ -62,6 +62,17 @@ typedef struct counting {
     bool *is_seen;             /* shape [cells]; a run has data there */
 } counting;
 
+/* A run that went on for longer reached more, and an arrival at another depth is another event. */
+static mor_status check_settings(mor_context *context, const counting *it, const mor_terrain_raster *map, int run)
+{
+    MOR_CHECK(context, strcmp(map->settings, it->map.settings) == 0, MOR_ERROR_CONFIG,
+              "found maps of runs that differ: '%s' has %s, '%s' has %s; allowed: runs of one end, spacing and depths; "
+              "resume the shorter ones with the end of the others, or leave them out",
+              it->ensemble->folders[0], it->map.settings[0] != '\0' ? it->map.settings : "no settings",
+              it->ensemble->folders[run], map->settings[0] != '\0' ? map->settings : "no settings");
+    return MOR_OK;
+}
+
 static mor_status check_grid(mor_context *context, const counting *it, const mor_terrain_raster *map, int run)
 {
     const mor_terrain_raster *first = &it->map;
@@ -113,6 +124,9 @@ static mor_status read_run(mor_context *context, counting *it, int run)
     }
     if (status == MOR_OK) {
         status = check_grid(context, it, &map, run);
+    }
+    if (status == MOR_OK) {
+        status = check_settings(context, it, &map, run);
     }
     if (status == MOR_OK) {
         count_cells(it, &map);

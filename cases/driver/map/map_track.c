@@ -134,20 +134,31 @@ void mor_map_measure(mor_context *context, mor_map_track *track)
     mor_map_spread(context, &track->grid, &points, &track->soil);
 }
 
+/* A body that is held in place is a structure, and one that was removed is there no more. */
+static bool is_rock(const mor_body_group *group, int body)
+{
+    return !group->bodies[body].is_held && !group->boundary.patches[body].is_removed;
+}
+
 void mor_map_measure_rocks(mor_context *context, const mor_map_track *track, mor_map_sums *sums)
 {
     const mor_simulation *s = track->simulation;
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];
-        const mor_map_points points = {.the_case = s->the_case,
-                                       .is_placed = s->frame.is_placed,
-                                       .n = group->set.n_particles,
-                                       .width = group->spacing,
-                                       .position = group->set.data[MOR_FIELD_POSITION],
-                                       .velocity = group->set.data[MOR_FIELD_VELOCITY],
-                                       .mass = group->set.data[MOR_FIELD_MASS],
-                                       .volume = group->volume};
-        mor_map_spread(context, &track->grid, &points, sums);
+        for (int p = 0; p < group->n_pieces; ++p) {
+            const int64_t first = group->pieces[p].first;
+            const mor_map_points points = {.the_case = s->the_case,
+                                           .is_placed = s->frame.is_placed,
+                                           .n = group->pieces[p].n_particles,
+                                           .width = group->spacing,
+                                           .position = group->set.data[MOR_FIELD_POSITION] + 3 * first,
+                                           .velocity = group->set.data[MOR_FIELD_VELOCITY] + 3 * first,
+                                           .mass = group->set.data[MOR_FIELD_MASS] + first,
+                                           .volume = group->volume + first};
+            if (is_rock(group, group->pieces[p].body)) {
+                mor_map_spread(context, &track->grid, &points, sums);
+            }
+        }
     }
 }
 
@@ -220,6 +231,9 @@ static void keep_rocks(mor_map_track *track, bool is_start)
         const mor_body *body = &of->group->bodies[of->index];
         double place[3];
         double *before = track->rock_places + 2 * b;
+        if (!is_rock(of->group, of->index)) {
+            continue;
+        }
         mor_simulation_take_point_back(s->the_case, body->center, place);
         rock_visit visit = {track, mor_vector_length(body->velocity)};
         mor_map_path_walk(&track->grid, is_start ? place : before, place, visit_cell, &visit);

@@ -8,6 +8,7 @@
 #include "core/io/durable_file.h"
 #include "relaxation/terrain/terrain_raster.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -81,6 +82,15 @@ static void find_results(const mor_map_source *source, const mor_map_kind *kind,
     }
 }
 
+/* What maps depend on and maps of several runs must share: cells of two ends or thresholds are not of one kind. */
+static void fill_settings(const mor_simulation *s, mor_terrain_raster *raster)
+{
+    const mor_case *c = s->the_case;
+    snprintf(raster->settings, sizeof raster->settings,
+             "end %.9g s, spacing %.9g m, threshold %.9g m, duration_depth %.9g m", mor_schedule_time(&s->schedule),
+             c->spacing, c->maps.threshold, c->maps.duration_depth);
+}
+
 /* ---- All --------------------------------------------------------------------------------------------------------- */
 
 static mor_status write_maps(mor_context *context, const mor_map_source *source, const char *folder,
@@ -92,6 +102,7 @@ static mor_status write_maps(mor_context *context, const mor_map_source *source,
         raster->cell[a] = grid->file_cell[a];
         raster->n[a] = grid->n[a];
     }
+    fill_settings(source->track->simulation, raster);
     raster->system = grid->terrain != NULL ? grid->terrain->system : NULL;
     MOR_TRY(context, MOR_NEW(context, &raster->values, mor_map_grid_cells(grid), "a map"));
     for (const mor_map_kind *kind = mor_map_kinds; kind->name != NULL; ++kind) {
@@ -118,6 +129,19 @@ static int64_t find_most_particles(const mor_simulation *simulation)
         most = n > most ? n : most;
     }
     return most;
+}
+
+mor_status mor_map_remove(mor_context *context, const mor_map_track *track, const char *folder)
+{
+    for (const mor_map_kind *kind = mor_map_kinds; track != NULL && kind->name != NULL; ++kind) {
+        char path[MOR_PATH_BYTES];
+        char name[MOR_TERRAIN_RASTER_NAME_BYTES];
+        snprintf(name, sizeof name, MOR_MAP_FOLDER "/%s.tif", kind->name);
+        MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
+        MOR_CHECK(context, remove(path) == 0 || errno == ENOENT, MOR_ERROR_IO,
+                  "the map '%s' of an earlier end cannot be removed (%s); remove it by hand", path, strerror(errno));
+    }
+    return MOR_OK;
 }
 
 mor_status mor_map_write(mor_context *context, mor_map_track *track, const char *folder, mor_map_results *results)

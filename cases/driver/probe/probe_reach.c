@@ -46,7 +46,13 @@ static void remember(const view *v, bool is_start, double *memory)
     double level[3];
     int64_t top = 0;
     find_level(v, level);
-    if (!is_start || points->n_points == 0) {
+    if (!is_start) {
+        return;
+    }
+    for (int k = 0; k < NUMBERS; ++k) {
+        memory[k] = NAN; /* where the region holds no soil at the start there is nothing to count from */
+    }
+    if (points->n_points == 0) {
         return;
     }
     for (int64_t i = 1; i < points->n_points; ++i) {
@@ -162,7 +168,7 @@ static mor_status energy_line(mor_context *context, const view *v, double *value
 const mor_probe_measure mor_probe_reach_measures[] = {
     {.type = {"angle_of_reach", "rad", "rad", SOIL | REGION | PERCENTILE | DIRECTION | PATH, 0, OF_SOIL | PAST, 99.5,
               "slope of the line from the highest point of the soil at the start to the front of the deposit, along "
-              "direction or path; NaN where it has come nowhere"},
+              "direction or path; NaN where it has come nowhere, and with a region that held no soil at the start"},
      .run = angle_of_reach,
      .count = count,
      .remember = remember,

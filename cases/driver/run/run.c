@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/run/run.h"
 
+#include "cases/driver/map/map_write.h"
 #include "cases/driver/picture/pictures.h"
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/probe/probe.h"
@@ -143,6 +144,7 @@ static mor_status start_run(mor_context *context, mor_run_files *files, loop_sta
     if (is_restored) {
         MOR_TRY(context, mor_run_files_renew_case(context, files));
     }
+    MOR_TRY(context, mor_map_remove(context, files->simulation->maps, files->options->folder));
     MOR_TRY(context, mor_run_files_start(context, files, is_restored));
     if (!is_restored) {
         MOR_TRY(context, mor_run_files_add_row(context, files));

@@ -4,9 +4,11 @@
 
 #include "cases/driver/probe/probe_boulder.h"
 #include "cases/driver/probe/probe_track.h"
+#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { COLUMN_BYTES = MOR_CASE_NAME_BYTES + 8 };
@@ -81,8 +83,11 @@ mor_status mor_run_boulders_add_row(mor_context *context, mor_run_boulders *it, 
     }
     it->row[0] = mor_schedule_time(&simulation->schedule);
     for (int k = 0; k < it->n; ++k) {
-        mor_simulation_take_point_back(simulation->the_case, find_body(simulation, it->bodies[k])->center,
-                                       it->row + 1 + 3 * (int64_t)k);
+        double *place = it->row + 1 + 3 * (int64_t)k;
+        mor_simulation_take_point_back(simulation->the_case, find_body(simulation, it->bodies[k])->center, place);
+        if (mor_simulation_is_removed(simulation->the_case->bodies[it->bodies[k]].removed_at, it->row[0])) {
+            place[0] = place[1] = place[2] = NAN;
+        }
     }
     return mor_table_append(context, &it->table, it->row);
 }
@@ -135,7 +140,7 @@ static void print_header(const mor_case *c, FILE *stream)
     const bool is_plane = c->dimension == 2;
     fprintf(stream,
             "boulder,diameter [m],mass [%s],x_start [m],y_start [m],z_start [m],x_end [m],y_end [m],z_end [m],"
-            "path_length [m],largest_speed [m/s],time_of_it [s],last_speed [m/s],at_rest [1]",
+            "path_length [m],largest_speed [m/s],time_of_it [s],last_speed [m/s],at_rest [1],removed [s]",
             is_plane ? "kg/m" : "kg");
     for (int k = find_probe(c, MOR_PROBE_PASSAGES, 0); k >= 0; k = find_probe(c, MOR_PROBE_PASSAGES, k + 1)) {
         fprintf(stream, ",%s_beyond [1],%s_time [s],%s_energy [%s]", c->probes[k].name, c->probes[k].name,
@@ -149,15 +154,19 @@ static void print_boulder(const mor_simulation *s, int number, const mor_case_pr
 {
     const mor_case *c = s->the_case;
     const mor_body *body = find_body(s, number);
-    const double speed = mor_vector_length(body->velocity);
+    const double nowhere[3] = {NAN, NAN, NAN};
+    const double removed_at = c->bodies[number].removed_at;
+    const bool is_removed = mor_simulation_is_removed(removed_at, mor_schedule_time(&s->schedule));
+    const double speed = is_removed ? NAN : mor_vector_length(body->velocity);
     fprintf(stream, "%s,%.9g,%.9g", c->bodies[number].name, find_diameter(body, c->dimension), body->mass);
     print_place(s, own + MOR_PROBE_TRAVEL_START, stream);
-    print_place(s, body->center, stream);
+    print_place(s, is_removed ? nowhere : body->center, stream);
     print_number(stream, own[MOR_PROBE_TRAVEL_LENGTH]);
     print_number(stream, own[MOR_PROBE_TRAVEL_FASTEST]);
     print_number(stream, own[MOR_PROBE_TRAVEL_TIME]);
     print_number(stream, speed);
-    fprintf(stream, ",%d", speed <= travel->speed);
+    fprintf(stream, is_removed ? "," : ",%d", speed <= travel->speed);
+    print_number(stream, is_removed ? removed_at : NAN);
     for (int k = find_probe(c, MOR_PROBE_PASSAGES, 0); k >= 0; k = find_probe(c, MOR_PROBE_PASSAGES, k + 1)) {
         const double *passage = s->probes->memory[k] + (int64_t)MOR_PROBE_PASSAGE_NUMBERS * number;
         fprintf(stream, ",%d", passage[MOR_PROBE_PASSAGE_NET] > 0.0);

@@ -96,6 +96,36 @@ static void parts_add_up_to_the_whole(void **state)
     scene_free(it);
 }
 
+/* Also where particles lie exactly on the face between the parts, as on any face along the lattice: here the soil is 8
+ * particles wide and has not moved. */
+static void parts_that_share_a_face_of_the_lattice_add_up(void **state)
+{
+    (void)state;
+    static const char *const sides[] = {
+        "gauges[1].region={type=\"half_space\"; point=(0, 0.03125, 0); normal=(0, 1, 0);}",
+        "gauges[2].region={type=\"half_space\"; point=(0, 0.03125, 0); normal=(0, -1, 0);}",
+        "soil[0].initial_stress={type=\"k0\";}",
+        "soil[0].velocity=(0, 0, 0)",
+        "spacing=0.0625",
+        "soil[0].shape={type=\"box\"; min=(-0.5, -0.25, 0); max=(0, 0.25, 0.5);}",
+        "bodies[0].position=(-0.3, 0, 0.7)",
+        "bodies[0].shape.radius=0.15",
+        NULL};
+    const char *const *const lists[] = {sides};
+    scene *it = scene_new(&(scene_request){.text = text, .settings = lists, .n_lists = 1});
+    scene_step(it, 1);
+    const mor_gauge *g = it->simulation.probes->gauges.of;
+    const double whole = g[0].numbers[MOR_GAUGE_SUM];
+    int64_t n_on_face = 0;
+    for (int64_t i = 0; i < it->simulation.soil.set.n_particles; ++i) {
+        n_on_face += it->simulation.soil.set.data[MOR_FIELD_POSITION][3 * i + 1] == 0.03125;
+    }
+    assert_true(whole != 0.0 && n_on_face > 0);
+    scene_expect_near("the sum of the parts", g[1].numbers[MOR_GAUGE_SUM] + g[2].numbers[MOR_GAUGE_SUM], whole,
+                      1e-11 * fabs(whole)); /* order of sums */
+    scene_free(it);
+}
+
 /* Moments of forces by hand: about the origin of the gauge, and the normal force times its height. */
 typedef struct by_hand {
     double wall; /* x of its face, m */
@@ -218,6 +248,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_structures_carry_what_soil_and_bodies_give),
         cmocka_unit_test(parts_add_up_to_the_whole),
+        cmocka_unit_test(parts_that_share_a_face_of_the_lattice_add_up),
         cmocka_unit_test(moments_are_taken_on_the_surface),
         cmocka_unit_test(maps_hold_the_whole_force),
         cmocka_unit_test(maps_of_bodies_have_no_cells_beside_them),

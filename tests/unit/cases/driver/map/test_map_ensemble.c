@@ -20,18 +20,25 @@ static const double depths[RUNS][CELLS] = {{NAN, 2.5, 2.0, 3.0, 9.0, NAN},
                                            {0.5, NAN, 1.9, 3.0, 9.0, NAN},
                                            {0.5, 1.0, NAN, 1.0, 9.0, NAN}};
 
-static void store_map(run_folder *folder, const char *run, const char *name, const double *values, double corner)
+static void store_map_of(run_folder *folder, const char *run, const char *name, const double *values, double corner,
+                         const char *settings)
 {
     char path[MOR_PATH_BYTES];
     char file[64];
     double copy[CELLS];
     memcpy(copy, values, sizeof copy);
-    const mor_terrain_raster map = {.corner = {corner, 7.0}, .cell = {2.0, 2.0}, .n = {3, 2}, .values = copy};
+    mor_terrain_raster map = {.corner = {corner, 7.0}, .cell = {2.0, 2.0}, .n = {3, 2}, .values = copy};
+    snprintf(map.settings, sizeof map.settings, "%s", settings);
     assert_int_equal(mor_durable_file_make_folder(&folder->context, run_folder_file(folder, path, run)), MOR_OK);
     snprintf(file, sizeof file, "%s/maps", run);
     assert_int_equal(mor_durable_file_make_folder(&folder->context, run_folder_file(folder, path, file)), MOR_OK);
     snprintf(file, sizeof file, "%s/maps/%s.tif", run, name);
     assert_int_equal(mor_terrain_raster_write(&folder->context, run_folder_file(folder, path, file), &map), MOR_OK);
+}
+
+static void store_map(run_folder *folder, const char *run, const char *name, const double *values, double corner)
+{
+    store_map_of(folder, run, name, values, corner, "end 10 s");
 }
 
 /* Paths of the runs, with maps of that name. */
@@ -145,6 +152,10 @@ static void runs_that_do_not_go_together_are_refused(void **state)
     ensemble.value = NAN;
     assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
     ensemble.value = 2.0;
+    store_map_of(folder, "run2", "depth_max", depths[2], 3.0, "end 20 s");
+    assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
+    assert_non_null(strstr(folder->context.message, "has end 10 s"));
+    assert_non_null(strstr(folder->context.message, "has end 20 s; allowed"));
     store_map(folder, "run2", "depth_max", depths[2], 4.0);
     assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
     assert_non_null(strstr(folder->context.message, "maps on two grids"));

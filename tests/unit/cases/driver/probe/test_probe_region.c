@@ -196,6 +196,28 @@ static void displacements_and_angles_count_from_the_start(void **state)
     scene_free(it);
 }
 
+/* Else the angle would be that of a line from the origin of the case. */
+static void reach_counts_from_nothing_where_a_region_was_empty(void **state)
+{
+    (void)state;
+    scene *it = scene_new(&(scene_request){
+        .text = "title = 'reach'; dimension = 3; spacing = '0.1 m'; end = '1 s'; gravity = (0, 0, -9.81);"
+                "domain = { min = (-1, -1, -1); max = (3, 1, 2); };"
+                "soil = ( { name = 'sand'; velocity = (2, 0, 0);"
+                "  shape = { type = 'box'; min = (0, 0, 0); max = (0.3, 0.3, 0.3); };"
+                "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '2 MPa';"
+                "    poissons_ratio = 0.3; friction_angle = '25 deg'; }; } );"
+                "probes = ( { name = 'all'; type = 'angle_of_reach'; direction = (1, 0, 0); },"
+                "  { name = 'reach'; type = 'angle_of_reach'; direction = (1, 0, 0);"
+                "    region = { type = 'half_space'; point = (0.4, 0, 0); normal = (-1, 0, 0); }; },"
+                "  { name = 'centers'; type = 'angle_of_centers'; direction = (1, 0, 0);"
+                "    region = { type = 'half_space'; point = (0.4, 0, 0); normal = (-1, 0, 0); }; } );"});
+    scene_advance(it, 0.2);
+    assert_true(isfinite(scene_probe(it, "all")));
+    assert_true(isnan(scene_probe(it, "reach")) && isnan(scene_probe(it, "centers")));
+    scene_free(it);
+}
+
 static void placed_scenes_have_the_same_results(void **state)
 {
     static const char *const placed[] = {"placement.axis=(0, 0, 1)", "placement.angle=40 deg",
@@ -221,6 +243,7 @@ int main(void)
         cmocka_unit_test(paths_measure_along_themselves),
         cmocka_unit_test(bodies_are_followed),
         cmocka_unit_test(displacements_and_angles_count_from_the_start),
+        cmocka_unit_test(reach_counts_from_nothing_where_a_region_was_empty),
         cmocka_unit_test(placed_scenes_have_the_same_results),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
