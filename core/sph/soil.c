@@ -318,6 +318,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (mor_soil_has_density_sums(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
     }
+    MOR_TRY(context, mor_soil_check_sleep(context, s));
     if (s->scheme.sleep_after > 0.0) {
         MOR_TRY(context, mor_sleep_init(context, &soil->sleep, n_particles));
     }
@@ -442,6 +443,9 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
                                              soil->settings.dimension, soil->tree.n_clusters));
     soil->n_boundaries += 1;
     soil->has_lists = false;
+    if (soil->sleep.states != NULL) {
+        MOR_TRY(context, mor_sleep_add_bodies(context, &soil->sleep, boundary->n_patches));
+    }
     return boundary->normals != NULL ? make_corners(context, soil) : MOR_OK;
 }
 

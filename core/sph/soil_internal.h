@@ -45,9 +45,16 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
 /** Whether soil at rest may be left out of steps. */
 bool mor_soil_may_sleep(const void *owner);
 
+/** Checks that soil which begins to fall does not fall asleep before it moves.
+ *  @param settings [in]  of the soil
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings);
+
 /** Finds which blocks see one another and what moves beside them, after each build of the lists.
+ *  @param position [in]  shape [n_particles, 3], unit m
+ *  @param reach    [in]  of the lists, unit m
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
-mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil);
+mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil, const double *position, double reach);
 
 /** Lists what a resumed run needs of the soil that slept.
  *  Returns: MOR_OK; as mor_state_add. */

@@ -131,7 +131,7 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
     }
     find_clusters_at_walls(soil);
     if (soil->sleep.states != NULL) {
-        MOR_TRY(context, mor_soil_list_sleep_neighbors(context, soil));
+        MOR_TRY(context, mor_soil_list_sleep_neighbors(context, soil, points.records, reach));
     }
     soil->drift = 0.0;
     soil->has_lists = true;

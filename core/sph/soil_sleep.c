@@ -11,6 +11,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Times of a fall up to the speed of soil at rest that soil must have been quiet at least. */
+enum { FALLS = 4 };
+
 bool mor_soil_may_sleep(const void *owner)
 {
     return ((const mor_soil *)owner)->sleep.states != NULL;
@@ -31,11 +34,24 @@ static limits find_limits(const mor_soil *soil)
                     scheme->sleep_speed * sqrt(gravity * soil->settings.spacing)};
 }
 
-mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil)
+mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings)
+{
+    const mor_scheme *scheme = &settings->scheme;
+    const double gravity = mor_vector_length(settings->gravity);
+    const double least = gravity > 0.0 ? FALLS * scheme->sleep_speed * sqrt(settings->spacing / gravity) : 0.0;
+    MOR_CHECK(
+        context, scheme->sleep_after == 0.0 || scheme->sleep_after >= least, MOR_ERROR_CONFIG,
+        "found numerics.sleep_after = %g s; allowed: 0, or at least %.3g s, %d times as long as soil that begins to "
+        "fall stays slower than sleep_speed: it would fall asleep in the air; give a longer time",
+        scheme->sleep_after, least, FALLS);
+    return MOR_OK;
+}
+
+mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil, const double *position, double reach)
 {
     mor_sleep *sleep = &soil->sleep;
     int n_patches = soil->n_walls;
-    MOR_TRY(context, mor_sleep_find_neighbors(context, sleep, &soil->inner, soil->set.n_particles));
+    MOR_TRY(context, mor_sleep_find_neighbors(context, sleep, position, soil->set.n_particles, reach));
     for (int k = 0; k < soil->n_boundaries; ++k) {
         n_patches += soil->boundaries[k].boundary->n_patches;
         mor_sleep_mark_bodies(sleep, &soil->boundaries[k].relation);
@@ -72,19 +88,36 @@ static double find_patch_box(const mor_boundary *boundary, const mor_boundary_pa
     return sqrt(fastest2);
 }
 
-/* Bodies and walls that move faster than soil at rest, and where some were that are there no longer. */
-static int find_moving(mor_soil *soil, double speed)
+/* Whether a body has stayed where it is, as soil has that sleeps. */
+static bool has_stayed(mor_soil *soil, const mor_boundary *boundary, const mor_boundary_patch *patch, double *rest,
+                       double length)
+{
+    const int64_t middle = patch->first + patch->n_points / 2;
+    const int64_t last = patch->first + patch->n_points - 1;
+    const double *const places[3] = {boundary->records + patch->first * MOR_BOUNDARY_RECORD,
+                                     boundary->records + middle * MOR_BOUNDARY_RECORD,
+                                     boundary->records + last * MOR_BOUNDARY_RECORD};
+    return patch->n_points == 0 || mor_sleep_body_rests(rest, places, length, find_limits(soil).displacement,
+                                                        soil->settings.scheme.sleep_after);
+}
+
+/* What moves: walls and driven bodies at any speed, for soil does not tell them to stop; free bodies that are faster
+ * than soil at rest or have not stayed; and the places of what is there no longer. */
+static int find_moving(mor_soil *soil, double speed, double length)
 {
     int n = 0;
+    int64_t body = 0;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
-        const double least = contact->is_wall ? 0.0 : speed;
-        const bool may_move = mor_soil_contact_speed(contact) > least;
+        const bool may_move = mor_soil_contact_speed(contact) > 0.0;
         for (int p = 0; p < contact->boundary->n_patches; ++p) {
             const mor_boundary_patch *patch = &contact->boundary->patches[p];
-            if (patch->is_removed || may_move) {
+            const bool is_free = !contact->is_wall && !patch->is_driven;
+            double *rest = contact->is_wall ? NULL : soil->sleep.rests + MOR_SLEEP_REST * body++;
+            const bool stays = rest == NULL || has_stayed(soil, contact->boundary, patch, rest, length);
+            if (patch->is_removed || may_move || (is_free && !stays)) {
                 const double fastest = find_patch_box(contact->boundary, patch, &soil->moving[n]);
-                n += patch->is_removed || fastest > least;
+                n += patch->is_removed || fastest > (is_free ? speed : 0.0) || (is_free && !stays);
             }
         }
     }
@@ -137,7 +170,7 @@ mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, con
         mor_sleep_wake(sleep);
         return MOR_OK;
     }
-    decision.n_moving = find_moving(soil, limit.speed);
+    decision.n_moving = find_moving(soil, limit.speed, step->length);
     mor_sleep_decide(context, sleep, &decision);
     double taken[TAKEN] = {0.0};
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
@@ -230,6 +263,10 @@ mor_status mor_soil_list_sleep(mor_context *context, mor_soil *soil, mor_state_l
     }
     MOR_TRY(context, mor_state_add(context, list, name, "sleep_momentum", MOR_STATE_DOUBLE, 3, sleep->momentum));
     MOR_TRY(context, mor_state_add(context, list, name, "sleep_energy", MOR_STATE_DOUBLE, 1, &sleep->kinetic));
+    if (sleep->n_rests > 0) {
+        MOR_TRY(context, mor_state_add(context, list, name, "sleep_rests", MOR_STATE_DOUBLE,
+                                       sleep->n_rests * MOR_SLEEP_REST, sleep->rests));
+    }
     MOR_TRY(context, mor_state_add(context, list, name, "sleep_impulse", MOR_STATE_DOUBLE, 3, sleep->impulse));
     return mor_state_add(context, list, name, "sleep_steps", MOR_STATE_UINT64, 1, &sleep->n_left_out);
 }

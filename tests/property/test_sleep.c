@@ -1,7 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Soil at rest that is left out of the steps: what flows must not notice, and nothing may get lost. */
+#include "core/sph/soil_internal.h"
 #include "tests/common/scene.h"
+
+#include <string.h>
 
 /* A bed of sand, and a column beside a wall that collapses onto its end. Blocks of 256 particles are 0.32 m wide. */
 static const char bed[] =
@@ -95,6 +98,97 @@ static void sleep_depends_neither_on_threads_nor_on_when_lists_were_built(void *
     }
 }
 
+/* Hills whose blocks overlap without being on each other's lists of particles. */
+static const char hills[] =
+    "title = 'hills'; dimension = 2; spacing = '13 mm'; gravity = (0, -9.81); end = '0.5 s';"
+    "domain = { min = (-3, -0.4); max = (6, 4); };"
+    "soil = ( { name = 'sand'; initial_stress = { type = 'k0'; };"
+    "  shape = { type = 'polygon'; points = ((0, 0), (3, 0), (3, 0.43), (2.77, 0.62), (2.5, 0.8), (2.1, 0.3),"
+    "    (1.93, 0.7), (1.7, 1.2), (1.45, 0.62), (1.2, 0.51), (0.93, 1.4), (0.77, 1.1), (0.51, 0.3), (0.31, 0.2),"
+    "    (0.2, 0.7), (0, 0.9)); };"
+    "  material = { model = 'drucker_prager'; density = '1600 kg/m3'; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '30 deg'; }; } );"
+    "walls = ( { name = 'floor'; friction = 'rough'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); "
+    "}; },"
+    "  { name = 'left'; friction = 'smooth'; shape = { type = 'half_space'; point = (0, 0); normal = (1, 0); }; },"
+    "  { name = 'right'; friction = 'smooth'; shape = { type = 'half_space'; point = (3, 0); normal = (-1, 0); }; } );"
+    "numerics = { sleep_after = 1; sleep_speed = 0.6; };";
+
+static uint64_t find_hills_checksum(const char *skin, double *share)
+{
+    const char *const settings[] = {skin, NULL};
+    scene *it = scene_new(&(scene_request){hills, (const char *const *[]){settings}, 1, 2});
+    it->simulation.soil.settings.scheme.sleep_after = 0.005; /* too short for a case, but much falls asleep and wakes */
+    scene_step(it, 120);
+    const uint64_t checksum = mor_set_checksum(&it->simulation.soil.set);
+    *share = find_share(it);
+    scene_free(it);
+    return checksum;
+}
+
+static void sleep_of_blocks_that_overlap_does_not_depend_on_lists_either(void **state)
+{
+    double share = 0.0;
+    double other = 0.0;
+    (void)state;
+    const uint64_t usual = find_hills_checksum("numerics.skin_ratio=0", &share);
+    assert_true(share > 0.01);
+    assert_true(find_hills_checksum("numerics.skin_ratio=0.45", &other) == usual);
+    assert_true(find_hills_checksum("numerics.skin_ratio=1.2", &other) == usual);
+    assert_true(other == share);
+}
+
+/* A plate that is driven into a bed at 20 mm/s, below the speed of soil at rest, and a rock as slow as that. */
+static const char tool[] =
+    "title = 'tool'; dimension = 2; spacing = '20 mm'; gravity = (0, -9.81); end = '3 s';"
+    "domain = { min = (-0.2, -0.2); max = (2.2, 2); };"
+    "soil = ( { name = 'sand'; initial_stress = { type = 'k0'; }; shape = { type = 'box'; min = (0, 0); max = (2, "
+    "0.3); };"
+    "  material = { model = 'drucker_prager'; density = '1600 kg/m3'; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '30 deg'; }; } );"
+    "walls = ( { name = 'floor'; friction = 'rough'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); "
+    "}; },"
+    "  { name = 'left'; friction = 'smooth'; shape = { type = 'half_space'; point = (0, 0); normal = (1, 0); }; },"
+    "  { name = 'right'; friction = 'smooth'; shape = { type = 'half_space'; point = (2, 0); normal = (-1, 0); }; } );"
+    "bodies = ( { name = 'tool'; motion = 'prescribed'; shape = { type = 'box'; min = (-0.15, -0.1); max = (0.15, "
+    "0.1); };"
+    "  position = (1, 0.405); friction = 'rough'; material = { model = 'rigid'; density = '2500 kg/m3'; };"
+    "  path = { table = ( { time = 0; }, { time = 0.3; }, { time = 3.3; translation = (0, -0.06); } ); }; } );"
+    "probes = ( { name = 'force'; type = 'body_force_soil'; body = 'tool'; direction = (0, 1); } );";
+
+static void soil_wakes_before_a_tool_however_slow_it_is(void **state)
+{
+    double force[2];
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        const char *const settings[] = {k == 0 ? "numerics.sleep_after=0" : "numerics.sleep_after=0.1", NULL};
+        scene *it = scene_new(&(scene_request){tool, (const char *const *[]){settings}, 1, 2});
+        scene_advance(it, 1.2);
+        force[k] = scene_probe(it, "force");
+        assert_true(k == 0 || find_share(it) > 0.1); /* it slept, and some of it still does */
+        scene_free(it);
+    }
+    assert_true(force[0] > 500.0);
+    /* Waves of the bed have died down where it slept: 5 %. Soil that did not wake gave a sixtieth of the force. */
+    scene_expect_near("force on the tool / that without sleep", force[1] / force[0], 1.0, 0.05);
+}
+
+static void soil_does_not_fall_asleep_in_the_air(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_soil_settings settings = {.spacing = 0.1, .gravity = {0.0, 0.0, -9.81}};
+    mor_context_init(&context);
+    settings.scheme.sleep_speed = 0.05;
+    settings.scheme.sleep_after = 0.003; /* less than 5 ms, after which falling soil is as fast as that */
+    assert_int_equal(mor_soil_check_sleep(&context, &settings), MOR_ERROR_CONFIG);
+    assert_non_null(strstr(context.message, "at least 0.0202 s"));
+    settings.scheme.sleep_after = 0.0203;
+    assert_int_equal(mor_soil_check_sleep(&context, &settings), MOR_OK);
+    settings.scheme.sleep_after = 0.0;
+    assert_int_equal(mor_soil_check_sleep(&context, &settings), MOR_OK);
+}
+
 /* Force of walls on the soil that is awake, along x, N/m. */
 static double find_wall_force(const scene *it)
 {
@@ -184,6 +278,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flow_does_not_notice_that_soil_beside_it_sleeps),
         cmocka_unit_test(sleep_depends_neither_on_threads_nor_on_when_lists_were_built),
+        cmocka_unit_test(sleep_of_blocks_that_overlap_does_not_depend_on_lists_either),
+        cmocka_unit_test(soil_wakes_before_a_tool_however_slow_it_is),
+        cmocka_unit_test(soil_does_not_fall_asleep_in_the_air),
         cmocka_unit_test(momentum_that_sleep_takes_is_accounted_for),
         cmocka_unit_test(soil_that_sleeps_takes_no_energy),
         cmocka_unit_test(falling_ball_wakes_the_soil_under_it),

@@ -36,8 +36,8 @@ static double find_distance(const mor_simulation *s, const mor_gauge *gauge, con
     return mor_simulation_placed_distance(body->shape, body->shape_rotation, body->shape_translation, reference);
 }
 
-/* By a place that is shifted by a millionth of the spacing, the same for all gauges and along no face that anyone draws:
- * what lies exactly on the face of two regions then counts in one of them. */
+/* By a place that is shifted by a millionth of the spacing, the same for all gauges and along no face that anyone
+ * draws: what lies exactly on the face of two regions then counts in one of them. */
 static bool is_inside(const mor_simulation *s, const mor_gauge *gauge, const double *place)
 {
     static const double shifts[3] = {1.0, 0.618, 0.414};

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/sph/sleep/sleep.h"
 
+#include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 
@@ -25,17 +26,16 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
     MOR_TRY(context, MOR_NEW(context, &sleep->calm, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->deep, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->at_bodies, n, "states of sleep"));
-    MOR_TRY(context, MOR_NEW(context, &sleep->mark, n, "search for blocks that sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of blocks"));
     return MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of blocks");
 }
 
 void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
 {
+    MOR_FREE(context, &sleep->rests);
     MOR_FREE(context, &sleep->neighbors);
     MOR_FREE(context, &sleep->boxes);
     MOR_FREE(context, &sleep->first);
-    MOR_FREE(context, &sleep->mark);
     MOR_FREE(context, &sleep->at_bodies);
     MOR_FREE(context, &sleep->deep);
     MOR_FREE(context, &sleep->calm);
@@ -43,47 +43,34 @@ void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
     memset(sleep, 0, sizeof *sleep);
 }
 
-/* Counts the blocks on the lists of each block; keeps as many as there is room for. */
-static int64_t walk_lists(mor_sleep *sleep, const mor_relation *inner)
+mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bodies)
 {
-    int64_t n = 0;
-    memset(sleep->mark, 0xff, (size_t)sleep->n_blocks * sizeof *sleep->mark);
-    for (int64_t block = 0; block < sleep->n_blocks; ++block) {
-        const int64_t last = (block + 1) * MOR_SLEEP_CLUSTERS;
-        sleep->first[block] = n;
-        sleep->mark[block] = (int32_t)block;
-        for (int64_t c = block * MOR_SLEEP_CLUSTERS; c < last && c < inner->n_clusters; ++c) {
-            for (int32_t k = 0; k < inner->counts[c]; ++k) {
-                const int32_t other = inner->lists[c][k] / MOR_SLEEP_PARTICLES;
-                if (sleep->mark[other] != (int32_t)block) {
-                    sleep->mark[other] = (int32_t)block;
-                    if (n < sleep->capacity) {
-                        sleep->neighbors[n] = other;
-                    }
-                    n += 1;
-                }
-            }
-        }
-    }
-    sleep->first[sleep->n_blocks] = n;
-    return n;
+    double *rests = NULL;
+    MOR_TRY(context, MOR_NEW(context, &rests, (sleep->n_rests + n_bodies) * (int64_t)MOR_SLEEP_REST, "bodies at rest"));
+    MOR_FREE(context, &sleep->rests);
+    sleep->rests = rests;
+    sleep->n_rests += n_bodies;
+    return MOR_OK;
 }
 
-mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_relation *inner,
-                                    int64_t n_particles)
+bool mor_sleep_body_rests(double *rest, const double *const places[3], double length, double displacement, double after)
 {
-    sleep->n_blocks = count_blocks(n_particles);
-    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
-    memset(sleep->at_bodies, 0, (size_t)sleep->n_blocks);
-    const int64_t needed = walk_lists(sleep, inner);
-    if (needed > sleep->capacity) {
-        MOR_FREE(context, &sleep->neighbors);
-        sleep->capacity = 0;
-        MOR_TRY(context, MOR_NEW(context, &sleep->neighbors, needed + needed / 4, "neighbors of blocks"));
-        sleep->capacity = needed + needed / 4;
-        walk_lists(sleep, inner);
+    double farthest2 = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        double moved[3];
+        for (int a = 0; a < 3; ++a) {
+            moved[a] = places[k][a] - rest[3 * k + a];
+        }
+        farthest2 = fmax(farthest2, mor_vector_dot(moved, moved));
     }
-    return MOR_OK;
+    rest[MOR_SLEEP_REST_TIME] += length;
+    if (!(farthest2 < displacement * displacement)) {
+        rest[MOR_SLEEP_REST_TIME] = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            memcpy(rest + 3 * k, places[k], 3 * sizeof *rest);
+        }
+    }
+    return rest[MOR_SLEEP_REST_TIME] >= after;
 }
 
 void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies)
@@ -105,24 +92,83 @@ static double find_distance2(const double *minimum, const double *maximum, const
     return distance2;
 }
 
-/* The box of a block, and whether all its particles have been quiet for long enough. */
-static bool scan_block(const mor_sleep_job *job, int64_t block, double *box)
+static int64_t find_end(const mor_sleep_job *job, int64_t block)
 {
     const int64_t end = (block + 1) * MOR_SLEEP_PARTICLES;
-    const int64_t last = end < job->n_particles ? end : job->n_particles;
-    bool is_quiet = true;
+    return end < job->n_particles ? end : job->n_particles;
+}
+
+static void find_box(const mor_sleep_job *job, int64_t block, double *box)
+{
+    const int64_t last = find_end(job, block);
     for (int a = 0; a < 3; ++a) {
         box[a] = INFINITY;
         box[3 + a] = -INFINITY;
     }
     for (int64_t i = block * MOR_SLEEP_PARTICLES; i < last; ++i) {
-        is_quiet = is_quiet && job->quiet_time[i] >= job->after;
         for (int a = 0; a < 3; ++a) {
             box[a] = fmin(box[a], job->position[3 * i + a]);
             box[3 + a] = fmax(box[3 + a], job->position[3 * i + a]);
         }
     }
-    return is_quiet;
+}
+
+/* Whether all particles of a block have been quiet for long enough. */
+static bool is_quiet(const mor_sleep_job *job, int64_t block)
+{
+    const int64_t last = find_end(job, block);
+    bool is = true;
+    for (int64_t i = block * MOR_SLEEP_PARTICLES; i < last; ++i) {
+        is = is && job->quiet_time[i] >= job->after;
+    }
+    return is;
+}
+
+/* Counts the blocks whose boxes are within reach of that of a block; notes them where there is room. */
+static int64_t walk_boxes(const mor_sleep *sleep, double reach, int64_t block, int32_t *found)
+{
+    const double *box = sleep->boxes + 6 * block;
+    int64_t n = 0;
+    for (int64_t other = 0; other < sleep->n_blocks; ++other) {
+        const double *beside = sleep->boxes + 6 * other;
+        if (other != block && find_distance2(box, box + 3, beside, beside + 3) <= reach * reach) {
+            if (found != NULL) {
+                found[n] = (int32_t)other;
+            }
+            n += 1;
+        }
+    }
+    return n;
+}
+
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const double *position, int64_t n_particles,
+                                    double reach)
+{
+    const mor_sleep_job job = {.n_particles = n_particles, .position = position};
+    sleep->n_blocks = count_blocks(n_particles);
+    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
+    memset(sleep->at_bodies, 0, (size_t)sleep->n_blocks);
+    MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
+        find_box(&job, block, sleep->boxes + 6 * block);
+    }
+    MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
+        sleep->first[block + 1] = walk_boxes(sleep, reach, block, NULL);
+    }
+    sleep->first[0] = 0;
+    for (int64_t block = 0; block < sleep->n_blocks; ++block) {
+        sleep->first[block + 1] += sleep->first[block];
+    }
+    const int64_t needed = sleep->first[sleep->n_blocks];
+    if (needed > sleep->capacity) {
+        MOR_FREE(context, &sleep->neighbors);
+        sleep->capacity = 0;
+        MOR_TRY(context, MOR_NEW(context, &sleep->neighbors, needed + needed / 4, "neighbors of blocks"));
+        sleep->capacity = needed + needed / 4;
+    }
+    MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
+        walk_boxes(sleep, reach, block, sleep->neighbors + sleep->first[block]);
+    }
+    return MOR_OK;
 }
 
 static bool sees_motion(const mor_sleep_job *job, const double *box)
@@ -135,7 +181,8 @@ static bool sees_motion(const mor_sleep_job *job, const double *box)
     return false;
 }
 
-/* Whether all blocks within reach have a mark. Lists hold more than what is in reach, so that distances decide. */
+/* Whether all blocks within reach have a mark. The lists hold what was within more than that, so that distances of now
+ * decide. */
 static bool have_all(const mor_sleep *sleep, double reach, int64_t block, const int8_t *marks, int8_t least)
 {
     const double *box = sleep->boxes + 6 * block;
@@ -154,7 +201,8 @@ void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_jo
     const int64_t n = sleep->n_blocks;
     MOR_PARALLEL_FOR (context, block, n, GRAIN) {
         double *box = sleep->boxes + 6 * block;
-        sleep->calm[block] = (int8_t)(scan_block(job, block, box) && !sees_motion(job, box));
+        find_box(job, block, box);
+        sleep->calm[block] = (int8_t)(is_quiet(job, block) && !sees_motion(job, box));
     }
     MOR_PARALLEL_FOR (context, block, n, GRAIN) {
         const bool sleeps = sleep->calm[block] && have_all(sleep, job->reach, block, sleep->calm, 1);

@@ -25,6 +25,13 @@ enum {
     MOR_SLEEP_HELD    /* it and all its neighbors slept in the last step, too: what walls do to it is known */
 };
 
+/** What is kept of a body to tell whether it rests. */
+enum {
+    MOR_SLEEP_REST_PLACES = 0, /* 3 x 3: of its first, middle and last point when it last moved on, m */
+    MOR_SLEEP_REST_TIME = 9,   /* since then, s */
+    MOR_SLEEP_REST = 10
+};
+
 /** Particles by blocks, and which of them sleep. Owner: the soil. */
 typedef struct mor_sleep {
     int8_t *states;      /* shape [blocks]; as above; NULL: none ever sleeps */
@@ -32,9 +39,10 @@ typedef struct mor_sleep {
     int8_t *deep;        /* shape [blocks]; 1: it and all its neighbors slept in the last step */
     int8_t *at_bodies;   /* shape [blocks]; 1: points of bodies are on its lists */
     double *boxes;       /* shape [blocks, 6]; minimum and maximum corner of the particles, m */
-    int32_t *mark;       /* shape [blocks]; scratch of the search */
     int64_t *first;      /* shape [blocks + 1]; of each block's neighbors, and one past the last */
-    int32_t *neighbors;  /* shape [capacity]; blocks on the lists of each block, without itself */
+    int32_t *neighbors;  /* shape [capacity]; blocks beside each block, without itself */
+    double *rests;       /* shape [n_rests, MOR_SLEEP_REST]; of bodies, units of the enum; NULL: there are none */
+    int64_t n_rests;     /* patches of bodies */
     int64_t capacity;    /* neighbors there is room for */
     int64_t n_blocks;    /* in use */
     int64_t n_asleep;    /* blocks that sleep in this step */
@@ -69,14 +77,28 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
 /** Frees what it owns; accepts a zeroed one. */
 void mor_sleep_clear(mor_context *context, mor_sleep *sleep);
 
-/** Finds which blocks see one another, after each build of the lists.
- *  @param inner       [in]      particle -> particle, current, with lists of all that come within reach before the
- *                              next build
+/** Finds which blocks may see one another, after each build of the lists.
+ *  @param position    [in]      shape [n_particles, 3], unit m
  *  @param n_particles [in]      number of particles, at most those there is room for
+ *  @param reach       [in]      of boxes that may come within the support of the kernel before the next build, unit m
  *  Gives: no block is held, and none is at bodies.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more neighbors than ever before. */
-mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_relation *inner,
-                                    int64_t n_particles);
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const double *position, int64_t n_particles,
+                                    double reach);
+
+/** Makes room for more bodies, before the first step.
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
+mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bodies);
+
+/** Whether a body rests: it has not moved on for a time, however slowly it does. Where it counts from is moved with it
+ *  only when it has moved on, so that a body that creeps moves on in the end.
+ *  @param rest         [in,out]  shape [MOR_SLEEP_REST], of the body, units of the enum
+ *  @param places       [in]      shape [3][3], of its first, middle and last point, unit m
+ *  @param length       [in]      of the step, unit s
+ *  @param displacement [in]      by which it moves on, unit m
+ *  @param after        [in]      time after which it rests, unit s */
+bool mor_sleep_body_rests(double *rest, const double *const places[3], double length, double displacement,
+                          double after);
 
 /** Keeps blocks that list points of bodies from being held: forces on bodies are found in every step.
  *  @param bodies [in]      particle -> points of bodies, current */

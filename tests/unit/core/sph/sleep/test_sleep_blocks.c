@@ -49,7 +49,7 @@ static int open_row(void **state)
     assert_int_equal(mor_relation_init(&it.context, &it.inner, MOR_CONFIGURATION_CURRENT, it.tree.n_clusters), MOR_OK);
     assert_int_equal(mor_relation_build(&it.context, &it.inner, &points, &points, 2.0 * REACH), MOR_OK);
     assert_int_equal(mor_sleep_init(&it.context, &it.sleep, N), MOR_OK);
-    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.inner, N), MOR_OK);
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, it.position, N, 2.0 * REACH), MOR_OK);
     return 0;
 }
 
@@ -158,7 +158,7 @@ static void block_is_held_from_the_second_step_of_sleep_on(void **state)
                         find_gap(block, other) > REACH);
         }
     }
-    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.inner, N), MOR_OK);
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, it.position, N, 2.0 * REACH), MOR_OK);
     decide(NULL, 0);
     for (int64_t block = 0; block < BLOCKS; ++block) {
         assert_int_not_equal(it.sleep.states[block], MOR_SLEEP_HELD);
