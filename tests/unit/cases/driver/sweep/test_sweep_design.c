@@ -237,7 +237,35 @@ static void keys_that_are_set_twice_are_refused(void **state)
          NULL, "'a=1' of another variable"},
         {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('a=1'); } ); },"
          "                     { name = 'y'; choices = ( { label = 'l'; set = ('b=1', 'a=2'); } ); } );",
-         NULL, "'a=2' of another variable"}};
+         NULL, "'a=1' of another variable"},
+        /* A key holds those below it, and its entries, whichever comes first; [0] and [00] are one entry. */
+        {"case = 'c'; vary = ( { key = 's[0].m.d'; values = (1); },"
+         "  { name = 'y'; choices = ( { label = 'l'; set = ('s[0].m={ d=2; }'); } ); } );",
+         NULL, "'y' that sets 's[0].m', which is also set by 's[0].m.d' of another variable"},
+        {"case = 'c'; vary = ( { key = 'g'; values = ((0, 1)); }, { key = 'g[1]'; name = 'y'; values = (2); } );", NULL,
+         "'y' that sets 'g[1]', which is also set by 'g' of another variable"},
+        {"case = 'c'; vary = ( { key = 's[0].a'; values = (1); }, { key = 's[00].a'; name = 'y'; values = (2); } );",
+         NULL, "'y' that sets 's[00].a', which is also set by 's[0].a' of another variable"},
+        {"case = 'c'; vary = ( { key = 's[0].m'; values = (1); } );", "s[0].m.d=3",
+         "'m' that sets 's[0].m', which is also set by 's[0].m.d=3' as an override"},
+        {"case = 'c'; vary = ( { key = 's[0].m.d'; values = (1); } );", "s[0].m={ d=3; }",
+         "'d' that sets 's[0].m.d', which is also set by 's[0].m={ d=3; }' as an override"},
+        {"case = 'c'; set = ('s[0].m.d=3'); vary = ( { key = 's[0].m'; values = (1); } );", NULL,
+         "'m' that sets 's[0].m', which is also set by 's[0].m.d=3' for all members"},
+        {"case = 'c'; set = ('s[0].m.d=3'); vary = ( { name = 'x'; choices = ("
+         "  { label = 'l'; set = ('s[0].m={ e=2; }'); } ); } );",
+         NULL, "'x' that sets 's[0].m', which is also set by 's[0].m.d=3' for all members"},
+        /* Within one list. */
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('a=1', 'b=1', 'a=2'); } ); } );", NULL,
+         "'x' that sets 'a', which is also set by 'a=1' of the same choice 'l'"},
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('m.d=1', 'm={ e=1; }'); } ); } );", NULL,
+         "'x' that sets 'm', which is also set by 'm.d=1' of the same choice 'l'"},
+        {"case = 'c'; set = ('m.d=1', 'm.d=2'); vary = ( { key = 'a'; values = (1); } );", NULL,
+         "a/sweep.cfg: found 'm.d', which is set twice for all members, by 'm.d=1', too"},
+        /* Of two cases the later would be run. */
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; }, { label = 'm'; case = 'd'; } ); },"
+         "                     { name = 'y'; choices = ( { label = 'n'; case = 'e'; } ); } );",
+         NULL, "'y' with the case 'e' beside the case 'd' of the variable 'x'"}};
     bench *b = *state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         assert_int_equal(read_text(b, wrong[k].text), MOR_OK);
@@ -250,7 +278,12 @@ static void keys_that_are_set_twice_are_refused(void **state)
         mor_sweep_design_clear(&b->context, &b->design);
         mor_sweep_clear(&b->context, &b->sweep);
     }
-    /* A choice may differ from what is set for all; overrides come between the two. */
+}
+
+/* A choice may differ from what is set for all; overrides come between the two. */
+static void choice_may_set_anew_what_is_set_for_all(void **state)
+{
+    bench *b = *state;
     assert_int_equal(
         read_text(b, "case = 'c'; set = ( 'a=1', 'd=1' ); vary = ( { name = 'x'; choices = ("
                      "{ label = 'l'; }, { label = 'm'; set = ('a=2'); } ); }, { key = 'c.a'; values = (1); } );"),
@@ -259,6 +292,21 @@ static void keys_that_are_set_twice_are_refused(void **state)
     b->sweep.n_overrides = 1;
     assert_int_equal(mor_sweep_design_make(&b->context, &b->sweep, &b->design), MOR_OK);
     expect_settings(b, 1, "a=1 | d=1 | d=2 | a=2 | c.a=1");
+}
+
+/* Names that begin alike are two keys; a part of what is set for all may vary; cases that exclude each other may. */
+static void keys_that_have_an_effect_each_are_taken(void **state)
+{
+    bench *b = *state;
+    make(b, "case = 'c'; set = ( 'soil[0].m={ d=1; e=2; }' );"
+            "vary = ( { key = 'soil[0].m.d'; values = (1); }, { key = 'soil[0].md'; values = (1); },"
+            "  { key = 'soil[1].m'; values = (1); }, { key = 'soil[10].m'; name = 'n'; values = (1); },"
+            "  { name = 'x'; choices = ( { label = 'k'; set = ('b=1', 'bc=1'); },"
+            "                            { label = 'l'; case = 'd'; without = ('y'); } ); },"
+            "  { name = 'y'; choices = ( { label = 'm'; case = 'e'; } ); } );");
+    assert_int_equal(b->design.n_members, 2);
+    assert_string_equal(mor_sweep_design_case(&b->design, 0), "e");
+    assert_string_equal(mor_sweep_design_case(&b->design, 1), "d");
 }
 
 static void too_many_members_are_refused(void **state)
@@ -282,6 +330,8 @@ int main(void)
         WITH_BENCH(combinations_share_their_latin_hypercube),
         WITH_BENCH(wrong_files_are_refused_with_a_reason),
         WITH_BENCH(keys_that_are_set_twice_are_refused),
+        WITH_BENCH(choice_may_set_anew_what_is_set_for_all),
+        WITH_BENCH(keys_that_have_an_effect_each_are_taken),
         WITH_BENCH(too_many_members_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
