@@ -86,7 +86,7 @@ typedef struct mor_sweep {
     char path[MOR_CASE_TEXT_BYTES]; /* of the file, as it was given */
     char title[MOR_CASE_TEXT_BYTES];
     char case_file[MOR_CASE_TEXT_BYTES]; /* from the folder of the sweep file */
-    int n_samples;                       /* of the Latin hypercube; 1 where nothing is at random */
+    int n_samples;                       /* in each combination of choices; 1 where nothing is at random */
     uint64_t seed;
     mor_sweep_refused refused;
     mor_sweep_texts settings;     /* of all members */

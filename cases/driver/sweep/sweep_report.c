@@ -30,10 +30,20 @@ static int find_width(const mor_sweep_design *design)
     return width;
 }
 
+/* Replicates or distributions that change nothing: an interval of no width is no certainty. */
+static void print_constants(int n_constant, FILE *out)
+{
+    if (n_constant > 0) {
+        fprintf(out, "in %d group%s all members gave the same number: what varies within has no effect on it\n",
+                n_constant, n_constant == 1 ? "" : "s");
+    }
+}
+
 static void print_result(mor_sweep_table *table, int column, int width, FILE *out)
 {
     static const char *const heads[] = {"mean", "from", "to", "deviation", "5 %", "50 %", "95 %"};
     char name[MOR_SWEEP_NAME_BYTES];
+    int n_constant = 0;
     mor_sweep_table_name(table, column, name);
     fprintf(out, "\n%s [%s]\n%-*s  used", name, table->columns[column].unit, width, "group");
     for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
@@ -52,7 +62,9 @@ static void print_result(mor_sweep_table *table, int column, int width, FILE *ou
             print_cell(numbers[k], out);
         }
         fprintf(out, "\n");
+        n_constant += it.n > 1 && it.minimum == it.maximum;
     }
+    print_constants(n_constant, out);
 }
 
 static void print_exceed(mor_sweep_table *table, int index, int width, FILE *out)

@@ -17,8 +17,8 @@ static const mor_case_key root_keys[] = {
      MOR_CASE_STORE_TEXT,
      AT(mor_sweep, case_file)},
     {{"members", WHOLE, "1", DEFAULT(NAN), BETWEEN(1.0, MOR_SWEEP_MEMBERS_MAX), NULL,
-      "samples of the Latin hypercube over all distributions, in each combination of the other variables; required "
-      "with a distribution, not allowed otherwise"},
+      "samples of all distributions in each combination of the other variables, for each value of replicates, too: "
+      "these are samples of their own; required with a distribution, not allowed otherwise"},
      MOR_CASE_STORE_INT,
      AT(mor_sweep, n_samples),
      .computed = "none"},
@@ -51,7 +51,9 @@ static const mor_case_key variable_keys[] = {
      AT(mor_sweep_variable, name),
      .computed = "the last name of the key"},
     {{"replicates", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "values are repetitions, such as seeds, that statistics are taken over; samples of a distribution always are"},
+      "values are repetitions, such as seeds, that statistics are taken over; samples of a distribution always are, "
+      "and "
+      "each repetition gets others"},
      MOR_CASE_STORE_BOOL,
      AT(mor_sweep_variable, is_replicate)},
     {{"distribution", CHOICE, "1", DEFAULT(0.0), ANY, "none|normal|lognormal|uniform|triangular",

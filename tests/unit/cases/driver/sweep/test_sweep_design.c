@@ -161,6 +161,62 @@ static void combinations_share_their_latin_hypercube(void **state)
     }
 }
 
+/* Each of the strata of a group, as many as it has members, has one value: no two members repeat a draw. */
+static void expect_strata(const bench *b, int group, int variable, int n)
+{
+    int strata[64] = {0};
+    int n_found = 0;
+    for (int m = 0; m < b->design.n_members; ++m) {
+        if (b->design.groups[m] == group) {
+            strata[(int)((mor_sweep_design_value(&b->design, m, variable) - 1.0) / 2.0 * n)] += 1;
+            ++n_found;
+        }
+    }
+    assert_int_equal(n_found, n);
+    for (int k = 0; k < n; ++k) {
+        assert_int_equal(strata[k], 1);
+    }
+}
+
+/* Members of a group are independent draws, as the intervals take them for: replicates repeat none. */
+static void replicates_have_draws_of_their_own(void **state)
+{
+    enum { N = 5, N_SEEDS = 4 };
+    bench *b = *state;
+    make(b, "case = 'case.cfg'; members = 5; vary = ("
+            "{ key = 'seed'; from = 1; to = 4; replicates = true; },"
+            "{ key = 'c'; distribution = 'uniform'; min = 1; max = 3; },"
+            "{ name = 'x'; choices = ( { label = 'k'; }, { label = 'l'; } ); },"
+            "{ key = 'd'; distribution = 'uniform'; min = 1; max = 3; } );");
+    assert_int_equal(b->design.n_members, 2 * N * N_SEEDS);
+    assert_int_equal(b->design.n_groups, 2);
+    for (int group = 0; group < 2; ++group) {
+        expect_strata(b, group, 1, N * N_SEEDS);
+        expect_strata(b, group, 3, N * N_SEEDS);
+    }
+    for (int m = 0; m < b->design.n_members; ++m) { /* and the other group has the same ones */
+        const int other = m / N % 2 == 0 ? m + N : m - N;
+        assert_true(mor_sweep_design_value(&b->design, m, 1) == mor_sweep_design_value(&b->design, other, 1));
+    }
+}
+
+/* A group without the replicates has a hypercube of its own size; a member without the distribution has no draw. */
+static void draws_are_over_the_members_that_have_them(void **state)
+{
+    bench *b = *state;
+    make(b, "case = 'case.cfg'; members = 5; vary = ("
+            "{ name = 'x'; choices = ( { label = 'k'; }, { label = 'l'; without = ('seed'); } ); },"
+            "{ name = 'seed'; choices = ( { label = '1'; }, { label = '2'; }, { label = '3'; without = ('c'); } );"
+            "  replicates = true; },"
+            "{ key = 'c'; distribution = 'uniform'; min = 1; max = 3; } );");
+    assert_int_equal(b->design.n_members, 2 * 5 + 1 + 5);
+    assert_int_equal(b->design.n_groups, 2);
+    assert_true(isnan(mor_sweep_design_value(&b->design, 10, 2)));
+    b->design.groups[10] = -1; /* the others of its group have ten strata */
+    expect_strata(b, 0, 2, 10);
+    expect_strata(b, 1, 2, 5);
+}
+
 /* What is wrong is told with file and line, and with what is allowed. */
 static void wrong_files_are_refused_with_a_reason(void **state)
 {
@@ -328,6 +384,8 @@ int main(void)
         WITH_BENCH(ranges_end_at_or_before_their_end),
         WITH_BENCH(choices_leave_out_what_has_no_meaning_with_them),
         WITH_BENCH(combinations_share_their_latin_hypercube),
+        WITH_BENCH(replicates_have_draws_of_their_own),
+        WITH_BENCH(draws_are_over_the_members_that_have_them),
         WITH_BENCH(wrong_files_are_refused_with_a_reason),
         WITH_BENCH(keys_that_are_set_twice_are_refused),
         WITH_BENCH(choice_may_set_anew_what_is_set_for_all),

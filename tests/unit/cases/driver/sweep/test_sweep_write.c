@@ -250,6 +250,34 @@ static void tables_have_a_cell_for_each_head(void **state)
     clear(&b);
 }
 
+/* What is printed, to be freed. */
+static char *report(bench *b)
+{
+    char *text = NULL;
+    size_t n_bytes = 0;
+    FILE *stream = open_memstream(&text, &n_bytes);
+    assert_non_null(stream);
+    assert_int_equal(mor_sweep_write_report(&b->folder->context, &b->table, &b->provenance, stream), MOR_OK);
+    fclose(stream);
+    return text;
+}
+
+/* An interval of no width looks like certainty; replicates that change nothing are told. */
+static void report_tells_groups_whose_members_are_all_alike(void **state)
+{
+    bench b;
+    make(&b, *state);
+    fill(&b);
+    char *text = report(&b);
+    assert_null(strstr(text, "the same number")); /* one value alone is no repetition */
+    free(text);
+    b.table.values[1] = b.table.values[2] = b.table.values[0];
+    text = report(&b);
+    assert_non_null(strstr(text, "in 1 group all members gave the same number: what varies within has no effect on"));
+    free(text);
+    clear(&b);
+}
+
 /* Words of a command are quoted as a shell needs it. */
 static void commands_are_quoted_for_a_shell(void **state)
 {
@@ -298,6 +326,7 @@ int main(void)
         WITH_FOLDER(summary_is_json_and_tells_who_failed),
         WITH_FOLDER(statistics_use_members_with_a_result_alone),
         WITH_FOLDER(tables_have_a_cell_for_each_head),
+        WITH_FOLDER(report_tells_groups_whose_members_are_all_alike),
         WITH_FOLDER(commands_are_quoted_for_a_shell),
         WITH_FOLDER(charts_are_drawn_where_there_is_something_to_show),
     };
