@@ -3,6 +3,8 @@
 /* Tables as comma-separated values (RFC 4180). */
 #include "cases/driver/sweep/sweep_write.h"
 
+#include "core/base/hash.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,16 +59,29 @@ mor_status mor_sweep_write_command(mor_context *context, const mor_sweep_design 
     return MOR_OK;
 }
 
-void mor_sweep_write_design(const mor_sweep_design *design, const mor_sweep_provenance *provenance, FILE *out)
+/* Text on one line, so that each member has one. */
+static void write_line(const char *text, FILE *out)
+{
+    for (; *text != '\0'; ++text) {
+        fputc(*text == '\n' || *text == '\r' ? ' ' : *text, out);
+    }
+}
+
+void mor_sweep_write_design(const mor_sweep_design *design, const mor_sweep_provenance *provenance,
+                            const uint64_t *case_hashes, FILE *out)
 {
     mor_sweep_settings settings;
+    fprintf(out, "moraine %s, commit %s\n", provenance->version, provenance->commit);
     for (int m = 0; m < design->n_members; ++m) {
         char number[16];
+        char hash[MOR_HASH_TEXT_BYTES];
         mor_sweep_write_number(m, number);
+        mor_hash_format(case_hashes[m], hash);
         mor_sweep_design_settings(design, provenance->units, m, &settings);
-        fprintf(out, "%s %s", number, mor_sweep_design_case(design, m));
+        fprintf(out, "%s %s %s", number, hash, mor_sweep_design_case(design, m));
         for (int k = 0; k < settings.n; ++k) {
-            fprintf(out, " | %s", settings.texts[k]);
+            fprintf(out, " | ");
+            write_line(settings.texts[k], out);
         }
         fputc('\n', out);
     }
