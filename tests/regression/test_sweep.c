@@ -202,6 +202,41 @@ static void members_that_miss_an_expectation_are_used(void **state)
     program_clear(&outcome);
 }
 
+/* ---- Members where nothing arrives ------------------------------------------------------------------------------- */
+
+/* One heap of four reaches the region of the probe; the others have not passed a place in it, either. */
+static void members_that_nothing_reached_count_as_not_reached(void **state)
+{
+    run_folder *folder = *state;
+    const char *const arguments[] = {"sweep", "sweep.cfg", "-o", "thrown", "-t", "2", NULL};
+    char field[FIELD_BYTES];
+    store_sweep(
+        folder,
+        "case = 'case.cfg'; set = ( 'spacing=15 mm', 'end=40 ms', 'probes=( { name = \\\"far\\\";"
+        " type = \\\"run_out\\\"; region = { type = \\\"box\\\"; min = (0.2, -1); max = (1, 1); }; } )' );"
+        "vary = ( { key = 'soil[0].velocity'; values = ((0, 0), (0.1, 0), (0.2, 0), (3, 0)); replicates = true; } );"
+        "exceed = ( { probe = 'far'; above = '21 cm'; }, { probe = 'far'; below = '21 cm'; } );");
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.output, "3 members had nothing to measure: mean, deviation and quantiles are those of "
+                                        "the others");
+    program_expect_text(outcome.output, "say with absent = \"miss\", \"hit\" or \"left_out\" what they count as");
+    program_clear(&outcome);
+    char *table = load_text(folder, "thrown", "exceed.csv");
+    const char *line = take_line(table, 1);
+    assert_string_equal(take_field(line, find_column(table, "used"), field), "4");
+    assert_string_equal(take_field(line, find_column(table, "absent"), field), "3");
+    assert_string_equal(take_field(line, find_column(table, "hits"), field), "1");
+    assert_string_equal(take_field(line, find_column(table, "probability"), field), "0.25");
+    line = take_line(table, 2); /* below: it is not known what nothing means */
+    assert_string_equal(take_field(line, find_column(table, "probability"), field), "");
+    free(table);
+    table = load_text(folder, "thrown", "sweep.csv");
+    line = take_line(table, 1);
+    assert_string_equal(take_field(line, find_column(table, "used"), field), "1");
+    assert_string_equal(take_field(line, find_column(table, "absent"), field), "3");
+    free(table);
+}
+
 /* ---- The same bytes ---------------------------------------------------------------------------------------------- */
 
 static const char several[] =
@@ -508,6 +543,7 @@ int main(void)
         WITH_FOLDER(statistics_are_those_of_the_members_used),
         WITH_FOLDER(wrong_settings_are_all_told_before_anything_runs),
         WITH_FOLDER(members_that_miss_an_expectation_are_used),
+        WITH_FOLDER(members_that_nothing_reached_count_as_not_reached),
         WITH_FOLDER(number_of_members_at_once_changes_no_byte),
         WITH_FOLDER(sweep_killed_at_random_moments_ends_as_if_never_killed),
         WITH_FOLDER(stop_request_stops_all_members_in_order),

@@ -267,8 +267,11 @@ static void note_end(mor_session_sweeper *it, int member, const mor_session *own
         outcome->state = found->n_missed > 0 ? MOR_SWEEP_STATE_MISSED : MOR_SWEEP_STATE_FINISHED;
         outcome->n_missed = found->n_missed;
         outcome->n_warnings = found->n_warnings;
-        memcpy(it->table.values + (int64_t)member * it->table.n_columns, values,
-               (size_t)it->table.n_columns * sizeof *values);
+        const int64_t row = (int64_t)member * it->table.n_columns;
+        memcpy(it->table.values + row, values, (size_t)it->table.n_columns * sizeof *values);
+        for (int c = 0; c < it->table.n_columns; ++c) {
+            it->table.has_probe[row + c] = has_probe(&own->the_case, it->table.columns[c].probe);
+        }
         note_done(it, member);
     }
     fprintf(it->log, "member %d %s%s%s\n", member + 1, mor_sweep_state_words[outcome->state],

@@ -217,6 +217,28 @@ static void draws_are_over_the_members_that_have_them(void **state)
     expect_strata(b, 1, 2, 5);
 }
 
+/* What never came is not above a threshold; whether it is below is for the user to say. */
+static void absent_is_a_miss_above_and_unknown_below(void **state)
+{
+    bench *b = *state;
+    assert_int_equal(read_text(b, "case = 'c'; vary = ( { key = 'a'; values = (1); } );"
+                                  "exceed = ( { probe = 'p'; above = 1; absent = 'hits'; } );"),
+                     MOR_ERROR_CONFIG);
+    assert_non_null(strstr(b->context.message, "did you mean 'hit'?"));
+    make(b, "case = 'c'; vary = ( { key = 'a'; values = (1); } );"
+            "exceed = ( { probe = 'p'; above = 1; }, { probe = 'p'; below = 1; },"
+            "  { probe = 'p'; above = 1; absent = 'left_out'; }, { probe = 'p'; below = 1; absent = 'miss'; },"
+            "  { probe = 'p'; statistic = 'maximum'; below = 1; absent = 'hit'; } );");
+    static const mor_sweep_absent expected[] = {MOR_SWEEP_ABSENT_MISS, MOR_SWEEP_ABSENT_UNKNOWN,
+                                                MOR_SWEEP_ABSENT_LEFT_OUT, MOR_SWEEP_ABSENT_MISS, MOR_SWEEP_ABSENT_HIT};
+    assert_int_equal(b->sweep.n_exceed, 5);
+    for (int k = 0; k < 5; ++k) {
+        assert_int_equal(b->sweep.exceed[k].absent, expected[k]);
+        assert_string_equal(b->sweep.exceed[k].measure.probe, "p");
+    }
+    assert_int_equal(b->sweep.exceed[4].measure.statistic, MOR_CASE_STATISTIC_MAXIMUM);
+}
+
 /* What is wrong is told with file and line, and with what is allowed. */
 static void wrong_files_are_refused_with_a_reason(void **state)
 {
@@ -386,6 +408,7 @@ int main(void)
         WITH_BENCH(combinations_share_their_latin_hypercube),
         WITH_BENCH(replicates_have_draws_of_their_own),
         WITH_BENCH(draws_are_over_the_members_that_have_them),
+        WITH_BENCH(absent_is_a_miss_above_and_unknown_below),
         WITH_BENCH(wrong_files_are_refused_with_a_reason),
         WITH_BENCH(keys_that_are_set_twice_are_refused),
         WITH_BENCH(choice_may_set_anew_what_is_set_for_all),
