@@ -372,7 +372,8 @@ typedef struct mor_session_sweep_counts {
  *  @param folder    [in]   zero-terminated; made when missing; NULL: nothing runs, but the cases of all members are
  *                          read, and what each would set is printed
  *  @param is_resume [in]   go on with the sweep that the folder holds: members that have ended are kept, failed ones
- *                          are tried again; else a folder that holds a sweep is refused
+ *                          are tried again; refused when the program or the case of any member is another than
+ *                          before; else a folder that holds a sweep is refused
  *  @param counts    [out]  one record
  *  Returns: MOR_OK, also when members failed or it was stopped; MOR_ERROR_CONFIG for a sweep file or a case that is
  *  wrong: every one is logged as an error before anything runs; likewise for a folder that cannot be made, holds

@@ -202,6 +202,41 @@ static void members_that_miss_an_expectation_are_used(void **state)
     program_clear(&outcome);
 }
 
+/* ---- Members where nothing arrives ------------------------------------------------------------------------------- */
+
+/* One heap of four reaches the region of the probe; the others have not passed a place in it, either. */
+static void members_that_nothing_reached_count_as_not_reached(void **state)
+{
+    run_folder *folder = *state;
+    const char *const arguments[] = {"sweep", "sweep.cfg", "-o", "thrown", "-t", "2", NULL};
+    char field[FIELD_BYTES];
+    store_sweep(
+        folder,
+        "case = 'case.cfg'; set = ( 'spacing=15 mm', 'end=40 ms', 'probes=( { name = \\\"far\\\";"
+        " type = \\\"run_out\\\"; region = { type = \\\"box\\\"; min = (0.2, -1); max = (1, 1); }; } )' );"
+        "vary = ( { key = 'soil[0].velocity'; values = ((0, 0), (0.1, 0), (0.2, 0), (3, 0)); replicates = true; } );"
+        "exceed = ( { probe = 'far'; above = '21 cm'; }, { probe = 'far'; below = '21 cm'; } );");
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.output, "3 members had nothing to measure: mean, deviation and quantiles are those of "
+                                        "the others");
+    program_expect_text(outcome.output, "say with absent = \"miss\", \"hit\" or \"left_out\" what they count as");
+    program_clear(&outcome);
+    char *table = load_text(folder, "thrown", "exceed.csv");
+    const char *line = take_line(table, 1);
+    assert_string_equal(take_field(line, find_column(table, "used"), field), "4");
+    assert_string_equal(take_field(line, find_column(table, "absent"), field), "3");
+    assert_string_equal(take_field(line, find_column(table, "hits"), field), "1");
+    assert_string_equal(take_field(line, find_column(table, "probability"), field), "0.25");
+    line = take_line(table, 2); /* below: it is not known what nothing means */
+    assert_string_equal(take_field(line, find_column(table, "probability"), field), "");
+    free(table);
+    table = load_text(folder, "thrown", "sweep.csv");
+    line = take_line(table, 1);
+    assert_string_equal(take_field(line, find_column(table, "used"), field), "1");
+    assert_string_equal(take_field(line, find_column(table, "absent"), field), "3");
+    free(table);
+}
+
 /* ---- The same bytes ---------------------------------------------------------------------------------------------- */
 
 static const char several[] =
@@ -341,37 +376,148 @@ static void stop_request_stops_all_members_in_order(void **state)
 
 /* ---- Folders ----------------------------------------------------------------------------------------------------- */
 
+static void store_cohesions(run_folder *folder)
+{
+    store_sweep(folder, SMALL RUN_OUT "vary = ( { key = 'soil[0].material.cohesion'; values = (100, 200); } );");
+}
+
+/* Refused with a reason, and nothing of what the folder holds is changed. */
+static void expect_refused(run_folder *folder, const char *const *arguments, const char *reason)
+{
+    static const char *const names[] = {"members.csv", "sweep.csv", "design.txt", "done.txt"};
+    char *before[4];
+    for (size_t k = 0; k < 4; ++k) {
+        before[k] = load_text(folder, "mine", names[k]);
+    }
+    program_outcome outcome = program_run(folder, arguments, 2);
+    program_expect_text(outcome.errors, reason);
+    program_clear(&outcome);
+    for (size_t k = 0; k < 4; ++k) {
+        char *after = load_text(folder, "mine", names[k]);
+        assert_string_equal(after, before[k]);
+        free(after);
+        free(before[k]);
+    }
+}
+
+static const char *const first_part[] = {"sweep", "sweep.cfg", "-o", "mine", NULL};
+static const char *const next_part[] = {"sweep", "sweep.cfg", "-o", "mine", "--resume", NULL};
+
 static void folder_of_another_sweep_is_refused(void **state)
 {
     run_folder *folder = *state;
-    const char *const first[] = {"sweep", "sweep.cfg", "-o", "mine", NULL};
-    const char *const resumed[] = {"sweep", "sweep.cfg", "-o", "mine", "--resume", NULL};
     const char *const other[] = {"sweep", "sweep.cfg", "-o", "mine", "--resume", "--set", "numerics.courant=0.1", NULL};
     const char *const varied[] = {"sweep", "sweep.cfg", "-o", "new", "--set", "soil[0].material.cohesion=1", NULL};
-    store_sweep(folder, SMALL RUN_OUT "vary = ( { key = 'soil[0].material.cohesion'; values = (100, 200); } );");
-    sweep_to_the_end(folder, first);
-    program_outcome outcome = program_run(folder, first, 2);
-    program_expect_text(outcome.errors, "already holds a sweep; resume it, or choose another folder");
-    program_clear(&outcome);
-    outcome = program_run(folder, other, 2);
-    program_expect_text(outcome.errors, "line 1 of mine/design.txt tells another member");
-    program_clear(&outcome);
-    outcome = program_run(folder, varied, 2);
-    program_expect_text(outcome.errors, "which is also set by 'soil[0].material.cohesion=1' as an override");
-    program_clear(&outcome);
-    sweep_to_the_end(folder, resumed);
-    /* The same settings over another case: members that have ended are not taken for those of this one. */
+    store_cohesions(folder);
+    sweep_to_the_end(folder, first_part);
+    expect_refused(folder, first_part, "already holds a sweep; resume it, or choose another folder");
+    expect_refused(folder, other,
+                   "member 001 is 'case.cfg | spacing=15 mm | end=40 ms | numerics.courant=0.1 | "
+                   "soil[0].material.cohesion=100', was 'case.cfg | spacing=15 mm | end=40 ms | soil");
+    expect_refused(folder, varied, "which is also set by 'soil[0].material.cohesion=1' as an override");
+    store_sweep(folder, SMALL RUN_OUT "vary = ( { key = 'soil[0].material.cohesion'; values = (100, 200, 300); } );");
+    expect_refused(folder, next_part, "it has 3 members, and had 2");
+    store_cohesions(folder);
+    sweep_to_the_end(folder, next_part);
+}
+
+/* Replaces a text of case.cfg, as often as it is there. */
+static void edit_case(run_folder *folder, const char *from, const char *into)
+{
     char path[MOR_PATH_BYTES];
-    finished_run_store_text(folder, strstr(finished_run_case, "dimension"), path);
     char *text = load_text(folder, ".", "case.cfg");
-    char *angle = strstr(text, "25 deg");
-    assert_non_null(angle);
-    angle[1] = '6';
-    run_folder_store(path, text, strlen(text));
+    assert_int_equal(strlen(from), strlen(into));
+    assert_non_null(strstr(text, from));
+    for (char *at = strstr(text, from); at != NULL; at = strstr(at, from)) {
+        memcpy(at, into, strlen(into));
+    }
+    run_folder_store(run_folder_file(folder, path, "case.cfg"), text, strlen(text));
     free(text);
-    outcome = program_run(folder, resumed, 1);
-    program_expect_text(outcome.output, "is not the one that 'mine/members/001' was started with");
+}
+
+/* The same settings over another case, even where a single run could go on with it: members that have ended and those
+ * that have not would be those of two studies. */
+static void case_that_has_changed_is_refused_before_a_member_runs(void **state)
+{
+    static const struct {
+        const char *from, *into, *reason;
+    } changes[] = {
+        {"25 deg", "26 deg", "first difference: soil[0].material.friction_angle = \"0.453785"},
+        {"max = (\"0.4 m\"", "max = (\"0.5 m\"", "first difference: domain.max = (\"0.5 m\""},
+        {"snapshots = 6", "snapshots = 7", "first difference: output.snapshots = 7, was output.snapshots = 6"}};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    store_cohesions(folder);
+    sweep_to_the_end(folder, first_part);
+    /* As after a kill: the second member has not begun. */
+    run_folder_store(finished_run_file(folder, path, "mine", "done.txt"), "1\n", 2);
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; ++k) {
+        edit_case(folder, changes[k].from, changes[k].into);
+        expect_refused(folder, next_part,
+                       "the cases of member 001 and 1 more are not those that 'mine' was started "
+                       "with");
+        expect_refused(folder, next_part, changes[k].reason);
+        edit_case(folder, changes[k].into, changes[k].from);
+    }
+    sweep_to_the_end(folder, next_part);
+}
+
+/* A member that went on by hand has other results than those of the sweep. */
+static void member_that_went_on_by_hand_is_refused(void **state)
+{
+    run_folder *folder = *state;
+    const char *const by_hand[] = {"run",      "case.cfg",
+                                   "-o",       "mine/members/002",
+                                   "--set",    "spacing=15 mm",
+                                   "--set",    "end=50 ms",
+                                   "--set",    "soil[0].material.cohesion=200",
+                                   "--resume", NULL};
+    store_cohesions(folder);
+    sweep_to_the_end(folder, first_part);
+    sweep_to_the_end(folder, by_hand);
+    expect_refused(folder, next_part,
+                   "'mine/members/002' holds another case than the sweep gives to it; first "
+                   "difference: end = \"0.04 s\", was end = \"0.05 s\"");
+}
+
+/* Members of two programs are not mixed. */
+static void sweep_of_another_program_is_refused(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    store_cohesions(folder);
+    sweep_to_the_end(folder, first_part);
+    char *text = load_text(folder, "mine", "design.txt");
+    char *at = strstr(text, "moraine ");
+    assert_true(at == text && at[8] != '\0');
+    at[8] = at[8] == '9' ? '8' : '9';
+    run_folder_store(finished_run_file(folder, path, "mine", "design.txt"), text, strlen(text));
+    expect_refused(folder, next_part, "results of two programs would be mixed");
+    text[0] = 'x'; /* as a file of an older version begins */
+    run_folder_store(finished_run_file(folder, path, "mine", "design.txt"), text, strlen(text));
+    expect_refused(folder, next_part, "results of two programs would be mixed");
+    free(text);
+}
+
+/* A case that is edited while the sweep runs is not that of the members that have ended. */
+static void case_that_changes_while_members_run_fails_the_rest(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const arguments[] = {"sweep", "sweep.cfg", "-o", "edited", "-t", "1", NULL};
+    const char *const resumed[] = {"sweep", "sweep.cfg", "-o", "edited", "-t", "1", "--resume", NULL};
+    store_sweep(folder, several);
+    const pid_t child = program_start(folder, arguments);
+    for (int k = 0; k < 30000 && access(finished_run_file(folder, path, "edited/members/002", "."), F_OK) != 0; ++k) {
+        usleep(1000);
+    }
+    edit_case(folder, "2 MPa", "3 MPa");
+    program_outcome outcome = program_finish(folder, child);
+    assert_int_equal(outcome.exit_code, 1);
+    program_expect_text(outcome.output, "member 008 failed: the case has changed since the sweep was started");
     program_clear(&outcome);
+    edit_case(folder, "3 MPa", "2 MPa");
+    sweep_to_the_end(folder, resumed);
 }
 
 static void plan_tells_the_commands_and_runs_nothing(void **state)
@@ -397,10 +543,15 @@ int main(void)
         WITH_FOLDER(statistics_are_those_of_the_members_used),
         WITH_FOLDER(wrong_settings_are_all_told_before_anything_runs),
         WITH_FOLDER(members_that_miss_an_expectation_are_used),
+        WITH_FOLDER(members_that_nothing_reached_count_as_not_reached),
         WITH_FOLDER(number_of_members_at_once_changes_no_byte),
         WITH_FOLDER(sweep_killed_at_random_moments_ends_as_if_never_killed),
         WITH_FOLDER(stop_request_stops_all_members_in_order),
         WITH_FOLDER(folder_of_another_sweep_is_refused),
+        WITH_FOLDER(case_that_has_changed_is_refused_before_a_member_runs),
+        WITH_FOLDER(member_that_went_on_by_hand_is_refused),
+        WITH_FOLDER(sweep_of_another_program_is_refused),
+        WITH_FOLDER(case_that_changes_while_members_run_fails_the_rest),
         WITH_FOLDER(plan_tells_the_commands_and_runs_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

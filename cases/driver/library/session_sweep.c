@@ -30,6 +30,7 @@ static mor_status read_sweep(mor_session_sweeper *it, const char *path)
     MOR_TRY(context, mor_sweep_design_make(context, &it->sweep, &it->design));
     MOR_TRY(context, mor_sweep_table_make(context, &it->design, &it->table));
     MOR_TRY(context, MOR_NEW(context, &it->is_done, it->design.n_members, "members of a sweep"));
+    MOR_TRY(context, MOR_NEW(context, &it->case_hashes, it->design.n_members, "members of a sweep"));
     MOR_TRY(context, MOR_NEW(context, &it->running, it->design.n_members, "members of a sweep"));
     it->provenance = (mor_sweep_provenance){.run_word = mor_element_names_find(&session->names, "run"),
                                             .set_word = mor_element_names_find(&session->names, "set"),
@@ -246,6 +247,7 @@ mor_status mor_session_sweep(mor_session *session, const char *path, const char 
     mor_sweep_clear(context, &it->sweep);
     mor_units_free(context, &it->units);
     MOR_FREE(context, &it->is_done);
+    MOR_FREE(context, &it->case_hashes);
     MOR_FREE(context, &it->running);
     MOR_FREE(context, &it);
     return status;

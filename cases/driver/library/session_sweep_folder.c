@@ -32,70 +32,18 @@ static mor_status refuse_sweep(mor_session_sweeper *it)
     return MOR_OK;
 }
 
-/* ---- The design -------------------------------------------------------------------------------------------------- */
-
-/* The first line in which two texts differ, counted from 1; 0: in none. */
-static int find_difference(FILE *a, FILE *b)
-{
-    int line = 1;
-    for (;;) {
-        const int x = fgetc(a);
-        const int y = fgetc(b);
-        if (x != y) {
-            return line;
-        }
-        if (x == EOF) {
-            return 0;
-        }
-        line += x == '\n';
-    }
-}
-
-/* The members of the sweep that a folder holds are those of this one. */
-static mor_status compare_design(mor_session_sweeper *it, const char *path, char *text, size_t n_bytes)
-{
-    mor_context *context = &it->session->context;
-    FILE *held = fopen(path, "r");
-    MOR_CHECK(context, held != NULL, MOR_ERROR_IO, "'%s' cannot be read; check the folder's permissions", path);
-    FILE *wanted = fmemopen(text, n_bytes, "r");
-    const int line = wanted != NULL ? find_difference(held, wanted) : -1;
-    fclose(held);
-    if (wanted != NULL) {
-        fclose(wanted);
-    }
-    MOR_CHECK(context, line >= 0, MOR_ERROR_MEMORY, "no memory for the members of a sweep");
-    MOR_CHECK(
-        context, line == 0, MOR_ERROR_CONFIG,
-        "the sweep '%s' with its overrides is not the one that '%s' was started with: line %d of %s tells another "
-        "member; resume with the same values, or start a new sweep in another folder",
-        it->sweep.path, it->folder, line, path);
-    return MOR_OK;
-}
-
 static mor_status keep_design(mor_session_sweeper *it)
 {
     mor_context *context = &it->session->context;
     char path[MOR_PATH_BYTES];
-    char *text = NULL;
-    size_t n_bytes = 0;
     mor_durable_file file;
     MOR_TRY(context, mor_durable_file_join(context, path, it->folder, DESIGN_FILE));
-    if (!mor_run_folder_has(context, it->folder, DESIGN_FILE)) {
-        MOR_TRY(context, mor_durable_file_open(context, &file, path));
-        mor_sweep_write_design(&it->design, &it->provenance, file.stream);
-        return mor_durable_file_commit(context, &file);
+    if (mor_run_folder_has(context, it->folder, DESIGN_FILE)) {
+        return mor_session_sweep_compare(it, path);
     }
-    FILE *stream = open_memstream(&text, &n_bytes);
-    MOR_CHECK(context, stream != NULL, MOR_ERROR_MEMORY, "no memory for the members of a sweep");
-    mor_sweep_write_design(&it->design, &it->provenance, stream);
-    mor_status status = MOR_OK;
-    if (fclose(stream) == 0) {
-        status = compare_design(it, path, text, n_bytes);
-    } else {
-        status = MOR_FAIL(context, MOR_ERROR_MEMORY, "no memory for the members of a sweep");
-    }
-    free(text);
-    return status;
+    MOR_TRY(context, mor_durable_file_open(context, &file, path));
+    mor_sweep_write_design(&it->design, &it->provenance, it->case_hashes, file.stream);
+    return mor_durable_file_commit(context, &file);
 }
 
 /* ---- Members that have ended ------------------------------------------------------------------------------------- */

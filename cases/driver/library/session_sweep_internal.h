@@ -24,6 +24,7 @@ typedef struct mor_session_sweeper {
     const char *folder; /* of the sweep, zero-terminated */
     bool is_resume;
     bool *is_done;         /* shape [n_members]; ended in an earlier part of the sweep */
+    uint64_t *case_hashes; /* shape [n_members]; of the whole cases when they were checked; 0: refused */
     pthread_mutex_t lock;  /* of what follows, and of table and catalog while members are at work */
     mor_session **running; /* shape [n_members]; NULL: not at work */
     FILE *log, *done;      /* log.txt and the list of members that have ended, open for appending */
@@ -42,7 +43,29 @@ mor_status mor_session_sweep_open(mor_session_sweeper *sweeper);
 /** Closes what mor_session_sweep_open has opened; accepts one that was not opened. */
 void mor_session_sweep_close(mor_session_sweeper *sweeper);
 
-/** Reads the case of a member: notes its probes, or why it is refused, which makes it a failed one.
+/** Compares the sweep that a folder was started with, and what its members hold, with this one: the program, and the
+ *  settings and whole case of each member.
+ *  @param sweeper [in,out]  with its design and checked members
+ *  @param path    [in]      zero-terminated; the file that the design was kept in
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG telling what differs; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_session_sweep_compare(mor_session_sweeper *sweeper, const char *path);
+
+/** Tells in which value the case of a member differs from the one that the member's folder holds.
+ *  @param member [in]   0 <= member < n_members
+ *  @param text   [out]  shape [text_bytes]; zero-terminated: "; first difference: ..., was ...", or "" where the folder
+ *                       holds no case
+ *  @param text_bytes [in]  room in bytes, > 0
+ *  Returns: MOR_OK; what reading the case returns. */
+mor_status mor_session_sweep_explain(mor_session_sweeper *sweeper, int member, char *text, size_t text_bytes);
+
+/** Finds the folder of a member.
+ *  @param member [in]   0 <= member < n_members
+ *  @param path   [out]  shape [MOR_PATH_BYTES]; zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_IO when it is too long. */
+mor_status mor_session_sweep_find_folder(mor_context *context, const mor_session_sweeper *sweeper, int member,
+                                         char *path);
+
+/** Reads the case of a member: notes its hash and probes, or why it is refused, which makes it a failed one.
  *  @param sweeper [in,out]  one mor_session_sweeper
  *  @param member  [in]      0 <= member < n_members
  *  Threads: safe to call concurrently for different members. */

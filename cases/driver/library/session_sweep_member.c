@@ -78,12 +78,17 @@ void mor_session_sweep_check_member(void *sweeper, int member)
 {
     mor_session_sweeper *it = sweeper;
     mor_session *own = NULL;
+    uint64_t hash = 0;
     mor_status status = mor_session_new(&own);
     if (status == MOR_OK) {
         status = load_member(it, member, own);
     }
+    if (status == MOR_OK) {
+        status = mor_run_files_hash_case(&own->context, &own->files, own->the_case.registry, &hash);
+    }
     (void)pthread_mutex_lock(&it->lock);
     if (status == MOR_OK) {
+        it->case_hashes[member] = hash;
         note_probes(it, member, &own->the_case);
     } else {
         set_failed(it, member, mor_session_message(own));
@@ -92,9 +97,67 @@ void mor_session_sweep_check_member(void *sweeper, int member)
     mor_session_free(&own);
 }
 
+/* ---- What a folder holds ----------------------------------------------------------------------------------------- */
+
+mor_status mor_session_sweep_find_folder(mor_context *context, const mor_session_sweeper *it, int member, char *path)
+{
+    char number[16];
+    mor_sweep_write_number(member, number);
+    const int n = snprintf(path, MOR_PATH_BYTES, "%s/members/%s", it->folder, number);
+    MOR_CHECK(context, n > 0 && n < MOR_PATH_BYTES, MOR_ERROR_IO, "the path of the member's folder is too long");
+    return MOR_OK;
+}
+
+static mor_status compare_folder(mor_session_sweeper *it, int member, mor_session *own, mor_case_difference *first)
+{
+    char folder[MOR_PATH_BYTES];
+    mor_context *context = &own->context;
+    MOR_TRY(context, load_member(it, member, own));
+    MOR_TRY(context, mor_session_sweep_find_folder(context, it, member, folder));
+    return mor_run_files_compare_folder(context, &own->files, own->the_case.registry, folder, first);
+}
+
+mor_status mor_session_sweep_explain(mor_session_sweeper *it, int member, char *text, size_t text_bytes)
+{
+    mor_context *context = &it->session->context;
+    mor_session *own = NULL;
+    mor_case_difference first = {.is_found = false};
+    mor_status status = mor_session_new(&own);
+    if (status == MOR_OK) {
+        status = compare_folder(it, member, own, &first);
+    }
+    text[0] = '\0';
+    if (status == MOR_OK && first.is_found) {
+        snprintf(text, text_bytes, "; first difference: %s, was %s%s", first.found, first.expected, first.reason);
+    }
+    if (status != MOR_OK) {
+        status = MOR_FAIL(context, status, "%s", mor_session_message(own));
+    }
+    mor_session_free(&own);
+    return status;
+}
+
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
 
-/* A member that ended before: its folder must hold this very case, and a summary of a run that reached its end. */
+/* The case is still the one that was checked, and the folder holds no other: results of two cases are not mixed. */
+static mor_status check_case(mor_session_sweeper *it, int member, mor_session *own, const char *folder)
+{
+    mor_context *context = &own->context;
+    uint64_t now = 0;
+    uint64_t held = 0;
+    MOR_TRY(context, mor_run_files_hash_case(context, &own->files, own->the_case.registry, &now));
+    MOR_CHECK(
+        context, now == it->case_hashes[member], MOR_ERROR_CONFIG,
+        "the case has changed since the sweep was started; put it back and resume the sweep, or start a new sweep "
+        "in another folder");
+    MOR_TRY(context, mor_run_files_hash_folder(context, folder, &held));
+    MOR_CHECK(context, held == 0 || held == now, MOR_ERROR_CONFIG,
+              "the folder '%s' holds another case than the sweep gives to it; remove the folder and resume the sweep",
+              folder);
+    return MOR_OK;
+}
+
+/* A member that ended before: its folder must hold a summary of a run that reached its end. */
 static bool is_kept(mor_session_sweeper *it, int member, mor_session *own, const char *folder, const char *summary,
                     mor_status *status)
 {
@@ -157,20 +220,23 @@ static bool is_begun(mor_context *context, const char *folder)
     return mor_run_folder_has_checkpoint(context, folder) || mor_run_folder_has(context, folder, MOR_SUMMARY_FILE);
 }
 
+static mor_status take_up(mor_session_sweeper *it, int member, mor_session *own, char *folder, char *summary)
+{
+    mor_context *context = &own->context;
+    MOR_TRY(context, mor_session_sweep_find_folder(context, it, member, folder));
+    MOR_TRY(context, mor_durable_file_join(context, summary, folder, MOR_SUMMARY_FILE));
+    MOR_TRY(context, load_member(it, member, own));
+    return check_case(it, member, own, folder);
+}
+
 /* Runs the member, or takes what is there. Returns false when it was stopped. */
 static bool compute(mor_session_sweeper *it, int member, mor_session *own, double *values, mor_summary_outcome *found,
                     mor_status *status)
 {
-    char number[16];
     char folder[MOR_PATH_BYTES];
     char summary[MOR_PATH_BYTES];
     mor_session_outcome outcome = MOR_SESSION_FINISHED;
-    mor_sweep_write_number(member, number);
-    const int n = snprintf(folder, sizeof folder, "%s/members/%s", it->folder, number);
-    const int n_summary = snprintf(summary, sizeof summary, "%s/%s", folder, MOR_SUMMARY_FILE);
-    *status = n > 0 && n_summary < (int)sizeof summary
-                  ? load_member(it, member, own)
-                  : MOR_FAIL(&own->context, MOR_ERROR_IO, "the path of the member's folder is too long");
+    *status = take_up(it, member, own, folder, summary);
     if (*status == MOR_OK && !is_kept(it, member, own, folder, summary, status)) {
         const bool is_resume = it->is_resume && is_begun(&own->context, folder);
         *status = mor_session_run(own, folder, is_resume, NAN, &outcome);
@@ -201,8 +267,11 @@ static void note_end(mor_session_sweeper *it, int member, const mor_session *own
         outcome->state = found->n_missed > 0 ? MOR_SWEEP_STATE_MISSED : MOR_SWEEP_STATE_FINISHED;
         outcome->n_missed = found->n_missed;
         outcome->n_warnings = found->n_warnings;
-        memcpy(it->table.values + (int64_t)member * it->table.n_columns, values,
-               (size_t)it->table.n_columns * sizeof *values);
+        const int64_t row = (int64_t)member * it->table.n_columns;
+        memcpy(it->table.values + row, values, (size_t)it->table.n_columns * sizeof *values);
+        for (int c = 0; c < it->table.n_columns; ++c) {
+            it->table.has_probe[row + c] = has_probe(&own->the_case, it->table.columns[c].probe);
+        }
         note_done(it, member);
     }
     fprintf(it->log, "member %d %s%s%s\n", member + 1, mor_sweep_state_words[outcome->state],

@@ -1,7 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* The case of a run: kept in its folder and in its checkpoints, and compared when the run goes on. */
-#include "cases/driver/case/schema/case_compare.h"
 #include "cases/driver/case/sections/case_read.h"
 #include "cases/driver/case/write/case_write.h"
 #include "cases/driver/run/run_files.h"
@@ -90,6 +89,47 @@ mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, c
               "the case '%s' with its overrides is not the one that '%s' was started with; first difference: %s, was "
               "%s%s; resume with the same case and values, or start a new run in another folder",
               files->the_case->path, folder, first.found, first.expected, first.reason);
+    return MOR_OK;
+}
+
+mor_status mor_run_files_hash_case(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                   uint64_t *hash)
+{
+    *hash = 0;
+    if (files->case_text == NULL) {
+        MOR_TRY(context, format_case(context, files, registry));
+    }
+    *hash = mor_case_compare_hash(files->case_text);
+    return MOR_OK;
+}
+
+mor_status mor_run_files_hash_folder(mor_context *context, const char *folder, uint64_t *hash)
+{
+    char path[MOR_PATH_BYTES];
+    char *text = NULL;
+    *hash = 0;
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_RUN_CASE_FILE));
+    MOR_TRY(context, load_text(context, path, &text));
+    *hash = text[0] != '\0' ? mor_case_compare_hash(text) : 0;
+    MOR_FREE(context, &text);
+    return MOR_OK;
+}
+
+mor_status mor_run_files_compare_folder(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                        const char *folder, mor_case_difference *difference)
+{
+    char path[MOR_PATH_BYTES];
+    char *text = NULL;
+    *difference = (mor_case_difference){.is_found = false, .reason = ""};
+    if (files->case_text == NULL) {
+        MOR_TRY(context, format_case(context, files, registry));
+    }
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_RUN_CASE_FILE));
+    MOR_TRY(context, load_text(context, path, &text));
+    if (text[0] != '\0') {
+        mor_case_compare_whole(files->case_text, text, difference);
+    }
+    MOR_FREE(context, &text);
     return MOR_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_RUN_RUN_FILES_H
 #define MOR_CASES_DRIVER_RUN_RUN_FILES_H
 
+#include "cases/driver/case/schema/case_compare.h"
 #include "cases/driver/run/run_boulders.h"
 #include "cases/driver/run/run_folder.h"
 #include "cases/driver/run/run_gauges.h"
@@ -95,6 +96,27 @@ mor_status mor_run_files_open(mor_context *context, mor_run_files *files);
  *  Returns: MOR_OK; MOR_ERROR_CONFIG naming the first difference; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_keep_case(mor_context *context, mor_run_files *files, const mor_registry *registry,
                                    bool is_resume);
+
+/** Finds the hash of the case, of all its values and of the contents of its files.
+ *  @param files [in,out]  with the case
+ *  @param hash  [out]     one number; 0 on failure
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_hash_case(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                   uint64_t *hash);
+
+/** Finds the hash of the case that a folder holds, case.resolved.cfg.
+ *  @param folder [in]   zero-terminated
+ *  @param hash   [out]  one number; 0: it holds none
+ *  Returns: MOR_OK; MOR_ERROR_IO for a path that is too long; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_hash_folder(mor_context *context, const char *folder, uint64_t *hash);
+
+/** Finds the first difference between the case and the one that a folder holds, in whatever value.
+ *  @param files      [in,out]  with the case
+ *  @param folder     [in]      zero-terminated
+ *  @param difference [out]     one record; none is found where the folder holds no case
+ *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+mor_status mor_run_files_compare_folder(mor_context *context, mor_run_files *files, const mor_registry *registry,
+                                        const char *folder, mor_case_difference *difference);
 
 /** Writes case.resolved.cfg of a run that goes on, where it is missing or no longer tells the case.
  *  @param files   [in,out]  with the case

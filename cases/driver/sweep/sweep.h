@@ -68,9 +68,19 @@ typedef struct mor_sweep_measure {
     uint64_t written;
 } mor_sweep_measure;
 
+/** What a member that had nothing to measure counts as, in the order of the words of the key absent, and then what is
+ *  so where the file does not say it. */
+typedef enum mor_sweep_absent {
+    MOR_SWEEP_ABSENT_MISS,     /* counted, not beyond the threshold */
+    MOR_SWEEP_ABSENT_HIT,      /* counted, beyond it */
+    MOR_SWEEP_ABSENT_LEFT_OUT, /* not counted */
+    MOR_SWEEP_ABSENT_UNKNOWN   /* there is no probability */
+} mor_sweep_absent;
+
 /** A question: how often is a result beyond a threshold? */
 typedef struct mor_sweep_exceed {
     mor_sweep_measure measure;
+    mor_sweep_absent absent;
     bool is_below; /* below the threshold; else above it */
     mor_sweep_quantity threshold;
 } mor_sweep_exceed;
@@ -86,7 +96,7 @@ typedef struct mor_sweep {
     char path[MOR_CASE_TEXT_BYTES]; /* of the file, as it was given */
     char title[MOR_CASE_TEXT_BYTES];
     char case_file[MOR_CASE_TEXT_BYTES]; /* from the folder of the sweep file */
-    int n_samples;                       /* of the Latin hypercube; 1 where nothing is at random */
+    int n_samples;                       /* in each combination of choices; 1 where nothing is at random */
     uint64_t seed;
     mor_sweep_refused refused;
     mor_sweep_texts settings;     /* of all members */

@@ -20,24 +20,18 @@ bool mor_sweep_design_is_factor(const mor_sweep *sweep, int variable)
 /* Members while they are counted, and then listed. */
 typedef struct maker {
     mor_sweep_design *design;
-    const double *quantiles; /* shape [n_variables, n_samples]; of random variables */
     int now[MOR_SWEEP_VARIABLES_MAX];
     bool is_listing;
 } maker;
 
-static void add_member(maker *m, int sample)
+static void add_member(maker *m)
 {
     mor_sweep_design *design = m->design;
-    const mor_sweep *sweep = design->sweep;
-    const int n = sweep->n_variables;
+    const int n = design->sweep->n_variables;
     const int64_t row = (int64_t)design->n_members * n;
     for (int v = 0; v < n && m->is_listing; ++v) {
-        const mor_sweep_variable *it = &sweep->variables[v];
         design->choices[row + v] = m->now[v];
-        design->samples[row + v] =
-            it->n_choices > 0 || m->now[v] < 0
-                ? NAN
-                : mor_sweep_distribution_quantile(&it->distribution, m->quantiles[v * sweep->n_samples + sample]);
+        design->samples[row + v] = NAN;
     }
     design->n_members += design->n_members <= MOR_SWEEP_MEMBERS_MAX; /* one too many is enough */
 }
@@ -61,7 +55,7 @@ static void expand(maker *m, int variable, unsigned without)
         is_random = is_random || (sweep->variables[v].n_choices == 0 && m->now[v] >= 0);
     }
     for (int k = 0; k < (is_random ? sweep->n_samples : 1); ++k) {
-        add_member(m, k);
+        add_member(m);
     }
 }
 
@@ -94,6 +88,78 @@ static void find_groups(mor_sweep_design *design)
     }
 }
 
+/* ---- Random values ----------------------------------------------------------------------------------------------- */
+
+/* Room for the draws of a variable. */
+typedef struct drawing {
+    int *counts; /* shape [n_groups]; members that have the variable and are not drawn yet */
+    int *places; /* shape [n_groups]; samples of the hypercube that are given away */
+    double *u;   /* shape [n_members]; the hypercube */
+} drawing;
+
+static bool has_variable(const mor_sweep_design *design, int member, int variable)
+{
+    return design->choices[(int64_t)member * design->sweep->n_variables + variable] >= 0;
+}
+
+/* The members of all groups that have a number of them get the same samples, in their order. */
+static void draw_groups(mor_sweep_design *design, int variable, int n, drawing *d)
+{
+    const mor_sweep *sweep = design->sweep;
+    const mor_sweep_variable *it = &sweep->variables[variable];
+    /* By its name, not its place: another variable before it changes nothing. */
+    mor_sweep_latin(sweep->seed, mor_hash_bytes(it->name, strlen(it->name)), n, d->u);
+    for (int m = 0; m < design->n_members; ++m) {
+        const int group = design->groups[m];
+        if (d->counts[group] == n && has_variable(design, m, variable)) {
+            design->samples[(int64_t)m * sweep->n_variables + variable] =
+                mor_sweep_distribution_quantile(&it->distribution, d->u[d->places[group]++]);
+        }
+    }
+}
+
+/* One Latin hypercube over all members of a group: statistics take these for independent of one another, so that those
+ * that differ in replicates must not share a draw. */
+static void draw_variable(mor_sweep_design *design, int variable, drawing *d)
+{
+    memset(d->counts, 0, (size_t)design->n_groups * sizeof *d->counts);
+    memset(d->places, 0, (size_t)design->n_groups * sizeof *d->places);
+    for (int m = 0; m < design->n_members; ++m) {
+        d->counts[design->groups[m]] += has_variable(design, m, variable);
+    }
+    for (int group = 0; group < design->n_groups; ++group) {
+        const int n = d->counts[group];
+        if (n == 0) {
+            continue;
+        }
+        draw_groups(design, variable, n, d);
+        for (int other = group; other < design->n_groups; ++other) {
+            d->counts[other] = d->counts[other] == n ? 0 : d->counts[other];
+        }
+    }
+}
+
+static mor_status draw_samples(mor_context *context, mor_sweep_design *design)
+{
+    drawing d = {.counts = NULL};
+    mor_status status = MOR_NEW(context, &d.counts, design->n_groups, "a Latin hypercube");
+    if (status == MOR_OK) {
+        status = MOR_NEW(context, &d.places, design->n_groups, "a Latin hypercube");
+    }
+    if (status == MOR_OK) {
+        status = MOR_NEW(context, &d.u, design->n_members, "a Latin hypercube");
+    }
+    for (int v = 0; v < design->sweep->n_variables && status == MOR_OK; ++v) {
+        if (design->sweep->variables[v].n_choices == 0) {
+            draw_variable(design, v, &d);
+        }
+    }
+    MOR_FREE(context, &d.u);
+    MOR_FREE(context, &d.places);
+    MOR_FREE(context, &d.counts);
+    return status;
+}
+
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
 static mor_status list_members(mor_context *context, mor_sweep_design *design, maker *m)
@@ -108,12 +174,11 @@ static mor_status list_members(mor_context *context, mor_sweep_design *design, m
     m->is_listing = true;
     expand(m, 0, 0u);
     find_groups(design);
-    return MOR_OK;
+    return draw_samples(context, design);
 }
 
 mor_status mor_sweep_design_make(mor_context *context, const mor_sweep *sweep, mor_sweep_design *design)
 {
-    double *quantiles = NULL;
     *design = (mor_sweep_design){.sweep = sweep};
     MOR_TRY(context, mor_sweep_keys_check(context, sweep));
     maker m = {.design = design};
@@ -122,16 +187,7 @@ mor_status mor_sweep_design_make(mor_context *context, const mor_sweep *sweep, m
               "%s: found more than %d members; allowed: up to that many; give fewer values or samples, or divide the "
               "sweep",
               sweep->path, MOR_SWEEP_MEMBERS_MAX);
-    MOR_TRY(context, MOR_NEW(context, &quantiles, (int64_t)sweep->n_variables * sweep->n_samples, "a Latin hypercube"));
-    for (int v = 0; v < sweep->n_variables; ++v) {
-        const char *name = sweep->variables[v].name; /* not its place: another variable before it changes nothing */
-        mor_sweep_latin(sweep->seed, mor_hash_bytes(name, strlen(name)), sweep->n_samples,
-                        quantiles + (int64_t)v * sweep->n_samples);
-    }
-    m.quantiles = quantiles;
-    const mor_status status = list_members(context, design, &m);
-    MOR_FREE(context, &quantiles);
-    return status;
+    return list_members(context, design, &m);
 }
 
 void mor_sweep_design_clear(mor_context *context, mor_sweep_design *design)

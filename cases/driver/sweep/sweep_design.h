@@ -6,8 +6,9 @@
 #include "cases/driver/sweep/sweep.h"
 
 /** @file
- *  The members of a sweep: all combinations of choices, the first variable slowest, each with all samples of the Latin
- *  hypercube. Members that differ in replicates and samples alone are a group. */
+ *  The members of a sweep: all combinations of choices, the first variable slowest, each with all samples. Members that
+ *  differ in replicates and samples alone are a group. A random variable has one Latin hypercube over the members of a
+ *  group, replicates included, so that no two of them repeat a draw; groups of equal size have the same one. */
 
 enum {
     MOR_SWEEP_OVERRIDES_MAX = 256, /* of them that a member can take */

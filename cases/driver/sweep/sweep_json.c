@@ -105,7 +105,7 @@ static void write_result(mor_sweep_table *table, int group, int column, FILE *ou
     mor_sweep_table_evaluate(table, group, column, &it);
     write_name(column == 0 ? "\n        " : ",\n        ", name, out);
     write_word("{", "unit", table->columns[column].unit, out);
-    fprintf(out, ", \"used\": %d", it.n);
+    fprintf(out, ", \"used\": %d, \"absent\": %d", it.n, mor_sweep_table_count_absent(table, group, column));
     write_number("mean", it.mean, out);
     write_number("standard_deviation", it.deviation, out);
     write_number("mean_low", it.mean_low, out);
@@ -128,7 +128,9 @@ static void write_exceed(mor_sweep_table *table, int group, int index, FILE *out
     write_word(index == 0 ? "\n        {" : ",\n        {", "result", name, out);
     write_number(table->design->sweep->exceed[index].is_below ? "below" : "above", threshold->value, out);
     write_word(", ", "unit", table->columns[threshold->column].unit, out);
-    fprintf(out, ", \"used\": %d, \"hits\": %d", it.n, it.n_hits);
+    fprintf(out, ", \"used\": %d, \"absent\": %d", it.n, it.n_absent);
+    write_word(", ", "absent_are", mor_sweep_absent_word(table->design->sweep->exceed[index].absent), out);
+    fprintf(out, ", \"hits\": %d", it.n_hits);
     write_number("probability", it.share, out);
     write_number("probability_low", it.low, out);
     write_number("probability_high", it.high, out);

@@ -7,10 +7,12 @@
 
 /** @file
  *  Keys of the case that a sweep sets more than once: of two settings the later one counts, so that the other would be
- *  without effect, unseen. */
+ *  without effect, unseen. A key holds those below it and its entries: soil[0].material holds
+ *  soil[0].material.density. */
 
-/** Refuses a key that two variables set, and one of a variable that is set for all members as well. A choice may set
- *  what the sweep file sets for all: its value for the other choices. What is given by hand may not be set by any.
+/** Refuses a key that is, holds or is held by one that another variable sets, the same choice, or what is given by
+ *  hand; two variables that choose the case; and two settings of all members likewise. What the sweep file sets for all
+ *  may be varied in part, and a choice may set it anew: it is the value for the other choices.
  *  @param sweep [in]  whole, with overrides
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_sweep_keys_check(mor_context *context, const mor_sweep *sweep);

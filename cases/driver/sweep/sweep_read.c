@@ -123,12 +123,13 @@ static mor_status read_variables(const mor_case_reader *reader, const mor_case_n
 
 /* ---- Results and thresholds -------------------------------------------------------------------------------------- */
 
+/* A record of the group, whose place is told in messages. */
 static mor_status read_measure(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
-                               mor_sweep_measure *measure)
+                               void *record, mor_case_place *place)
 {
-    mor_case_reader_place(node, &measure->place);
+    mor_case_reader_place(node, place);
     MOR_TRY(reader->context, mor_case_reader_names(reader, node, group, NULL, NULL));
-    return mor_case_reader_group(reader, node, group, measure);
+    return mor_case_reader_group(reader, node, group, record);
 }
 
 static mor_status read_results(const mor_case_reader *reader, const mor_case_node *root, mor_sweep *sweep)
@@ -137,7 +138,7 @@ static mor_status read_results(const mor_case_reader *reader, const mor_case_nod
     MOR_TRY(reader->context, mor_case_reader_list(reader, root, "results", MOR_SWEEP_MEASURES_MAX, &list));
     for (const mor_case_node *child = list != NULL ? list->first_child : NULL; child != NULL; child = child->next) {
         mor_sweep_measure *it = &sweep->results[sweep->n_results++];
-        MOR_TRY(reader->context, read_measure(reader, child, &mor_sweep_result_group, it));
+        MOR_TRY(reader->context, read_measure(reader, child, &mor_sweep_result_group, it, &it->place));
         for (const mor_sweep_measure *other = sweep->results; other < it; ++other) {
             if (strcmp(other->probe, it->probe) == 0 && other->statistic == it->statistic) {
                 return MOR_CASE_NODE_FAIL(reader->context, child,
@@ -157,13 +158,16 @@ static mor_status read_exceed(const mor_case_reader *reader, const mor_case_node
         mor_sweep_exceed *it = &sweep->exceed[sweep->n_exceed++];
         const mor_case_node *above = mor_case_node_find(child, "above");
         const mor_case_node *below = mor_case_node_find(child, "below");
-        MOR_TRY(reader->context, read_measure(reader, child, &mor_sweep_exceed_group, &it->measure));
+        MOR_TRY(reader->context, read_measure(reader, child, &mor_sweep_exceed_group, it, &it->measure.place));
         if ((above != NULL) == (below != NULL)) {
             return MOR_CASE_NODE_FAIL(reader->context, child, "found %s above %s below; allowed: one of them; %s",
                                       above != NULL ? "both" : "neither", above != NULL ? "and" : "nor",
                                       above != NULL ? "remove one" : "add one, such as above = \"30 m\"");
         }
         it->is_below = below != NULL;
+        if (mor_case_node_find(child, "absent") == NULL) { /* what never came is not above, but it may be below */
+            it->absent = it->is_below ? MOR_SWEEP_ABSENT_UNKNOWN : MOR_SWEEP_ABSENT_MISS;
+        }
         MOR_TRY(reader->context, mor_sweep_quantity_read(reader, above != NULL ? above : below, &it->threshold));
     }
     return MOR_OK;

@@ -30,12 +30,22 @@ static int find_width(const mor_sweep_design *design)
     return width;
 }
 
+/* Replicates or distributions that change nothing: an interval of no width is no certainty. */
+static void print_constants(int n_constant, FILE *out)
+{
+    if (n_constant > 0) {
+        fprintf(out, "in %d group%s all members gave the same number: what varies within has no effect on it\n",
+                n_constant, n_constant == 1 ? "" : "s");
+    }
+}
+
 static void print_result(mor_sweep_table *table, int column, int width, FILE *out)
 {
     static const char *const heads[] = {"mean", "from", "to", "deviation", "5 %", "50 %", "95 %"};
     char name[MOR_SWEEP_NAME_BYTES];
+    int n_constant = 0;
     mor_sweep_table_name(table, column, name);
-    fprintf(out, "\n%s [%s]\n%-*s  used", name, table->columns[column].unit, width, "group");
+    fprintf(out, "\n%s [%s]\n%-*s  used  absent", name, table->columns[column].unit, width, "group");
     for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
         fprintf(out, "  %*s", CELL, heads[k]);
     }
@@ -45,13 +55,37 @@ static void print_result(mor_sweep_table *table, int column, int width, FILE *ou
         mor_sweep_statistics it;
         mor_sweep_design_describe(table->design, g, 0u, text, sizeof text);
         mor_sweep_table_evaluate(table, g, column, &it);
-        fprintf(out, "%-*s  %4d", width, text, it.n);
+        fprintf(out, "%-*s  %4d  %6d", width, text, it.n, mor_sweep_table_count_absent(table, g, column));
         const double numbers[] = {it.mean,         it.mean_low,     it.mean_high,   it.deviation,
                                   it.quantiles[0], it.quantiles[1], it.quantiles[2]};
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
             print_cell(numbers[k], out);
         }
         fprintf(out, "\n");
+        n_constant += it.n > 1 && it.minimum == it.maximum;
+    }
+    print_constants(n_constant, out);
+    const int n_absent = mor_sweep_table_count_absent(table, -1, column);
+    if (n_absent > 0) {
+        fprintf(out, "%d member%s had nothing to measure: mean, deviation and quantiles are those of the others\n",
+                n_absent, n_absent == 1 ? "" : "s");
+    }
+}
+
+/* What members that had nothing to measure are taken for. */
+static void print_absent(const mor_sweep_table *table, int index, FILE *out)
+{
+    static const char *const texts[] = {
+        [MOR_SWEEP_ABSENT_MISS] = "are counted as not beyond it",
+        [MOR_SWEEP_ABSENT_HIT] = "are counted as beyond it",
+        [MOR_SWEEP_ABSENT_LEFT_OUT] = "are left out: the probability is that of the others",
+        [MOR_SWEEP_ABSENT_UNKNOWN] =
+            "may be below it or not, so that groups with such members have no probability: say "
+            "with absent = \"miss\", \"hit\" or \"left_out\" what they count as, and resume"};
+    const int n_absent = mor_sweep_table_count_absent(table, -1, table->thresholds[index].column);
+    if (n_absent > 0) {
+        fprintf(out, "%d member%s had nothing to measure and %s\n", n_absent, n_absent == 1 ? "" : "s",
+                texts[table->design->sweep->exceed[index].absent]);
     }
 }
 
@@ -60,7 +94,7 @@ static void print_exceed(mor_sweep_table *table, int index, int width, FILE *out
     const mor_sweep_threshold *threshold = &table->thresholds[index];
     char name[MOR_SWEEP_NAME_BYTES];
     mor_sweep_table_name(table, threshold->column, name);
-    fprintf(out, "\nprobability of %s %s %.6g %s\n%-*s  used  hits  %*s  %*s  %*s\n", name,
+    fprintf(out, "\nprobability of %s %s %.6g %s\n%-*s  used  absent  hits  %*s  %*s  %*s\n", name,
             table->design->sweep->exceed[index].is_below ? "below" : "above", threshold->value,
             table->columns[threshold->column].unit, width, "group", CELL, "probability", CELL, "from", CELL, "to");
     for (int g = 0; g < table->design->n_groups; ++g) {
@@ -68,12 +102,13 @@ static void print_exceed(mor_sweep_table *table, int index, int width, FILE *out
         mor_sweep_probability it;
         mor_sweep_design_describe(table->design, g, 0u, text, sizeof text);
         mor_sweep_table_exceed(table, g, index, &it);
-        fprintf(out, "%-*s  %4d  %4d", width, text, it.n, it.n_hits);
+        fprintf(out, "%-*s  %4d  %6d  %4d", width, text, it.n, it.n_absent, it.n_hits);
         print_cell(it.share, out);
         print_cell(it.low, out);
         print_cell(it.high, out);
         fprintf(out, "\n");
     }
+    print_absent(table, index, out);
 }
 
 static mor_status print_failed(mor_context *context, const mor_sweep_table *table,
@@ -133,7 +168,7 @@ mor_status mor_sweep_write_report(mor_context *context, mor_sweep_table *table, 
     }
     fprintf(out,
             "\nfrom, to: interval of confidence of %g %%, of the mean by Student, of a probability by Wilson; -: too "
-            "few members\n",
+            "few members; used: members that the numbers are of; absent: ran to their end, had nothing to measure\n",
             100.0 * MOR_SWEEP_CONFIDENCE);
     MOR_TRY(context, print_failed(context, table, provenance, out));
     print_counts(table, out);

@@ -105,6 +105,13 @@ double mor_sweep_distribution_quantile(const mor_sweep_distribution *it, double 
 
 /* ---- Latin hypercube --------------------------------------------------------------------------------------------- */
 
+/* A number for one purpose of one variable. Purposes are mixed in apart from the seed: with seed ^ purpose the places
+ * of one seed would be the order of another. */
+static double draw(uint64_t seed, int k, uint64_t variable, uint64_t purpose)
+{
+    return mor_random_uniform(seed, (uint64_t)k, mor_random_mix(variable) + purpose);
+}
+
 void mor_sweep_latin(uint64_t seed, uint64_t variable, int n, double *u)
 {
     enum { ORDER = 1, PLACE = 2 };
@@ -112,14 +119,14 @@ void mor_sweep_latin(uint64_t seed, uint64_t variable, int n, double *u)
         u[k] = k;
     }
     for (int k = n - 1; k > 0; --k) { /* a random order of the strata: Fisher and Yates */
-        const int other = (int)(mor_random_uniform(seed ^ ORDER, (uint64_t)k, variable) * (k + 1));
+        const int other = (int)(draw(seed, k, variable, ORDER) * (k + 1));
         const double kept = u[k];
         u[k] = u[other];
         u[other] = kept;
     }
     for (int k = 0; k < n; ++k) {
         const double stratum = u[k];
-        const double place = mor_random_uniform(seed ^ PLACE, (uint64_t)k, variable);
+        const double place = draw(seed, k, variable, PLACE);
         /* Rounding must not lead into the next stratum, nor to 0, where quantiles may be infinite. */
         const double inside = fmin(stratum + fmax(place, 0x1p-54), nextafter(stratum + 1.0, 0.0));
         u[k] = inside / n;

@@ -17,8 +17,8 @@ static const mor_case_key root_keys[] = {
      MOR_CASE_STORE_TEXT,
      AT(mor_sweep, case_file)},
     {{"members", WHOLE, "1", DEFAULT(NAN), BETWEEN(1.0, MOR_SWEEP_MEMBERS_MAX), NULL,
-      "samples of the Latin hypercube over all distributions, in each combination of the other variables; required "
-      "with a distribution, not allowed otherwise"},
+      "samples of all distributions in each combination of the other variables, for each value of replicates, too: "
+      "these are samples of their own; required with a distribution, not allowed otherwise"},
      MOR_CASE_STORE_INT,
      AT(mor_sweep, n_samples),
      .computed = "none"},
@@ -51,7 +51,9 @@ static const mor_case_key variable_keys[] = {
      AT(mor_sweep_variable, name),
      .computed = "the last name of the key"},
     {{"replicates", SWITCH, "1", DEFAULT(0.0), ANY, NULL,
-      "values are repetitions, such as seeds, that statistics are taken over; samples of a distribution always are"},
+      "values are repetitions, such as seeds, that statistics are taken over; samples of a distribution always are, "
+      "and "
+      "each repetition gets others"},
      MOR_CASE_STORE_BOOL,
      AT(mor_sweep_variable, is_replicate)},
     {{"distribution", CHOICE, "1", DEFAULT(0.0), ANY, "none|normal|lognormal|uniform|triangular",
@@ -98,13 +100,13 @@ static const mor_case_part choice_parts[] = {
 const mor_case_group mor_sweep_choice_group = {"choices", "Values that set several keys (list)", choice_keys,
                                                choice_parts, offsetof(mor_sweep_choice, written)};
 
-/* Keys of a measure; the text of the statistic is the same in both lists. */
-#define PROBE                                                                                                          \
+/* Keys of a measure in a record that has it as the member named; the texts are the same in both lists. */
+#define PROBE(record, member)                                                                                          \
     {                                                                                                                  \
         {"probe", WORDS, "1", REQUIRED, ANY, NULL, "name of a probe of the case"}, MOR_CASE_STORE_NAME,                \
-            AT(mor_sweep_measure, probe)                                                                               \
+            AT(record, member)                                                                                         \
     }
-#define STATISTIC                                                                                                      \
+#define STATISTIC(record, member)                                                                                      \
     {                                                                                                                  \
         {"statistic",                                                                                                  \
          CHOICE,                                                                                                       \
@@ -113,15 +115,25 @@ const mor_case_group mor_sweep_choice_group = {"choices", "Values that set sever
          ANY,                                                                                                          \
          mor_case_statistic_words,                                                                                     \
          "of the probe during the run; value: its last value"},                                                        \
-            MOR_CASE_STORE_CHOICE, AT(mor_sweep_measure, statistic)                                                    \
+            MOR_CASE_STORE_CHOICE, AT(record, member)                                                                  \
     }
 
-static const mor_case_key result_keys[] = {PROBE, STATISTIC, END};
+static const mor_case_key result_keys[] = {PROBE(mor_sweep_measure, probe), STATISTIC(mor_sweep_measure, statistic),
+                                           END};
 
 const mor_case_group mor_sweep_result_group = {"results", "Results (list)", result_keys, NULL,
                                                offsetof(mor_sweep_measure, written)};
 
-static const mor_case_key exceed_keys[] = {PROBE, STATISTIC, END};
+static const mor_case_key exceed_keys[] = {
+    PROBE(mor_sweep_exceed, measure.probe),
+    STATISTIC(mor_sweep_exceed, measure.statistic),
+    {{"absent", CHOICE, "1", DEFAULT(0.0), ANY, "miss|hit|left_out",
+      "members where there was nothing to measure, as where nothing arrived; miss: counted, not beyond the threshold; "
+      "hit: counted, beyond it; left_out: not counted, so that the probability is that of the others"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_sweep_exceed, absent),
+     .computed = "miss with above; with below no probability where there are such members"},
+    END};
 
 static const mor_case_part exceed_parts[] = {
     {"above", false, "number with its unit", "counts results above it; give above or below"},
@@ -129,7 +141,7 @@ static const mor_case_part exceed_parts[] = {
     {NULL, false, NULL, NULL}};
 
 const mor_case_group mor_sweep_exceed_group = {"exceed", "Thresholds (list)", exceed_keys, exceed_parts,
-                                               offsetof(mor_sweep_measure, written)};
+                                               offsetof(mor_sweep_exceed, measure.written)};
 
 void mor_sweep_schema_print(FILE *stream)
 {

@@ -22,6 +22,7 @@ mor_status mor_sweep_table_add_values(mor_context *context, mor_sweep_table *tab
 {
     const int64_t n = (int64_t)table->design->n_members * table->n_columns;
     MOR_TRY(context, MOR_NEW(context, &table->values, n, "results of a sweep"));
+    MOR_TRY(context, MOR_NEW(context, &table->has_probe, n, "results of a sweep"));
     for (int64_t k = 0; k < n; ++k) {
         table->values[k] = NAN;
     }
@@ -31,6 +32,7 @@ mor_status mor_sweep_table_add_values(mor_context *context, mor_sweep_table *tab
 void mor_sweep_table_clear(mor_context *context, mor_sweep_table *table)
 {
     MOR_FREE(context, &table->values);
+    MOR_FREE(context, &table->has_probe);
     MOR_FREE(context, &table->outcomes);
     MOR_FREE(context, &table->room);
     memset(table, 0, sizeof *table);
@@ -72,15 +74,32 @@ void mor_sweep_table_evaluate(mor_sweep_table *table, int group, int column, mor
     mor_sweep_statistics_find(table->room, collect(table, group, column), found);
 }
 
+int mor_sweep_table_count_absent(const mor_sweep_table *table, int group, int column)
+{
+    int n = 0;
+    for (int k = 0; k < table->design->n_members; ++k) {
+        const int64_t place = (int64_t)k * table->n_columns + column;
+        n += (group < 0 || table->design->groups[k] == group) && mor_sweep_table_is_used(table, k) &&
+             table->has_probe[place] && !isfinite(table->values[place]);
+    }
+    return n;
+}
+
 void mor_sweep_table_exceed(mor_sweep_table *table, int group, int index, mor_sweep_probability *found)
 {
     const mor_sweep_threshold *it = &table->thresholds[index];
-    const bool is_below = table->design->sweep->exceed[index].is_below;
+    const mor_sweep_exceed *question = &table->design->sweep->exceed[index];
     *found = (mor_sweep_probability){.n = collect(table, group, it->column), .share = NAN, .low = NAN, .high = NAN};
     for (int k = 0; k < found->n; ++k) {
-        found->n_hits += is_below ? table->room[k] < it->value : table->room[k] > it->value;
+        found->n_hits += question->is_below ? table->room[k] < it->value : table->room[k] > it->value;
     }
-    if (found->n > 0) {
+    found->n_absent = mor_sweep_table_count_absent(table, group, it->column);
+    if (question->absent == MOR_SWEEP_ABSENT_MISS || question->absent == MOR_SWEEP_ABSENT_HIT) {
+        found->n += found->n_absent;
+        found->n_hits += question->absent == MOR_SWEEP_ABSENT_HIT ? found->n_absent : 0;
+    }
+    const bool is_known = question->absent != MOR_SWEEP_ABSENT_UNKNOWN || found->n_absent == 0;
+    if (found->n > 0 && is_known) {
         found->share = (double)found->n_hits / found->n;
         mor_sweep_wilson(found->n_hits, found->n, &found->low, &found->high);
     }
@@ -94,6 +113,15 @@ const char *mor_sweep_statistic_word(mor_case_statistic statistic)
                                         [MOR_CASE_STATISTIC_MEAN] = "mean",
                                         [MOR_CASE_STATISTIC_IMPULSE] = "impulse"};
     return words[statistic];
+}
+
+const char *mor_sweep_absent_word(mor_sweep_absent absent)
+{
+    static const char *const words[] = {[MOR_SWEEP_ABSENT_MISS] = "miss",
+                                        [MOR_SWEEP_ABSENT_HIT] = "hit",
+                                        [MOR_SWEEP_ABSENT_LEFT_OUT] = "left_out",
+                                        [MOR_SWEEP_ABSENT_UNKNOWN] = ""};
+    return words[absent];
 }
 
 void mor_sweep_table_name(const mor_sweep_table *table, int column, char *name)

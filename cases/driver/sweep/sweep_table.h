@@ -58,6 +58,7 @@ typedef struct mor_sweep_table {
     int n_columns;
     mor_sweep_threshold thresholds[MOR_SWEEP_MEASURES_MAX]; /* shape [n_exceed of the sweep] */
     double *values;              /* shape [n_members, n_columns]; unit of the column; NaN: there is none */
+    bool *has_probe;             /* shape [n_members, n_columns]; the case of the member has the probe */
     mor_sweep_outcome *outcomes; /* shape [n_members] */
     double *room;                /* shape [n_members]; values of a group while they are evaluated */
 } mor_sweep_table;
@@ -69,9 +70,10 @@ typedef struct mor_sweep_counts {
     int n_used; /* finished, expectations missed or not */
 } mor_sweep_counts;
 
-/** What a question of exceedance comes to; NaN: no member has the result. */
+/** What a question of exceedance comes to; NaN: no member is counted, or it is not said what absent ones count as. */
 typedef struct mor_sweep_probability {
-    int n, n_hits;           /* members with the result, and those beyond the threshold */
+    int n, n_hits;           /* members that are counted, and those beyond the threshold */
+    int n_absent;            /* members that have the probe and had nothing to measure, counted or not */
     double share, low, high; /* probability and its interval, 1 */
 } mor_sweep_probability;
 
@@ -104,7 +106,13 @@ bool mor_sweep_table_is_used(const mor_sweep_table *table, int member);
  *  @param found  [out]  one record, unit of the column */
 void mor_sweep_table_evaluate(mor_sweep_table *table, int group, int column, mor_sweep_statistics *found);
 
-/** Finds how often a result is beyond a threshold in a group.
+/** Counts the members of a group that ran to their end and have the probe of a column, but had nothing to measure.
+ *  @param group  [in]   0 <= group < n_groups; -1: all
+ *  @param column [in]   0 <= column < n_columns */
+int mor_sweep_table_count_absent(const mor_sweep_table *table, int group, int column);
+
+/** Finds how often a result is beyond a threshold in a group, of the members that ran to their end and have the probe.
+ *  Those that had nothing to measure count as the sweep says.
  *  @param group  [in]   0 <= group < n_groups
  *  @param index  [in]   0 <= index < n_exceed of the sweep
  *  @param found  [out]  one record */
@@ -114,6 +122,10 @@ void mor_sweep_table_exceed(mor_sweep_table *table, int group, int index, mor_sw
  *  @param column [in]   0 <= column < n_columns
  *  @param name   [out]  shape [MOR_SWEEP_NAME_BYTES]; zero-terminated */
 void mor_sweep_table_name(const mor_sweep_table *table, int column, char *name);
+
+/** Returns the word for what absent members count as, a static string; "" where the file does not say it.
+ *  @param absent [in]  which */
+const char *mor_sweep_absent_word(mor_sweep_absent absent);
 
 /** Returns the word of a statistic, a static string.
  *  @param statistic [in]  which */

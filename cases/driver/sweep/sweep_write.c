@@ -3,6 +3,8 @@
 /* Tables as comma-separated values (RFC 4180). */
 #include "cases/driver/sweep/sweep_write.h"
 
+#include "core/base/hash.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,16 +59,29 @@ mor_status mor_sweep_write_command(mor_context *context, const mor_sweep_design 
     return MOR_OK;
 }
 
-void mor_sweep_write_design(const mor_sweep_design *design, const mor_sweep_provenance *provenance, FILE *out)
+/* Text on one line, so that each member has one. */
+static void write_line(const char *text, FILE *out)
+{
+    for (; *text != '\0'; ++text) {
+        fputc(*text == '\n' || *text == '\r' ? ' ' : *text, out);
+    }
+}
+
+void mor_sweep_write_design(const mor_sweep_design *design, const mor_sweep_provenance *provenance,
+                            const uint64_t *case_hashes, FILE *out)
 {
     mor_sweep_settings settings;
+    fprintf(out, "moraine %s, commit %s\n", provenance->version, provenance->commit);
     for (int m = 0; m < design->n_members; ++m) {
         char number[16];
+        char hash[MOR_HASH_TEXT_BYTES];
         mor_sweep_write_number(m, number);
+        mor_hash_format(case_hashes[m], hash);
         mor_sweep_design_settings(design, provenance->units, m, &settings);
-        fprintf(out, "%s %s", number, mor_sweep_design_case(design, m));
+        fprintf(out, "%s %s %s", number, hash, mor_sweep_design_case(design, m));
         for (int k = 0; k < settings.n; ++k) {
-            fprintf(out, " | %s", settings.texts[k]);
+            fprintf(out, " | ");
+            write_line(settings.texts[k], out);
         }
         fputc('\n', out);
     }
@@ -195,8 +210,9 @@ static void write_groups(mor_sweep_table *table, FILE *out)
 {
     const mor_sweep_design *design = table->design;
     write_variable_heads(design->sweep, false, out);
-    fprintf(out, "result,unit,members,failed,missed_expectations,used,mean,standard_deviation,mean_low,mean_high,"
-                 "quantile_5,quantile_50,quantile_95,minimum,maximum\n");
+    fprintf(out,
+            "result,unit,members,failed,missed_expectations,used,absent,mean,standard_deviation,mean_low,mean_high,"
+            "quantile_5,quantile_50,quantile_95,minimum,maximum\n");
     for (int g = 0; g < design->n_groups; ++g) {
         mor_sweep_counts counts;
         mor_sweep_table_count(table, g, &counts);
@@ -206,8 +222,9 @@ static void write_groups(mor_sweep_table *table, FILE *out)
             mor_sweep_table_name(table, c, name);
             mor_sweep_table_evaluate(table, g, c, &it);
             write_variables(design, design->firsts[g], false, out);
-            fprintf(out, "%s,%s,%d,%d,%d,%d", name, table->columns[c].unit, counts.n_members,
-                    counts.by_state[MOR_SWEEP_STATE_FAILED], counts.by_state[MOR_SWEEP_STATE_MISSED], it.n);
+            fprintf(out, "%s,%s,%d,%d,%d,%d,%d", name, table->columns[c].unit, counts.n_members,
+                    counts.by_state[MOR_SWEEP_STATE_FAILED], counts.by_state[MOR_SWEEP_STATE_MISSED], it.n,
+                    mor_sweep_table_count_absent(table, g, c));
             const double numbers[] = {it.mean,         it.deviation,    it.mean_low, it.mean_high, it.quantiles[0],
                                       it.quantiles[1], it.quantiles[2], it.minimum,  it.maximum};
             for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
@@ -222,7 +239,8 @@ static void write_exceed(mor_sweep_table *table, FILE *out)
 {
     const mor_sweep_design *design = table->design;
     write_variable_heads(design->sweep, false, out);
-    fprintf(out, "result,side,threshold,unit,members,failed,used,hits,probability,probability_low,probability_high\n");
+    fprintf(out, "result,side,threshold,unit,members,failed,used,absent,absent_are,hits,probability,probability_low,"
+                 "probability_high\n");
     for (int g = 0; g < design->n_groups; ++g) {
         mor_sweep_counts counts;
         mor_sweep_table_count(table, g, &counts);
@@ -235,8 +253,9 @@ static void write_exceed(mor_sweep_table *table, FILE *out)
             write_variables(design, design->firsts[g], false, out);
             fprintf(out, "%s,%s", name, design->sweep->exceed[k].is_below ? "below" : "above");
             write_value(threshold->value, out);
-            fprintf(out, ",%s,%d,%d,%d,%d", table->columns[threshold->column].unit, counts.n_members,
-                    counts.by_state[MOR_SWEEP_STATE_FAILED], it.n, it.n_hits);
+            fprintf(out, ",%s,%d,%d,%d,%d,%s,%d", table->columns[threshold->column].unit, counts.n_members,
+                    counts.by_state[MOR_SWEEP_STATE_FAILED], it.n, it.n_absent,
+                    mor_sweep_absent_word(design->sweep->exceed[k].absent), it.n_hits);
             write_value(it.share, out);
             write_value(it.low, out);
             write_value(it.high, out);

@@ -36,9 +36,12 @@ mor_status mor_sweep_write_find_case(mor_context *context, const mor_sweep_desig
 mor_status mor_sweep_write_command(mor_context *context, const mor_sweep_design *design,
                                    const mor_sweep_provenance *provenance, int member, FILE *out);
 
-/** Writes what tells one sweep from another: case and settings of each member, a line each.
- *  @param out [in,out]  one open stream */
-void mor_sweep_write_design(const mor_sweep_design *design, const mor_sweep_provenance *provenance, FILE *out);
+/** Writes what tells one sweep from another: a line for the program, then one for each member: number, hash of its
+ *  whole case, case file and settings.
+ *  @param case_hashes [in]      shape [n_members]; 0: the case is refused
+ *  @param out         [in,out]  one open stream */
+void mor_sweep_write_design(const mor_sweep_design *design, const mor_sweep_provenance *provenance,
+                            const uint64_t *case_hashes, FILE *out);
 
 /** Replaces members.csv of a folder.
  *  @param folder [in]  zero-terminated

@@ -3,6 +3,7 @@
 #include "cases/driver/case/schema/case_compare.h"
 
 #include "cases/driver/case/schema/case_schema.h"
+#include "core/base/hash.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,6 +18,9 @@
 #define SETTLE_TIME ".settle_time"
 
 enum { DEPTH_MAX = 32, PATH_BYTES = 192, LINE_BYTES = 4096 };
+
+/* In place of a number of probes: nothing may differ. */
+enum { NOTHING_IS_FREE = -1 };
 
 /* A walk over the lines of a case. Groups and lists that are open have a name or, in a list, a number. */
 typedef struct walk {
@@ -154,6 +158,9 @@ static int find_probe(const char *path)
 /* Values that may differ, or are judged by themselves. */
 static bool is_free(const walk *w, int n_probes)
 {
+    if (n_probes == NOTHING_IS_FREE) {
+        return false;
+    }
     return strcmp(w->path, "end") == 0 || starts_with(w->path, "domain.") || starts_with(w->path, "output.") ||
            starts_with(w->path, "expect[") || find_probe(w->path) >= n_probes || ends_with(w->path, SETTLE_TIME);
 }
@@ -276,7 +283,8 @@ static void compare_fixed(const char *given, const char *saved, int n_probes, mo
         step_to_fixed(&other, n_probes);
         if (one.is_over != other.is_over ||
             (!one.is_over && (strcmp(one.path, other.path) != 0 || strcmp(one.value, other.value) != 0))) {
-            const bool is_probe = find_probe(one.path) >= 0 && find_probe(other.path) >= 0;
+            const bool is_probe =
+                n_probes != NOTHING_IS_FREE && find_probe(one.path) >= 0 && find_probe(other.path) >= 0;
             set_difference(it, &one, &other,
                            is_probe                         ? "; append new probes behind the existing ones"
                            : one.is_content && !one.is_over ? "; the file has changed since"
@@ -312,6 +320,27 @@ void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, con
         snprintf(difference->found, sizeof difference->found, "a probe of the audit of energy among %d", n_given);
         snprintf(difference->expected, sizeof difference->expected, "none among %d", n_probes);
     }
+}
+
+void mor_case_compare_whole(const char *given, const char *saved, mor_case_difference *difference)
+{
+    *difference = (mor_case_difference){.is_found = false, .reason = ""};
+    compare_fixed(given, saved, NOTHING_IS_FREE, difference);
+}
+
+uint64_t mor_case_compare_hash(const char *text)
+{
+    const size_t mark = strlen(DEFAULT_MARK);
+    mor_hash hash;
+    mor_hash_init(&hash);
+    while (*text != '\0') {
+        const size_t n = strcspn(text, "\n");
+        const bool is_default = n > mark && strncmp(text + n - mark, DEFAULT_MARK, mark) == 0;
+        mor_hash_add(&hash, text, is_default ? n - mark : n);
+        mor_hash_add(&hash, "\n", 1);
+        text += n + (text[n] == '\n');
+    }
+    return mor_hash_value(&hash);
 }
 
 bool mor_case_compare_domains(const char *given, const char *saved)

@@ -30,6 +30,17 @@ typedef struct mor_case_difference {
 void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, const char *saved,
                       mor_case_difference *difference);
 
+/** Finds the first difference of any value, of those as well with which a run may go on.
+ *  @param given      [in]   zero-terminated text of a case
+ *  @param saved      [in]   zero-terminated text of another one
+ *  @param difference [out]  one record; reason is "" or that a file has changed */
+void mor_case_compare_whole(const char *given, const char *saved, mor_case_difference *difference);
+
+/** Returns a hash of all values of a case and of the contents of its files: of equal cases it is the same, whatever was
+ *  a default.
+ *  @param text [in]  zero-terminated, as mor_case_write_stream writes it */
+uint64_t mor_case_compare_hash(const char *text);
+
 /** Whether the domains of two cases differ.
  *  @param given [in]  zero-terminated text
  *  @param saved [in]  zero-terminated text */

@@ -161,6 +161,84 @@ static void combinations_share_their_latin_hypercube(void **state)
     }
 }
 
+/* Each of the strata of a group, as many as it has members, has one value: no two members repeat a draw. */
+static void expect_strata(const bench *b, int group, int variable, int n)
+{
+    int strata[64] = {0};
+    int n_found = 0;
+    for (int m = 0; m < b->design.n_members; ++m) {
+        if (b->design.groups[m] == group) {
+            strata[(int)((mor_sweep_design_value(&b->design, m, variable) - 1.0) / 2.0 * n)] += 1;
+            ++n_found;
+        }
+    }
+    assert_int_equal(n_found, n);
+    for (int k = 0; k < n; ++k) {
+        assert_int_equal(strata[k], 1);
+    }
+}
+
+/* Members of a group are independent draws, as the intervals take them for: replicates repeat none. */
+static void replicates_have_draws_of_their_own(void **state)
+{
+    enum { N = 5, N_SEEDS = 4 };
+    bench *b = *state;
+    make(b, "case = 'case.cfg'; members = 5; vary = ("
+            "{ key = 'seed'; from = 1; to = 4; replicates = true; },"
+            "{ key = 'c'; distribution = 'uniform'; min = 1; max = 3; },"
+            "{ name = 'x'; choices = ( { label = 'k'; }, { label = 'l'; } ); },"
+            "{ key = 'd'; distribution = 'uniform'; min = 1; max = 3; } );");
+    assert_int_equal(b->design.n_members, 2 * N * N_SEEDS);
+    assert_int_equal(b->design.n_groups, 2);
+    for (int group = 0; group < 2; ++group) {
+        expect_strata(b, group, 1, N * N_SEEDS);
+        expect_strata(b, group, 3, N * N_SEEDS);
+    }
+    for (int m = 0; m < b->design.n_members; ++m) { /* and the other group has the same ones */
+        const int other = m / N % 2 == 0 ? m + N : m - N;
+        assert_true(mor_sweep_design_value(&b->design, m, 1) == mor_sweep_design_value(&b->design, other, 1));
+    }
+}
+
+/* A group without the replicates has a hypercube of its own size; a member without the distribution has no draw. */
+static void draws_are_over_the_members_that_have_them(void **state)
+{
+    bench *b = *state;
+    make(b, "case = 'case.cfg'; members = 5; vary = ("
+            "{ name = 'x'; choices = ( { label = 'k'; }, { label = 'l'; without = ('seed'); } ); },"
+            "{ name = 'seed'; choices = ( { label = '1'; }, { label = '2'; }, { label = '3'; without = ('c'); } );"
+            "  replicates = true; },"
+            "{ key = 'c'; distribution = 'uniform'; min = 1; max = 3; } );");
+    assert_int_equal(b->design.n_members, 2 * 5 + 1 + 5);
+    assert_int_equal(b->design.n_groups, 2);
+    assert_true(isnan(mor_sweep_design_value(&b->design, 10, 2)));
+    b->design.groups[10] = -1; /* the others of its group have ten strata */
+    expect_strata(b, 0, 2, 10);
+    expect_strata(b, 1, 2, 5);
+}
+
+/* What never came is not above a threshold; whether it is below is for the user to say. */
+static void absent_is_a_miss_above_and_unknown_below(void **state)
+{
+    bench *b = *state;
+    assert_int_equal(read_text(b, "case = 'c'; vary = ( { key = 'a'; values = (1); } );"
+                                  "exceed = ( { probe = 'p'; above = 1; absent = 'hits'; } );"),
+                     MOR_ERROR_CONFIG);
+    assert_non_null(strstr(b->context.message, "did you mean 'hit'?"));
+    make(b, "case = 'c'; vary = ( { key = 'a'; values = (1); } );"
+            "exceed = ( { probe = 'p'; above = 1; }, { probe = 'p'; below = 1; },"
+            "  { probe = 'p'; above = 1; absent = 'left_out'; }, { probe = 'p'; below = 1; absent = 'miss'; },"
+            "  { probe = 'p'; statistic = 'maximum'; below = 1; absent = 'hit'; } );");
+    static const mor_sweep_absent expected[] = {MOR_SWEEP_ABSENT_MISS, MOR_SWEEP_ABSENT_UNKNOWN,
+                                                MOR_SWEEP_ABSENT_LEFT_OUT, MOR_SWEEP_ABSENT_MISS, MOR_SWEEP_ABSENT_HIT};
+    assert_int_equal(b->sweep.n_exceed, 5);
+    for (int k = 0; k < 5; ++k) {
+        assert_int_equal(b->sweep.exceed[k].absent, expected[k]);
+        assert_string_equal(b->sweep.exceed[k].measure.probe, "p");
+    }
+    assert_int_equal(b->sweep.exceed[4].measure.statistic, MOR_CASE_STATISTIC_MAXIMUM);
+}
+
 /* What is wrong is told with file and line, and with what is allowed. */
 static void wrong_files_are_refused_with_a_reason(void **state)
 {
@@ -237,7 +315,35 @@ static void keys_that_are_set_twice_are_refused(void **state)
          NULL, "'a=1' of another variable"},
         {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('a=1'); } ); },"
          "                     { name = 'y'; choices = ( { label = 'l'; set = ('b=1', 'a=2'); } ); } );",
-         NULL, "'a=2' of another variable"}};
+         NULL, "'a=1' of another variable"},
+        /* A key holds those below it, and its entries, whichever comes first; [0] and [00] are one entry. */
+        {"case = 'c'; vary = ( { key = 's[0].m.d'; values = (1); },"
+         "  { name = 'y'; choices = ( { label = 'l'; set = ('s[0].m={ d=2; }'); } ); } );",
+         NULL, "'y' that sets 's[0].m', which is also set by 's[0].m.d' of another variable"},
+        {"case = 'c'; vary = ( { key = 'g'; values = ((0, 1)); }, { key = 'g[1]'; name = 'y'; values = (2); } );", NULL,
+         "'y' that sets 'g[1]', which is also set by 'g' of another variable"},
+        {"case = 'c'; vary = ( { key = 's[0].a'; values = (1); }, { key = 's[00].a'; name = 'y'; values = (2); } );",
+         NULL, "'y' that sets 's[00].a', which is also set by 's[0].a' of another variable"},
+        {"case = 'c'; vary = ( { key = 's[0].m'; values = (1); } );", "s[0].m.d=3",
+         "'m' that sets 's[0].m', which is also set by 's[0].m.d=3' as an override"},
+        {"case = 'c'; vary = ( { key = 's[0].m.d'; values = (1); } );", "s[0].m={ d=3; }",
+         "'d' that sets 's[0].m.d', which is also set by 's[0].m={ d=3; }' as an override"},
+        {"case = 'c'; set = ('s[0].m.d=3'); vary = ( { key = 's[0].m'; values = (1); } );", NULL,
+         "'m' that sets 's[0].m', which is also set by 's[0].m.d=3' for all members"},
+        {"case = 'c'; set = ('s[0].m.d=3'); vary = ( { name = 'x'; choices = ("
+         "  { label = 'l'; set = ('s[0].m={ e=2; }'); } ); } );",
+         NULL, "'x' that sets 's[0].m', which is also set by 's[0].m.d=3' for all members"},
+        /* Within one list. */
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('a=1', 'b=1', 'a=2'); } ); } );", NULL,
+         "'x' that sets 'a', which is also set by 'a=1' of the same choice 'l'"},
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; set = ('m.d=1', 'm={ e=1; }'); } ); } );", NULL,
+         "'x' that sets 'm', which is also set by 'm.d=1' of the same choice 'l'"},
+        {"case = 'c'; set = ('m.d=1', 'm.d=2'); vary = ( { key = 'a'; values = (1); } );", NULL,
+         "a/sweep.cfg: found 'm.d', which is set twice for all members, by 'm.d=1', too"},
+        /* Of two cases the later would be run. */
+        {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'l'; }, { label = 'm'; case = 'd'; } ); },"
+         "                     { name = 'y'; choices = ( { label = 'n'; case = 'e'; } ); } );",
+         NULL, "'y' with the case 'e' beside the case 'd' of the variable 'x'"}};
     bench *b = *state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         assert_int_equal(read_text(b, wrong[k].text), MOR_OK);
@@ -250,7 +356,12 @@ static void keys_that_are_set_twice_are_refused(void **state)
         mor_sweep_design_clear(&b->context, &b->design);
         mor_sweep_clear(&b->context, &b->sweep);
     }
-    /* A choice may differ from what is set for all; overrides come between the two. */
+}
+
+/* A choice may differ from what is set for all; overrides come between the two. */
+static void choice_may_set_anew_what_is_set_for_all(void **state)
+{
+    bench *b = *state;
     assert_int_equal(
         read_text(b, "case = 'c'; set = ( 'a=1', 'd=1' ); vary = ( { name = 'x'; choices = ("
                      "{ label = 'l'; }, { label = 'm'; set = ('a=2'); } ); }, { key = 'c.a'; values = (1); } );"),
@@ -259,6 +370,21 @@ static void keys_that_are_set_twice_are_refused(void **state)
     b->sweep.n_overrides = 1;
     assert_int_equal(mor_sweep_design_make(&b->context, &b->sweep, &b->design), MOR_OK);
     expect_settings(b, 1, "a=1 | d=1 | d=2 | a=2 | c.a=1");
+}
+
+/* Names that begin alike are two keys; a part of what is set for all may vary; cases that exclude each other may. */
+static void keys_that_have_an_effect_each_are_taken(void **state)
+{
+    bench *b = *state;
+    make(b, "case = 'c'; set = ( 'soil[0].m={ d=1; e=2; }' );"
+            "vary = ( { key = 'soil[0].m.d'; values = (1); }, { key = 'soil[0].md'; values = (1); },"
+            "  { key = 'soil[1].m'; values = (1); }, { key = 'soil[10].m'; name = 'n'; values = (1); },"
+            "  { name = 'x'; choices = ( { label = 'k'; set = ('b=1', 'bc=1'); },"
+            "                            { label = 'l'; case = 'd'; without = ('y'); } ); },"
+            "  { name = 'y'; choices = ( { label = 'm'; case = 'e'; } ); } );");
+    assert_int_equal(b->design.n_members, 2);
+    assert_string_equal(mor_sweep_design_case(&b->design, 0), "e");
+    assert_string_equal(mor_sweep_design_case(&b->design, 1), "d");
 }
 
 static void too_many_members_are_refused(void **state)
@@ -280,8 +406,13 @@ int main(void)
         WITH_BENCH(ranges_end_at_or_before_their_end),
         WITH_BENCH(choices_leave_out_what_has_no_meaning_with_them),
         WITH_BENCH(combinations_share_their_latin_hypercube),
+        WITH_BENCH(replicates_have_draws_of_their_own),
+        WITH_BENCH(draws_are_over_the_members_that_have_them),
+        WITH_BENCH(absent_is_a_miss_above_and_unknown_below),
         WITH_BENCH(wrong_files_are_refused_with_a_reason),
         WITH_BENCH(keys_that_are_set_twice_are_refused),
+        WITH_BENCH(choice_may_set_anew_what_is_set_for_all),
+        WITH_BENCH(keys_that_have_an_effect_each_are_taken),
         WITH_BENCH(too_many_members_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -56,6 +56,43 @@ static void variables_and_seeds_are_independent(void **state)
     }
 }
 
+/* Whether the places of one hypercube within its strata, taken as the random numbers of a shuffle, give the order of
+ * another one: then the two share their random numbers. */
+static bool gives_order(const double *places, const double *order, int n)
+{
+    int strata[SAMPLES_MAX];
+    for (int k = 0; k < n; ++k) {
+        strata[k] = k;
+    }
+    for (int k = n - 1; k > 0; --k) {
+        const int other = (int)((places[k] * n - floor(places[k] * n)) * (k + 1));
+        const int kept = strata[k];
+        strata[k] = strata[other];
+        strata[other] = kept;
+    }
+    int n_alike = 0;
+    for (int k = 0; k < n; ++k) {
+        n_alike += strata[k] == (int)(order[k] * n);
+    }
+    return n_alike > n / 2; /* of two random orders about one place is alike */
+}
+
+/* Sweeps of several seeds may be put together: none uses numbers of another for something else. */
+static void seeds_share_no_random_numbers(void **state)
+{
+    enum { N = 50, SEEDS = 8 };
+    double u[SEEDS][N];
+    (void)state;
+    for (int k = 0; k < SEEDS; ++k) {
+        mor_sweep_latin((uint64_t)k, 7, N, u[k]);
+    }
+    for (int a = 0; a < SEEDS; ++a) {
+        for (int b = 0; b < SEEDS; ++b) {
+            assert_false(gives_order(u[a], u[b], N));
+        }
+    }
+}
+
 /* Digits of Wichura (1988) and of tables. */
 static void normal_quantiles_are_those_of_the_tables(void **state)
 {
@@ -128,6 +165,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_stratum_has_one_sample),
         cmocka_unit_test(variables_and_seeds_are_independent),
+        cmocka_unit_test(seeds_share_no_random_numbers),
         cmocka_unit_test(normal_quantiles_are_those_of_the_tables),
         cmocka_unit_test(quantiles_have_their_probability_below_them),
         cmocka_unit_test(samples_have_the_moments_they_were_asked_for),

@@ -73,6 +73,7 @@ static void fill(bench *b)
     static const double values[] = {1.0, 2.0, 3.0, 4.0, NAN, NAN};
     for (int m = 0; m < 6; ++m) {
         b->table.values[m] = values[m];
+        b->table.has_probe[m] = true;
         b->table.outcomes[m].state = m == 4   ? MOR_SWEEP_STATE_FAILED
                                      : m == 2 ? MOR_SWEEP_STATE_MISSED
                                               : MOR_SWEEP_STATE_FINISHED;
@@ -194,13 +195,51 @@ static void statistics_use_members_with_a_result_alone(void **state)
     mor_sweep_table_exceed(&b.table, 0, 0, &found);
     assert_true(found.n == 3 && found.n_hits == 0 && found.share == 0.0); /* 3 is not above 3 */
     mor_sweep_table_exceed(&b.table, 1, 0, &found);
-    assert_true(found.n == 1 && found.n_hits == 1);
+    assert_true(found.n == 2 && found.n_hits == 1 && found.n_absent == 1);
     /* A result that stands in a table is used only if its member has ended well. */
     b.table.outcomes[3].state = MOR_SWEEP_STATE_INTERRUPTED;
     mor_sweep_table_evaluate(&b.table, 1, 0, &it);
     assert_true(it.n == 0 && isnan(it.mean));
     mor_sweep_table_exceed(&b.table, 1, 0, &found);
-    assert_true(found.n == 0 && isnan(found.share) && isnan(found.low));
+    assert_true(found.n == 1 && found.n_hits == 0 && found.share == 0.0);
+    /* A case without the probe says nothing of the question. */
+    b.table.has_probe[5] = false;
+    mor_sweep_table_exceed(&b.table, 1, 0, &found);
+    assert_true(found.n == 0 && found.n_absent == 0 && isnan(found.share) && isnan(found.low));
+    clear(&b);
+}
+
+/* Of the members of a group, some of which had nothing to measure, each counts as the sweep says. */
+static void absent_members_count_as_it_is_said(void **state)
+{
+    static const struct {
+        mor_sweep_absent absent;
+        bool is_below;
+        int n, n_hits;
+        double share;
+    } ways[] = {{MOR_SWEEP_ABSENT_MISS, false, 2, 1, 0.5},     {MOR_SWEEP_ABSENT_HIT, false, 2, 2, 1.0},
+                {MOR_SWEEP_ABSENT_LEFT_OUT, false, 1, 1, 1.0}, {MOR_SWEEP_ABSENT_MISS, true, 2, 0, 0.0},
+                {MOR_SWEEP_ABSENT_HIT, true, 2, 1, 0.5},       {MOR_SWEEP_ABSENT_LEFT_OUT, true, 1, 0, 0.0},
+                {MOR_SWEEP_ABSENT_UNKNOWN, true, 1, 0, NAN}};
+    bench b;
+    mor_sweep_probability it;
+    make(&b, *state);
+    fill(&b);
+    assert_true(b.sweep.exceed[0].absent == MOR_SWEEP_ABSENT_MISS); /* what never came is not above */
+    assert_int_equal(mor_sweep_table_count_absent(&b.table, 0, 0), 0);
+    assert_int_equal(mor_sweep_table_count_absent(&b.table, 1, 0), 1);
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; ++k) {
+        b.sweep.exceed[0].absent = ways[k].absent;
+        b.sweep.exceed[0].is_below = ways[k].is_below;
+        mor_sweep_table_exceed(&b.table, 1, 0, &it); /* 4, failed, and absent; against 3 */
+        assert_int_equal(it.n, ways[k].n);
+        assert_int_equal(it.n_hits, ways[k].n_hits);
+        assert_int_equal(it.n_absent, 1);
+        assert_true(isnan(ways[k].share) ? isnan(it.share) && isnan(it.low) && isnan(it.high)
+                                         : it.share == ways[k].share && it.low <= it.share && it.high >= it.share);
+        mor_sweep_table_exceed(&b.table, 0, 0, &it); /* nothing is absent, so that nothing need be said */
+        assert_true(it.n == 3 && it.n_absent == 0 && isfinite(it.share));
+    }
     clear(&b);
 }
 
@@ -241,11 +280,40 @@ static void tables_have_a_cell_for_each_head(void **state)
     free(text);
     text = load(&b, MOR_SWEEP_STATISTICS_FILE);
     assert_int_equal(count_lines(text, &n), 3);
-    assert_non_null(strstr(text, "\n10,run_out,m,3,0,1,3,2,1,"));
-    assert_non_null(strstr(text, "\n20,run_out,m,3,1,0,1,4,,,,,,,4,4\n"));
+    assert_non_null(strstr(text, "\n10,run_out,m,3,0,1,3,0,2,1,"));
+    assert_non_null(strstr(text, "\n20,run_out,m,3,1,0,1,1,4,,,,,,,4,4\n"));
     free(text);
     text = load(&b, MOR_SWEEP_EXCEED_FILE);
     assert_int_equal(count_lines(text, &n), 3);
+    assert_non_null(strstr(text, "\n20,run_out,above,3,m,3,1,2,1,miss,1,0.5,"));
+    free(text);
+    clear(&b);
+}
+
+/* What is printed, to be freed. */
+static char *report(bench *b)
+{
+    char *text = NULL;
+    size_t n_bytes = 0;
+    FILE *stream = open_memstream(&text, &n_bytes);
+    assert_non_null(stream);
+    assert_int_equal(mor_sweep_write_report(&b->folder->context, &b->table, &b->provenance, stream), MOR_OK);
+    fclose(stream);
+    return text;
+}
+
+/* An interval of no width looks like certainty; replicates that change nothing are told. */
+static void report_tells_groups_whose_members_are_all_alike(void **state)
+{
+    bench b;
+    make(&b, *state);
+    fill(&b);
+    char *text = report(&b);
+    assert_null(strstr(text, "the same number")); /* one value alone is no repetition */
+    free(text);
+    b.table.values[1] = b.table.values[2] = b.table.values[0];
+    text = report(&b);
+    assert_non_null(strstr(text, "in 1 group all members gave the same number: what varies within has no effect on"));
     free(text);
     clear(&b);
 }
@@ -297,7 +365,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(summary_is_json_and_tells_who_failed),
         WITH_FOLDER(statistics_use_members_with_a_result_alone),
+        WITH_FOLDER(absent_members_count_as_it_is_said),
         WITH_FOLDER(tables_have_a_cell_for_each_head),
+        WITH_FOLDER(report_tells_groups_whose_members_are_all_alike),
         WITH_FOLDER(commands_are_quoted_for_a_shell),
         WITH_FOLDER(charts_are_drawn_where_there_is_something_to_show),
     };
