@@ -138,6 +138,13 @@ static mor_status split_unit(const table *t, cell *head, char *unit)
 
 static mor_status check_unit(const table *t, const cell *head, int kind, const char *unit)
 {
+    if (unit[0] == '\0' && t->spec->columns[kind].has_unit) {
+        return CELL_FAIL(t, head->first,
+                         "found the heading %s without a unit; allowed: one with it, such as %s [deg] or "
+                         "%s [%s]; add the unit",
+                         t->spec->columns[kind].name, t->spec->columns[kind].name, t->spec->columns[kind].name,
+                         t->spec->columns[kind].unit);
+    }
     char one[CELL_BYTES + 4];
     double factor = 0.0;
     snprintf(one, sizeof one, "1 %s", unit);

@@ -20,6 +20,7 @@ typedef struct mor_column {
     const char *unit; /* in which its values are returned */
     bool is_positive; /* values are above zero */
     bool is_needed;   /* the table must have it */
+    bool has_unit;    /* its heading must tell its unit: the one it is returned in is not what most expect */
 } mor_column;
 
 /** What a table may hold. */

@@ -9,13 +9,13 @@
 
 enum { N_COLUMNS = 5 };
 
-static const mor_column in_space[N_COLUMNS] = {{"x", "m", false, true},
-                                               {"y", "m", false, true},
-                                               {"z", "m", false, true},
-                                               {"diameter", "m", true, true},
-                                               {"density", "kg/m3", true, false}};
+static const mor_column in_space[N_COLUMNS] = {{"x", "m", false, true, false},
+                                               {"y", "m", false, true, false},
+                                               {"z", "m", false, true, false},
+                                               {"diameter", "m", true, true, false},
+                                               {"density", "kg/m3", true, false, false}};
 static const mor_column in_plane[N_COLUMNS - 1] = {
-    {"x", "m", false, true}, {"y", "m", false, true}, {"diameter", "m", true, true}, {"density", "kg/m3", true, false}};
+    {"x", "m", false, true, false}, {"y", "m", false, true, false}, {"diameter", "m", true, true, false}, {"density", "kg/m3", true, false, false}};
 
 static mor_column_spec find_spec(int dimension)
 {

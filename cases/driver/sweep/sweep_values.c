@@ -115,6 +115,15 @@ static bool write_value(const mor_case_reader *reader, const mor_case_node *node
     return n >= 0 && (size_t)n < text_bytes;
 }
 
+/* Beside percents a bare number is a share. */
+static bool has_dimension(const mor_case_reader *reader, const char *unit)
+{
+    char one[MOR_SWEEP_SETTING_BYTES];
+    double factor = 0.0;
+    snprintf(one, sizeof one, "1 %.64s", unit);
+    return mor_units_convert(reader->context, reader->units, one, "1", &factor) != MOR_OK;
+}
+
 /* The unit of the first number that has one, into which the others are converted; none of them is a number where one is
  * not. */
 static mor_status find_unit(const mor_case_reader *reader, const mor_case_node *list, mor_sweep_variable *variable)
@@ -142,7 +151,14 @@ static mor_status find_unit(const mor_case_reader *reader, const mor_case_node *
                                       "correct it",
                                       variable->key, found.unit, variable->unit);
         }
-        if (isfinite(choice->value) && found.unit[0] == '\0' && variable->unit[0] != '\0') { /* not a bare number */
+        if (isfinite(choice->value) && found.unit[0] == '\0' && variable->unit[0] != '\0') {
+            if (choice->value != 0.0 && has_dimension(reader, variable->unit)) { /* more likely forgotten than SI */
+                return MOR_CASE_NODE_FAIL(
+                    reader->context, child,
+                    "found a bare number in the values of '%s' beside one in '%s'; allowed: units "
+                    "of one kind, or none at all; give all the same unit",
+                    variable->key, variable->unit);
+            }
             snprintf(choice->label, sizeof choice->label, "%.6g %s", choice->value, variable->unit);
         }
     }

@@ -41,11 +41,11 @@ static mor_status read_rows(const mor_case_reader *reader, const mor_case_node *
 
 enum { TIME, X, Y, ANGLE, Z, N_COLUMNS };
 
-static const mor_column columns[N_COLUMNS] = {[TIME] = {"time", "s", false, true},
-                                              [X] = {"x", "m", false, false},
-                                              [Y] = {"y", "m", false, false},
-                                              [ANGLE] = {"angle", "rad", false, false},
-                                              [Z] = {"z", "m", false, false}};
+static const mor_column columns[N_COLUMNS] = {[TIME] = {"time", "s", false, true, false},
+                                              [X] = {"x", "m", false, false, false},
+                                              [Y] = {"y", "m", false, false, false},
+                                              [ANGLE] = {"angle", "rad", false, false, true},
+                                              [Z] = {"z", "m", false, false, false}};
 
 static double value_or_zero(double value)
 {

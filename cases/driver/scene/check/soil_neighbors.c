@@ -230,7 +230,7 @@ static void warn_of_unstressed(mor_context *context, const columns *s)
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
         const bool is_bare = it->initial_stress == MOR_CASE_STRESS_NONE && mor_vector_length(it->velocity) == 0.0 &&
-                             it->velocity_formula[0][0] == '\0';
+                             it->velocity_formula[0][0] == '\0' && !mor_case_takes_over(c, k);
         const int other = is_bare ? find_stressed(s, k) : -1;
         if (other >= 0) {
             const char *word = stress_words[c->soils[other].initial_stress];

@@ -266,6 +266,7 @@ static void wrong_files_are_refused_with_a_reason(void **state)
          "the label 'a' twice"},
         {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'a'; without = ('x'); } ); } );", "stands later"},
         {"case = 'c'; vary = ( { name = 'x'; choices = ( { label = 'a'; set = ('b'); } ); } );", "\"key=value\""},
+        {"case = 'c'; vary = ( { key = 'a'; values = ('1 kPa', 4); } );", "a bare number in the values of 'a'"},
         {"case = 'c'; members = 3; vary = ( { key = 'a'; values = (1); } );", "no distribution"},
         {"case = 'c'; vary = ( { key = 'a'; distribution = 'uniform'; min = 1; max = 2; } );", "no 'members'"},
         {"case = 'c'; members = 3; vary = ( { key = 'a'; distribution = 'gauss'; } );", "triangular"},

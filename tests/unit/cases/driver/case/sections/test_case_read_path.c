@@ -123,6 +123,7 @@ static void a_table_of_a_file_has_units_in_its_headings(void **state)
                                            {"time,z\n0,0\n", "found the column 'z'"},
                                            {"time [m],x\n0,0\n", "found the unit [m] of time"},
                                            {"time,x\n", "found a table without a time"},
+                                           {"time,angle\n0,0\n1,90\n", "found the heading angle without a unit"},
                                            {"time,x\n0,1\n", "allowed: zero for both"}};
     case_reading *f = *state;
     char path[600];
