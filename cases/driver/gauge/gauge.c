@@ -50,6 +50,15 @@ static bool is_inside(const mor_simulation *s, const mor_gauge *gauge, const dou
            mor_simulation_placed_distance(gauge->asked->region, c->rotation, c->translation, shifted) <= 0.0;
 }
 
+double mor_gauge_distance(const mor_simulation *simulation, const mor_gauge *gauge, const double *point)
+{
+    const mor_case *c = simulation->the_case;
+    const double distance = find_distance(simulation, gauge, point);
+    const mor_shape *region = gauge->asked->region;
+    return region == NULL ? distance
+                          : fmax(distance, mor_simulation_placed_distance(region, c->rotation, c->translation, point));
+}
+
 /* Adds a force, or an impulse, at a place to loads. Returns: its normal component. */
 static double add_load(const mor_gauge *gauge, const double *place, const double *force, double *loads)
 {
