@@ -452,8 +452,8 @@ void mor_session_safety_init(mor_session_safety *options);
  *  @param is_found [out]  whether both ends of the band were found at each spacing
  *  Returns: MOR_OK, also when a stop was requested: the trials so far are written; MOR_ERROR_CONFIG for options out of
  *  range, a case that cannot be read or built, soil whose law tells no strength, and for a folder that holds a run or a
- *  search or cannot be made; MOR_NOT_CONVERGED when the soil does not come to rest at the lower factor nor at smaller ones;
- *  MOR_ERROR_NUMERIC when the computation broke down; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  search or cannot be made; MOR_NOT_CONVERGED when the soil does not come to rest at the lower factor nor at smaller
+ *  ones; MOR_ERROR_NUMERIC when the computation broke down; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_find_safety(mor_session *session, const char *path, const mor_session_safety *options,
                                    const char *folder, bool *is_found);
 

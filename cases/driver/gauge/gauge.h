@@ -61,8 +61,8 @@ enum {
     MOR_GAUGE_NUMBERS
 };
 
-/** A map of the pressure on a structure: cells in the plane through the gauge's origin across its direction, that divide
- *  the extent of the structure and its region evenly. */
+/** A map of the pressure on a structure: cells in the plane through the gauge's origin across its direction, that
+ *  divide the extent of the structure and its region evenly. */
 typedef struct mor_gauge_map {
     int n_across, n_up;      /* cells; in plane strain one across; 0: no map */
     double cell[2];          /* sides of a cell, across and up, m */
@@ -142,6 +142,12 @@ void mor_gauge_read(const mor_gauge *gauge, const double *loads, mor_gauge_readi
  *  @param largest  [out]  one number; largest filtered normal force since, N; NaN without a step
  *  Gives: a reading of NaN where no time has passed. */
 void mor_gauge_take_row(mor_gauge *gauge, double time, mor_gauge_reading *reading, double *largest);
+
+/** Distance of a point from the surface of the structure of a gauge, m; negative inside. A body that deforms counts as
+ *  rigid here.
+ *  @param point [in]  shape [3], placed, m */
+double mor_gauge_structure_distance(const struct mor_simulation *simulation, const mor_gauge *gauge,
+                                    const double *point);
 
 /** Distance of a point from what a gauge measures, structure and region, m; negative inside both.
  *  @param point [in]  shape [3], placed, m */

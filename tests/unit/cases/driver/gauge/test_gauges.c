@@ -97,15 +97,13 @@ static void parts_add_up_to_the_whole(void **state)
 }
 
 /* Also where particles lie exactly on the face between the parts, as on any face along the lattice: here the soil is 8
- * particles wide and has not moved. */
+ * particles wide, and moves along the faces. */
 static void parts_that_share_a_face_of_the_lattice_add_up(void **state)
 {
     (void)state;
     static const char *const sides[] = {
         "gauges[1].region={type=\"half_space\"; point=(0, 0.03125, 0); normal=(0, 1, 0);}",
         "gauges[2].region={type=\"half_space\"; point=(0, 0.03125, 0); normal=(0, -1, 0);}",
-        "soil[0].initial_stress={type=\"k0\";}",
-        "soil[0].velocity=(0, 0, 0)",
         "spacing=0.0625",
         "soil[0].shape={type=\"box\"; min=(-0.5, -0.25, 0); max=(0, 0.25, 0.5);}",
         "bodies[0].position=(-0.3, 0, 0.7)",
@@ -113,15 +111,20 @@ static void parts_that_share_a_face_of_the_lattice_add_up(void **state)
         NULL};
     const char *const *const lists[] = {sides};
     scene *it = scene_new(&(scene_request){.text = text, .settings = lists, .n_lists = 1});
+    scene_advance(it, 0.02);
+    double *x = it->simulation.soil.set.data[MOR_FIELD_POSITION];
+    int64_t n_on_face = 0;
+    for (int64_t i = 0; i < it->simulation.soil.set.n_particles; ++i) { /* it moved by some of its 17th digits */
+        x[3 * i + 1] = 0.0625 * floor(x[3 * i + 1] / 0.0625) + 0.03125;
+        it->simulation.soil.set.data[MOR_FIELD_VELOCITY][3 * i + 1] = 0.0;
+        n_on_face += x[3 * i + 1] == 0.03125;
+    }
+    it->simulation.soil.has_lists = false;
     scene_step(it, 1);
     const mor_gauge *g = it->simulation.probes->gauges.of;
-    const double whole = g[0].numbers[MOR_GAUGE_SUM];
-    int64_t n_on_face = 0;
-    for (int64_t i = 0; i < it->simulation.soil.set.n_particles; ++i) {
-        n_on_face += it->simulation.soil.set.data[MOR_FIELD_POSITION][3 * i + 1] == 0.03125;
-    }
+    const double whole = g[0].numbers[MOR_GAUGE_NOW];
     assert_true(whole != 0.0 && n_on_face > 0);
-    scene_expect_near("the sum of the parts", g[1].numbers[MOR_GAUGE_SUM] + g[2].numbers[MOR_GAUGE_SUM], whole,
+    scene_expect_near("the sum of the parts", g[1].numbers[MOR_GAUGE_NOW] + g[2].numbers[MOR_GAUGE_NOW], whole,
                       1e-11 * fabs(whole)); /* order of sums */
     scene_free(it);
 }
