@@ -347,8 +347,9 @@ mor_status mor_session_render(mor_session *session, const char *folder);
  *  @param value  [in]  zero-terminated; from which on a cell counts (of an arrival: up to which), with its unit, as
  *                      "0.5 m"
  *  @param folder [in]  zero-terminated; of the results; made when missing
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are no runs, one of them lacks the map or has it on another grid, or
- *  for a name or a value that is none; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are no runs, one of them lacks the map, as it does before its end, or
+ *  has it on another grid, in another reference system, or of another end, spacing or depths, or for a name or a value
+ *  that is none; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_combine_maps(mor_session *session, const char *runs, const char *map, const char *value,
                                     const char *folder);
 
