@@ -347,8 +347,9 @@ mor_status mor_session_render(mor_session *session, const char *folder);
  *  @param value  [in]  zero-terminated; from which on a cell counts (of an arrival: up to which), with its unit, as
  *                      "0.5 m"
  *  @param folder [in]  zero-terminated; of the results; made when missing
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are no runs, one of them lacks the map or has it on another grid, or
- *  for a name or a value that is none; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are no runs, one of them lacks the map, as it does before its end, or
+ *  has it on another grid, in another reference system, or of another end, spacing or depths, or for a name or a value
+ *  that is none; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_combine_maps(mor_session *session, const char *runs, const char *map, const char *value,
                                     const char *folder);
 
@@ -449,12 +450,12 @@ void mor_session_safety_init(mor_session_safety *options);
  *  before, with overrides. Guide: docs/guide/factor_of_safety.md.
  *  @param path     [in]   zero-terminated; of the case
  *  @param options  [in]   one record
- *  @param folder   [in]   zero-terminated; made when missing; one that holds a run is refused
+ *  @param folder   [in]   zero-terminated; made when missing; one that holds a run or a search is refused
  *  @param is_found [out]  whether both ends of the band were found at each spacing
  *  Returns: MOR_OK, also when a stop was requested: the trials so far are written; MOR_ERROR_CONFIG for options out of
- *  range, a case that cannot be read or built, soil whose law tells no strength, and for a folder that holds a run or
- *  cannot be made; MOR_NOT_CONVERGED when the soil does not come to rest at the lower factor nor at smaller ones;
- *  MOR_ERROR_NUMERIC when the computation broke down; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  range, a case that cannot be read or built, soil whose law tells no strength, and for a folder that holds a run or a
+ *  search or cannot be made; MOR_NOT_CONVERGED when the soil does not come to rest at the lower factor nor at smaller
+ *  ones; MOR_ERROR_NUMERIC when the computation broke down; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_find_safety(mor_session *session, const char *path, const mor_session_safety *options,
                                    const char *folder, bool *is_found);
 

@@ -218,6 +218,35 @@ static void cases_without_a_strength_to_reduce_are_refused(void **state)
     }
 }
 
+/* Results of two searches would lie side by side. */
+static void a_folder_that_holds_a_search_is_refused(void **state)
+{
+    static const char *const names[] = {"fos.json", "trials.csv", "spacings.csv", "spacing-0.5"};
+    static const char *const coarse[] = {"spacing=0.5 m", NULL};
+    run_folder *folder = *state;
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        char path[MOR_PATH_BYTES];
+        char file[64];
+        char message[MOR_CONTEXT_MESSAGE_BYTES];
+        char name[32];
+        snprintf(name, sizeof name, "old%zu", k);
+        snprintf(file, sizeof file, "%s/%s", name, names[k]);
+        assert_int_equal(mor_durable_file_make_folder(&folder->context, run_folder_file(folder, path, name)), MOR_OK);
+        run_folder_file(folder, path, file);
+        if (strncmp(names[k], "spacing-", 8) == 0) { /* of several spacings, interrupted */
+            assert_int_equal(mor_durable_file_make_folder(&folder->context, path), MOR_OK);
+        } else {
+            run_folder_store(path, "old", 3);
+        }
+        const question it = {.name = name, .case_path = SLOPE, .settings = coarse, .n_threads = 1};
+        assert_int_equal(search(folder, &it, message), MOR_ERROR_CONFIG);
+        if (strstr(message, "already holds a search for a factor of safety") == NULL ||
+            strstr(message, names[k]) == NULL) {
+            fail_msg("the message is '%s'", message);
+        }
+    }
+}
+
 static void options_out_of_range_are_refused_with_what_is_allowed(void **state)
 {
     static const struct {
@@ -258,6 +287,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(strong_block_has_the_factor_of_coulomb, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(cases_without_a_strength_to_reduce_are_refused, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_folder_that_holds_a_search_is_refused, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(options_out_of_range_are_refused_with_what_is_allowed, run_folder_setup,
                                         run_folder_teardown),
     };

@@ -16,26 +16,6 @@ enum { BLOCKS = 16 };
 
 /* ---- Where forces act -------------------------------------------------------------------------------------------- */
 
-/* Distance of a point from the surface of the structure, m. A body that deforms counts as rigid here. */
-static double find_distance(const mor_simulation *s, const mor_gauge *gauge, const double *point)
-{
-    double moved[3];
-    if (gauge->wall >= 0) {
-        return mor_simulation_wall_gap(s, gauge->wall, mor_schedule_time(&s->schedule), point, 1);
-    }
-    const mor_simulation_body *it = &s->bodies.of[gauge->body];
-    const mor_body *body = &it->group->bodies[it->index];
-    double reference[3];
-    for (int a = 0; a < 3; ++a) {
-        moved[a] = point[a] - body->center[a];
-    }
-    mor_matrix_apply_transposed(body->rotation, moved, reference);
-    for (int a = 0; a < 3; ++a) {
-        reference[a] += body->geometry.center[a];
-    }
-    return mor_simulation_placed_distance(body->shape, body->shape_rotation, body->shape_translation, reference);
-}
-
 /* By a place that is shifted by a millionth of the spacing, the same for all gauges and along no face that anyone
  * draws: what lies exactly on the face of two regions then counts in one of them. */
 static bool is_inside(const mor_simulation *s, const mor_gauge *gauge, const double *place)
@@ -90,7 +70,7 @@ static void take_soil(void *argument, const mor_soil_contact_load *load)
     if (load->patch != job->patch) {
         return;
     }
-    const double distance = find_distance(job->simulation, gauge, place);
+    const double distance = mor_gauge_structure_distance(job->simulation, gauge, place);
     for (int a = 0; a < 3 && length > 0.0; ++a) {
         place[a] += distance * load->gradient[a] / length;
     }

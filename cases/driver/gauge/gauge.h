@@ -61,13 +61,17 @@ enum {
     MOR_GAUGE_NUMBERS
 };
 
-/** A map of the pressure on a structure: square cells in the plane through the gauge's origin across its direction. */
+/** A map of the pressure on a structure: cells in the plane through the gauge's origin across its direction, that
+ *  divide the extent of the structure and its region evenly. */
 typedef struct mor_gauge_map {
     int n_across, n_up;      /* cells; in plane strain one across; 0: no map */
-    double cell;             /* side of a cell, m */
+    double cell[2];          /* sides of a cell, across and up, m */
     double across[3], up[3]; /* unit vectors in that plane, 1 */
     double start[2];         /* of the first cell from the origin, across and up, m */
     double area;             /* of a cell, m2 (m) */
+    double *covered;  /* shape [cells]; area of a cell in which the structure lies, seen along the direction as it
+                              * stands at first, m2 (m) */
+    double least;     /* a cell in which it covers less tells no pressure of soil, m2 (m) */
     double *now;      /* shape [MOR_GAUGE_SOURCES, cells]; normal force in the last step, N; of bodies the impulse
                               * so far in a step, N s */
     double *filtered; /* likewise, filtered, N */
@@ -139,12 +143,27 @@ void mor_gauge_read(const mor_gauge *gauge, const double *loads, mor_gauge_readi
  *  Gives: a reading of NaN where no time has passed. */
 void mor_gauge_take_row(mor_gauge *gauge, double time, mor_gauge_reading *reading, double *largest);
 
+/** Distance of a point from the surface of the structure of a gauge, m; negative inside. A body that deforms counts as
+ *  rigid here.
+ *  @param point [in]  shape [3], placed, m */
+double mor_gauge_structure_distance(const struct mor_simulation *simulation, const mor_gauge *gauge,
+                                    const double *point);
+
+/** Distance of a point from what a gauge measures, structure and region, m; negative inside both.
+ *  @param point [in]  shape [3], placed, m */
+double mor_gauge_distance(const struct mor_simulation *simulation, const mor_gauge *gauge, const double *point);
+
 /** Adds a force to the map of a gauge, spread evenly over a square of a side.
  *  @param place [in]      shape [3], placed, m
  *  @param side  [in]      of that square, m; 0: all of it in one cell
  *  @param force [in]      normal, any unit
  *  @param cells [in,out]  shape [cells]; same unit; what lies beyond the edges counts in the cells there */
 void mor_gauge_map_add(const mor_gauge *gauge, const double *place, double side, double force, double *cells);
+
+/** Pressure of soil on the structure in a cell, Pa; NaN where there is too little of the structure to tell it.
+ *  @param cell  [in]  number, across fastest
+ *  @param force [in]  normal, of the soil, N (N/m) */
+double mor_gauge_map_pressure(const mor_gauge_map *map, int64_t cell, double force);
 
 /** Writes the middle of a cell.
  *  @param cell  [in]   number, across fastest

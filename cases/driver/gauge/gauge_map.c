@@ -8,6 +8,7 @@
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Beyond, checkpoints and steps would grow noticeably. */
@@ -36,7 +37,7 @@ static bool find_box(const mor_simulation *s, const mor_gauge *gauge, mor_bounds
         mor_shape_bounds(c->walls[gauge->wall].shape, &own);
         intersect(&own, box);
     } else {
-        mor_simulation_body_box(c, &c->bodies[gauge->body], box);
+        mor_simulation_body_extent(c, &c->bodies[gauge->body], box);
     }
     if (gauge->asked->region != NULL && !is_placed) {
         mor_shape_bounds(gauge->asked->region, &own);
@@ -94,17 +95,80 @@ static void find_axes(const mor_simulation *s, const mor_gauge *gauge, mor_gauge
     mor_vector_cross(map->across, d, map->up);
 }
 
-/* Cells over an extent, from its begin. What is left over by less than a tenth of a cell, as the margin of the box
- * around a body, counts in the cells at the edges, half of it on each side. */
-static double count_cells(double *extent, double cell)
+/* Cells of about the side asked for that divide an extent evenly, none of them below a spacing. */
+static double count_cells(const double *extent, double side, double spacing, double *cell)
 {
+    const double rounding = 1.0e-9;
     const double length = extent[1] - extent[0];
-    const double n = fmax(ceil(length / cell - 0.1), length > 0.0 ? 1.0 : 0.0);
-    extent[0] += n * cell > length ? 0.0 : 0.5 * (length - n * cell);
-    return n;
+    double n = fmax(round(length / side), 1.0);
+    n -= n > 1.0 && length / n < spacing * (1.0 - rounding) ? 1.0 : 0.0;
+    *cell = length / n;
+    return length > 0.0 ? n : 0.0;
 }
 
-static mor_status size_map(mor_context *context, const mor_simulation *s, mor_gauge *gauge)
+static void log_cells(mor_context *context, const mor_gauge *gauge, bool is_plane)
+{
+    const double *cell = gauge->map.cell;
+    const double asked = gauge->asked->cell;
+    const double rounding = 1.0e-9 * asked;
+    if (fabs(cell[1] - asked) > rounding || (!is_plane && fabs(cell[0] - asked) > rounding)) {
+        char across[32] = "";
+        if (!is_plane) {
+            snprintf(across, sizeof across, "%.6g m x ", cell[0]);
+        }
+        mor_context_log(context, MOR_LOG_INFO,
+                        "gauge '%s': cells of %s%.6g m in place of %.6g m, so that they divide its extent evenly",
+                        gauge->asked->name, across, cell[1], asked);
+    }
+}
+
+/* ---- Where the structure is -------------------------------------------------------------------------------------- */
+
+/* Whether a line along the direction of a gauge meets what it measures, between two depths. */
+static bool is_met(const mor_simulation *s, const mor_gauge *gauge, const double *plane, const double *depths)
+{
+    const double touching = 1.0e-3 * s->the_case->spacing;
+    const double least_step = s->the_case->spacing / 16.0; /* beside a surface, where distances become small */
+    double depth = depths[0];
+    bool is_there = false;
+    while (!is_there && depth <= depths[1] + touching) {
+        double point[3];
+        for (int a = 0; a < 3; ++a) {
+            point[a] = gauge->origin[a] + plane[0] * gauge->map.across[a] + plane[1] * gauge->map.up[a] +
+                       depth * gauge->direction[a];
+        }
+        const double distance = mor_gauge_distance(s, gauge, point);
+        is_there = distance <= touching;
+        depth += fmax(distance, least_step);
+    }
+    return is_there;
+}
+
+/* By lines through points that are spread evenly over each cell. */
+static void find_cover(const mor_simulation *s, mor_gauge *gauge, const double *depths)
+{
+    enum { FEW = 1024 };
+    mor_gauge_map *map = &gauge->map;
+    const bool is_plane = s->the_case->dimension == 2;
+    const int64_t cells = mor_gauge_map_cells(map);
+    const int n_up = is_plane ? 16 : cells <= FEW ? 8 : 4;
+    const int n_across = is_plane ? 1 : n_up;
+    for (int64_t k = 0; k < cells; ++k) {
+        double middle[2];
+        int n_met = 0;
+        mor_gauge_map_place(map, k, middle);
+        for (int i = 0; i < n_across * n_up; ++i) {
+            const double plane[2] = {is_plane ? 0.0
+                                              : middle[0] + ((i % n_across + 0.5) / n_across - 0.5) * map->cell[0],
+                                     middle[1] + ((i / n_across + 0.5) / n_up - 0.5) * map->cell[1]};
+            n_met += is_met(s, gauge, plane, depths);
+        }
+        map->covered[k] = map->area * n_met / (n_across * n_up);
+    }
+}
+
+/* depths, shape [2]: receives from where to where the structure lies along the direction. */
+static mor_status size_map(mor_context *context, const mor_simulation *s, mor_gauge *gauge, double *depths)
 {
     const mor_case_gauge *asked = gauge->asked;
     mor_gauge_map *map = &gauge->map;
@@ -118,9 +182,10 @@ static mor_status size_map(mor_context *context, const mor_simulation *s, mor_ga
     const bool is_placed = find_box(s, gauge, &box);
     find_extent(s, gauge, &box, is_placed, map->across, extents[0]);
     find_extent(s, gauge, &box, is_placed, map->up, extents[1]);
-    map->cell = asked->cell;
-    const double n_across = is_plane ? 1.0 : count_cells(extents[0], asked->cell);
-    const double n_up = count_cells(extents[1], asked->cell);
+    find_extent(s, gauge, &box, is_placed, gauge->direction, depths);
+    map->cell[0] = asked->cell;
+    const double n_across = is_plane ? 1.0 : count_cells(extents[0], asked->cell, s->the_case->spacing, &map->cell[0]);
+    const double n_up = count_cells(extents[1], asked->cell, s->the_case->spacing, &map->cell[1]);
     MOR_CHECK(context, n_across >= 1.0 && n_up >= 1.0, MOR_ERROR_CONFIG,
               "%s:%d: found a gauge '%s' whose region does not touch its structure; allowed: a region that does; "
               "correct it",
@@ -133,7 +198,9 @@ static mor_status size_map(mor_context *context, const mor_simulation *s, mor_ga
     map->n_up = (int)n_up;
     map->start[0] = is_plane ? -0.5 * asked->cell : extents[0][0];
     map->start[1] = extents[1][0];
-    map->area = is_plane ? asked->cell : asked->cell * asked->cell;
+    map->area = is_plane ? map->cell[1] : map->cell[0] * map->cell[1];
+    map->least = 0.25 * s->the_case->spacing * (is_plane ? 1.0 : fmin(map->cell[0], map->cell[1]));
+    log_cells(context, gauge, is_plane);
     return MOR_OK;
 }
 
@@ -143,7 +210,10 @@ mor_status mor_gauge_map_init(mor_context *context, const mor_simulation *simula
     if (isnan(gauge->asked->cell)) {
         return MOR_OK;
     }
-    MOR_TRY(context, size_map(context, simulation, gauge));
+    double depths[2];
+    MOR_TRY(context, size_map(context, simulation, gauge, depths));
+    MOR_TRY(context, MOR_NEW(context, &map->covered, mor_gauge_map_cells(map), "a map of pressure"));
+    find_cover(simulation, gauge, depths);
     const int64_t n = MOR_GAUGE_SOURCES * mor_gauge_map_cells(map);
     MOR_TRY(context, MOR_NEW(context, &map->now, n, "a map of pressure"));
     MOR_TRY(context, MOR_NEW(context, &map->filtered, n, "a map of pressure"));
@@ -155,6 +225,7 @@ mor_status mor_gauge_map_init(mor_context *context, const mor_simulation *simula
 
 void mor_gauge_map_clear(mor_context *context, mor_gauge_map *map)
 {
+    MOR_FREE(context, &map->covered);
     MOR_FREE(context, &map->now);
     MOR_FREE(context, &map->filtered);
     MOR_FREE(context, &map->peak);
@@ -189,25 +260,34 @@ void mor_gauge_map_add(const mor_gauge *gauge, const double *place, double side,
 {
     const mor_gauge_map *map = &gauge->map;
     const double arm[3] = {place[0] - gauge->origin[0], place[1] - gauge->origin[1], place[2] - gauge->origin[2]};
-    const double x = map->n_across == 1 ? map->start[0] + 0.5 * map->cell : mor_vector_dot(arm, map->across);
+    const double x = map->n_across == 1 ? map->start[0] + 0.5 * map->cell[0] : mor_vector_dot(arm, map->across);
     const double y = mor_vector_dot(arm, map->up);
     int columns[2];
     int rows[2];
-    find_range(map->start[0], map->cell, map->n_across, x, side, &columns[0], &columns[1]);
-    find_range(map->start[1], map->cell, map->n_up, y, side, &rows[0], &rows[1]);
+    find_range(map->start[0], map->cell[0], map->n_across, x, side, &columns[0], &columns[1]);
+    find_range(map->start[1], map->cell[1], map->n_up, y, side, &rows[0], &rows[1]);
     for (int row = rows[0]; row <= rows[1]; ++row) {
-        const double high = side > 0.0 ? find_share(map->start[1], map->cell, map->n_up, y, side, row) : 1.0;
+        const double high = side > 0.0 ? find_share(map->start[1], map->cell[1], map->n_up, y, side, row) : 1.0;
         for (int column = columns[0]; column <= columns[1]; ++column) {
-            const double wide = side > 0.0 ? find_share(map->start[0], map->cell, map->n_across, x, side, column) : 1.0;
+            const double wide =
+                side > 0.0 ? find_share(map->start[0], map->cell[0], map->n_across, x, side, column) : 1.0;
             cells[row * (int64_t)map->n_across + column] += force * high * wide;
         }
     }
 }
 
+/* Soil's forces are spread over a spacing: over an edge of a uniform load they make a strip a quarter of a spacing wide
+ * an eighth too much, and a narrower one more. */
+double mor_gauge_map_pressure(const mor_gauge_map *map, int64_t cell, double force)
+{
+    const double rounding = 1.0 - 1.0e-9;
+    return map->covered[cell] >= map->least * rounding ? force / map->covered[cell] : NAN;
+}
+
 void mor_gauge_map_place(const mor_gauge_map *map, int64_t cell, double *plane)
 {
-    plane[0] = map->start[0] + ((double)(cell % map->n_across) + 0.5) * map->cell;
-    plane[1] = map->start[1] + ((double)(cell / map->n_across) + 0.5) * map->cell;
+    plane[0] = map->start[0] + ((double)(cell % map->n_across) + 0.5) * map->cell[0];
+    plane[1] = map->start[1] + ((double)(cell / map->n_across) + 0.5) * map->cell[1];
 }
 
 void mor_gauge_map_start(mor_gauge *gauge)

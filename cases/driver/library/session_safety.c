@@ -11,10 +11,12 @@
 #include "core/base/memory.h"
 
 #include <ctype.h>
+#include <dirent.h>
 #include <math.h>
 #include <string.h>
 
 #define MECHANISM_FOLDER "mechanism"
+#define SPACING_FOLDER "spacing-" /* then the spacing in m */
 
 enum { SPACINGS_MAX = 8, WORD_BYTES = 64, BAND_BYTES = 64 };
 
@@ -250,12 +252,40 @@ static mor_status find_levels(mor_session *session, const char *path, const mor_
         char name[WORD_BYTES];
         char inner[MOR_PATH_BYTES];
         MOR_TRY(context, load(session, path, &levels[k])); /* its spacing, as a number, names the folder */
-        snprintf(name, sizeof name, "spacing-%g", session->the_case.spacing);
+        snprintf(name, sizeof name, SPACING_FOLDER "%g", session->the_case.spacing);
         MOR_TRY(context, mor_durable_file_join(context, inner, folder, name));
         MOR_TRY(context, find_at(session, path, options, n > 1 ? inner : folder, &levels[k]));
         fprintf(session->output, "\n");
     }
     return n > 1 && !mor_session_is_stopping(session) ? write_levels(session, levels, n, folder) : MOR_OK;
+}
+
+/* A folder that holds results of another search, of one spacing or several, whole or interrupted. */
+static mor_status refuse_search(mor_context *context, const char *folder)
+{
+    static const char *const names[] = {"fos.json", "trials.csv", "spacings.csv"};
+    char found[MOR_PATH_BYTES] = "";
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        if (mor_run_folder_has(context, folder, names[k])) {
+            snprintf(found, sizeof found, "%s", names[k]);
+        }
+    }
+    DIR *entries = opendir(folder);
+    for (const struct dirent *entry = entries != NULL ? readdir(entries) : NULL; entry != NULL;
+         entry = readdir(entries)) {
+        if (strncmp(entry->d_name, SPACING_FOLDER, strlen(SPACING_FOLDER)) == 0) {
+            snprintf(found, sizeof found, "%s", entry->d_name);
+        }
+    }
+    if (entries != NULL) {
+        closedir(entries);
+    }
+    MOR_CHECK(
+        context, found[0] == '\0', MOR_ERROR_CONFIG,
+        "the folder '%s' already holds a search for a factor of safety: found '%s'; results of two searches would "
+        "lie side by side; choose another folder",
+        folder, found);
+    return MOR_OK;
 }
 
 mor_status mor_session_find_safety(mor_session *session, const char *path, const mor_session_safety *options,
@@ -269,6 +299,7 @@ mor_status mor_session_find_safety(mor_session *session, const char *path, const
     MOR_TRY(context, check_options(context, options));
     MOR_TRY(context, split_spacings(context, options->spacings, levels, &n));
     MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
+    MOR_TRY(context, refuse_search(context, folder));
     MOR_TRY(context, find_levels(session, path, options, folder, levels, n));
     *is_found = true;
     for (int k = 0; k < n; ++k) {

@@ -65,11 +65,15 @@ typedef struct counting {
 /* A run that went on for longer reached more, and an arrival at another depth is another event. */
 static mor_status check_settings(mor_context *context, const counting *it, const mor_terrain_raster *map, int run)
 {
+    MOR_CHECK(
+        context, map->settings[0] != '\0', MOR_ERROR_CONFIG,
+        "found a map in '%s' that does not tell its end, spacing and depths, as those of earlier versions; resume "
+        "the run, which writes its maps anew, or leave it out",
+        it->ensemble->folders[run]);
     MOR_CHECK(context, strcmp(map->settings, it->map.settings) == 0, MOR_ERROR_CONFIG,
               "found maps of runs that differ: '%s' has %s, '%s' has %s; allowed: runs of one end, spacing and depths; "
               "resume the shorter ones with the end of the others, or leave them out",
-              it->ensemble->folders[0], it->map.settings[0] != '\0' ? it->map.settings : "no settings",
-              it->ensemble->folders[run], map->settings[0] != '\0' ? map->settings : "no settings");
+              it->ensemble->folders[0], it->map.settings, it->ensemble->folders[run], map->settings);
     return MOR_OK;
 }
 
@@ -86,6 +90,13 @@ static mor_status check_grid(mor_context *context, const counting *it, const mor
               "%.9g m from (%.9g, %.9g) m on; allowed: runs whose maps have the same cells; leave one of them out",
               it->ensemble->folders[0], first->n[0], first->n[1], first->cell[0], first->corner[0], first->corner[1],
               it->ensemble->folders[run], map->n[0], map->n[1], map->cell[0], map->corner[0], map->corner[1]);
+    const char *systems[] = {first->system != NULL ? first->system : "none",
+                             map->system != NULL ? map->system : "none"};
+    MOR_CHECK(
+        context, strcmp(systems[0], systems[1]) == 0, MOR_ERROR_CONFIG,
+        "found maps in two reference systems: '%s' has %.300s, '%s' has %.300s; allowed: runs whose maps have the "
+        "same; leave one of them out",
+        it->ensemble->folders[0], systems[0], it->ensemble->folders[run], systems[1]);
     return MOR_OK;
 }
 
@@ -116,6 +127,7 @@ static mor_status read_run(mor_context *context, counting *it, int run)
         it->map = map;
         const int64_t n = (int64_t)map.n[0] * map.n[1];
         map = (mor_terrain_raster){.values = NULL};
+        MOR_TRY(context, check_settings(context, it, &it->map, run));
         MOR_TRY(context, MOR_NEW(context, &it->counts, n, "counts of runs"));
         MOR_TRY(context, MOR_NEW(context, &it->is_seen, n, "counts of runs"));
         MOR_TRY(context, mor_map_read(context, folder, "ground", &it->ground, &is_there));

@@ -40,7 +40,8 @@ void mor_map_ensemble_names(char *text, size_t n_bytes);
  *  the picture images/map-exceed-<map>.png.
  *  @param folder [in]      zero-terminated; made when missing
  *  @param output [in,out]  one open stream; the paths are printed to it
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when a run lacks the map, or has it on another grid; MOR_ERROR_IO;
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when a run lacks the map, or has it on another grid, in another
+ *  reference system, or of another end, spacing or depths, or does not tell these; MOR_ERROR_IO;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_map_ensemble_write(mor_context *context, const mor_map_ensemble *ensemble, const char *folder,
                                   FILE *output);

@@ -133,13 +133,18 @@ static int64_t find_most_particles(const mor_simulation *simulation)
 
 mor_status mor_map_remove(mor_context *context, const mor_map_track *track, const char *folder)
 {
+    static const char *const files[][2] = {
+        {MOR_MAP_FOLDER "/", ".tif"}, {MOR_MAP_FOLDER "/", ".qml"}, {"images/map-", ".png"}};
     for (const mor_map_kind *kind = mor_map_kinds; track != NULL && kind->name != NULL; ++kind) {
-        char path[MOR_PATH_BYTES];
-        char name[MOR_TERRAIN_RASTER_NAME_BYTES];
-        snprintf(name, sizeof name, MOR_MAP_FOLDER "/%s.tif", kind->name);
-        MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
-        MOR_CHECK(context, remove(path) == 0 || errno == ENOENT, MOR_ERROR_IO,
-                  "the map '%s' of an earlier end cannot be removed (%s); remove it by hand", path, strerror(errno));
+        for (size_t k = 0; k < sizeof files / sizeof *files; ++k) {
+            char path[MOR_PATH_BYTES];
+            char name[MOR_TERRAIN_RASTER_NAME_BYTES];
+            snprintf(name, sizeof name, "%s%s%s", files[k][0], kind->name, files[k][1]);
+            MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
+            MOR_CHECK(context, remove(path) == 0 || errno == ENOENT, MOR_ERROR_IO,
+                      "the map '%s' of an earlier end cannot be removed (%s); remove it by hand", path,
+                      strerror(errno));
+        }
     }
     return MOR_OK;
 }

@@ -32,8 +32,8 @@ typedef struct mor_map_results {
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_map_write(mor_context *context, mor_map_track *track, const char *folder, mor_map_results *results);
 
-/** Removes the maps that an earlier end of the same run left in a folder: of a run that goes on they are true no
- *  longer.
+/** Removes the maps that an earlier end of the same run left in a folder, with their styles and pictures: of a run that
+ *  goes on they are no longer true.
  *  @param track   [in]      NULL: nothing is removed
  *  @param folder  [in]      zero-terminated; of the run
  *  Returns: MOR_OK; MOR_ERROR_IO. */

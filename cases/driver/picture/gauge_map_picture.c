@@ -30,8 +30,8 @@ enum {
 /* The map while it is drawn. */
 typedef struct sheet {
     const mor_table_data *data;
-    double cell;   /* m */
-    double low[2]; /* edges, m */
+    double cell[2]; /* across and up, m */
+    double low[2];  /* edges, m */
     double high[2];
     double largest; /* peak pressure of all cells, Pa */
     mor_colormap colors;
@@ -49,10 +49,16 @@ static void measure(sheet *s)
         s->high[a] = -INFINITY;
     }
     s->largest = 0.0;
+    for (int64_t row = 1; row < s->data->n_rows; ++row) {
+        for (int a = 0; a < 2; ++a) { /* of a single cell along an axis: the side asked for */
+            const double step = at(s, row, a) - at(s, row - 1, a);
+            s->cell[a] = step > 0.0 ? step : s->cell[a];
+        }
+    }
     for (int64_t row = 0; row < s->data->n_rows; ++row) {
         for (int a = 0; a < 2; ++a) {
-            s->low[a] = fmin(s->low[a], at(s, row, a) - 0.5 * s->cell);
-            s->high[a] = fmax(s->high[a], at(s, row, a) + 0.5 * s->cell);
+            s->low[a] = fmin(s->low[a], at(s, row, a) - 0.5 * s->cell[a]);
+            s->high[a] = fmax(s->high[a], at(s, row, a) + 0.5 * s->cell[a]);
         }
         s->largest = fmax(s->largest, at(s, row, PEAK));
     }
@@ -80,14 +86,15 @@ static void fill(mor_canvas *canvas, const sheet *s, double value, double left, 
 static void draw_cells(mor_canvas *canvas, const sheet *s, const mor_axes *axes)
 {
     for (int64_t row = 0; row < s->data->n_rows; ++row) {
-        const double corner[2] = {at(s, row, ACROSS) - 0.5 * s->cell, at(s, row, UP) + 0.5 * s->cell};
-        const double other[2] = {corner[0] + s->cell, corner[1] - s->cell};
+        const double corner[2] = {at(s, row, ACROSS) - 0.5 * s->cell[0], at(s, row, UP) + 0.5 * s->cell[1]};
+        const double other[2] = {corner[0] + s->cell[0], corner[1] - s->cell[1]};
         double from[2];
         double to[2];
         mor_axes_place(axes, corner, from);
         mor_axes_place(axes, other, to);
-        const double value = at(s, row, PEAK);
-        fill(canvas, s, isfinite(value) ? value : 0.0, from[0], from[1], to[0] - from[0], to[1] - from[1]);
+        if (isfinite(at(s, row, PEAK))) { /* the structure is there */
+            fill(canvas, s, at(s, row, PEAK), from[0], from[1], to[0] - from[0], to[1] - from[1]);
+        }
     }
 }
 
@@ -177,10 +184,10 @@ mor_status mor_gauge_map_picture_draw(mor_context *context, const mor_case_gauge
     mor_table_data data;
     char title[LABEL_BYTES + MOR_CASE_NAME_BYTES];
     MOR_TRY(context, mor_table_data_read(context, &data, table));
-    sheet s = {.data = &data, .cell = gauge->cell};
+    sheet s = {.data = &data, .cell = {gauge->cell, gauge->cell}};
     measure(&s);
     mor_colormap_init(&s.colors);
-    const bool is_profile = s.high[0] - s.low[0] < 1.5 * s.cell;
+    const bool is_profile = s.high[0] - s.low[0] < 1.5 * s.cell[0];
     snprintf(title, sizeof title, "gauge %s: %s", gauge->name,
              is_profile ? "pressure over height" : "peak pressure of the soil, seen along its direction");
     const mor_status status = !(s.largest > 0.0) ? MOR_OK

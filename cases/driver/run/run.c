@@ -144,7 +144,9 @@ static mor_status start_run(mor_context *context, mor_run_files *files, loop_sta
     if (is_restored) {
         MOR_TRY(context, mor_run_files_renew_case(context, files));
     }
-    MOR_TRY(context, mor_map_remove(context, files->simulation->maps, files->options->folder));
+    if (files->simulation->schedule.now < files->simulation->schedule.end) { /* else they are still true */
+        MOR_TRY(context, mor_map_remove(context, files->simulation->maps, files->options->folder));
+    }
     MOR_TRY(context, mor_run_files_start(context, files, is_restored));
     if (!is_restored) {
         MOR_TRY(context, mor_run_files_add_row(context, files));

@@ -138,8 +138,10 @@ static void write_map(const mor_simulation *s, const mor_gauge *gauge, FILE *str
 {
     const mor_gauge_map *map = &gauge->map;
     const int64_t cells = mor_gauge_map_cells(map);
-    fprintf(stream, "across [m],up [m],x [m],y [m],z [m],peak_soil [Pa],time_soil [s],last_soil [Pa],peak_bodies [Pa],"
-                    "time_bodies [s]\n");
+    fprintf(stream,
+            "across [m],up [m],x [m],y [m],z [m],peak_soil [Pa],time_soil [s],last_soil [Pa],peak_bodies [Pa],"
+            "time_bodies [s],covered [%s]\n",
+            s->the_case->dimension == 2 ? "m" : "m2");
     for (int64_t k = 0; k < cells; ++k) {
         double plane[2];
         double placed[3];
@@ -150,11 +152,12 @@ static void write_map(const mor_simulation *s, const mor_gauge *gauge, FILE *str
         }
         mor_simulation_take_point_back(s->the_case, placed, point);
         fprintf(stream, "%.9g,%.9g,%.9g,%.9g,%.9g", plane[0], plane[1], point[0], point[1], point[2]);
-        print_cell(stream, map->peak[k] / map->area);
+        print_cell(stream, mor_gauge_map_pressure(map, k, map->peak[k]));
         print_cell(stream, map->time[k]);
-        print_cell(stream, map->filtered[k] / map->area);
+        print_cell(stream, mor_gauge_map_pressure(map, k, map->filtered[k]));
         print_cell(stream, map->peak[cells + k] / map->area);
         print_cell(stream, map->time[cells + k]);
+        print_cell(stream, map->covered[k]);
         fputc('\n', stream);
     }
 }

@@ -37,6 +37,10 @@ static mor_status check_course(mor_context *context, const mor_case *c)
               "found start_from in '%s', but a search for a factor of safety settles the soil itself; leave it out and "
               "give the soil the shape it has then",
               c->path);
+    MOR_CHECK(context, c->outflow == 0, MOR_ERROR_CONFIG,
+              "found domain.outflow = \"remove\" in '%s', but soil that has left would count neither as moving nor as "
+              "displaced; allowed: \"stop\", with a domain that holds the slope while it slides",
+              c->path);
     for (int k = 0; k < c->n_walls + c->n_bodies; ++k) {
         const bool is_wall = k < c->n_walls;
         const char *name = is_wall ? c->walls[k].name : c->bodies[k - c->n_walls].name;

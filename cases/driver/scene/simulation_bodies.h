@@ -71,6 +71,10 @@ void mor_simulation_body_frame(const mor_case *the_case, const mor_case_body *bo
  *  @param box      [out]  unit m */
 void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body, mor_bounds *box);
 
+/** Writes the box around a body at its place in the run.
+ *  @param box      [out]  unit m */
+void mor_simulation_body_extent(const mor_case *the_case, const mor_case_body *body, mor_bounds *box);
+
 /** Whether a point lies in a box; if not, it lies not in its body either.
  *  @param box   [in]  from mor_simulation_body_box
  *  @param point [in]  shape [3], unit m */

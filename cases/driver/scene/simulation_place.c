@@ -101,3 +101,11 @@ void mor_simulation_body_box(const mor_case *the_case, const mor_case_body *body
     mor_simulation_body_frame(the_case, body, rotation, translation);
     find_box(body->shape, rotation, translation, TOUCHING * the_case->spacing, box);
 }
+
+void mor_simulation_body_extent(const mor_case *the_case, const mor_case_body *body, mor_bounds *box)
+{
+    double rotation[9];
+    double translation[3];
+    mor_simulation_body_frame(the_case, body, rotation, translation);
+    find_box(body->shape, rotation, translation, 0.0, box);
+}

@@ -146,8 +146,8 @@ static const mor_case_key gauge_keys[] = {
      AT(mor_case_gauge, cutoff),
      .computed = "none"},
     {{"cell", MOR_SCHEMA_REAL, 1, "m", 0, NAN, ABOVE(0.0, INFINITY), NULL,
-      "side of the cells of a map of pressure, in the plane across direction; no less than a spacing resolves "
-      "anything"},
+      "about the side of the cells of a map of pressure, in the plane across direction: they divide its extent "
+      "evenly; no less than a spacing resolves anything"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_gauge, cell),
      .computed = "no map"},

@@ -21,13 +21,14 @@ static const double depths[RUNS][CELLS] = {{NAN, 2.5, 2.0, 3.0, 9.0, NAN},
                                            {0.5, 1.0, NAN, 1.0, 9.0, NAN}};
 
 static void store_map_of(run_folder *folder, const char *run, const char *name, const double *values, double corner,
-                         const char *settings)
+                         const char *settings, char *system)
 {
     char path[MOR_PATH_BYTES];
     char file[64];
     double copy[CELLS];
     memcpy(copy, values, sizeof copy);
-    mor_terrain_raster map = {.corner = {corner, 7.0}, .cell = {2.0, 2.0}, .n = {3, 2}, .values = copy};
+    mor_terrain_raster map = {
+        .corner = {corner, 7.0}, .cell = {2.0, 2.0}, .n = {3, 2}, .system = system, .values = copy};
     snprintf(map.settings, sizeof map.settings, "%s", settings);
     assert_int_equal(mor_durable_file_make_folder(&folder->context, run_folder_file(folder, path, run)), MOR_OK);
     snprintf(file, sizeof file, "%s/maps", run);
@@ -38,7 +39,7 @@ static void store_map_of(run_folder *folder, const char *run, const char *name, 
 
 static void store_map(run_folder *folder, const char *run, const char *name, const double *values, double corner)
 {
-    store_map_of(folder, run, name, values, corner, "end 10 s");
+    store_map_of(folder, run, name, values, corner, "end 10 s", NULL);
 }
 
 /* Paths of the runs, with maps of that name. */
@@ -152,13 +153,26 @@ static void runs_that_do_not_go_together_are_refused(void **state)
     ensemble.value = NAN;
     assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
     ensemble.value = 2.0;
-    store_map_of(folder, "run2", "depth_max", depths[2], 3.0, "end 20 s");
+    store_map_of(folder, "run2", "depth_max", depths[2], 3.0, "end 20 s", NULL);
     assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
     assert_non_null(strstr(folder->context.message, "has end 10 s"));
     assert_non_null(strstr(folder->context.message, "has end 20 s; allowed"));
     store_map(folder, "run2", "depth_max", depths[2], 4.0);
     assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
     assert_non_null(strstr(folder->context.message, "maps on two grids"));
+    char system[] = "LOCAL_CS[\"grid of a mine\",UNIT[\"metre\",1]]";
+    store_map_of(folder, "run2", "depth_max", depths[2], 3.0, "end 10 s", system);
+    assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
+    assert_non_null(strstr(folder->context.message, "two reference systems"));
+    assert_non_null(strstr(folder->context.message, "grid of a mine"));
+    for (int k = 0; k < RUNS; ++k) { /* as earlier versions wrote them: of which end they are is not known */
+        char run[16];
+        snprintf(run, sizeof run, "run%d", k);
+        store_map_of(folder, run, "depth_max", depths[k], 3.0, "", NULL);
+    }
+    assert_int_equal(mor_map_ensemble_write(&folder->context, &ensemble, out, output), MOR_ERROR_CONFIG);
+    assert_non_null(strstr(folder->context.message, "run0"));
+    assert_non_null(strstr(folder->context.message, "resume the run"));
     fclose(output);
     assert_int_not_equal(access(out, F_OK), 0);
 }

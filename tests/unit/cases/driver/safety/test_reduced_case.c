@@ -150,6 +150,15 @@ static void what_is_removed_in_the_course_of_a_run_is_refused(void **state)
                    "removed_at of wall 'gate'");
 }
 
+/* What has left is in no percentile of speed or displacement: the slope would seem to rest once it has slid away. */
+static void soil_that_may_leave_is_refused(void **state)
+{
+    (void)state;
+    expect_refusal("dimension = 2; spacing = 0.1; end = 3; gravity = (0, -9.81); title = \"chute\";\n"
+                   "domain = { min = (-1, -1); max = (5, 5); outflow = \"remove\"; };\n" SOIL(""),
+                   "domain.outflow = \"remove\"");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +167,7 @@ int main(void)
         cmocka_unit_test(the_start_follows_what_the_case_asks_for),
         cmocka_unit_test(a_stress_that_is_not_of_its_weight_is_no_start),
         cmocka_unit_test(no_soil_sleeps),
+        cmocka_unit_test(soil_that_may_leave_is_refused),
         cmocka_unit_test(what_is_removed_in_the_course_of_a_run_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
