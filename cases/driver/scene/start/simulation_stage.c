@@ -34,10 +34,25 @@ static mor_status read_soil(mor_context *context, mor_taken_soil *taken)
     return MOR_OK;
 }
 
-mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, mor_taken_soil *taken)
+/* Bodies whose group the run did not have; the others have moved since. */
+static mor_status list_new_bodies(mor_context *context, const mor_simulation_bodies *bodies, mor_taken_soil *taken)
+{
+    const int n_bodies = taken->the_case->n_bodies;
+    MOR_TRY(context, MOR_NEW(context, &taken->new_bodies, n_bodies, "new bodies of a stage"));
+    for (int b = 0; b < n_bodies; ++b) {
+        int64_t n = 0;
+        MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, bodies->of[b].group->set.name, &n));
+        if (n < 0) {
+            taken->new_bodies[taken->n_new_bodies++] = b;
+        }
+    }
+    return MOR_OK;
+}
+
+mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, const mor_simulation_bodies *bodies,
+                               mor_taken_soil *taken)
 {
     const mor_case_stage *stage = &the_case->stage;
-    int64_t n_rigid = 0;
     memset(taken, 0, sizeof *taken);
     if (stage->run[0] == '\0') {
         return MOR_OK;
@@ -45,8 +60,7 @@ mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, m
     taken->the_case = the_case;
     MOR_TRY(context, mor_checkpoint_view_open(context, stage->run, &taken->view));
     MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, SOIL_SET, &taken->n));
-    MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, "rigid", &n_rigid));
-    taken->has_bodies = n_rigid >= 0;
+    MOR_TRY(context, list_new_bodies(context, bodies, taken));
     MOR_CHECK(context, taken->n > 0, MOR_ERROR_CONFIG,
               "%s:%d: found a run without soil, '%s', to start from; allowed: one with soil; correct start_from",
               stage->place.file, stage->place.line, stage->run);
@@ -59,25 +73,33 @@ void mor_taken_soil_close(mor_context *context, mor_taken_soil *taken)
     MOR_FREE(context, &taken->positions);
     MOR_FREE(context, &taken->regions);
     MOR_FREE(context, &taken->sources);
+    MOR_FREE(context, &taken->new_bodies);
     memset(taken, 0, sizeof *taken);
 }
 
 /* ---- Particles --------------------------------------------------------------------------------------------------- */
 
-static bool is_left_out(const mor_taken_soil *taken, const double *placed)
+static bool is_excavated(const mor_case *c, const double *placed)
 {
-    const mor_case *c = taken->the_case;
     double place[3];
     bool is = false;
     mor_simulation_take_point_back(c, placed, place);
     for (int k = 0; k < c->stage.n_excavations && !is; ++k) {
         is = mor_shape_distance(c->stage.excavations[k], place) < 0.0;
     }
-    for (int b = 0; b < c->n_bodies && !is && !taken->has_bodies; ++b) {
+    return is;
+}
+
+static bool is_in_new_body(const mor_taken_soil *taken, const double *placed)
+{
+    const mor_case *c = taken->the_case;
+    bool is = false;
+    for (int k = 0; k < taken->n_new_bodies && !is; ++k) {
+        const mor_case_body *it = &c->bodies[taken->new_bodies[k]];
         double rotation[9];
         double translation[3];
-        mor_simulation_body_frame(c, &c->bodies[b], rotation, translation);
-        is = mor_simulation_placed_distance(c->bodies[b].shape, rotation, translation, placed) < 0.0;
+        mor_simulation_body_frame(c, it, rotation, translation);
+        is = mor_simulation_placed_distance(it->shape, rotation, translation, placed) < 0.0;
     }
     return is;
 }
@@ -125,35 +147,49 @@ static mor_status check_domain(mor_context *context, const mor_taken_soil *taken
     return MOR_OK;
 }
 
-mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int soil, mor_lattice_points *points)
+/* Lists the particles of a region that are taken over, and says how many are not. */
+static mor_status list_sources(mor_context *context, mor_taken_soil *taken, int soil)
 {
     const mor_case *c = taken->the_case;
     const double region = c->stage.region_of[soil];
     int64_t n_of_region = 0;
+    int64_t n_excavated = 0;
     taken->first[soil] = taken->n_taken;
     for (int64_t i = 0; i < taken->n; ++i) {
         const bool is_mine = taken->regions != NULL ? taken->regions[i] == region : region == 0.0;
+        const bool is_out = is_mine && is_excavated(c, taken->positions + 3 * i);
         n_of_region += is_mine;
-        if (is_mine && !is_left_out(taken, taken->positions + 3 * i)) {
+        n_excavated += is_out;
+        if (is_mine && !is_out && !is_in_new_body(taken, taken->positions + 3 * i)) {
             taken->sources[taken->n_taken++] = i;
         }
     }
     const int64_t n = taken->n_taken - taken->first[soil];
     taken->count[soil] = n;
-    MOR_CHECK(
-        context, n > 0, MOR_ERROR_CONFIG,
-        "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations; allowed: "
-        "at least one; remove the soil from the case, or make the excavations smaller",
-        c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
-        c->stage.run);
+    MOR_CHECK(context, n > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations and new "
+              "bodies; "
+              "allowed: at least one; remove the soil from the case, or make the excavations smaller",
+              c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
+              c->stage.run);
+    mor_context_log(context, MOR_LOG_INFO,
+                    "soil '%s': %lld of %lld particles taken over from '%s'; %lld are excavated, %lld where new bodies "
+                    "are",
+                    c->soils[soil].name, (long long)n, (long long)n_of_region, c->stage.run, (long long)n_excavated,
+                    (long long)(n_of_region - n_excavated - n));
+    return MOR_OK;
+}
+
+mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int soil, mor_lattice_points *points)
+{
+    MOR_TRY(context, list_sources(context, taken, soil));
+    const int64_t n = taken->count[soil];
     MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * n, "soil of the run before"));
     points->n_points = n;
     for (int64_t k = 0; k < n; ++k) {
         memcpy(points->positions + 3 * k, taken->positions + 3 * taken->sources[taken->first[soil] + k],
                3 * sizeof *points->positions);
     }
-    mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles taken over from '%s'",
-                    c->soils[soil].name, (long long)n, (long long)n_of_region, c->stage.run);
     MOR_TRY(context, check_domain(context, taken, soil, points));
     return check_walls(context, taken, soil, points);
 }
