@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/start/simulation_stage.h"
 
+#include "cases/driver/case/schema/case_schema.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
@@ -104,30 +105,39 @@ static bool is_in_new_body(const mor_taken_soil *taken, const double *placed)
     return is;
 }
 
+/* What lies too deep in a wall or body. Zeroed: nothing. */
+typedef struct pressed_soil {
+    int64_t n_inside;
+    double deepest; /* m */
+    double place[3];
+} pressed_soil;
+
+static void note_depth(const mor_case *c, double depth, const double *place, pressed_soil *found)
+{
+    found->n_inside += depth > PRESSED * c->spacing;
+    if (depth > found->deepest) {
+        found->deepest = depth;
+        memcpy(found->place, place, sizeof found->place);
+    }
+}
+
 static mor_status check_walls(mor_context *context, const mor_taken_soil *taken, int soil,
                               const mor_lattice_points *points)
 {
     const mor_case *c = taken->the_case;
     for (int w = 0; w < c->n_walls; ++w) {
-        int64_t n_inside = 0;
-        double deepest = 0.0;
-        double place[3] = {0.0, 0.0, 0.0};
+        pressed_soil found = {0};
         for (int64_t i = 0; i < points->n_points; ++i) {
             double x[3];
             mor_simulation_take_point_back(c, points->positions + 3 * i, x);
-            const double depth = -mor_shape_distance(c->walls[w].shape, x);
-            n_inside += depth > PRESSED * c->spacing;
-            if (depth > deepest) {
-                deepest = depth;
-                memcpy(place, x, sizeof place);
-            }
+            note_depth(c, -mor_shape_distance(c->walls[w].shape, x), x, &found);
         }
-        MOR_CHECK(context, n_inside == 0, MOR_ERROR_CONFIG,
+        MOR_CHECK(context, found.n_inside == 0, MOR_ERROR_CONFIG,
                   "%s:%d: found wall '%s' where soil '%s' of the run '%s' is: %lld particles lie inside, the deepest "
                   "%.4g m at (%.6g, %.6g, %.6g) m; allowed is half a spacing; move the wall, or list its shape in "
                   "excavate",
                   c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->soils[soil].name, c->stage.run,
-                  (long long)n_inside, deepest, place[0], place[1], place[2]);
+                  (long long)found.n_inside, found.deepest, found.place[0], found.place[1], found.place[2]);
     }
     return MOR_OK;
 }
@@ -346,7 +356,7 @@ mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *take
 /* Sums since the start begin anew. */
 static bool is_sum(const char *name)
 {
-    static const char *const words[] = {"impulse", "energy", "work", "removed", "share"};
+    static const char *const words[] = {"impulse", "energy", "work", "share"};
     bool is = false;
     for (size_t k = 0; k < sizeof words / sizeof *words; ++k) {
         is = is || strstr(name, words[k]) != NULL;
@@ -397,6 +407,79 @@ static mor_status take_group(mor_context *context, mor_simulation *simulation, m
     return MOR_OK;
 }
 
+/* Where a rigid body is at the start, and how it got there from its place in the case. */
+static void find_start_pose(const mor_simulation *simulation, int number, mor_pose *pose)
+{
+    static const double still[3] = {0.0, 0.0, 0.0};
+    const mor_simulation_bodies *bodies = &simulation->bodies;
+    const mor_body *body = &bodies->of[number].group->bodies[bodies->of[number].index];
+    *pose = mor_pose_uniform(still, 0.0);
+    if (number < bodies->n_motions && bodies->motions[number].n_rows > 0) {
+        mor_motion_find(&bodies->motions[number], 0.0, pose);
+    } else if (!simulation->the_case->bodies[number].is_prescribed) {
+        double rotated[3];
+        memcpy(pose->rotation, body->rotation, sizeof pose->rotation);
+        mor_matrix_apply(body->rotation, body->geometry.center, rotated);
+        for (int a = 0; a < 3; ++a) {
+            pose->translation[a] = body->center[a] - rotated[a];
+        }
+    }
+}
+
+/* Whether a particle of the soil was there with a free body that was taken over: what it touches lies where it may. */
+static bool came_with(const mor_simulation *simulation, int number, int64_t particle)
+{
+    const mor_case *c = simulation->the_case;
+    const int field = simulation->soil.region_field;
+    const int soil = field >= 0 ? (int)simulation->soil.set.data[field][particle] : 0;
+    return !c->bodies[number].is_prescribed && mor_case_takes_over(c, soil);
+}
+
+static mor_status check_body(mor_context *context, const mor_simulation *simulation, int number)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_case_body *it = &c->bodies[number];
+    const mor_body *body = &simulation->bodies.of[number].group->bodies[simulation->bodies.of[number].index];
+    pressed_soil found = {0};
+    mor_pose pose;
+    find_start_pose(simulation, number, &pose);
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        const double *x = simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
+        double start[3];
+        double place[3];
+        if (came_with(simulation, number, i)) {
+            continue;
+        }
+        mor_pose_take_back(&pose, x, start);
+        mor_simulation_take_point_back(c, x, place);
+        note_depth(c,
+                   -mor_simulation_placed_distance(body->shape, body->shape_rotation, body->shape_translation, start),
+                   place, &found);
+    }
+    MOR_CHECK(context, found.n_inside == 0, MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' where soil is that starts with it from the run '%s': %lld particles lie inside, "
+              "the deepest %.4g m at (%.6g, %.6g, %.6g) m; allowed is half a spacing; a body that moves as prescribed "
+              "begins where the case places it, others where they were in the run: move the former, or list its shape "
+              "in excavate, and cut new soil off around the latter with a difference",
+              it->place.file, it->place.line, it->name, c->stage.run, (long long)found.n_inside, found.deepest,
+              found.place[0], found.place[1], found.place[2]);
+    return MOR_OK;
+}
+
+/* Which rigid bodies are there, and that no soil is where they are. */
+static mor_status finish_bodies(mor_context *context, mor_simulation *simulation)
+{
+    for (int b = 0; b < simulation->the_case->n_bodies; ++b) {
+        const mor_simulation_body *it = &simulation->bodies.of[b];
+        const bool is_removed = it->group->boundary.patches[it->index].is_removed;
+        it->group->bodies[it->index].is_absent = is_removed;
+        if (simulation->has_soil && !is_removed && mor_case_body_is_rigid(&simulation->the_case->bodies[b])) {
+            MOR_TRY(context, check_body(context, simulation, b));
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simulation)
 {
     const mor_case_stage *stage = &simulation->the_case->stage;
@@ -417,5 +500,6 @@ mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simu
     mor_checkpoint_view_close(context, &view);
     MOR_TRY(context, status);
     mor_contact_resume(&simulation->bodies.contact, 0.0);
-    return mor_schedule_resume(context, &simulation->schedule);
+    MOR_TRY(context, mor_schedule_resume(context, &simulation->schedule));
+    return finish_bodies(context, simulation);
 }

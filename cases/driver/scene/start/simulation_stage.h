@@ -61,9 +61,10 @@ mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken
 mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation);
 
 /** Gives bodies and their contact the state of the run that the case starts from; those of a kind that the run did not
- *  have stay as they were built, and bodies that move as prescribed start where the case places them.
+ *  have stay as they were built, bodies that move as prescribed start where the case places them, and bodies that were
+ *  removed stay so.
  *  @param simulation [in,out]  whole, its state listed
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when the bodies of both differ; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the bodies of both differ, or when soil lies in a rigid body; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simulation);
 
 #endif
