@@ -59,9 +59,8 @@ mor_status mor_checkpoint_view_field(mor_context *context, mor_checkpoint_view *
     MOR_TRY(context, mor_hdf5_file_shape(context, view->file, name, &shape));
     MOR_TRY(context, mor_checkpoint_view_count(context, view, set, &n));
     MOR_CHECK(context, shape.n_rows == n, MOR_ERROR_IO,
-              "found %lld rows of '%s' in a checkpoint, whose set '%s' has %lld particles; allowed: a row for each; "
-              "the file was not written by this program: run the case that it is of again",
-              (long long)shape.n_rows, field, set, (long long)n);
+              "found %lld rows of '%s' for %lld particles; run that case again", (long long)shape.n_rows, name,
+              (long long)n);
     *is_there = shape.kind == MOR_HDF5_DOUBLE && shape.n_columns == n_components;
     return *is_there ? mor_hdf5_file_read(context, view->file, name, &shape, values) : MOR_OK;
 }

@@ -5,8 +5,8 @@
 
 #include "cases/driver/scene/build/memory_room.h"
 #include "cases/driver/scene/build/simulation_terrain.h"
-#include "cases/driver/scene/build/wall_sweep.h"
 #include "cases/driver/scene/start/simulation_stage.h"
+#include "cases/driver/scene/wall_sweep.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
@@ -120,24 +120,6 @@ static mor_status fill_wall(mor_context *context, const mor_wall_sweep *sweep, i
     return fill_shape(context, &wanted, &request, points, shares);
 }
 
-/* Earlier walls out of which points come in the course of the motion.
- *  @param shown  [in,out]  shape [walls]; those that may uncover points; at the end, those that do
- *  @param points [in]      filled with all of them shown */
-static bool find_shown(const mor_wall_sweep *sweep, const mor_lattice_points *points, bool *shown)
-{
-    bool is_any = false;
-    for (int w = 0; w < sweep->wall; ++w) {
-        bool does = false;
-        for (int64_t i = 0; i < points->n_points && shown[w] && !does; ++i) {
-            const double *point = points->positions + 3 * i;
-            does = mor_wall_sweep_is_covered(sweep, w, point) && mor_wall_sweep_uncovers(sweep, w, point);
-        }
-        shown[w] = does;
-        is_any = is_any || does;
-    }
-    return is_any;
-}
-
 /* Leaves out points that lie in one of the walls shown and do not come out of it. */
 static void drop_covered(const mor_wall_sweep *sweep, const bool *shown, mor_lattice_points *points, double *shares)
 {
@@ -170,7 +152,7 @@ static mor_status fill_swept_wall(mor_context *context, const mor_wall_sweep *sw
     }
     if (is_any) {
         MOR_TRY(context, fill_wall(context, sweep, layers, shown, points, shares));
-        is_any = find_shown(sweep, points, shown);
+        is_any = mor_wall_sweep_find_shown(sweep, points->positions, points->n_points, shown);
         mor_lattice_clear(context, points);
         MOR_FREE(context, shares);
     }

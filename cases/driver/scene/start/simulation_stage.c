@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/start/simulation_stage.h"
 
-#include "cases/driver/case/schema/case_schema.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
@@ -472,8 +471,9 @@ static mor_status finish_bodies(mor_context *context, mor_simulation *simulation
     for (int b = 0; b < simulation->the_case->n_bodies; ++b) {
         const mor_simulation_body *it = &simulation->bodies.of[b];
         const bool is_removed = it->group->boundary.patches[it->index].is_removed;
+        const bool is_rigid = it->group->operations->strain_energy == NULL; /* its shape does not change */
         it->group->bodies[it->index].is_absent = is_removed;
-        if (simulation->has_soil && !is_removed && mor_case_body_is_rigid(&simulation->the_case->bodies[b])) {
+        if (simulation->has_soil && !is_removed && is_rigid) {
             MOR_TRY(context, check_body(context, simulation, b));
         }
     }

@@ -64,7 +64,8 @@ mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *take
  *  have stay as they were built, bodies that move as prescribed start where the case places them, and bodies that were
  *  removed stay so.
  *  @param simulation [in,out]  whole, its state listed
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when the bodies of both differ, or when soil lies in a rigid body; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the bodies of both differ, or when soil lies in a rigid
+ *  body; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simulation);
 
 #endif

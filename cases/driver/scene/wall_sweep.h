@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SCENE_BUILD_WALL_SWEEP_H
-#define MOR_CASES_DRIVER_SCENE_BUILD_WALL_SWEEP_H
+#ifndef MOR_CASES_DRIVER_SCENE_WALL_SWEEP_H
+#define MOR_CASES_DRIVER_SCENE_WALL_SWEEP_H
 
 #include "cases/driver/case/case.h"
 #include "core/geometry/motion.h"
@@ -51,5 +51,11 @@ bool mor_wall_sweep_is_covered(const mor_wall_sweep *sweep, int earlier, const d
  *  @param point   [in]  shape [3], at the start, in the frame of the run, unit m
  *  Cost: O(times) distances. */
 bool mor_wall_sweep_uncovers(const mor_wall_sweep *sweep, int earlier, const double *point);
+
+/** Finds the earlier walls out of which points come in the course of the motion, and says whether there are any.
+ *  @param points [in]      shape [n, 3]; of the wall, those in the walls shown among them, unit m
+ *  @param n      [in]      number of points
+ *  @param shown  [in,out]  shape [wall]; earlier walls that may uncover points; at the end those that do */
+bool mor_wall_sweep_find_shown(const mor_wall_sweep *sweep, const double *points, int64_t n, bool *shown);
 
 #endif

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/scene/build/wall_sweep.h"
+#include "cases/driver/scene/wall_sweep.h"
 
 #include "cases/driver/scene/simulation.h"
 #include "cases/driver/scene/simulation_motion.h"
@@ -206,4 +206,19 @@ bool mor_wall_sweep_uncovers(const mor_wall_sweep *sweep, int earlier, const dou
                  (time >= removal || !is_in_wall(sweep, earlier, time, placed));
     }
     return is_out;
+}
+
+bool mor_wall_sweep_find_shown(const mor_wall_sweep *sweep, const double *points, int64_t n, bool *shown)
+{
+    bool is_any = false;
+    for (int w = 0; w < sweep->wall; ++w) {
+        bool does = false;
+        for (int64_t i = 0; i < n && shown[w] && !does; ++i) {
+            const double *point = points + 3 * i;
+            does = mor_wall_sweep_is_covered(sweep, w, point) && mor_wall_sweep_uncovers(sweep, w, point);
+        }
+        shown[w] = does;
+        is_any = is_any || does;
+    }
+    return is_any;
 }
