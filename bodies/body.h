@@ -96,6 +96,7 @@ typedef struct mor_body {
     double begin_velocity[3];         /* of the center when the last common step began, m/s */
     double begin_angular_velocity[3]; /* likewise, rad/s */
     bool is_held;            /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
+    bool is_absent;          /* was removed before the run began: its energy does not count */
     double added_mass_ratio; /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
     bool is_light;           /* that ratio is above 1, or it is less dense than the soil */
     /* Forces. */

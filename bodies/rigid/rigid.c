@@ -242,7 +242,9 @@ static mor_status finish_step(mor_context *context, void *owner, const mor_step 
     mor_body_group_finish(context, &rigid->group, step->length);
     for (int b = 0; b < rigid->group.n_bodies; ++b) {
         const double removed_at = rigid->motions[b].removed_at;
-        rigid->states[b].removed = removed_at > 0.0 && end >= removed_at ? 1.0 : 0.0;
+        if (removed_at > 0.0 && end >= removed_at) {
+            rigid->states[b].removed = 1.0; /* for good, also in a run that starts from this one */
+        }
     }
     show_removals(rigid);
     return MOR_OK;
@@ -441,6 +443,9 @@ static double rigid_driven_energy(const mor_body_group *group, int body, double 
     const mor_rigid *rigid = group->owner;
     const mor_rigid_state *state = &rigid->states[body];
     const mor_body *own = &group->bodies[body];
+    if (own->is_absent) {
+        return 0.0;
+    }
     if (rigid->motions[body].path != NULL || state->removed > 0.0) {
         double momentum[3];
         double angular_momentum[3];

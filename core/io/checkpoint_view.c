@@ -49,6 +49,7 @@ mor_status mor_checkpoint_view_field(mor_context *context, mor_checkpoint_view *
                                      const char *field, int n_components, double *values, bool *is_there)
 {
     char name[NAME_BYTES];
+    int64_t n = 0;
     mor_hdf5_shape shape;
     snprintf(name, sizeof name, "/sets/%s/%s", set, field);
     *is_there = mor_hdf5_file_has(view->file, name);
@@ -56,6 +57,10 @@ mor_status mor_checkpoint_view_field(mor_context *context, mor_checkpoint_view *
         return MOR_OK;
     }
     MOR_TRY(context, mor_hdf5_file_shape(context, view->file, name, &shape));
+    MOR_TRY(context, mor_checkpoint_view_count(context, view, set, &n));
+    MOR_CHECK(context, shape.n_rows == n, MOR_ERROR_IO,
+              "found %lld rows of '%s' for %lld particles; run that case again", (long long)shape.n_rows, name,
+              (long long)n);
     *is_there = shape.kind == MOR_HDF5_DOUBLE && shape.n_columns == n_components;
     return *is_there ? mor_hdf5_file_read(context, view->file, name, &shape, values) : MOR_OK;
 }

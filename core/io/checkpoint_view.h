@@ -33,10 +33,9 @@ mor_status mor_checkpoint_view_count(mor_context *context, mor_checkpoint_view *
  *  @param set          [in]   zero-terminated; is there
  *  @param field        [in]   zero-terminated
  *  @param n_components [in]   that the field must have
- *  @param values       [out]  shape [n, n_components], n of mor_checkpoint_view_count, any unit; left alone
- *                             where there is none
+ *  @param values       [out]  shape [n, n_components], n particles, any unit; left alone where there is none
  *  @param is_there     [out]  one flag; whether the set has the field with so many components
- *  Returns: MOR_OK; MOR_ERROR_IO. */
+ *  Returns: MOR_OK; MOR_ERROR_IO, also when it has not a row for each particle. */
 mor_status mor_checkpoint_view_field(mor_context *context, mor_checkpoint_view *view, const char *set,
                                      const char *field, int n_components, double *values, bool *is_there);
 

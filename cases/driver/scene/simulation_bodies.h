@@ -104,7 +104,7 @@ double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies);
 void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const double *datum, double *kinetic,
                                   double *potential, double *elastic);
 
-/** Energy of the bodies that were removed, each as it was then, unit J (J/m); not among the above.
+/** Energy of the bodies that were removed in this run, each as it was then, unit J (J/m); not among the above.
  *  @param datum [in]  shape [3]; potential energy counts from here, unit m */
 double mor_simulation_bodies_removed(const mor_simulation_bodies *bodies, const double *datum);
 

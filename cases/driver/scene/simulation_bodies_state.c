@@ -85,7 +85,7 @@ double mor_simulation_bodies_removed(const mor_simulation_bodies *bodies, const 
             const mor_body *body = &group->bodies[b];
             double momentum[3];
             double angular[3];
-            if (!group->boundary.patches[b].is_removed) {
+            if (!group->boundary.patches[b].is_removed || body->is_absent) {
                 continue;
             }
             energy += operations->momentum(group, b, momentum, angular);

@@ -300,7 +300,7 @@ static mor_status fill_regions(mor_context *context, mor_simulation *simulation,
     const mor_case *c = simulation->the_case;
     int64_t n_particles = 0;
     MOR_TRY(context, create_materials(context, simulation));
-    MOR_TRY(context, mor_taken_soil_open(context, c, taken));
+    MOR_TRY(context, mor_taken_soil_open(context, c, &simulation->bodies, taken));
     for (int pass = 0; pass < 2; ++pass) { /* new soil is filled around what was taken over */
         for (int k = 0; k < c->n_soils; ++k) {
             if (mor_taken_soil_has(taken, k) == (pass == 0)) {
@@ -395,16 +395,16 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     mor_simulation_find_up(the_case, simulation->up);
     find_frame(the_case, &simulation->frame);
     simulation->frame.wall_motions = simulation->wall_motions;
-    /* Soil is relaxed among bodies, which are then needed first. */
-    const bool is_relaxed = mor_simulation_has_relaxed_soil(the_case);
+    /* Soil is relaxed among bodies, or taken over around those that are new, which are then needed first. */
+    const bool has_bodies_first = mor_simulation_has_relaxed_soil(the_case) || the_case->stage.run[0] != '\0';
     mor_status status = mor_simulation_make_wall_motions(context, the_case, simulation->wall_motions);
-    if (status == MOR_OK && is_relaxed) {
+    if (status == MOR_OK && has_bodies_first) {
         status = build_bodies(context, simulation, registry);
     }
     if (status == MOR_OK && simulation->has_soil) {
         status = build_soil(context, simulation);
     }
-    if (status == MOR_OK && !is_relaxed) {
+    if (status == MOR_OK && !has_bodies_first) {
         status = build_bodies(context, simulation, registry);
     }
     if (status == MOR_OK) {

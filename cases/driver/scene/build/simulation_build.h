@@ -71,7 +71,8 @@ mor_status mor_simulation_set_frictions(mor_context *context, mor_simulation *si
 /** Fills one wall of a case with particles, in the placed frame. They stand for the true volume of the wall up to its
  *  true surface: cells of the lattice that the surface cuts have the share inside; ground has whole ones that follow
  *  it.
- *  @param wall     [in]      index of the wall; earlier walls are left out
+ *  @param wall     [in]      index of the wall; filled where it comes into the domain in the course of its motion, and
+ *                            outside earlier walls, or where it comes out of them
  *  @param layers   [in]      layers of particles below its surface, >= 1; a simulation has MOR_CASE_WALL_LAYERS
  *  @param points   [out]     owned by the caller
  *  @param shares   [out]     the address of one array [n_points], above 0 to 1, 1; NULL: all whole; owned by the caller

@@ -6,7 +6,9 @@
 #include "cases/driver/scene/build/memory_room.h"
 #include "cases/driver/scene/build/simulation_terrain.h"
 #include "cases/driver/scene/start/simulation_stage.h"
+#include "cases/driver/scene/wall_sweep.h"
 #include "core/base/math.h"
+#include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 
 #include <stdio.h>
@@ -65,7 +67,10 @@ static mor_status fill_shape(mor_context *context, const filling *it, mor_lattic
             "%s:%d: found '%s' %g m long along %c at a spacing of %g m; allowed are %g particles along an axis; use "
             "a larger spacing%s",
             it->place->file, it->place->line, it->name, extent, "xyz"[a], request -> spacing, NODES_ALONG,
-            is_endless ? " or a smaller 'domain', which ends the shape there" : "");
+            is_endless
+                ? " or a smaller 'domain', which ends the shape there; a wall that moves is filled for its whole "
+                  "way, which may be made shorter"
+                : "");
         n_rows *= a > 0 ? fmax(1.0, extent / request->spacing) : 1.0;
     }
     if (n_rows > (double)request->n_points_most) { /* to count the particles would take minutes */
@@ -89,30 +94,89 @@ static mor_status annotate_error(mor_context *context, mor_status status, const 
                                                    place->line, name, context->message);
 }
 
-mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
-                                    mor_lattice_points *points, double **shares)
+/* Fills a wall but for what lies in those earlier walls that are not `shown`. */
+static mor_status fill_wall(mor_context *context, const mor_wall_sweep *sweep, int layers, const bool *shown,
+                            mor_lattice_points *points, double **shares)
 {
+    const mor_case *c = sweep->the_case;
+    const mor_case_wall *it = &c->walls[sweep->wall];
     const mor_shape *earlier[MOR_CASE_WALLS_MAX];
-    for (int w = 0; w < wall; ++w) {
-        earlier[w] = the_case->walls[w].shape;
-    }
-    const mor_case_wall *it = &the_case->walls[wall];
-    mor_lattice_request request;
-    set_request(the_case, it->shape, &request);
     const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_WALL, 0.0};
-    *shares = NULL;
-    const double margin = MOR_CASE_WALL_LAYERS * the_case->spacing;
-    request.depth = layers * the_case->spacing;
+    const double margin = MOR_CASE_WALL_LAYERS * c->spacing;
+    mor_lattice_request request;
+    set_request(c, it->shape, &request);
+    request.depth = layers * c->spacing;
     request.excluded = earlier;
-    request.n_excluded = wall;
+    for (int w = 0; w < sweep->wall; ++w) {
+        earlier[request.n_excluded] = c->walls[w].shape;
+        request.n_excluded += !shown[w];
+    }
+    mor_wall_sweep_widen(sweep, &request.domain);
     /* Walls carry soil up to the very edge of the domain, so they reach beyond it by their own thickness. */
     for (int a = 0; a < 3; ++a) {
         request.domain.minimum[a] -= margin;
         request.domain.maximum[a] += margin;
     }
-    const mor_status status = it->outline.kind == MOR_CASE_SHAPE_TERRAIN
-                                  ? mor_simulation_fill_terrain(context, the_case, wall, layers, points)
-                                  : fill_shape(context, &wanted, &request, points, shares);
+    return fill_shape(context, &wanted, &request, points, shares);
+}
+
+/* Leaves out points that lie in one of the walls shown and do not come out of it. */
+static void drop_covered(const mor_wall_sweep *sweep, const bool *shown, mor_lattice_points *points, double *shares)
+{
+    int64_t n_kept = 0;
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        const double *point = points->positions + 3 * i;
+        bool is_kept = true;
+        for (int w = 0; w < sweep->wall && is_kept; ++w) {
+            is_kept =
+                !shown[w] || !mor_wall_sweep_is_covered(sweep, w, point) || mor_wall_sweep_uncovers(sweep, w, point);
+        }
+        if (is_kept) {
+            shares[n_kept] = shares[i];
+            memmove(points->positions + 3 * n_kept++, point, 3 * sizeof *point);
+        }
+    }
+    points->n_points = n_kept;
+}
+
+/* Fills a wall wherever it comes into the domain. Of two walls that lie in one another the later one has no points
+ * there, unless the motion or a removal uncovers them. */
+static mor_status fill_swept_wall(mor_context *context, const mor_wall_sweep *sweep, int layers,
+                                  mor_lattice_points *points, double **shares)
+{
+    bool shown[MOR_CASE_WALLS_MAX] = {false};
+    bool is_any = false;
+    for (int w = 0; w < sweep->wall; ++w) {
+        shown[w] = mor_wall_sweep_parts(sweep, w);
+        is_any = is_any || shown[w];
+    }
+    if (is_any) {
+        MOR_TRY(context, fill_wall(context, sweep, layers, shown, points, shares));
+        is_any = mor_wall_sweep_find_shown(sweep, points->positions, points->n_points, shown);
+        mor_lattice_clear(context, points);
+        MOR_FREE(context, shares);
+    }
+    MOR_TRY(context, fill_wall(context, sweep, layers, shown, points, shares));
+    if (is_any) {
+        drop_covered(sweep, shown, points, *shares);
+    }
+    return MOR_OK;
+}
+
+mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
+                                    mor_lattice_points *points, double **shares)
+{
+    const mor_case_wall *it = &the_case->walls[wall];
+    mor_status status = MOR_OK;
+    *shares = NULL;
+    if (it->outline.kind == MOR_CASE_SHAPE_TERRAIN) {
+        status = mor_simulation_fill_terrain(context, the_case, wall, layers, points);
+    } else {
+        mor_wall_sweep sweep;
+        status = mor_wall_sweep_init(context, &sweep, the_case, wall);
+        status = status == MOR_OK ? fill_swept_wall(context, &sweep, layers, points, shares) : status;
+        mor_wall_sweep_clear(context, &sweep);
+    }
     MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "

@@ -34,10 +34,25 @@ static mor_status read_soil(mor_context *context, mor_taken_soil *taken)
     return MOR_OK;
 }
 
-mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, mor_taken_soil *taken)
+/* Bodies whose group the run did not have; the others have moved since. */
+static mor_status list_new_bodies(mor_context *context, const mor_simulation_bodies *bodies, mor_taken_soil *taken)
+{
+    const int n_bodies = taken->the_case->n_bodies;
+    MOR_TRY(context, MOR_NEW(context, &taken->new_bodies, n_bodies, "new bodies of a stage"));
+    for (int b = 0; b < n_bodies; ++b) {
+        int64_t n = 0;
+        MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, bodies->of[b].group->set.name, &n));
+        if (n < 0) {
+            taken->new_bodies[taken->n_new_bodies++] = b;
+        }
+    }
+    return MOR_OK;
+}
+
+mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, const mor_simulation_bodies *bodies,
+                               mor_taken_soil *taken)
 {
     const mor_case_stage *stage = &the_case->stage;
-    int64_t n_rigid = 0;
     memset(taken, 0, sizeof *taken);
     if (stage->run[0] == '\0') {
         return MOR_OK;
@@ -45,8 +60,7 @@ mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, m
     taken->the_case = the_case;
     MOR_TRY(context, mor_checkpoint_view_open(context, stage->run, &taken->view));
     MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, SOIL_SET, &taken->n));
-    MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, "rigid", &n_rigid));
-    taken->has_bodies = n_rigid >= 0;
+    MOR_TRY(context, list_new_bodies(context, bodies, taken));
     MOR_CHECK(context, taken->n > 0, MOR_ERROR_CONFIG,
               "%s:%d: found a run without soil, '%s', to start from; allowed: one with soil; correct start_from",
               stage->place.file, stage->place.line, stage->run);
@@ -59,27 +73,51 @@ void mor_taken_soil_close(mor_context *context, mor_taken_soil *taken)
     MOR_FREE(context, &taken->positions);
     MOR_FREE(context, &taken->regions);
     MOR_FREE(context, &taken->sources);
+    MOR_FREE(context, &taken->new_bodies);
     memset(taken, 0, sizeof *taken);
 }
 
 /* ---- Particles --------------------------------------------------------------------------------------------------- */
 
-static bool is_left_out(const mor_taken_soil *taken, const double *placed)
+static bool is_excavated(const mor_case *c, const double *placed)
 {
-    const mor_case *c = taken->the_case;
     double place[3];
     bool is = false;
     mor_simulation_take_point_back(c, placed, place);
     for (int k = 0; k < c->stage.n_excavations && !is; ++k) {
         is = mor_shape_distance(c->stage.excavations[k], place) < 0.0;
     }
-    for (int b = 0; b < c->n_bodies && !is && !taken->has_bodies; ++b) {
+    return is;
+}
+
+static bool is_in_new_body(const mor_taken_soil *taken, const double *placed)
+{
+    const mor_case *c = taken->the_case;
+    bool is = false;
+    for (int k = 0; k < taken->n_new_bodies && !is; ++k) {
+        const mor_case_body *it = &c->bodies[taken->new_bodies[k]];
         double rotation[9];
         double translation[3];
-        mor_simulation_body_frame(c, &c->bodies[b], rotation, translation);
-        is = mor_simulation_placed_distance(c->bodies[b].shape, rotation, translation, placed) < 0.0;
+        mor_simulation_body_frame(c, it, rotation, translation);
+        is = mor_simulation_placed_distance(it->shape, rotation, translation, placed) < 0.0;
     }
     return is;
+}
+
+/* What lies too deep in a wall or body. Zeroed: nothing. */
+typedef struct pressed_soil {
+    int64_t n_inside;
+    double deepest; /* m */
+    double place[3];
+} pressed_soil;
+
+static void note_depth(const mor_case *c, double depth, const double *place, pressed_soil *found)
+{
+    found->n_inside += depth > PRESSED * c->spacing;
+    if (depth > found->deepest) {
+        found->deepest = depth;
+        memcpy(found->place, place, sizeof found->place);
+    }
 }
 
 static mor_status check_walls(mor_context *context, const mor_taken_soil *taken, int soil,
@@ -87,25 +125,18 @@ static mor_status check_walls(mor_context *context, const mor_taken_soil *taken,
 {
     const mor_case *c = taken->the_case;
     for (int w = 0; w < c->n_walls; ++w) {
-        int64_t n_inside = 0;
-        double deepest = 0.0;
-        double place[3] = {0.0, 0.0, 0.0};
+        pressed_soil found = {0};
         for (int64_t i = 0; i < points->n_points; ++i) {
             double x[3];
             mor_simulation_take_point_back(c, points->positions + 3 * i, x);
-            const double depth = -mor_shape_distance(c->walls[w].shape, x);
-            n_inside += depth > PRESSED * c->spacing;
-            if (depth > deepest) {
-                deepest = depth;
-                memcpy(place, x, sizeof place);
-            }
+            note_depth(c, -mor_shape_distance(c->walls[w].shape, x), x, &found);
         }
-        MOR_CHECK(context, n_inside == 0, MOR_ERROR_CONFIG,
+        MOR_CHECK(context, found.n_inside == 0, MOR_ERROR_CONFIG,
                   "%s:%d: found wall '%s' where soil '%s' of the run '%s' is: %lld particles lie inside, the deepest "
                   "%.4g m at (%.6g, %.6g, %.6g) m; allowed is half a spacing; move the wall, or list its shape in "
                   "excavate",
                   c->walls[w].place.file, c->walls[w].place.line, c->walls[w].name, c->soils[soil].name, c->stage.run,
-                  (long long)n_inside, deepest, place[0], place[1], place[2]);
+                  (long long)found.n_inside, found.deepest, found.place[0], found.place[1], found.place[2]);
     }
     return MOR_OK;
 }
@@ -125,35 +156,49 @@ static mor_status check_domain(mor_context *context, const mor_taken_soil *taken
     return MOR_OK;
 }
 
-mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int soil, mor_lattice_points *points)
+/* Lists the particles of a region that are taken over, and says how many are not. */
+static mor_status list_sources(mor_context *context, mor_taken_soil *taken, int soil)
 {
     const mor_case *c = taken->the_case;
     const double region = c->stage.region_of[soil];
     int64_t n_of_region = 0;
+    int64_t n_excavated = 0;
     taken->first[soil] = taken->n_taken;
     for (int64_t i = 0; i < taken->n; ++i) {
         const bool is_mine = taken->regions != NULL ? taken->regions[i] == region : region == 0.0;
+        const bool is_out = is_mine && is_excavated(c, taken->positions + 3 * i);
         n_of_region += is_mine;
-        if (is_mine && !is_left_out(taken, taken->positions + 3 * i)) {
+        n_excavated += is_out;
+        if (is_mine && !is_out && !is_in_new_body(taken, taken->positions + 3 * i)) {
             taken->sources[taken->n_taken++] = i;
         }
     }
     const int64_t n = taken->n_taken - taken->first[soil];
     taken->count[soil] = n;
-    MOR_CHECK(
-        context, n > 0, MOR_ERROR_CONFIG,
-        "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations; allowed: "
-        "at least one; remove the soil from the case, or make the excavations smaller",
-        c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
-        c->stage.run);
+    MOR_CHECK(context, n > 0, MOR_ERROR_CONFIG,
+              "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations and new "
+              "bodies; "
+              "allowed: at least one; remove the soil from the case, or make the excavations smaller",
+              c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
+              c->stage.run);
+    mor_context_log(context, MOR_LOG_INFO,
+                    "soil '%s': %lld of %lld particles taken over from '%s'; %lld are excavated, %lld where new bodies "
+                    "are",
+                    c->soils[soil].name, (long long)n, (long long)n_of_region, c->stage.run, (long long)n_excavated,
+                    (long long)(n_of_region - n_excavated - n));
+    return MOR_OK;
+}
+
+mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int soil, mor_lattice_points *points)
+{
+    MOR_TRY(context, list_sources(context, taken, soil));
+    const int64_t n = taken->count[soil];
     MOR_TRY(context, MOR_NEW(context, &points->positions, 3 * n, "soil of the run before"));
     points->n_points = n;
     for (int64_t k = 0; k < n; ++k) {
         memcpy(points->positions + 3 * k, taken->positions + 3 * taken->sources[taken->first[soil] + k],
                3 * sizeof *points->positions);
     }
-    mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles taken over from '%s'",
-                    c->soils[soil].name, (long long)n, (long long)n_of_region, c->stage.run);
     MOR_TRY(context, check_domain(context, taken, soil, points));
     return check_walls(context, taken, soil, points);
 }
@@ -310,7 +355,7 @@ mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *take
 /* Sums since the start begin anew. */
 static bool is_sum(const char *name)
 {
-    static const char *const words[] = {"impulse", "energy", "work", "removed", "share"};
+    static const char *const words[] = {"impulse", "energy", "work", "share"};
     bool is = false;
     for (size_t k = 0; k < sizeof words / sizeof *words; ++k) {
         is = is || strstr(name, words[k]) != NULL;
@@ -361,6 +406,80 @@ static mor_status take_group(mor_context *context, mor_simulation *simulation, m
     return MOR_OK;
 }
 
+/* Where a rigid body is at the start, and how it got there from its place in the case. */
+static void find_start_pose(const mor_simulation *simulation, int number, mor_pose *pose)
+{
+    static const double still[3] = {0.0, 0.0, 0.0};
+    const mor_simulation_bodies *bodies = &simulation->bodies;
+    const mor_body *body = &bodies->of[number].group->bodies[bodies->of[number].index];
+    *pose = mor_pose_uniform(still, 0.0);
+    if (number < bodies->n_motions && bodies->motions[number].n_rows > 0) {
+        mor_motion_find(&bodies->motions[number], 0.0, pose);
+    } else if (!simulation->the_case->bodies[number].is_prescribed) {
+        double rotated[3];
+        memcpy(pose->rotation, body->rotation, sizeof pose->rotation);
+        mor_matrix_apply(body->rotation, body->geometry.center, rotated);
+        for (int a = 0; a < 3; ++a) {
+            pose->translation[a] = body->center[a] - rotated[a];
+        }
+    }
+}
+
+/* Whether a particle of the soil was there with a free body that was taken over: what it touches lies where it may. */
+static bool came_with(const mor_simulation *simulation, int number, int64_t particle)
+{
+    const mor_case *c = simulation->the_case;
+    const int field = simulation->soil.region_field;
+    const int soil = field >= 0 ? (int)simulation->soil.set.data[field][particle] : 0;
+    return !c->bodies[number].is_prescribed && mor_case_takes_over(c, soil);
+}
+
+static mor_status check_body(mor_context *context, const mor_simulation *simulation, int number)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_case_body *it = &c->bodies[number];
+    const mor_body *body = &simulation->bodies.of[number].group->bodies[simulation->bodies.of[number].index];
+    pressed_soil found = {0};
+    mor_pose pose;
+    find_start_pose(simulation, number, &pose);
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        const double *x = simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
+        double start[3];
+        double place[3];
+        if (came_with(simulation, number, i)) {
+            continue;
+        }
+        mor_pose_take_back(&pose, x, start);
+        mor_simulation_take_point_back(c, x, place);
+        note_depth(c,
+                   -mor_simulation_placed_distance(body->shape, body->shape_rotation, body->shape_translation, start),
+                   place, &found);
+    }
+    MOR_CHECK(context, found.n_inside == 0, MOR_ERROR_CONFIG,
+              "%s:%d: found body '%s' where soil is that starts with it from the run '%s': %lld particles lie inside, "
+              "the deepest %.4g m at (%.6g, %.6g, %.6g) m; allowed is half a spacing; a body that moves as prescribed "
+              "begins where the case places it, others where they were in the run: move the former, or list its shape "
+              "in excavate, and cut new soil off around the latter with a difference",
+              it->place.file, it->place.line, it->name, c->stage.run, (long long)found.n_inside, found.deepest,
+              found.place[0], found.place[1], found.place[2]);
+    return MOR_OK;
+}
+
+/* Which rigid bodies are there, and that no soil is where they are. */
+static mor_status finish_bodies(mor_context *context, mor_simulation *simulation)
+{
+    for (int b = 0; b < simulation->the_case->n_bodies; ++b) {
+        const mor_simulation_body *it = &simulation->bodies.of[b];
+        const bool is_removed = it->group->boundary.patches[it->index].is_removed;
+        const bool is_rigid = it->group->operations->strain_energy == NULL; /* its shape does not change */
+        it->group->bodies[it->index].is_absent = is_removed;
+        if (simulation->has_soil && !is_removed && is_rigid) {
+            MOR_TRY(context, check_body(context, simulation, b));
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simulation)
 {
     const mor_case_stage *stage = &simulation->the_case->stage;
@@ -381,5 +500,6 @@ mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simu
     mor_checkpoint_view_close(context, &view);
     MOR_TRY(context, status);
     mor_contact_resume(&simulation->bodies.contact, 0.0);
-    return mor_schedule_resume(context, &simulation->schedule);
+    MOR_TRY(context, mor_schedule_resume(context, &simulation->schedule));
+    return finish_bodies(context, simulation);
 }

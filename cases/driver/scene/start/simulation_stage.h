@@ -18,16 +18,19 @@ typedef struct mor_taken_soil {
     int64_t n;         /* particles of the run */
     double *positions; /* shape [n, 3], m */
     double *regions;   /* shape [n]; region of each in the run, 1; NULL: it has one */
-    bool has_bodies;   /* the run has bodies */
-    int64_t *sources;  /* shape [n]; particles taken over, in the order of the regions of the case */
-    int64_t n_taken;   /* so far */
+    int *new_bodies;   /* shape [n_new_bodies]; numbers in the case of the bodies that the run did not have */
+    int n_new_bodies;
+    int64_t *sources; /* shape [n]; particles taken over, in the order of the regions of the case */
+    int64_t n_taken;  /* so far */
     int64_t first[MOR_CASE_SOILS_MAX], count[MOR_CASE_SOILS_MAX]; /* of each region, among sources */
 } mor_taken_soil;
 
 /** Opens the run that a case starts from; does nothing for a case without.
- *  @param taken [out]  owned by the caller, also after a failure
+ *  @param bodies [in]   of the case, built; not kept
+ *  @param taken  [out]  owned by the caller, also after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
-mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, mor_taken_soil *taken);
+mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, const mor_simulation_bodies *bodies,
+                               mor_taken_soil *taken);
 
 /** Frees what it owns; accepts a zeroed one. */
 void mor_taken_soil_close(mor_context *context, mor_taken_soil *taken);
@@ -58,9 +61,11 @@ mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken
 mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation);
 
 /** Gives bodies and their contact the state of the run that the case starts from; those of a kind that the run did not
- *  have stay as they were built, and bodies that move as prescribed start where the case places them.
+ *  have stay as they were built, bodies that move as prescribed start where the case places them, and bodies that were
+ *  removed stay so.
  *  @param simulation [in,out]  whole, its state listed
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when the bodies of both differ; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the bodies of both differ, or when soil lies in a rigid
+ *  body; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_take_bodies(mor_context *context, mor_simulation *simulation);
 
 #endif
