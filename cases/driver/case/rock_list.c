@@ -14,8 +14,10 @@ static const mor_column in_space[N_COLUMNS] = {{"x", "m", false, true, false},
                                                {"z", "m", false, true, false},
                                                {"diameter", "m", true, true, false},
                                                {"density", "kg/m3", true, false, false}};
-static const mor_column in_plane[N_COLUMNS - 1] = {
-    {"x", "m", false, true, false}, {"y", "m", false, true, false}, {"diameter", "m", true, true, false}, {"density", "kg/m3", true, false, false}};
+static const mor_column in_plane[N_COLUMNS - 1] = {{"x", "m", false, true, false},
+                                                   {"y", "m", false, true, false},
+                                                   {"diameter", "m", true, true, false},
+                                                   {"density", "kg/m3", true, false, false}};
 
 static mor_column_spec find_spec(int dimension)
 {

@@ -173,7 +173,8 @@ static mor_status draw_sheet(mor_context *context, const sheet *s, const char *f
     char name[MOR_SWEEP_NAME_BYTES];
     char path[MOR_PATH_BYTES];
     char title[TEXT_BYTES];
-    char counted[TEXT_BYTES];
+    char failed[TEXT_BYTES];
+    char left_out[TEXT_BYTES];
     const char *notes[3] = {has_means
                                 ? "Dots: members. Lines: means of groups; bars: intervals of confidence of 95 % of "
                                   "the mean, where a group has two members or more."
@@ -184,12 +185,14 @@ static mor_status draw_sheet(mor_context *context, const sheet *s, const char *f
     const int n_failed = counts.by_state[MOR_SWEEP_STATE_FAILED];
     mor_sweep_table_name(s->table, s->column, name);
     snprintf(title, sizeof title, "%s over %s", name, variable->name);
-    if (n_failed > 0 || s->n_left_out > 0) {
-        snprintf(counted, sizeof counted,
-                 "%d of %d members failed and are not shown. %d more combinations of the other "
-                 "variables are not drawn; sweep.csv has them.",
-                 n_failed, counts.n_members, s->n_left_out);
-        notes[n_notes++] = counted;
+    if (n_failed > 0) {
+        snprintf(failed, sizeof failed, "%d of %d members failed and are not shown.", n_failed, counts.n_members);
+        notes[n_notes++] = failed;
+    }
+    if (s->n_left_out > 0) {
+        snprintf(left_out, sizeof left_out,
+                 "%d more combinations of the other variables are not drawn; sweep.csv has them.", s->n_left_out);
+        notes[n_notes++] = left_out;
     }
     const mor_chart chart = {.title = title,
                              .x_name = variable->name,
