@@ -243,7 +243,7 @@ static const char several[] =
     "case = 'case.cfg'; members = 2; set = ( 'spacing=8 mm', 'output.checkpoint_seconds=0.02' );"
     "vary = ( { name = 'floor'; choices = ( { label = 'rough'; set = ( 'walls[0].friction=rough' ); },"
     "    { label = 'slides'; set = ( 'walls[0].friction=coulomb', 'walls[0].friction_coefficient=0.2' ); } ); },"
-    "  { key = 'soil[0].material.cohesion'; values = ( '0.1 kPa', 300 ); },"
+    "  { key = 'soil[0].material.cohesion'; values = ( '0.1 kPa', '0.3 kPa' ); },"
     "  { key = 'soil[0].material.friction_angle'; distribution = 'normal'; mean = '25 deg'; deviation = '2 deg'; } );"
     "results = ( { probe = 'run_out'; }, { probe = 'kinetic_energy'; statistic = 'maximum'; } );"
     "exceed = ( { probe = 'height'; above = 0.2; } );";
@@ -525,7 +525,7 @@ static void plan_tells_the_commands_and_runs_nothing(void **state)
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
     const char *const arguments[] = {"sweep", "sweep.cfg", "-o", "plan", "--plan", NULL};
-    store_sweep(folder, SMALL RUN_OUT "vary = ( { key = 'soil[0].material.cohesion'; values = (100, '0.2 kPa'); } );");
+    store_sweep(folder, SMALL RUN_OUT "vary = ( { key = 'soil[0].material.cohesion'; values = ('0.1 kPa', '0.2 kPa'); } );");
     program_outcome outcome = program_run(folder, arguments, 0);
     program_expect_text(outcome.output, "2 members in 2 groups");
     program_expect_text(outcome.output, "002  moraine run case.cfg --set 'spacing=15 mm' --set 'end=40 ms' --set "
