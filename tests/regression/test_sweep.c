@@ -525,7 +525,8 @@ static void plan_tells_the_commands_and_runs_nothing(void **state)
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
     const char *const arguments[] = {"sweep", "sweep.cfg", "-o", "plan", "--plan", NULL};
-    store_sweep(folder, SMALL RUN_OUT "vary = ( { key = 'soil[0].material.cohesion'; values = ('0.1 kPa', '0.2 kPa'); } );");
+    store_sweep(folder,
+                SMALL RUN_OUT "vary = ( { key = 'soil[0].material.cohesion'; values = ('0.1 kPa', '0.2 kPa'); } );");
     program_outcome outcome = program_run(folder, arguments, 0);
     program_expect_text(outcome.output, "2 members in 2 groups");
     program_expect_text(outcome.output, "002  moraine run case.cfg --set 'spacing=15 mm' --set 'end=40 ms' --set "
