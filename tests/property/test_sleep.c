@@ -119,7 +119,7 @@ static uint64_t find_hills_checksum(const char *skin, double *share)
     const char *const settings[] = {skin, NULL};
     scene *it = scene_new(&(scene_request){hills, (const char *const *[]){settings}, 1, 2});
     it->simulation.soil.settings.scheme.sleep_after = 0.005; /* too short for a case, but much falls asleep and wakes */
-    scene_step(it, 120);
+    scene_step(it, 60);
     const uint64_t checksum = mor_set_checksum(&it->simulation.soil.set);
     *share = find_share(it);
     scene_free(it);
