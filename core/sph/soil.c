@@ -223,6 +223,7 @@ static void set_constants(mor_soil *soil)
         .has_limited_diffusion = s->scheme.stress_diffusion_limiter == 1,
         .artificial_exponent = s->scheme.artificial_stress_exponent,
         .shift_diameter = s->spacing * (s->dimension == 3 ? SPHERE_DIAMETER : DISC_DIAMETER),
+        .spacing = s->spacing,
         .spacing_kernel = mor_kernel_value(s->spacing, h, s->dimension),
         .kernel_normalization = mor_kernel_normalization(h, s->dimension),
     };

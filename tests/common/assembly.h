@@ -102,6 +102,7 @@ static inline mor_pair_constants assembly_constants(int dimension)
                             .gravity_direction = {0.28, -0.96, 0.0},
                             .artificial_exponent = 2.55,
                             .hourglass = ASSEMBLY_HOURGLASS_STIFFNESS,
+                            .spacing = ASSEMBLY_SPACING,
                             .spacing_kernel = mor_kernel_value(ASSEMBLY_SPACING, h, dimension),
                             .kernel_normalization = mor_kernel_normalization(h, dimension),
                             .shift_diameter = 1.1 * ASSEMBLY_SPACING};

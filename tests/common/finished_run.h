@@ -58,6 +58,27 @@ static inline const char *finished_run_file(run_folder *folder, char *path, cons
     return run_folder_file(folder, path, in_folder);
 }
 
+/** The value of a column of the series that begins with a name, at a row; of the last row where that is negative. */
+static inline double finished_run_read_value(run_folder *folder, const char *run, const char *name, int64_t row)
+{
+    char path[MOR_PATH_BYTES];
+    mor_table_data data;
+    int column = 0;
+    assert_int_equal(
+        mor_table_data_read(&folder->context, &data, finished_run_file(folder, path, run, MOR_TABLE_SERIES_FILE)),
+        MOR_OK);
+    const char *at = data.header;
+    while (strncmp(at, name, strlen(name)) != 0 || at[strlen(name)] != ' ') {
+        at = strchr(at, ',');
+        assert_non_null(at);
+        at += 1;
+        column += 1;
+    }
+    const double value = data.values[(row < 0 ? data.n_rows - 1 : row) * data.n_columns + column];
+    mor_table_data_clear(&folder->context, &data);
+    return value;
+}
+
 /** Fails unless a file, zero-terminated name, has the same bytes in both runs. */
 static inline void finished_run_compare_bytes(run_folder *folder, const char *a, const char *b, const char *name)
 {

@@ -48,4 +48,13 @@ static inline mor_session_outcome session_run_do(run_folder *folder, const sessi
     return outcome;
 }
 
+/** Runs a case given as text to its end, in a folder of that name. */
+static inline void session_run_text(run_folder *folder, const char *text, const char *name)
+{
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, path);
+    const session_run it = {.case_path = path, .name = name, .stop_at = NAN, .n_threads = 2};
+    assert_int_equal(session_run_do(folder, &it, name), MOR_SESSION_FINISHED);
+}
+
 #endif

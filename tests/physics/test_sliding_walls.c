@@ -33,35 +33,6 @@
     "{ name = 'cover'; friction = 'smooth'; removed_at = '0.05 s';"                                                    \
     "  shape = { type = 'box'; min = (0.4, -0.4); max = (0.7, 0); }; },"
 
-/* The last value of a column that begins with a name. */
-static double read_value(run_folder *folder, const char *run, const char *name)
-{
-    char path[MOR_PATH_BYTES];
-    mor_table_data data;
-    int column = 0;
-    assert_int_equal(
-        mor_table_data_read(&folder->context, &data, finished_run_file(folder, path, run, MOR_TABLE_SERIES_FILE)),
-        MOR_OK);
-    const char *at = data.header;
-    while (strncmp(at, name, strlen(name)) != 0 || at[strlen(name)] != ' ') {
-        at = strchr(at, ',');
-        assert_non_null(at);
-        at += 1;
-        column += 1;
-    }
-    const double value = data.values[(data.n_rows - 1) * data.n_columns + column];
-    mor_table_data_clear(&folder->context, &data);
-    return value;
-}
-
-static void run_case(run_folder *folder, const char *text, const char *name)
-{
-    char path[MOR_PATH_BYTES];
-    finished_run_store_text(folder, text, path);
-    const session_run it = {.case_path = path, .name = name, .stop_at = NAN, .n_threads = 2};
-    session_run_do(folder, &it, name);
-}
-
 static void a_floor_that_slides_along_its_face_bears_what_one_at_rest_does(void **state)
 {
     static const struct {
@@ -78,16 +49,17 @@ static void a_floor_that_slides_along_its_face_bears_what_one_at_rest_does(void 
         {"from under a cover", CASE_OF(COVER FLOOR(""))},
     };
     run_folder *folder = *state;
-    run_case(folder, CASE_OF(FLOOR("")), "rest");
-    const double weight = read_value(folder, "rest", "weight");
-    const double level = read_value(folder, "rest", "y");
+    session_run_text(folder, CASE_OF(FLOOR("")), "rest");
+    const double weight = finished_run_read_value(folder, "rest", "weight", -1);
+    const double level = finished_run_read_value(folder, "rest", "y", -1);
     assert_near(weight, 1600.0 * 9.81 * 0.5, 0.02 * weight);
     for (size_t k = 0; k < sizeof moving / sizeof *moving; ++k) {
-        run_case(folder, moving[k].text, moving[k].name);
-        /* Points of a wall pass under the particles of the soil, a noise of some percent of the weight. */
-        assert_near(read_value(folder, moving[k].name, "weight"), weight, 0.05 * weight);
-        assert_near(read_value(folder, moving[k].name, "y"), level, 0.1 * 0.05); /* a tenth of a spacing */
-        assert_true(read_value(folder, moving[k].name, "gap") > 0.0);
+        session_run_text(folder, moving[k].text, moving[k].name);
+        /* Points of a wall pass under the particles of the soil, a noise of one percent of the weight. */
+        assert_near(finished_run_read_value(folder, moving[k].name, "weight", -1), weight, 0.02 * weight);
+        assert_near(finished_run_read_value(folder, moving[k].name, "y", -1), level,
+                    0.1 * 0.05); /* a tenth of a spacing */
+        assert_true(finished_run_read_value(folder, moving[k].name, "gap", -1) > 0.0);
     }
 }
 

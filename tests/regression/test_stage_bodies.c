@@ -24,35 +24,6 @@
           "  { name = 'front'; type = 'run_out'; }, { name = 'v'; type = 'largest_speed'; } );"                        \
           "output = { snapshots = 2; pictures = false; };"
 
-/* The last value of a column that begins with a name, or that at a row. */
-static double read_value(run_folder *folder, const char *run, const char *name, int64_t row)
-{
-    char path[MOR_PATH_BYTES];
-    mor_table_data data;
-    int column = 0;
-    assert_int_equal(
-        mor_table_data_read(&folder->context, &data, finished_run_file(folder, path, run, MOR_TABLE_SERIES_FILE)),
-        MOR_OK);
-    const char *at = data.header;
-    while (strncmp(at, name, strlen(name)) != 0 || at[strlen(name)] != ' ') {
-        at = strchr(at, ',');
-        assert_non_null(at);
-        at += 1;
-        column += 1;
-    }
-    const double value = data.values[(row < 0 ? data.n_rows - 1 : row) * data.n_columns + column];
-    mor_table_data_clear(&folder->context, &data);
-    return value;
-}
-
-static void run_stage(run_folder *folder, const char *text, const char *name)
-{
-    char path[MOR_PATH_BYTES];
-    finished_run_store_text(folder, text, path);
-    const session_run it = {.case_path = path, .name = name, .stop_at = NAN, .n_threads = 2};
-    session_run_do(folder, &it, name);
-}
-
 #define ELASTIC                                                                                                        \
     "{ name = 'block'; shape = { type = 'box'; min = (-0.2, -0.2); max = (0.2, 0.2); }; position = (1.225, 0.23);"     \
     "  friction = 'smooth'; contact_modulus = '5 MPa'; material = { model = 'neo_hookean'; density = 800;"             \
@@ -62,10 +33,11 @@ static void run_stage(run_folder *folder, const char *text, const char *name)
 static void soil_stays_where_an_elastic_body_stood_before(void **state)
 {
     run_folder *folder = *state;
-    run_stage(folder, CASE_OF("", "0.6 s", ELASTIC), "before");
-    run_stage(folder, CASE_OF("start_from = 'before';", "10 ms", ELASTIC), "after");
-    assert_true(read_value(folder, "before", "front", -1) > 1.1); /* it is there */
-    assert_true(read_value(folder, "after", "mass", 0) == read_value(folder, "before", "mass", -1));
+    session_run_text(folder, CASE_OF("", "0.6 s", ELASTIC), "before");
+    session_run_text(folder, CASE_OF("start_from = 'before';", "10 ms", ELASTIC), "after");
+    assert_true(finished_run_read_value(folder, "before", "front", -1) > 1.1); /* it is there */
+    assert_true(finished_run_read_value(folder, "after", "mass", 0) ==
+                finished_run_read_value(folder, "before", "mass", -1));
 }
 
 #define GATE(more)                                                                                                     \
@@ -79,15 +51,15 @@ static void a_body_that_was_removed_stays_so_in_the_next_stage(void **state)
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
     char hashes[2][32];
-    run_stage(folder, CASE_OF("", "0.4 s", GATE("removed_at = 0.05;")), "before");
-    run_stage(folder, CASE_OF("start_from = 'before';", "0.2 s", GATE("")), "after");
-    run_stage(folder, CASE_OF("", "0.6 s", GATE("removed_at = 0.05;")), "whole");
+    session_run_text(folder, CASE_OF("", "0.4 s", GATE("removed_at = 0.05;")), "before");
+    session_run_text(folder, CASE_OF("start_from = 'before';", "0.2 s", GATE("")), "after");
+    session_run_text(folder, CASE_OF("", "0.6 s", GATE("removed_at = 0.05;")), "whole");
     /* As in one go: what a new start changes, the first step, is far less than the 20 mm that the front moves in 1/60
      * of a second. */
-    const double front = read_value(folder, "whole", "front", -1);
-    assert_true(front > read_value(folder, "before", "front", -1) + 0.2);
-    assert_near(read_value(folder, "after", "front", -1), front, 0.02);
-    assert_near(read_value(folder, "after", "balance", -1), 1.0, 5e-3); /* as of test_stages */
+    const double front = finished_run_read_value(folder, "whole", "front", -1);
+    assert_true(front > finished_run_read_value(folder, "before", "front", -1) + 0.2);
+    assert_near(finished_run_read_value(folder, "after", "front", -1), front, 0.02);
+    assert_near(finished_run_read_value(folder, "after", "balance", -1), 1.0, 5e-3); /* as of test_stages */
     /* What was removed before the stage stays so after a resume. */
     finished_run_store_text(folder, CASE_OF("start_from = 'before';", "0.2 s", GATE("")), path);
     const session_run part = {.case_path = path, .name = "part", .stop_at = 0.1, .n_threads = 1};
@@ -107,8 +79,8 @@ static void a_body_that_is_placed_in_soil_of_the_run_before_is_refused(void **st
     };
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
-    run_stage(folder, CASE_OF("", "0.3 s", GATE("velocity = (4, 0);")), "before");
-    assert_true(read_value(folder, "before", "front", -1) > 1.2);
+    session_run_text(folder, CASE_OF("", "0.3 s", GATE("velocity = (4, 0);")), "before");
+    assert_true(finished_run_read_value(folder, "before", "front", -1) > 1.2);
     for (size_t k = 0; k < sizeof placed / sizeof *placed; ++k) {
         mor_session *session = NULL;
         assert_int_equal(mor_session_new(&session), MOR_OK);

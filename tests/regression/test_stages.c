@@ -40,27 +40,6 @@
     "  { name = 'kinetic'; type = 'bodies_kinetic_energy'; } );"                                                       \
     "output = { snapshots = 6; pictures = false; };"
 
-/* The last value of a column that begins with a name, or that at a row. */
-static double read_value(run_folder *folder, const char *run, const char *name, int64_t row)
-{
-    char path[MOR_PATH_BYTES];
-    mor_table_data data;
-    int column = 0;
-    assert_int_equal(
-        mor_table_data_read(&folder->context, &data, finished_run_file(folder, path, run, MOR_TABLE_SERIES_FILE)),
-        MOR_OK);
-    const char *at = data.header;
-    while (strncmp(at, name, strlen(name)) != 0 || at[strlen(name)] != ' ') {
-        at = strchr(at, ',');
-        assert_non_null(at);
-        at += 1;
-        column += 1;
-    }
-    const double value = data.values[(row < 0 ? data.n_rows - 1 : row) * data.n_columns + column];
-    mor_table_data_clear(&folder->context, &data);
-    return value;
-}
-
 static void a_run_is_resumed_before_between_and_after_removals_with_the_same_bits(void **state)
 {
     run_folder *folder = *state;
@@ -81,10 +60,10 @@ static void a_run_is_resumed_before_between_and_after_removals_with_the_same_bit
     finished_run_compare_bytes(folder, "whole", "part", MOR_TABLE_SERIES_FILE);
     finished_run_compare_snapshots(folder, "whole", "part");
     /* The force on the gate is there before, and gone after it is removed. */
-    assert_true(read_value(folder, "whole", "gate_force", 40) > 100.0);
-    assert_true(read_value(folder, "whole", "gate_force", -1) == 0.0);
+    assert_true(finished_run_read_value(folder, "whole", "gate_force", 40) > 100.0);
+    assert_true(finished_run_read_value(folder, "whole", "gate_force", -1) == 0.0);
     /* As of moving walls, docs/theory/energy.md: half a percent at this resolution. */
-    assert_near(read_value(folder, "whole", "balance", -1), 1.0, 5e-3);
+    assert_near(finished_run_read_value(folder, "whole", "balance", -1), 1.0, 5e-3);
 }
 
 #define CASE_OF_CUT(start, width)                                                                                      \
@@ -121,17 +100,19 @@ static void a_cut_in_stages_is_the_cut_in_one_go(void **state)
     run_cut(folder, CASE_OF_CUT("", "4"), "before");
     run_cut(folder, CASE_OF_CUT(DAMPED EXCAVATED, "4"), "staged");
     run_cut(folder, CASE_OF_CUT(DAMPED, "2"), "at_once");
-    assert_true(read_value(folder, "staged", "mass", 0) == read_value(folder, "at_once", "mass", 0));
+    assert_true(finished_run_read_value(folder, "staged", "mass", 0) ==
+                finished_run_read_value(folder, "at_once", "mass", 0));
     /* The stress is taken over, not made anew: small waves of the run before are in it, 1 %. */
-    assert_near(read_value(folder, "staged", "sy", 0), read_value(folder, "before", "sy", -1), 1e-9);
+    assert_near(finished_run_read_value(folder, "staged", "sy", 0), finished_run_read_value(folder, "before", "sy", -1),
+                1e-9);
     /* What the cut moves, 0.5 mm out and 0.3 mm down, is the same to 5 %: the run before has moved by 3 um. */
-    const double moved[2] = {read_value(folder, "at_once", "x", -1) - 1.0,
-                             read_value(folder, "at_once", "y", -1) - 1.0};
+    const double moved[2] = {finished_run_read_value(folder, "at_once", "x", -1) - 1.0,
+                             finished_run_read_value(folder, "at_once", "y", -1) - 1.0};
     assert_true(moved[0] > 4e-4 && moved[1] < -2e-4);
-    assert_near(read_value(folder, "staged", "x", -1) - 1.0, moved[0], 0.05 * moved[0]);
-    assert_near(read_value(folder, "staged", "y", -1) - 1.0, moved[1], -0.05 * moved[1]);
-    const double stress = read_value(folder, "at_once", "sy", -1);
-    assert_near(read_value(folder, "staged", "sy", -1), stress, -0.02 * stress);
+    assert_near(finished_run_read_value(folder, "staged", "x", -1) - 1.0, moved[0], 0.05 * moved[0]);
+    assert_near(finished_run_read_value(folder, "staged", "y", -1) - 1.0, moved[1], -0.05 * moved[1]);
+    const double stress = finished_run_read_value(folder, "at_once", "sy", -1);
+    assert_near(finished_run_read_value(folder, "staged", "sy", -1), stress, -0.02 * stress);
 }
 
 /* A filling on what is left, in a third stage that is itself resumed. */
@@ -171,7 +152,7 @@ static void a_stage_fills_and_is_resumed_with_the_same_bits(void **state)
     assert_string_equal(hashes[0], hashes[1]);
     finished_run_compare_bytes(folder, "through", "part", MOR_TABLE_SERIES_FILE);
     /* 400 particles of clay, and 200 of fill. */
-    const double mass = read_value(folder, "through", "mass", 0);
+    const double mass = finished_run_read_value(folder, "through", "mass", 0);
     assert_near(mass, 8000.0 + 3600.0, 1e-6);
 }
 

@@ -3,6 +3,7 @@
 /* Probes that read a gauge, so that its numbers can be expected and stand in the series. */
 #include "cases/driver/probe/probe_row_internal.h"
 
+#include <stddef.h>
 #include <string.h>
 
 typedef mor_probe_view view;
@@ -21,69 +22,35 @@ static bool read_gauge(const view *v, mor_gauge_reading *reading)
     return false;
 }
 
-static mor_status normal(mor_context *context, const view *v, double *value)
+static mor_status read_number(mor_context *context, const view *v, double *value)
 {
     mor_gauge_reading it;
     (void)context;
-    *value = read_gauge(v, &it) ? it.normal : NAN;
-    return MOR_OK;
-}
-
-static mor_status normal_soil(mor_context *context, const view *v, double *value)
-{
-    mor_gauge_reading it;
-    (void)context;
-    *value = read_gauge(v, &it) ? it.of_source[MOR_GAUGE_SOIL] : NAN;
-    return MOR_OK;
-}
-
-static mor_status normal_bodies(mor_context *context, const view *v, double *value)
-{
-    mor_gauge_reading it;
-    (void)context;
-    *value = read_gauge(v, &it) ? it.of_source[MOR_GAUGE_BODIES] : NAN;
-    return MOR_OK;
-}
-
-static mor_status shear(mor_context *context, const view *v, double *value)
-{
-    mor_gauge_reading it;
-    (void)context;
-    *value = read_gauge(v, &it) ? it.shear : NAN;
-    return MOR_OK;
-}
-
-static mor_status moment(mor_context *context, const view *v, double *value)
-{
-    mor_gauge_reading it;
-    (void)context;
-    *value = read_gauge(v, &it) ? it.moment : NAN;
-    return MOR_OK;
-}
-
-static mor_status height(mor_context *context, const view *v, double *value)
-{
-    mor_gauge_reading it;
-    (void)context;
-    *value = read_gauge(v, &it) ? it.height : NAN;
+    *value = read_gauge(v, &it) ? *(const double *)((const char *)&it + v->measure->offset) : NAN;
     return MOR_OK;
 }
 
 const mor_probe_measure mor_probe_gauge_measures[] = {
     {.type = {"gauge_normal", "N", "N/m", GAUGE, GAUGE, FORCE, 100.0,
               "normal force on a gauge by soil and bodies, along its direction, filtered as the gauge says"},
-     .run = normal},
+     .run = read_number,
+     .offset = offsetof(mor_gauge_reading, normal)},
     {.type = {"gauge_normal_soil", "N", "N/m", GAUGE, GAUGE, FORCE, 100.0, "the soil's share of gauge_normal"},
-     .run = normal_soil},
+     .run = read_number,
+     .offset = offsetof(mor_gauge_reading, of_source[MOR_GAUGE_SOIL])},
     {.type = {"gauge_normal_bodies", "N", "N/m", GAUGE, GAUGE, FORCE, 100.0, "the bodies' share of gauge_normal"},
-     .run = normal_bodies},
+     .run = read_number,
+     .offset = offsetof(mor_gauge_reading, of_source[MOR_GAUGE_BODIES])},
     {.type = {"gauge_shear", "N", "N/m", GAUGE, GAUGE, STEP, 100.0,
               "size of the force on a gauge across its direction, filtered likewise"},
-     .run = shear},
+     .run = read_number,
+     .offset = offsetof(mor_gauge_reading, shear)},
     {.type = {"gauge_moment", "N m", "N", GAUGE, GAUGE, STEP, 100.0,
               "overturning moment on a gauge about the level axis through its origin, filtered likewise"},
-     .run = moment},
+     .run = read_number,
+     .offset = offsetof(mor_gauge_reading, moment)},
     {.type = {"gauge_height", "m", "m", GAUGE, GAUGE, STEP, 100.0,
               "height over the origin of a gauge at which the normal force acts, filtered likewise; NaN without force"},
-     .run = height},
+     .run = read_number,
+     .offset = offsetof(mor_gauge_reading, height)},
     {.run = NULL}};

@@ -94,6 +94,7 @@ typedef struct mor_probe_measure {
     /** Of contact, NULL for others: writes the value after a sub-step of the steppers with the bits of members, and the
      *  part of it that they gave, both in the unit of the type. */
     mor_probe_contact (*contact)(const mor_probe_view *view, uint64_t members, double *whole, double *part);
+    size_t offset; /* of what `run` gives in what it reads, bytes; for measures that share a `run` */
     mor_probe_cost cost;
 } mor_probe_measure;
 

@@ -10,8 +10,8 @@
 
 #include <string.h>
 
-/* A wall moves by at most this part of the least extent of the domain from one time to the next; but there are no more
- * times than these, of which so many are tried for each point. */
+/* A wall moves by at most this part of the least extent of the domain from one time to the next; a way of more times
+ * than these is refused. Of the times so many are tried for each point. */
 #define PART 0.0625
 enum { TIMES_MOST = 200000, TRIES_MOST = 4000 };
 
@@ -54,9 +54,11 @@ static double find_removal(const mor_case *c, int wall)
 static mor_status add_time(mor_context *context, mor_wall_sweep *sweep, double time)
 {
     const double until = find_removal(sweep->the_case, sweep->wall);
-    if (sweep->n_times >= TIMES_MOST) {
-        return MOR_OK;
-    }
+    MOR_CHECK(context, sweep->n_times < TIMES_MOST, MOR_ERROR_CONFIG,
+              "%s:%d: found a wall '%s' that goes a way of more than %d sixteenths of the domain; allowed are fewer; "
+              "shorten the path, or end the run earlier if the wall has a velocity",
+              sweep->the_case->walls[sweep->wall].place.file, sweep->the_case->walls[sweep->wall].place.line,
+              sweep->the_case->walls[sweep->wall].name, TIMES_MOST);
     if (sweep->n_times == sweep->room) {
         double *times = NULL;
         sweep->room = 2 * sweep->room + 64;
@@ -74,7 +76,7 @@ static mor_status add_time(mor_context *context, mor_wall_sweep *sweep, double t
 /* Times after a first one up to a last one, between which a wall goes a way. */
 static mor_status add_times(mor_context *context, mor_wall_sweep *sweep, double first, double last, double way)
 {
-    const double parts = fmin(ceil(way / (PART * find_extent(sweep->the_case))), (double)TIMES_MOST);
+    const double parts = fmin(ceil(way / (PART * find_extent(sweep->the_case))), TIMES_MOST + 1.0);
     const int64_t n = parts > 1.0 ? (int64_t)parts : 1;
     for (int64_t k = 1; k <= n; ++k) {
         MOR_TRY(context, add_time(context, sweep, k < n ? first + (last - first) * (double)k / (double)n : last));

@@ -81,7 +81,7 @@ typedef struct mor_soil_contact {
                          * been given of them, 1/m; NULL without */
     double *depths;     /* shape [n_points]; below those faces, m; a wall's own, otherwise borrowed; with normals */
     double *seen_faces; /* shape [capacity * 8, MOR_FACE_SUMS]; units of the enum; NULL without */
-    double *hold;       /* shape [capacity]; how deep the particles of a slot lie in the boundary, m; NULL without */
+    double *hold;       /* shape [capacity]; scratch: largest depth of soil in some slots, m; NULL without */
     double deepest;     /* that soil lay in it in the last step, m; 0: none does */
     double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */

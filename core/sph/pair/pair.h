@@ -110,6 +110,7 @@ typedef struct mor_pair_constants {
     const mor_pair_soil *soils;  /* shape [number of soils]; borrowed; NULL: one soil, as above */
     double hourglass;            /* stiffness of the hourglass control, Pa */
     double artificial_exponent;  /* n, 1 */
+    double spacing;              /* m */
     double spacing_kernel;       /* W(spacing), unit 1/m^d */
     double kernel_normalization; /* alpha_d, unit 1/m^d */
     double shift_diameter;       /* of the sphere (disc) with a particle's volume, m */

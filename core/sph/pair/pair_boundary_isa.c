@@ -154,10 +154,8 @@ void MOR_ISA_NAME(mor_pair_mean)(const mor_pair_constants *c, const mor_pair_mea
     }
 }
 
-/* Smoothing lengths within which a point counts in full for the distance from a boundary: about a spacing, so that any
- * particle in it has such points, and one that has none is outside. Farther ones count the less, by twice the way
- * beyond. */
-#define NEAR_FACE 0.75
+/* A point within a spacing counts in full for the distance from a boundary: any particle in it has such points, and one
+ * that has none is outside. Farther ones count the less, by twice the way beyond. */
 #define FAR_FACE 2.0
 
 /* Sum V (1 - (q/2)^4) n (x) n over the points of a slot, and the distance from the planes of their faces. */
@@ -176,7 +174,7 @@ INLINE void faces_part(const mor_pair_constants *c, const mor_pair_faces_job *jo
         const pair p = pair_of(&f, target, 3);
         const vec plane = dot_r(&p, broadcast(n[0]), broadcast(n[1]), broadcast(n[2]), 3) -
                           job->depths[slot->list[entry]] -
-                          FAR_FACE * positive_part(2.0 * h * (1.0 - p.reach) - NEAR_FACE * h);
+                          FAR_FACE * positive_part(2.0 * h * (1.0 - p.reach) - c->spacing);
         const bool has_face = n[0] != 0.0 || n[1] != 0.0 || n[2] != 0.0;
         nearest = has_face ? larger(nearest, p.reach) : nearest;
         distance = has_face ? select_lanes(p.reach > 0.0, larger(distance, plane), distance) : distance;
@@ -190,7 +188,7 @@ INLINE void faces_part(const mor_pair_constants *c, const mor_pair_faces_job *jo
     for (int a = 0; a < 6; ++a) {
         store(out, MOR_FACE_SUMS, MOR_FACE_TENSOR + a, LANES, sum[a]);
     }
-    const vec found = select_lanes(nearest >= 1.0 - 0.5 * NEAR_FACE, distance, broadcast(INFINITY));
+    const vec found = select_lanes(nearest >= 1.0 - 0.5 * c->spacing / h, distance, broadcast(INFINITY));
     store(out, MOR_FACE_SUMS, MOR_FACE_DISTANCE, LANES, found);
 }
 

@@ -177,8 +177,7 @@ static mor_status list_sources(mor_context *context, mor_taken_soil *taken, int 
     taken->count[soil] = n;
     MOR_CHECK(context, n > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s', of whose %lld particles in the run '%s' none is left by the excavations and new "
-              "bodies; "
-              "allowed: at least one; remove the soil from the case, or make the excavations smaller",
+              "bodies; allowed: at least one; remove the soil from the case, or make the excavations smaller",
               c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
               c->stage.run);
     mor_context_log(context, MOR_LOG_INFO,

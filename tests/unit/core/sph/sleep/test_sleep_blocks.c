@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-enum { BLOCKS = 60, N = BLOCKS * MOR_SLEEP_PARTICLES - 37, CLUSTERS = BLOCKS * MOR_SLEEP_CLUSTERS };
+enum { BLOCKS = 60, N = BLOCKS * MOR_SLEEP_PARTICLES - 37 };
 
 /* Blocks are boxes one meter wide in a row that has gaps, filled at random; a particle sees all within REACH. */
 #define REACH 0.3
@@ -19,8 +19,6 @@ enum { BLOCKS = 60, N = BLOCKS * MOR_SLEEP_PARTICLES - 37, CLUSTERS = BLOCKS * M
 
 typedef struct row {
     mor_context context;
-    mor_tree tree;
-    mor_relation inner;
     mor_sleep sleep;
     double position[3 * N + 3 * MOR_CLUSTER];
     double quiet[N];
@@ -43,11 +41,6 @@ static int open_row(void **state)
         it.position[3 * i] += 1.5 * (double)block + gap - 0.5 * (double)(block % 5);
         it.quiet[i] = 1.0;
     }
-    assert_int_equal(mor_tree_init(&it.context, &it.tree, N), MOR_OK);
-    mor_tree_fit(&it.tree, it.position, 3);
-    const mor_relation_points points = {&it.tree, it.position, 3};
-    assert_int_equal(mor_relation_init(&it.context, &it.inner, MOR_CONFIGURATION_CURRENT, it.tree.n_clusters), MOR_OK);
-    assert_int_equal(mor_relation_build(&it.context, &it.inner, &points, &points, 2.0 * REACH), MOR_OK);
     assert_int_equal(mor_sleep_init(&it.context, &it.sleep, N), MOR_OK);
     assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, it.position, N, 2.0 * REACH), MOR_OK);
     return 0;
@@ -57,8 +50,6 @@ static int close_row(void **state)
 {
     (void)state;
     mor_sleep_clear(&it.context, &it.sleep);
-    mor_relation_clear(&it.context, &it.inner);
-    mor_tree_clear(&it.context, &it.tree);
     assert_int_equal(it.context.memory_bytes, 0);
     return 0;
 }
@@ -169,11 +160,40 @@ static void block_is_held_from_the_second_step_of_sleep_on(void **state)
     assert_false(mor_sleep_is(NULL, 0, MOR_SLEEP_ASLEEP));
 }
 
+/* Of 800 steps of an eighth of a second, those after which a body rests that has not moved on by 20 mm for 1 s. */
+static int count_rests(double speed, double spin)
+{
+    double rest[MOR_SLEEP_REST] = {0.0};
+    int n = 0;
+    for (int step = 1; step <= 800; ++step) {
+        const double time = 0.125 * step;
+        const double x = 5.0 + speed * time;
+        const double arm[2] = {cos(spin * time), sin(spin * time)};
+        const double first[3] = {x, 0.0, 0.0};
+        const double middle[3] = {x + arm[0], arm[1], 0.0};
+        const double last[3] = {x - arm[0], -arm[1], 0.0};
+        n += mor_sleep_body_rests(rest, (const double *const[]){first, middle, last}, 0.125, 0.02, 1.0);
+    }
+    return n;
+}
+
+/* However slowly a body goes or turns, it wakes the soil whenever it has moved on. */
+static void a_body_that_creeps_moves_on_in_the_end(void **state)
+{
+    (void)state;
+    assert_int_equal(count_rests(0.0, 0.0), 800 - 8); /* it was found at the first step, and rests after eight more */
+    /* Likewise after 20, 40, 60, 80 and perhaps 100 s, the last of which is the end. */
+    assert_in_range(count_rests(1e-3, 0.0), 800 - 5 * 8 - 1, 800 - 5 * 8);
+    assert_in_range(count_rests(0.0, 1e-3), 800 - 5 * 8 - 1, 800 - 5 * 8);
+    assert_int_equal(count_rests(0.1, 0.0), 0); /* 20 mm in 0.2 s, never still for 1 s */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(block_sleeps_where_all_blocks_in_reach_are_calm, open_row, close_row),
         cmocka_unit_test_setup_teardown(block_beside_something_that_moves_is_awake, open_row, close_row),
+        cmocka_unit_test(a_body_that_creeps_moves_on_in_the_end),
         cmocka_unit_test_setup_teardown(block_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
