@@ -8,11 +8,23 @@
 #include "core/base/memory.h"
 #include "core/base/reduce.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Clusters of soil are cut into so many blocks, whose sums are added in order. */
 enum { BLOCKS = 16 };
+
+void mor_gauge_describe_filter(const mor_case_gauge *asked, char *text)
+{
+    if (isfinite(asked->filter)) {
+        snprintf(text, MOR_GAUGE_FILTER_BYTES, "running mean over %.6g s", asked->filter);
+    } else if (isfinite(asked->cutoff)) {
+        snprintf(text, MOR_GAUGE_FILTER_BYTES, "Butterworth low pass at %.6g Hz", asked->cutoff);
+    } else {
+        snprintf(text, MOR_GAUGE_FILTER_BYTES, "none");
+    }
+}
 
 /* ---- Where forces act -------------------------------------------------------------------------------------------- */
 

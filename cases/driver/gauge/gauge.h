@@ -143,6 +143,12 @@ void mor_gauge_read(const mor_gauge *gauge, const double *loads, mor_gauge_readi
  *  Gives: a reading of NaN where no time has passed. */
 void mor_gauge_take_row(mor_gauge *gauge, double time, mor_gauge_reading *reading, double *largest);
 
+enum { MOR_GAUGE_FILTER_BYTES = 64 };
+
+/** How a gauge filters, in words: "running mean over 0.25 s".
+ *  @param text [out]  shape [MOR_GAUGE_FILTER_BYTES]; zero-terminated */
+void mor_gauge_describe_filter(const mor_case_gauge *asked, char *text);
+
 /** Distance of a point from the surface of the structure of a gauge, m; negative inside. A body that deforms counts as
  *  rigid here.
  *  @param point [in]  shape [3], placed, m */

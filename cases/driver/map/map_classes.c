@@ -54,7 +54,7 @@ void mor_map_classes_label(const mor_map_kind *kind, const mor_map_classes *clas
 {
     char low[MOR_TICKS_TEXT_BYTES];
     char high[MOR_TICKS_TEXT_BYTES];
-    const double first = classes->limits[k] + (is_count(kind) && k > 0 ? 1.0 : 0.0);
+    const double first = classes->limits[k] + (is_count(kind) ? 1.0 : 0.0);
     mor_ticks_format(factor * first, factor * classes->step, low);
     mor_ticks_format(factor * classes->limits[k + 1], factor * classes->step, high);
     const bool is_one = first == classes->limits[k + 1];

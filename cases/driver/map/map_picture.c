@@ -42,6 +42,13 @@ typedef struct sheet {
 
 /* ---- The map ----------------------------------------------------------------------------------------------------- */
 
+/* Track that was left is no deposit, and a rock that only began in a cell did not pass it: 0 has no color, but where a
+ * small value counts most, as of an arrival at the start. */
+static bool is_colored(const sheet *s, double value)
+{
+    return !isnan(value) && (value != 0.0 || s->picture->kind->is_early_dark);
+}
+
 static void find_color(const sheet *s, double column, double row, double *color)
 {
     const mor_terrain_raster *map = s->picture->map;
@@ -53,7 +60,7 @@ static void find_color(const sheet *s, double column, double row, double *color)
     for (int a = 0; a < 3; ++a) {
         color[a] = gray;
     }
-    if (!isnan(value)) {
+    if (is_colored(s, value)) {
         const double *of = s->classes.colors[mor_map_classes_find(&s->classes, value)];
         for (int a = 0; a < 3; ++a) {
             color[a] = opacity * of[a] * (0.5 + 0.5 * gray) + (1.0 - opacity) * gray;
@@ -118,6 +125,9 @@ static void draw_legend(sheet *s)
         write_line(s, s->legend, line, text_gray, false);
     } else {
         write_line(s, s->legend, "no cell has data", text_gray, false);
+    }
+    if (!s->picture->kind->is_early_dark) {
+        write_line(s, s->legend, "0: without color", text_gray, false);
     }
 }
 

@@ -46,6 +46,9 @@ static void write_classes(FILE *out, const mor_map_kind *kind, double largest)
         "        <colorrampshader colorRampType=\"DISCRETE\" classificationMode=\"1\" clip=\"0\" "
         "minimumValue=\"0\" maximumValue=\"%.17g\">\n",
         opacity, classes.limits[classes.n], classes.limits[classes.n]);
+    if (!kind->is_early_dark) { /* 0 has no color, as in pictures */
+        fprintf(out, "          <item alpha=\"0\" color=\"#ffffff\" value=\"0\" label=\"0\"/>\n");
+    }
     for (int k = 0; k < classes.n; ++k) {
         write_class(out, kind, &classes, k);
     }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/picture/gauge_charts.h"
 
+#include "cases/driver/gauge/gauge.h"
 #include "cases/driver/gauge/gauge_table.h"
 #include "cases/driver/picture/draw/ticks.h"
 #include "cases/driver/picture/gauge_map_picture.h"
@@ -52,7 +53,9 @@ static void name_peak(const char *unit, const double *peak, char *text)
 static mor_status draw_forces(mor_context *context, const mor_table_data *data, const mor_case *the_case, int gauge,
                               double *room, const char *path)
 {
-    static const char *const notes[] = {"Dot: of every step, at the row after it."};
+    char filter[MOR_GAUGE_FILTER_BYTES];
+    char note[TEXT_BYTES];
+    const char *const notes[] = {note};
     mor_chart_series series[CURVES + 1];
     char peak_name[TEXT_BYTES];
     char title[TEXT_BYTES];
@@ -82,7 +85,9 @@ static mor_status draw_forces(mor_context *context, const mor_table_data *data, 
     name_peak(unit, peak, peak_name);
     series[n++] = (mor_chart_series){
         .name = peak_name, .x = &peak[0], .y = &peak[1], .n_points = 1, .style = MOR_CHART_POINTS, .color_of = 1};
-    snprintf(title, sizeof title, "gauge %s", the_case->gauges[gauge].name);
+    mor_gauge_describe_filter(&the_case->gauges[gauge], filter);
+    snprintf(note, sizeof note, "Filter: %s. Dot: of every step, at the row after it.", filter);
+    snprintf(title, sizeof title, "%.100s: gauge %s", the_case->title, the_case->gauges[gauge].name);
     const mor_chart chart = {.title = title,
                              .x_name = "time",
                              .x_unit = "s",

@@ -81,19 +81,6 @@ void mor_run_gauges_close(mor_context *context, mor_run_gauges *it)
 
 /* ---- At the end -------------------------------------------------------------------------------------------------- */
 
-/* How a gauge filters, in words. */
-static void describe_filter(const mor_gauge *gauge, char *text, size_t text_bytes)
-{
-    const mor_signal_filter *filter = &gauge->filter;
-    if (filter->kind == MOR_SIGNAL_MEAN) {
-        snprintf(text, text_bytes, "running mean over %.6g s", filter->length);
-    } else if (filter->kind == MOR_SIGNAL_LOW_PASS) {
-        snprintf(text, text_bytes, "Butterworth low pass at %.6g Hz", filter->cutoff);
-    } else {
-        snprintf(text, text_bytes, "none");
-    }
-}
-
 static void print_cell(FILE *stream, double value)
 {
     if (isfinite(value)) {
@@ -116,10 +103,10 @@ static void write_peaks(const mor_gauges *gauges, FILE *stream)
             force, force, force, force, moment, force, force, impulse, impulse);
     for (int k = 0; k < gauges->n; ++k) {
         const mor_gauge *gauge = &gauges->of[k];
-        char filter[64];
+        char filter[MOR_GAUGE_FILTER_BYTES];
         mor_gauge_reading last;
         mor_gauge_reading sums;
-        describe_filter(gauge, filter, sizeof filter);
+        mor_gauge_describe_filter(gauge->asked, filter);
         mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, &last);
         mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_SUM, &sums);
         fprintf(stream, "%s,%s,%s", gauge->asked->name, gauge->wall >= 0 ? gauge->asked->wall : gauge->asked->body,
@@ -208,9 +195,9 @@ void mor_run_gauges_print(const mor_gauges *gauges, FILE *out)
             "by soil", "by bodies", "at height", "shear", "moment", "one step", "last normal", "filter");
     for (int k = 0; k < gauges->n; ++k) {
         const mor_gauge *gauge = &gauges->of[k];
-        char filter[64];
+        char filter[MOR_GAUGE_FILTER_BYTES];
         mor_gauge_reading last;
-        describe_filter(gauge, filter, sizeof filter);
+        mor_gauge_describe_filter(gauge->asked, filter);
         mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, &last);
         fprintf(out, "%-22s", gauge->asked->name);
         for (size_t i = 0; i < sizeof shown / sizeof *shown; ++i) {

@@ -27,6 +27,7 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
     MOR_TRY(context, MOR_NEW(context, &sleep->deep, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->at_bodies, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of blocks"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->cluster_boxes, 6 * n * MOR_SLEEP_CLUSTERS, "boxes of blocks"));
     return MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of blocks");
 }
 
@@ -35,6 +36,7 @@ void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
     MOR_FREE(context, &sleep->rests);
     MOR_FREE(context, &sleep->neighbors);
     MOR_FREE(context, &sleep->boxes);
+    MOR_FREE(context, &sleep->cluster_boxes);
     MOR_FREE(context, &sleep->first);
     MOR_FREE(context, &sleep->at_bodies);
     MOR_FREE(context, &sleep->deep);
@@ -92,33 +94,72 @@ static double find_distance2(const double *minimum, const double *maximum, const
     return distance2;
 }
 
-static int64_t find_end(const mor_sleep_job *job, int64_t block)
+static void empty_box(double *box)
 {
-    const int64_t end = (block + 1) * MOR_SLEEP_PARTICLES;
-    return end < job->n_particles ? end : job->n_particles;
-}
-
-static void find_box(const mor_sleep_job *job, int64_t block, double *box)
-{
-    const int64_t last = find_end(job, block);
     for (int a = 0; a < 3; ++a) {
         box[a] = INFINITY;
         box[3 + a] = -INFINITY;
     }
-    for (int64_t i = block * MOR_SLEEP_PARTICLES; i < last; ++i) {
-        for (int a = 0; a < 3; ++a) {
-            box[a] = fmin(box[a], job->position[3 * i + a]);
-            box[3 + a] = fmax(box[3 + a], job->position[3 * i + a]);
-        }
+}
+
+static void widen_box(double *box, const double *minimum, const double *maximum)
+{
+    for (int a = 0; a < 3; ++a) {
+        box[a] = fmin(box[a], minimum[a]);
+        box[3 + a] = fmax(box[3 + a], maximum[a]);
     }
+}
+
+/* The box of a block, and those of its clusters; one without particles is empty, and far from all. */
+static void find_boxes(const mor_sleep *sleep, const mor_sleep_job *job, int64_t block)
+{
+    double *box = sleep->boxes + 6 * block;
+    empty_box(box);
+    for (int64_t c = block * MOR_SLEEP_CLUSTERS; c < (block + 1) * MOR_SLEEP_CLUSTERS; ++c) {
+        double *own = sleep->cluster_boxes + 6 * c;
+        empty_box(own);
+        for (int64_t i = c * MOR_CLUSTER; i < (c + 1) * MOR_CLUSTER && i < job->n_particles; ++i) {
+            widen_box(own, job->position + 3 * i, job->position + 3 * i);
+        }
+        widen_box(box, own, own + 3);
+    }
+}
+
+/* Whether any box of the clusters of a block is within reach of a box. */
+static bool clusters_reach(const mor_sleep *sleep, double reach, int64_t block, const double *minimum,
+                           const double *maximum)
+{
+    bool does = false;
+    for (int64_t c = block * MOR_SLEEP_CLUSTERS; c < (block + 1) * MOR_SLEEP_CLUSTERS && !does; ++c) {
+        const double *own = sleep->cluster_boxes + 6 * c;
+        does = find_distance2(own, own + 3, minimum, maximum) <= reach * reach;
+    }
+    return does;
+}
+
+/* Whether particles of two blocks may be within reach: blocks are no boxes, and theirs overlap where they do not touch. */
+static bool blocks_reach(const mor_sleep *sleep, double reach, int64_t block, int64_t other)
+{
+    const double *box = sleep->boxes + 6 * block;
+    const double *beside = sleep->boxes + 6 * other;
+    bool do_reach = false;
+    if (find_distance2(box, box + 3, beside, beside + 3) > reach * reach) {
+        return false;
+    }
+    for (int64_t c = other * MOR_SLEEP_CLUSTERS; c < (other + 1) * MOR_SLEEP_CLUSTERS && !do_reach; ++c) {
+        const double *its = sleep->cluster_boxes + 6 * c;
+        do_reach = find_distance2(box, box + 3, its, its + 3) <= reach * reach &&
+                   clusters_reach(sleep, reach, block, its, its + 3);
+    }
+    return do_reach;
 }
 
 /* Whether all particles of a block have been quiet for long enough. */
 static bool is_quiet(const mor_sleep_job *job, int64_t block)
 {
-    const int64_t last = find_end(job, block);
+    const int64_t end = (block + 1) * MOR_SLEEP_PARTICLES;
     bool is = true;
-    for (int64_t i = block * MOR_SLEEP_PARTICLES; i < last; ++i) {
+    for (int64_t i = block * MOR_SLEEP_PARTICLES; i < end && i < job->n_particles; ++i) {
         is = is && job->quiet_time[i] >= job->after;
     }
     return is;
@@ -149,7 +190,7 @@ mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, cons
     memset(sleep->deep, 0, (size_t)sleep->n_blocks);
     memset(sleep->at_bodies, 0, (size_t)sleep->n_blocks);
     MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
-        find_box(&job, block, sleep->boxes + 6 * block);
+        find_boxes(sleep, &job, block);
     }
     MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
         sleep->first[block + 1] = walk_boxes(sleep, reach, block, NULL);
@@ -171,10 +212,13 @@ mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, cons
     return MOR_OK;
 }
 
-static bool sees_motion(const mor_sleep_job *job, const double *box)
+static bool sees_motion(const mor_sleep *sleep, const mor_sleep_job *job, int64_t block)
 {
+    const double *box = sleep->boxes + 6 * block;
     for (int k = 0; k < job->n_moving; ++k) {
-        if (find_distance2(box, box + 3, job->moving[k].minimum, job->moving[k].maximum) <= job->reach * job->reach) {
+        const mor_sleep_box *it = &job->moving[k];
+        if (find_distance2(box, box + 3, it->minimum, it->maximum) <= job->reach * job->reach &&
+            clusters_reach(sleep, job->reach, block, it->minimum, it->maximum)) {
             return true;
         }
     }
@@ -185,11 +229,8 @@ static bool sees_motion(const mor_sleep_job *job, const double *box)
  * decide. */
 static bool have_all(const mor_sleep *sleep, double reach, int64_t block, const int8_t *marks, int8_t least)
 {
-    const double *box = sleep->boxes + 6 * block;
     for (int64_t k = sleep->first[block]; k < sleep->first[block + 1]; ++k) {
-        const int32_t other = sleep->neighbors[k];
-        const double *beside = sleep->boxes + 6 * (int64_t)other;
-        if (marks[other] < least && find_distance2(box, box + 3, beside, beside + 3) <= reach * reach) {
+        if (marks[sleep->neighbors[k]] < least && blocks_reach(sleep, reach, block, sleep->neighbors[k])) {
             return false;
         }
     }
@@ -200,9 +241,8 @@ void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_jo
 {
     const int64_t n = sleep->n_blocks;
     MOR_PARALLEL_FOR (context, block, n, GRAIN) {
-        double *box = sleep->boxes + 6 * block;
-        find_box(job, block, box);
-        sleep->calm[block] = (int8_t)(is_quiet(job, block) && !sees_motion(job, box));
+        find_boxes(sleep, job, block);
+        sleep->calm[block] = (int8_t)(is_quiet(job, block) && !sees_motion(sleep, job, block));
     }
     MOR_PARALLEL_FOR (context, block, n, GRAIN) {
         const bool sleeps = sleep->calm[block] && have_all(sleep, job->reach, block, sleep->calm, 1);

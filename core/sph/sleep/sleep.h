@@ -34,22 +34,23 @@ enum {
 
 /** Particles by blocks, and which of them sleep. Owner: the soil. */
 typedef struct mor_sleep {
-    int8_t *states;      /* shape [blocks]; as above; NULL: none ever sleeps */
-    int8_t *calm;        /* shape [blocks]; scratch, 1: no particle and nothing beside it moves */
-    int8_t *deep;        /* shape [blocks]; 1: it and all its neighbors slept in the last step */
-    int8_t *at_bodies;   /* shape [blocks]; 1: points of bodies are on its lists */
-    double *boxes;       /* shape [blocks, 6]; minimum and maximum corner of the particles, m */
-    int64_t *first;      /* shape [blocks + 1]; of each block's neighbors, and one past the last */
-    int32_t *neighbors;  /* shape [capacity]; blocks beside each block, without itself */
-    double *rests;       /* shape [n_rests, MOR_SLEEP_REST]; of bodies, units of the enum; NULL: there are none */
-    int64_t n_rests;     /* patches of bodies */
-    int64_t capacity;    /* neighbors there is room for */
-    int64_t n_blocks;    /* in use */
-    int64_t n_asleep;    /* blocks that sleep in this step */
-    double momentum[3];  /* taken from particles that fell asleep, kg m/s (kg/s) */
-    double kinetic;      /* energy taken likewise, J (J/m) */
-    double impulse[3];   /* given by soil that was computed to soil that slept, N s (N s/m) */
-    uint64_t n_left_out; /* particle-steps that were not computed */
+    int8_t *states;        /* shape [blocks]; as above; NULL: none ever sleeps */
+    int8_t *calm;          /* shape [blocks]; scratch, 1: no particle and nothing beside it moves */
+    int8_t *deep;          /* shape [blocks]; 1: it and all its neighbors slept in the last step */
+    int8_t *at_bodies;     /* shape [blocks]; 1: points of bodies are on its lists */
+    double *cluster_boxes; /* shape [blocks * MOR_SLEEP_CLUSTERS, 6]; likewise of their clusters, m */
+    double *boxes;         /* shape [blocks, 6]; minimum and maximum corner of the particles, m */
+    int64_t *first;        /* shape [blocks + 1]; of each block's neighbors, and one past the last */
+    int32_t *neighbors;    /* shape [capacity]; blocks beside each block, without itself */
+    double *rests;         /* shape [n_rests, MOR_SLEEP_REST]; of bodies, units of the enum; NULL: there are none */
+    int64_t n_rests;       /* patches of bodies */
+    int64_t capacity;      /* neighbors there is room for */
+    int64_t n_blocks;      /* in use */
+    int64_t n_asleep;      /* blocks that sleep in this step */
+    double momentum[3];    /* taken from particles that fell asleep, kg m/s (kg/s) */
+    double kinetic;        /* energy taken likewise, J (J/m) */
+    double impulse[3];     /* given by soil that was computed to soil that slept, N s (N s/m) */
+    uint64_t n_left_out;   /* particle-steps that were not computed */
 } mor_sleep;
 
 /** Something that moves: what is near does not sleep. */

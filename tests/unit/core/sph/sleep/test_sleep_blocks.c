@@ -66,28 +66,38 @@ static void decide(const mor_sleep_box *moving, int n_moving)
     mor_sleep_decide(&it.context, &it.sleep, &job);
 }
 
-/* Least distance of two blocks' boxes, m. */
-static double find_gap(int64_t a, int64_t b)
+/* Box of a cluster, shape [2][3], m. */
+static void find_cluster_box(int64_t cluster, double box[2][3])
 {
-    double least[2][3];
-    double most[2][3];
-    double sum = 0.0;
-    for (int k = 0; k < 2; ++k) {
-        const int64_t block = k == 0 ? a : b;
-        for (int axis = 0; axis < 3; ++axis) {
-            least[k][axis] = INFINITY;
-            most[k][axis] = -INFINITY;
-            for (int64_t i = block * MOR_SLEEP_PARTICLES; i < (block + 1) * MOR_SLEEP_PARTICLES && i < N; ++i) {
-                least[k][axis] = fmin(least[k][axis], it.position[3 * i + axis]);
-                most[k][axis] = fmax(most[k][axis], it.position[3 * i + axis]);
-            }
+    for (int axis = 0; axis < 3; ++axis) {
+        box[0][axis] = INFINITY;
+        box[1][axis] = -INFINITY;
+        for (int64_t i = cluster * MOR_CLUSTER; i < (cluster + 1) * MOR_CLUSTER && i < N; ++i) {
+            box[0][axis] = fmin(box[0][axis], it.position[3 * i + axis]);
+            box[1][axis] = fmax(box[1][axis], it.position[3 * i + axis]);
         }
     }
-    for (int axis = 0; axis < 3; ++axis) {
-        const double gap = fmax(0.0, fmax(least[1][axis] - most[0][axis], least[0][axis] - most[1][axis]));
-        sum += gap * gap;
+}
+
+/* Least distance of the boxes of two blocks' clusters, m. */
+static double find_gap(int64_t a, int64_t b)
+{
+    double least = INFINITY;
+    for (int64_t c = a * MOR_SLEEP_CLUSTERS; c < (a + 1) * MOR_SLEEP_CLUSTERS; ++c) {
+        double own[2][3];
+        find_cluster_box(c, own);
+        for (int64_t d = b * MOR_SLEEP_CLUSTERS; d < (b + 1) * MOR_SLEEP_CLUSTERS; ++d) {
+            double other[2][3];
+            double sum = 0.0;
+            find_cluster_box(d, other);
+            for (int axis = 0; axis < 3; ++axis) {
+                const double gap = fmax(0.0, fmax(other[0][axis] - own[1][axis], own[0][axis] - other[1][axis]));
+                sum += gap * gap;
+            }
+            least = fmin(least, sum);
+        }
     }
-    return sqrt(sum);
+    return sqrt(least);
 }
 
 /* One particle in each of some blocks is not quiet. */
