@@ -8,6 +8,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /** @file
  *  Soil over a floor of wall particles, for tests of walls. The floor's upper face is z = 0; in plane strain, y = 0. */
@@ -110,6 +111,26 @@ static inline mor_contact_soil floor_soil(const floor_case *f, mor_dissipation d
                               .limiter_rate = f->soil.constants.limiter_rate,
                               .records = f->soil.records,
                               .n_particles = f->soil.n};
+}
+
+/** Gives the first particle a stress with a normal and a shear traction on the floor, Pa; other components are not
+ *  zero either. */
+static inline void floor_set_stress(floor_case *f, double normal, double shear)
+{
+    double *stress = floor_record(f) + MOR_RECORD_STRESS;
+    memset(stress, 0, 6 * sizeof *stress);
+    stress[MOR_XX] = -3e3;
+    if (f->soil.constants.dimension == 3) {
+        stress[MOR_YY] = -2e3;
+        stress[MOR_ZZ] = normal;
+        stress[MOR_ZX] = 0.8 * shear;
+        stress[MOR_YZ] = -0.6 * shear;
+    } else {
+        stress[MOR_YY] = normal;
+        stress[MOR_ZZ] = -2e3;
+        stress[MOR_XY] = shear;
+    }
+    memset(floor_record(f) + MOR_RECORD_VELOCITY, 0, 3 * sizeof(double));
 }
 
 /** The wall's work in one step, after the lists have been made anew. */

@@ -137,7 +137,7 @@ static bool clusters_reach(const mor_sleep *sleep, double reach, int64_t block, 
     return does;
 }
 
-/* Whether particles of two blocks may be within reach: blocks are no boxes, and theirs overlap where they do not touch. */
+/* Whether particles of two blocks may be within reach. Blocks are no boxes: theirs overlap where they do not touch. */
 static bool blocks_reach(const mor_sleep *sleep, double reach, int64_t block, int64_t other)
 {
     const double *box = sleep->boxes + 6 * block;

@@ -1,7 +1,5 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/base/eigen.h"
-#include "core/particle/kernel.h"
 #include "tests/common/floor.h"
 
 /* 2 (stress . gradient) / density: what a wall that holds the particle's own stress gives, eq. 27 with sigma_w. */
@@ -22,24 +20,6 @@ static void split(int dimension, const double *v, double *along_normal, double *
     tangential[up] = 0.0;
 }
 
-static void set_stress(floor_case *f, double normal, double shear)
-{
-    double *stress = floor_record(f) + MOR_RECORD_STRESS;
-    memset(stress, 0, 6 * sizeof *stress);
-    stress[MOR_XX] = -3e3;
-    if (f->soil.constants.dimension == 3) {
-        stress[MOR_YY] = -2e3;
-        stress[MOR_ZZ] = normal;
-        stress[MOR_ZX] = 0.8 * shear;
-        stress[MOR_YZ] = -0.6 * shear;
-    } else {
-        stress[MOR_YY] = normal;
-        stress[MOR_ZZ] = -2e3;
-        stress[MOR_XY] = shear;
-    }
-    memset(floor_record(f) + MOR_RECORD_VELOCITY, 0, 3 * sizeof(double));
-}
-
 static void wall_sums_are_those_of_the_kernel(void **state)
 {
     (void)state;
@@ -57,158 +37,6 @@ static void wall_sums_are_those_of_the_kernel(void **state)
     }
 }
 
-/* Wherever the particle is over the lattice of the wall, whose own sum ripples. */
-static void wall_with_normals_bears_along_them(void **state)
-{
-    (void)state;
-    for (int dimension = 2; dimension <= 3; ++dimension) {
-        const int up = dimension - 1;
-        for (int place = 1; place < 10; ++place) {
-            floor_case f;
-            double normals[3 * FLOOR_MAX] = {0.0};
-            double depths[FLOOR_MAX] = {0.0};
-            double gradient[3];
-            floor_open_single(&f, dimension, MOR_WALL_ROUGH, 0.0);
-            for (int k = 0; k < f.n_points; ++k) {
-                normals[3 * k + up] = 1.0;
-                depths[k] = -f.points[3 * k + up];
-            }
-            mor_wall_request request = floor_request(&f, MOR_WALL_ROUGH, 0.0);
-            request.normals = normals;
-            request.depths = depths;
-            floor_add(&f, &request);
-            floor_record(&f)[0] = 0.05 * place * ASSEMBLY_SPACING;
-            floor_run(&f, MOR_DISSIPATION_BOTH);
-            floor_gradient(&f, floor_record(&f), gradient);
-            /* Or there is nothing to remove; exactly between two points the sum is symmetric. */
-            assert_true(fabs(gradient[0]) > 1e-5 * fabs(gradient[up]));
-            gradient[0] = 0.0;
-            gradient[1] = dimension == 3 ? 0.0 : gradient[1];
-            floor_assert_vector(f.wall.sums + MOR_KERNEL_SUM_GRADIENT, gradient, fabs(gradient[up]));
-            floor_close(&f);
-        }
-    }
-}
-
-/* Faces that differ by a few degrees count as one, whose normal is the principal direction of what is seen. It is found
- * without the others, and must be what all three give. */
-static void faces_that_count_as_one_bear_along_their_principal_direction(void **state)
-{
-    (void)state;
-    for (int dimension = 2; dimension <= 3; ++dimension) {
-        floor_case f;
-        double normals[3 * FLOOR_MAX] = {0.0};
-        double depths[FLOOR_MAX] = {0.0};
-        double gradient[3];
-        double values[3];
-        double axes[9];
-        floor_open_single(&f, dimension, MOR_WALL_ROUGH, 0.0);
-        const int up = dimension - 1;
-        for (int k = 0; k < f.n_points; ++k) {
-            const double tilt = MOR_PI / 180.0 * (3.0 + 4.0 * (k % 3)); /* 3, 7 and 11 degrees, not symmetric */
-            normals[3 * k] = sin(tilt);
-            normals[3 * k + up] = cos(tilt);
-            depths[k] = -f.points[3 * k + up];
-        }
-        mor_wall_request request = floor_request(&f, MOR_WALL_ROUGH, 0.0);
-        request.normals = normals;
-        request.depths = depths;
-        floor_add(&f, &request);
-        floor_record(&f)[0] = 0.3 * ASSEMBLY_SPACING;
-        floor_run(&f, MOR_DISSIPATION_BOTH);
-        floor_gradient(&f, floor_record(&f), gradient);
-        mor_symmetric_eigen(f.wall.seen_faces, values, axes);
-        const double trace = values[0] + values[1] + values[2];
-        int largest = 0;
-        for (int a = 1; a < 3; ++a) {
-            largest = values[a] > values[largest] ? a : largest;
-        }
-        assert_true(trace - values[largest] > 1e-3 * trace &&
-                    trace - values[largest] < 0.02 * trace); /* one, not flat */
-        const double axis[3] = {axes[largest], axes[3 + largest], axes[6 + largest]};
-        const double along = mor_vector_dot(gradient, axis);
-        const double expected[3] = {along * axis[0], along * axis[1], along * axis[2]};
-        floor_assert_vector(f.wall.sums + MOR_KERNEL_SUM_GRADIENT, expected, mor_vector_length(gradient));
-        floor_close(&f);
-    }
-}
-
-/* Puts the single particle at a height over a floor whose points know its face, and returns the length of the kernel
- * gradient, 1/m. */
-static double find_gradient_at(floor_case *f, int up, double height)
-{
-    double normals[3 * FLOOR_MAX] = {0.0};
-    double depths[FLOOR_MAX] = {0.0};
-    for (int k = 0; k < f->n_points; ++k) {
-        normals[3 * k + up] = 1.0;
-        depths[k] = -f->points[3 * k + up];
-    }
-    mor_wall_request request = floor_request(f, MOR_WALL_ROUGH, 0.0);
-    request.normals = normals;
-    request.depths = depths;
-    floor_add(f, &request);
-    floor_record(f)[up] = height;
-    floor_run(f, MOR_DISSIPATION_BOTH);
-    return mor_vector_length(f->wall.sums + MOR_KERNEL_SUM_GRADIENT);
-}
-
-/* Else soil that is pressed under a face meets less and less resistance, and passes through. */
-static void boundary_force_grows_all_the_way_under_a_face(void **state)
-{
-    (void)state;
-    for (int dimension = 2; dimension <= 3; ++dimension) {
-        floor_case f;
-        floor_open_single(&f, dimension, MOR_WALL_ROUGH, 0.0);
-        const double h = f.soil.constants.smoothing_length;
-        const double plane =
-            dimension == 3 ? 0.75 / h : 7.0 / (3.0 * MOR_PI * h); /* of the kernel through its center */
-        double last = 0.0;
-        for (int k = -10; k <= 16; ++k) {
-            const double depth = 0.05 * k; /* smoothing lengths */
-            const double found = find_gradient_at(&f, dimension - 1, -depth * h);
-            const double wanted = depth > 0.0 ? 1.0 + 1.5 * depth : mor_kernel_plane_share(-depth);
-            /* The sums over a lattice of 1.3 spacings ripple by up to 14 % of those over the half space. */
-            assert_true(fabs(found - wanted * plane) <= 0.15 * wanted * plane);
-            assert_true(found > 0.97 * last); /* by that ripple; without (W8) a third is left in the end */
-            last = fmax(found, last);
-        }
-        assert_true(mor_soil_contact_check_hold(&f.soil.context, &f.wall, f.soil.records, h, 1, 0.0) == MOR_OK);
-        find_gradient_at(&f, dimension - 1, -1.25 * h);
-        assert_true(mor_soil_contact_check_hold(&f.soil.context, &f.wall, f.soil.records, h, 1, 0.0) ==
-                    MOR_ERROR_NUMERIC);
-        floor_close(&f);
-    }
-}
-
-/* Over a face and under it: what the force takes from the motion of a particle its stress gets, for force and velocity
- * gradient have one sum. */
-static void work_of_a_face_strains_the_soil(void **state)
-{
-    (void)state;
-    for (int dimension = 2; dimension <= 3; ++dimension) {
-        for (int k = -1; k <= 1; ++k) {
-            floor_case f;
-            floor_open_single(&f, dimension, MOR_WALL_ROUGH, 0.0);
-            const int up = dimension - 1;
-            const double *stress = floor_record(&f) + MOR_RECORD_STRESS;
-            f.soil.constants.limiter_rate = 0.0; /* no dissipation */
-            set_stress(&f, -8e3, 1.5e3);
-            floor_record(&f)[MOR_RECORD_VELOCITY] = 0.3;
-            floor_record(&f)[MOR_RECORD_VELOCITY + up] = -0.7;
-            find_gradient_at(&f, up, -0.4 * k * f.soil.constants.smoothing_length);
-            const double *g = f.velocity_gradient;
-            const double strain_work = stress[MOR_XX] * g[0] + stress[MOR_YY] * g[4] + stress[MOR_ZZ] * g[8] +
-                                       stress[MOR_XY] * (g[1] + g[3]) + stress[MOR_YZ] * (g[5] + g[7]) +
-                                       stress[MOR_ZX] * (g[2] + g[6]);
-            const double taken = floor_record(&f)[MOR_RECORD_DENSITY] *
-                                 mor_vector_dot(f.acceleration, floor_record(&f) + MOR_RECORD_VELOCITY);
-            assert_true(strain_work > 1e3);
-            assert_true(fabs(strain_work + taken) <= 1e-12 * strain_work); /* order of sums */
-            floor_close(&f);
-        }
-    }
-}
-
 static void wall_at_rest_gives_the_particle_its_own_stress(void **state)
 {
     (void)state;
@@ -219,7 +47,7 @@ static void wall_at_rest_gives_the_particle_its_own_stress(void **state)
         double gradient[3];
         double expected[3];
         floor_open_single(&f, dimension, MOR_WALL_ROUGH, 0.0);
-        set_stress(&f, normal, 1.5e3);
+        floor_set_stress(&f, normal, 1.5e3);
         floor_run(&f, (mor_dissipation)(option / 6));
         floor_gradient(&f, floor_record(&f), gradient);
         mirrored_push(&f, gradient, expected);
@@ -238,7 +66,7 @@ static void smooth_wall_gives_the_normal_part_only(void **state)
         double rough[3];
         double expected[3] = {0.0};
         floor_open_single(&f, dimension, MOR_WALL_SMOOTH, 0.0);
-        set_stress(&f, -8e3, 1.5e3);
+        floor_set_stress(&f, -8e3, 1.5e3);
         floor_run(&f, MOR_DISSIPATION_BOTH);
         floor_gradient(&f, floor_record(&f), gradient);
         mirrored_push(&f, gradient, rough);
@@ -274,7 +102,7 @@ static void coulomb_wall_caps_the_tangential_part(void **state)
         double expected_normal = 0.0;
         double expected[3];
         floor_open_single(&f, dimension, MOR_WALL_COULOMB, 0.5);
-        set_stress(&f, -8e3, shear);
+        floor_set_stress(&f, -8e3, shear);
         floor_run(&f, MOR_DISSIPATION_BOTH);
         floor_gradient(&f, floor_record(&f), gradient);
         mirrored_push(&f, gradient, rough);
@@ -299,7 +127,7 @@ static void coulomb_wall_holds_nothing_under_tension(void **state)
     (void)state;
     floor_case f;
     floor_open_single(&f, 3, MOR_WALL_COULOMB, 0.5);
-    set_stress(&f, 2e3, 1e3);
+    floor_set_stress(&f, 2e3, 1e3);
     floor_run(&f, MOR_DISSIPATION_BOTH);
     double normal = 0.0;
     double tangential[3];
@@ -323,8 +151,8 @@ static void infinite_and_no_friction_are_rough_and_smooth(void **state)
             floor_case plain;
             floor_open_single(&coulomb, dimension, MOR_WALL_COULOMB, is_rough ? INFINITY : 0.0);
             floor_open_single(&plain, dimension, is_rough ? MOR_WALL_ROUGH : MOR_WALL_SMOOTH, 0.0);
-            set_stress(&coulomb, -8e3, 5e3);
-            set_stress(&plain, -8e3, 5e3);
+            floor_set_stress(&coulomb, -8e3, 5e3);
+            floor_set_stress(&plain, -8e3, 5e3);
             floor_record(&coulomb)[MOR_RECORD_VELOCITY] = floor_record(&plain)[MOR_RECORD_VELOCITY] = 1.0;
             floor_run(&coulomb, MOR_DISSIPATION_BOTH);
             floor_run(&plain, MOR_DISSIPATION_BOTH);
@@ -349,7 +177,7 @@ static void rounding_does_not_decide_whether_a_particle_slides(void **state)
     for (int k = 0; k < 3; ++k) {
         floor_case f;
         floor_open_single(&f, 3, MOR_WALL_COULOMB, 0.3);
-        set_stress(&f, 0.0, shears[k]);
+        floor_set_stress(&f, 0.0, shears[k]);
         floor_run(&f, MOR_DISSIPATION_BOTH);
         assert_true(fabs(f.wall.stick[0] - 1.0) < 1e-6); /* 1e-10 Pa over a billionth of the bulk modulus, 5 mPa */
         floor_close(&f);
@@ -378,7 +206,7 @@ static void dissipation_follows_the_one_sided_riemann_problem(void **state)
         double gradient[3];
         double expected[3];
         floor_open_single(&f, dimension, MOR_WALL_ROUGH, 0.0);
-        set_stress(&f, -8e3, 1.5e3);
+        floor_set_stress(&f, -8e3, 1.5e3);
         double *v = floor_record(&f) + MOR_RECORD_VELOCITY;
         v[0] = 0.7; /* along the wall: gives no dissipation */
         v[dimension - 1] = -closing;
@@ -405,7 +233,7 @@ static void drag_mirrors_the_velocity_about_that_of_the_wall(void **state)
         floor_case f;
         double gradient[3];
         floor_open_single(&f, dimension, friction, coefficients[friction]);
-        set_stress(&f, -8e3, 4e3);
+        floor_set_stress(&f, -8e3, 4e3);
         const double velocity[3] = {0.4, dimension == 3 ? -0.3 : -0.2, dimension == 3 ? -0.2 : 0.0};
         memcpy(floor_record(&f) + MOR_RECORD_VELOCITY, velocity, sizeof velocity);
         floor_run(&f, MOR_DISSIPATION_APPROACH);
@@ -443,8 +271,8 @@ static void motion_with_the_wall_is_rest(void **state)
         const double frame[3] = {16.0, -8.0, dimension == 3 ? 4.0 : 0.0};
         memcpy(request.velocity, frame, sizeof frame);
         floor_add(&moving, &request);
-        set_stress(&still, -8e3, 5e3);
-        set_stress(&moving, -8e3, 5e3);
+        floor_set_stress(&still, -8e3, 5e3);
+        floor_set_stress(&moving, -8e3, 5e3);
         for (int a = 0; a < dimension; ++a) {
             const double own = ldexp(a - 0.5, -6); /* sums with the frame's velocity are exact */
             floor_record(&still)[MOR_RECORD_VELOCITY + a] = own;
@@ -477,8 +305,8 @@ static void moved_wall_is_the_wall_made_there(void **state)
     }
     request.points = made.points;
     floor_add(&made, &request);
-    set_stress(&moved, -8e3, 5e3);
-    set_stress(&made, -8e3, 5e3);
+    floor_set_stress(&moved, -8e3, 5e3);
+    floor_set_stress(&made, -8e3, 5e3);
     mor_soil_contact_move(&moved.wall, 7.0); /* the path there does not count */
     mor_soil_contact_move(&moved.wall, 1.0);
     floor_run(&moved, MOR_DISSIPATION_BOTH);
@@ -500,7 +328,7 @@ static void wall_out_of_reach_or_without_points_does_nothing(void **state)
         f.n_points = n_points;
         const mor_wall_request request = floor_request(&f, MOR_WALL_COULOMB, 0.5);
         floor_add(&f, &request);
-        set_stress(&f, -8e3, 5e3);
+        floor_set_stress(&f, -8e3, 5e3);
         floor_record(&f)[1] = 2.2 * ASSEMBLY_SPACING; /* the nearest points are 2.7 spacings away, the support 2.6 */
         floor_run(&f, MOR_DISSIPATION_BOTH);
         assert_int_equal(f.wall.relation.n_occupied, 0);
@@ -602,10 +430,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wall_sums_are_those_of_the_kernel),
-        cmocka_unit_test(wall_with_normals_bears_along_them),
-        cmocka_unit_test(faces_that_count_as_one_bear_along_their_principal_direction),
-        cmocka_unit_test(work_of_a_face_strains_the_soil),
-        cmocka_unit_test(boundary_force_grows_all_the_way_under_a_face),
         cmocka_unit_test(wall_at_rest_gives_the_particle_its_own_stress),
         cmocka_unit_test(smooth_wall_gives_the_normal_part_only),
         cmocka_unit_test(coulomb_wall_caps_the_tangential_part),
