@@ -80,8 +80,8 @@ static void print_absent(const mor_sweep_table *table, int index, FILE *out)
         [MOR_SWEEP_ABSENT_HIT] = "are counted as beyond it",
         [MOR_SWEEP_ABSENT_LEFT_OUT] = "are left out: the probability is that of the others",
         [MOR_SWEEP_ABSENT_UNKNOWN] =
-            "may be below it or not, so that groups with such members have no probability: say "
-            "with absent = \"miss\", \"hit\" or \"left_out\" what they count as, and resume"};
+            ("may be below it or not, so that groups with such members have no probability: say "
+             "with absent = \"miss\", \"hit\" or \"left_out\" what they count as, and resume")};
     const int n_absent = mor_sweep_table_count_absent(table, -1, table->thresholds[index].column);
     if (n_absent > 0) {
         fprintf(out, "%d member%s had nothing to measure and %s\n", n_absent, n_absent == 1 ? "" : "s",
