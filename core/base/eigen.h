@@ -9,6 +9,9 @@
  *  Principal values and directions of a symmetric 3 x 3 tensor by cyclic Jacobi rotations: slower than a closed form
  *  but accurate for equal and nearly equal values, which soil at rest has everywhere. */
 
+/* A rotation by less than this changes no number: half of the sweeps would only make it smaller still. */
+#define MOR_EIGEN_NOTHING 1e-18
+
 /** Diagonalizes a symmetric tensor, shape [6].
  *  @param tensor     [in]   shape [6], (xx, yy, zz, xy, yz, zx); any unit
  *  @param values     [out]  shape [3], unit of the tensor; in no order
@@ -26,7 +29,8 @@ static inline void mor_symmetric_eigen(const double *tensor, double *values, dou
             const int p = pair == 2 ? 1 : 0;
             const int q = pair == 0 ? 1 : 2;
             const double off = m[3 * p + q];
-            if (off == 0.0) {
+            if (fabs(off) <= MOR_EIGEN_NOTHING * (fabs(m[4 * p]) + fabs(m[4 * q]))) {
+                m[3 * p + q] = m[3 * q + p] = 0.0;
                 continue;
             }
             const double ratio = (m[4 * q] - m[4 * p]) / (2.0 * off);

@@ -11,6 +11,7 @@ void mor_terrain_clear(mor_context *context, mor_terrain *terrain)
 {
     MOR_FREE(context, &terrain->heights);
     MOR_FREE(context, &terrain->system);
+    MOR_FREE(context, &terrain->cuts);
     *terrain = (mor_terrain){0};
 }
 
@@ -111,10 +112,16 @@ static void get_corners(const mor_terrain *terrain, int column, int row, double 
     corners[3] = at[terrain->n_x + 1];
 }
 
+static bool is_cut_upward(const mor_terrain *terrain, int column, int row, const double *corners)
+{
+    return terrain->cuts != NULL ? terrain->cuts[(int64_t)row * (terrain->n_x - 1) + column]
+                                 : cuts_upward(corners, terrain->cell);
+}
+
 /* The square a coordinate lies in and the share of the square before it; beyond the edge the edge. */
 static int find_square(double coordinate, double origin, double cell, int n_nodes, double *share)
 {
-    const double place = fmin(fmax((coordinate - origin) / cell, 0.0), (double)(n_nodes - 1));
+    const double place = mor_min(mor_max((coordinate - origin) / cell, 0.0), (double)(n_nodes - 1));
     const int square = place < (double)(n_nodes - 2) ? (int)place : n_nodes - 2;
     *share = place - square;
     return square;
@@ -128,7 +135,7 @@ double mor_terrain_height(const mor_terrain *terrain, double x, double y)
     const int column = find_square(x, terrain->origin[0], terrain->cell[0], terrain->n_x, &s);
     const int row = find_square(y, terrain->origin[1], terrain->cell[1], terrain->n_y, &t);
     get_corners(terrain, column, row, c);
-    if (cuts_upward(c, terrain->cell)) {
+    if (is_cut_upward(terrain, column, row, c)) {
         return s >= t ? c[0] + s * (c[1] - c[0]) + t * (c[3] - c[1]) : c[0] + t * (c[2] - c[0]) + s * (c[3] - c[2]);
     }
     return s + t <= 1.0 ? c[0] + s * (c[1] - c[0]) + t * (c[2] - c[0])
@@ -141,7 +148,7 @@ void mor_terrain_triangles(const mor_terrain *terrain, int column, int row, doub
     static const int corner_of[2][2][3] = {{{0, 1, 2}, {1, 3, 2}}, {{0, 1, 3}, {0, 3, 2}}};
     double corners[4];
     get_corners(terrain, column, row, corners);
-    const int cut = cuts_upward(corners, terrain->cell);
+    const int cut = is_cut_upward(terrain, column, row, corners);
     for (int t = 0; t < 2; ++t) {
         for (int k = 0; k < 3; ++k) {
             const int corner = corner_of[cut][t][k];
@@ -156,7 +163,7 @@ void mor_terrain_triangles(const mor_terrain *terrain, int column, int row, doub
 static double segment_distance2(const double *a, const double *b)
 {
     const double edge[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const double share = fmin(1.0, fmax(0.0, -mor_vector_dot(a, edge) / mor_vector_dot(edge, edge)));
+    const double share = mor_min(1.0, mor_max(0.0, -mor_vector_dot(a, edge) / mor_vector_dot(edge, edge)));
     const double foot[3] = {a[0] + share * edge[0], a[1] + share * edge[1], a[2] + share * edge[2]};
     return mor_vector_dot(foot, foot);
 }
@@ -185,8 +192,8 @@ static double triangle_distance2(double triangle[3][3], const double *point)
         const double along = mor_vector_dot(corner[0], normal);
         return along * along / mor_vector_dot(normal, normal);
     }
-    return fmin(segment_distance2(corner[0], corner[1]),
-                fmin(segment_distance2(corner[1], corner[2]), segment_distance2(corner[2], corner[0])));
+    return mor_min(segment_distance2(corner[0], corner[1]),
+                   mor_min(segment_distance2(corner[1], corner[2]), segment_distance2(corner[2], corner[0])));
 }
 
 /* Squares between two coordinates, clamped to the raster. */
@@ -196,8 +203,8 @@ static void find_window(const mor_terrain *terrain, const double *point, double 
         const double last = (a == 0 ? terrain->n_x : terrain->n_y) - 2;
         const double from = floor((point[a] - radius - terrain->origin[a]) / terrain->cell[a]);
         const double to = floor((point[a] + radius - terrain->origin[a]) / terrain->cell[a]);
-        window[a][0] = (int)fmin(fmax(from, 0.0), last);
-        window[a][1] = (int)fmin(fmax(to, 0.0), last);
+        window[a][0] = (int)mor_min(mor_max(from, 0.0), last);
+        window[a][1] = (int)mor_min(mor_max(to, 0.0), last);
     }
 }
 
@@ -208,21 +215,21 @@ static double square_bound2(const mor_terrain *terrain, int column, int row, con
     get_corners(terrain, column, row, c);
     const double x = terrain->origin[0] + column * terrain->cell[0] - point[0];
     const double y = terrain->origin[1] + row * terrain->cell[1] - point[1];
-    const double dx = fmax(0.0, fmax(x, -x - terrain->cell[0]));
-    const double dy = fmax(0.0, fmax(y, -y - terrain->cell[1]));
-    const double dz = fmax(0.0, fmax(fmin(fmin(c[0], c[1]), fmin(c[2], c[3])) - point[2],
-                                     point[2] - fmax(fmax(c[0], c[1]), fmax(c[2], c[3]))));
+    const double dx = mor_max(0.0, mor_max(x, -x - terrain->cell[0]));
+    const double dy = mor_max(0.0, mor_max(y, -y - terrain->cell[1]));
+    const double dz = mor_max(0.0, mor_max(mor_min(mor_min(c[0], c[1]), mor_min(c[2], c[3])) - point[2],
+                                           point[2] - mor_max(mor_max(c[0], c[1]), mor_max(c[2], c[3]))));
     return dx * dx + dy * dy + dz * dz;
 }
 
 double mor_terrain_distance(const mor_terrain *terrain, const double *point, double reach)
 {
     /* The place of the surface at or nearest to the point's x and y bounds the distance from above. */
-    const double x = fmin(fmax(point[0], terrain->origin[0]), mor_terrain_end(terrain, 0));
-    const double y = fmin(fmax(point[1], terrain->origin[1]), mor_terrain_end(terrain, 1));
+    const double x = mor_min(mor_max(point[0], terrain->origin[0]), mor_terrain_end(terrain, 0));
+    const double y = mor_min(mor_max(point[1], terrain->origin[1]), mor_terrain_end(terrain, 1));
     const double gap[3] = {point[0] - x, point[1] - y, point[2] - mor_terrain_height(terrain, x, y)};
     double best2 = mor_vector_dot(gap, gap);
-    const double radius = fmin(sqrt(best2), reach);
+    const double radius = mor_min(sqrt(best2), reach);
     double limit2 = radius * radius;
     int window[2][2];
     find_window(terrain, point, radius, window);
@@ -233,11 +240,26 @@ double mor_terrain_distance(const mor_terrain *terrain, const double *point, dou
             }
             double triangles[2][3][3];
             mor_terrain_triangles(terrain, column, row, triangles);
-            best2 = fmin(best2, fmin(triangle_distance2(triangles[0], point), triangle_distance2(triangles[1], point)));
-            limit2 = fmin(limit2, best2);
+            best2 = mor_min(best2,
+                            mor_min(triangle_distance2(triangles[0], point), triangle_distance2(triangles[1], point)));
+            limit2 = mor_min(limit2, best2);
         }
     }
     return sqrt(best2);
+}
+
+static mor_status find_cuts(mor_context *context, mor_terrain *terrain)
+{
+    const int64_t n_squares = (int64_t)(terrain->n_x - 1) * (terrain->n_y - 1);
+    MOR_TRY(context, MOR_NEW(context, &terrain->cuts, n_squares, "cuts of a terrain's squares"));
+    for (int row = 0; row + 1 < terrain->n_y; ++row) {
+        for (int column = 0; column + 1 < terrain->n_x; ++column) {
+            double corners[4];
+            get_corners(terrain, column, row, corners);
+            terrain->cuts[(int64_t)row * (terrain->n_x - 1) + column] = cuts_upward(corners, terrain->cell);
+        }
+    }
+    return MOR_OK;
 }
 
 mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *terrain, double reach,
@@ -248,20 +270,22 @@ mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *ter
               "the reach of exact distances is %g m: give a length above zero", reach);
     *surface = (mor_terrain_surface){*terrain, reach, 0.0, 0.0, 0.0};
     surface->terrain.heights = NULL;
+    surface->terrain.cuts = NULL;
     MOR_TRY(context, mor_terrain_copy_text(context, terrain->system, &surface->terrain.system));
     const int64_t n_nodes = (int64_t)terrain->n_x * terrain->n_y;
     MOR_TRY(context, MOR_NEW(context, &surface->terrain.heights, n_nodes, "terrain heights"));
     memcpy(surface->terrain.heights, terrain->heights, (size_t)n_nodes * sizeof *terrain->heights);
     mor_terrain_range(terrain, &surface->lowest, &surface->highest);
+    MOR_TRY(context, find_cuts(context, &surface->terrain));
     double steepest2 = 0.0;
     for (int row = 0; row + 1 < terrain->n_y; ++row) {
         for (int column = 0; column + 1 < terrain->n_x; ++column) {
             /* For either cut of the square, no triangle is steeper than its steeper sides together. */
             const double *at = terrain->heights + (int64_t)row * terrain->n_x + column;
-            const double x = fmax(fabs(at[1] - at[0]), fabs(at[terrain->n_x + 1] - at[terrain->n_x]));
-            const double y = fmax(fabs(at[terrain->n_x] - at[0]), fabs(at[terrain->n_x + 1] - at[1]));
+            const double x = mor_max(fabs(at[1] - at[0]), fabs(at[terrain->n_x + 1] - at[terrain->n_x]));
+            const double y = mor_max(fabs(at[terrain->n_x] - at[0]), fabs(at[terrain->n_x + 1] - at[1]));
             const double slope[2] = {x / terrain->cell[0], y / terrain->cell[1]};
-            steepest2 = fmax(steepest2, slope[0] * slope[0] + slope[1] * slope[1]);
+            steepest2 = mor_max(steepest2, slope[0] * slope[0] + slope[1] * slope[1]);
         }
     }
     surface->stretch = sqrt(1.0 + steepest2);
@@ -271,10 +295,10 @@ mor_status mor_terrain_surface_init(mor_context *context, const mor_terrain *ter
 double mor_terrain_surface_signed(const mor_terrain_surface *surface, const double *point)
 {
     const mor_terrain *terrain = &surface->terrain;
-    const double dx = fmax(0.0, fmax(terrain->origin[0] - point[0], point[0] - mor_terrain_end(terrain, 0)));
-    const double dy = fmax(0.0, fmax(terrain->origin[1] - point[1], point[1] - mor_terrain_end(terrain, 1)));
+    const double dx = mor_max(0.0, mor_max(terrain->origin[0] - point[0], point[0] - mor_terrain_end(terrain, 0)));
+    const double dy = mor_max(0.0, mor_max(terrain->origin[1] - point[1], point[1] - mor_terrain_end(terrain, 1)));
     const double gap = point[2] - mor_terrain_height(terrain, point[0], point[1]);
-    const double bound = fmax(fabs(gap) / surface->stretch, sqrt(dx * dx + dy * dy));
+    const double bound = mor_max(fabs(gap) / surface->stretch, sqrt(dx * dx + dy * dy));
     double distance = bound;
     if (bound < surface->reach) {
         distance = mor_terrain_distance(terrain, point, surface->reach);

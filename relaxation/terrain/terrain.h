@@ -24,7 +24,9 @@ typedef struct mor_terrain {
     char *system;            /* its reference system as well-known text; NULL: not given; owned */
     int added[2][2]; /* nodes along x and y that mor_terrain_extend put before the first and behind the last one */
     char datum[128]; /* horizontal and vertical reference system as text; empty: not given */
-    uint64_t hash;   /* of all files it was read from: mor_hash_file of a single one */
+    signed char
+        *cuts;     /* shape [n_y - 1, n_x - 1]: whether squares are cut upward, 1; NULL: found anew each time; owned */
+    uint64_t hash; /* of all files it was read from: mor_hash_file of a single one */
 } mor_terrain;
 
 /** How to read a raster. Made ready by mor_terrain_request_init. */

@@ -181,7 +181,7 @@ typedef struct mor_pair_tangent_job {
     const mor_relation *inner;  /* current, with short lists */
     const mor_pair_slot *slots; /* shape [n_slots]; who sees what of the boundary */
     const double *sums;         /* shape [n_slots * 8, MOR_KERNEL_SUMS]; over the slots; units of the enum */
-    double *out;                /* shape [n_slots * 8, 2, 3], Pa/m; along, then across the boundary */
+    double *out; /* shape [n_slots * 8, 2, 3], Pa/m; along, then across the boundary; 0 out of its reach */
 } mor_pair_tangent_job;
 
 typedef void (*mor_pair_tangent_loop)(const mor_pair_constants *constants, const mor_pair_tangent_job *job,

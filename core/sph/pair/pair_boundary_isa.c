@@ -79,14 +79,21 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
         n[a] = load(gradients, MOR_KERNEL_SUMS, a);
     }
     const vec length2 = multiply_add(n[2], n[2], multiply_add(n[1], n[1], n[0] * n[0]));
-    /* No normal where the wall is out of reach: everything is then tangential, and the caller's factor is zero. */
-    const vec inverse = select_lanes(length2 > 0.0, 1.0 / length2, broadcast(0.0));
+    vec sum[6];
+    memset(sum, 0, sizeof sum);
+    if (!any_above(length2, 0.0)) {
+        for (int a = 0; a < 6; ++a) {
+            store(job->out + slot * 6, 6, a, LANES, sum[a]);
+        }
+        return;
+    }
+    /* No normal where the wall is out of reach, and nothing to sum. */
+    const mask sees = length2 > 0.0;
+    const vec inverse = select_lanes(sees, 1.0 / length2, broadcast(0.0));
     vec s[6];
     for (int a = 0; a < 6; ++a) {
         s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
     }
-    vec sum[6];
-    memset(sum, 0, sizeof sum);
     const int32_t *near = mor_relation_near(job->inner, first / MOR_CLUSTER);
     const int32_t count = job->inner->near_counts[first / MOR_CLUSTER];
     geometries chunk;
@@ -102,7 +109,7 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
         }
     }
     for (int a = 0; a < 6; ++a) {
-        store(job->out + slot * 6, 6, a, LANES, -c->gradient_factor * sum[a]);
+        store(job->out + slot * 6, 6, a, LANES, select_lanes(sees, -c->gradient_factor * sum[a], broadcast(0.0)));
     }
 }
 

@@ -143,14 +143,15 @@ static void open_layer(floor_case *f, int dimension, mor_wall_friction friction,
     floor_add(f, &request);
 }
 
-/* The sums of V_j (stress_j - stress_i) . grad_i W by a double loop: along, then across the direction of a gradient. */
+/* The sums of V_j (stress_j - stress_i) . grad_i W by a double loop: along, then across the direction of a gradient;
+ * zero where there is none. */
 static double divergence_of(const assembly *a, int i, const double *gradient, double *divergence)
 {
     const double *own = a->records + i * MOR_RECORD_SIZE;
     const double length2 = mor_vector_dot(gradient, gradient);
     double size = 0.0;
     memset(divergence, 0, 6 * sizeof *divergence);
-    for (int j = 0; j < a->n; ++j) {
+    for (int j = 0; j < a->n && length2 > 0.0; ++j) {
         const double *other = a->records + j * MOR_RECORD_SIZE;
         const double r[3] = {own[0] - other[0], own[1] - other[1], own[2] - other[2]};
         const double distance = mor_vector_length(r);
@@ -164,7 +165,7 @@ static double divergence_of(const assembly *a, int i, const double *gradient, do
             jump[c] = other[MOR_RECORD_STRESS + c] - own[MOR_RECORD_STRESS + c];
             size += fabs(jump[c] * factor) * distance;
         }
-        const double across = length2 > 0.0 ? mor_vector_dot(r, gradient) / length2 : 0.0;
+        const double across = mor_vector_dot(r, gradient) / length2;
         double parts[2][3];
         for (int c = 0; c < 3; ++c) {
             parts[1][c] = factor * across * gradient[c];
