@@ -30,17 +30,6 @@ INLINE vec select_lanes(mask where, vec a, vec b)
     return (vec)(((mask)a & where) | ((mask)b & ~where));
 }
 
-/** Returns whether any lane is above a limit of its unit; false for lanes that are no number. */
-INLINE bool any_above(vec a, double limit)
-{
-    const mask is_above = a > limit;
-    int64_t any = 0;
-    for (int lane = 0; lane < LANES; ++lane) {
-        any |= is_above[lane];
-    }
-    return any != 0;
-}
-
 /* The names of the instructions that fill a register, where there are any. */
 #if defined(__AVX512F__)
 #define WIDE(operation) _mm512_##operation

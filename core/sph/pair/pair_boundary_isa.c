@@ -81,7 +81,7 @@ INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job
     const vec length2 = multiply_add(n[2], n[2], multiply_add(n[1], n[1], n[0] * n[0]));
     vec sum[6];
     memset(sum, 0, sizeof sum);
-    if (!any_above(length2, 0.0)) {
+    if (!any_less(-length2, 0.0)) {
         for (int a = 0; a < 6; ++a) {
             store(job->out + slot * 6, 6, a, LANES, sum[a]);
         }

@@ -124,8 +124,9 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
     }
 }
 
-/* f^n (R_i + R_j) r, eq. 27. The power is taken lane by lane and only where the pair is under tension. */
-INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const double *own,
+/* f^n (R_i + R_j) r, eq. 27. The power is taken lane by lane and only where the pair is under tension.
+ *  own: shape [6], Pa */
+INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const vec *own,
                            const double *other, const int dimension)
 {
     vec ratio = p->reach * p->reach;
@@ -136,7 +137,7 @@ INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_const
     }
     vec s[6];
     for (int a = 0; a < 6; ++a) {
-        s[a] = (load(own, 6, a) + other[a]) * power;
+        s[a] = (own[a] + other[a]) * power;
     }
     m->force[0] += k * dot_r(p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], dimension);
     m->force[1] += k * dot_r(p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], dimension);
@@ -246,23 +247,6 @@ INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *
     }
 }
 
-INLINE void add_artificial_pair(momentum_sums *m, const geometry *g, const double *target, const frame *f,
-                                const mor_pair_constants *c, const double *own, const double *other,
-                                const int dimension)
-{
-    vec size = broadcast(0.0);
-    for (int a = 0; a < 6; ++a) {
-        size -= magnitude(load(own, 6, a) + other[a]);
-    }
-    /* The power is expensive, and few pairs are under tension. */
-    if (any_less(size, 0.0)) {
-        pair p;
-        separate(p.r, f, target, dimension);
-        p.reach = positive_part(1.0 - g->distance * f->half_inverse_h);
-        add_artificial(m, &p, c, g->k, own, other, dimension);
-    }
-}
-
 /* A part of a cluster, as the momentum loop sees it. */
 typedef struct momentum_part {
     int64_t first; /* particle */
@@ -271,15 +255,28 @@ typedef struct momentum_part {
     momentum_sums sums;
 } momentum_part;
 
-/* Artificial stress of a chunk of targets. */
+/* Artificial stress of a chunk of targets. The power is expensive, and few pairs are under tension: an artificial
+ * stress has no tension of its own, so that those of two particles do not cancel. */
 INLINE void add_artificial_chunk(momentum_part *part, const geometries *chunk, const int32_t *near, int n,
                                  const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
 {
-    const double *artificial = arrays->artificial_stress;
+    const frame *f = &part->frame;
+    vec own[6];
+    vec size = broadcast(0.0);
+    for (int a = 0; a < 6; ++a) {
+        own[a] = load(arrays->artificial_stress + part->first * 6, 6, a);
+        size -= magnitude(own[a]);
+    }
+    const bool has_own = any_less(size, 0.0);
     for (int q = 0; q < n; ++q) {
-        const geometry g = geometry_at(chunk, q, 0);
-        add_artificial_pair(&part->sums, &g, target_of(arrays, near[q]), &part->frame, c, artificial + part->first * 6,
-                            artificial + (int64_t)near[q] * 6, form.dimension);
+        const double *other = arrays->artificial_stress + (int64_t)near[q] * 6;
+        if (has_own || other[MOR_XX] != 0.0 || other[MOR_YY] != 0.0 || other[MOR_ZZ] != 0.0) {
+            const geometry g = geometry_at(chunk, q, 0);
+            pair p;
+            separate(p.r, f, target_of(arrays, near[q]), form.dimension);
+            p.reach = positive_part(1.0 - g.distance * f->half_inverse_h);
+            add_artificial(&part->sums, &p, c, g.k, own, other, form.dimension);
+        }
     }
 }
 
