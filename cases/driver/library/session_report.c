@@ -7,6 +7,7 @@
 #include "cases/driver/case/schema/contact_report.h"
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/run/wall_time.h"
+#include "cases/driver/scene/check/resolution_advice.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
 #include "core/base/hash.h"
 #include "relaxation/terrain/terrain.h"
@@ -320,9 +321,9 @@ static mor_status find_steps(mor_context *context, mor_simulation *s, step_cost 
 }
 
 /* Steps and what they cost, or why there are none. */
-static mor_status print_costs(mor_context *context, FILE *out, mor_simulation *s)
+static mor_status print_costs(mor_context *context, FILE *out, mor_simulation *s, double *seconds)
 {
-    step_cost now;
+    step_cost now = {.seconds = NAN};
     step_cost touching;
     const mor_status status = find_steps(context, s, &now, &touching);
     if (status != MOR_OK) {
@@ -332,15 +333,23 @@ static mor_status print_costs(mor_context *context, FILE *out, mor_simulation *s
     print_steps(out, s, &now, &touching);
     const bool is_same =
         touching.length == now.length && memcmp(touching.substeps, now.substeps, sizeof now.substeps) == 0;
-    return print_speed(context, out, s, &now, &touching, is_same);
+    MOR_TRY(context, print_speed(context, out, s, &now, &touching, is_same));
+    *seconds = ceil(s->the_case->end / now.length) * now.seconds;
+    return MOR_OK;
 }
 
 static mor_status print_explanation(mor_context *context, FILE *out, mor_simulation *s)
 {
     char *warnings = NULL;
+    double seconds = NAN;
+    mor_resolution resolution;
     print_sizes(out, s);
+    mor_resolution_find(s, &resolution); /* of the start, as the warnings */
     MOR_TRY(context, find_warnings(context, s, &warnings));
-    const mor_status status = print_costs(context, out, s);
+    const mor_status status = print_costs(context, out, s, &seconds);
+    if (status == MOR_OK) {
+        mor_resolution_print(&resolution, seconds, out);
+    }
     for (int k = 0; k < s->schedule.n_steppers && status == MOR_OK; ++k) {
         print_stages(out, &s->schedule.steppers[k], set_of(s, k));
     }
