@@ -159,7 +159,7 @@ void mor_resolution_print(const mor_resolution *resolution, double seconds, FILE
             fprintf(out, ", and %.3g to %.3g times as wide as bodies", s->gap.width / resolution->largest,
                     s->gap.width / resolution->least);
         }
-        fprintf(out, "; eight are as good as 24\n");
+        fprintf(out, "; one of four lets out 5 %% too much, eight are enough\n");
     }
     if (isfinite(resolution->layer)) {
         fprintf(out,
