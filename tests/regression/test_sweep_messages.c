@@ -58,7 +58,7 @@ static void cases_and_sweeps_are_told_apart(void **state)
     store_sweep(folder, SMALL RUN_OUT "vary = ( { name = 'x'; key = 'end'; values = ( 0.1 ); } );");
     program_outcome outcome = program_run(folder, (const char *[]){"check", "sweep.cfg", NULL}, 2);
     program_expect_text(outcome.errors,
-                        "found 'vary', which a sweep file has; allowed: a case; run it with: moraine sweep");
+                        "found 'vary', which a sweep file has; allowed: a case; run it as a sweep");
     program_clear(&outcome);
     outcome = program_run(folder, (const char *[]){"sweep", "case.cfg", "--plan", NULL}, 2);
     program_expect_text(outcome.errors, "found 'domain', which a case has; allowed: a sweep file");

@@ -92,7 +92,7 @@ static mor_status check_spacings(mor_context *context, const level *levels, int 
             (mor_units_convert(context, units, levels[k].word, "m", &spacing) == MOR_OK && spacing > 0.0);
         if (!is_length) {
             status = MOR_FAIL(context, MOR_ERROR_CONFIG,
-                              "found '%s' in --spacings, which is no length above 0; allowed: lengths, separated by "
+                              "found '%s' in the spacings, which is no length above 0; allowed: lengths, separated by "
                               "commas, as '1 m, 0.5 m, 0.25 m'",
                               levels[k].word);
         }

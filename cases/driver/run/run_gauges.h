@@ -56,8 +56,8 @@ void mor_run_gauges_close(mor_context *context, mor_run_gauges *it);
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_run_gauges_conclude(mor_context *context, const mor_gauges *gauges, const char *folder);
 
-/** Lists the numbers of gauge_peaks.csv as results "gauge.NAME.peak_normal" and so on, each with the filter of its gauge
- *  as a remark where it is filtered. No probe can have such a name.
+/** Lists the numbers of gauge_peaks.csv as results "gauge.NAME.peak_normal" and so on, each with the filter of its
+ *  gauge as a remark where it is filtered. No probe can have such a name.
  *  @param texts   [out]  what the results borrow
  *  @param results [out]  shape [MOR_RUN_GAUGE_RESULTS_MAX]; NaN where nothing was measured
  *  Returns: how many there are. */

@@ -200,7 +200,7 @@ static mor_status read_root(const mor_case_reader *reader, const mor_case_node *
     if (domain != NULL && mor_case_node_find(root, "vary") == NULL) {
         return MOR_CASE_NODE_FAIL(reader->context, domain,
                                   "found 'domain', which a case has; allowed: a sweep file, which names a case and "
-                                  "what varies; run a case with: moraine run");
+                                  "what varies; run a case as it is");
     }
     MOR_TRY(reader->context, mor_case_reader_names(reader, root, &mor_sweep_root_group, NULL, NULL));
     MOR_TRY(reader->context, mor_case_reader_group(reader, root, &mor_sweep_root_group, sweep));

@@ -14,13 +14,6 @@
 /** Spacings. Fewer across a layer give a warning. */
 #define MOR_RESOLUTION_LAYER 8.0
 
-/** What a spacing costs, compared with that of the case. */
-typedef struct mor_resolution_cost {
-    double spacing;   /* m */
-    double particles; /* of soil, 1 */
-    double work;      /* over that of the case, 1: (spacing ratio)^(dimension + 1), as steps are longer, too */
-} mor_resolution_cost;
-
 /** What a case resolves. */
 typedef struct mor_resolution {
     const mor_simulation *simulation; /* borrowed */
@@ -31,15 +24,6 @@ typedef struct mor_resolution {
     double layer;                     /* thinnest layer of soil, m; INFINITY: there is none */
     int layer_soil;                   /* its region */
 } mor_resolution;
-
-/** Finds what a spacing costs. Estimate: particles fill volumes, and steps are in proportion to the spacing.
- *  @param spacing [in]   m, above 0
- *  @param cost    [out]  one cost */
-void mor_resolution_find_cost(const mor_simulation *simulation, double spacing, mor_resolution_cost *cost);
-
-/** Writes a cost in words: "0.25 m: about 104000 particles of soil, 16 times the work".
- *  @param text    [out]  shape [n_bytes]; zero-terminated */
-void mor_resolution_describe_cost(const mor_simulation *simulation, double spacing, char *text, size_t n_bytes);
 
 /** Finds what a case resolves.
  *  @param simulation [in]   as it begins; outlives the resolution

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/check/simulation_resolution.h"
 
-#include "cases/driver/scene/check/resolution_advice.h"
+#include "cases/driver/scene/check/resolution_cost.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/geometry/shape_moments.h"
@@ -389,6 +389,5 @@ mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_sim
     }
     warn_of_coarse_bodies(context, simulation);
     warn_of_coarse_carried_bodies(context, simulation);
-    mor_resolution_warn_of_layers(context, simulation);
     return MOR_OK;
 }

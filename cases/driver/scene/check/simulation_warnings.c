@@ -4,6 +4,7 @@
 
 #include "cases/driver/scene/check/idle_settings.h"
 #include "cases/driver/scene/check/plausible.h"
+#include "cases/driver/scene/check/resolution_advice.h"
 #include "cases/driver/scene/check/simulation_resolution.h"
 #include "cases/driver/scene/check/soil_neighbors.h"
 #include "cases/driver/scene/check/start_stress.h"
@@ -234,6 +235,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     mor_wall_thickness_warn(context, c);
     mor_wall_seams_warn(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
+    mor_resolution_warn_of_layers(context, simulation);
     warn_of_outputs(context, simulation);
     mor_idle_settings_warn(context, simulation);
     warn_of_free_fall(context, c);
