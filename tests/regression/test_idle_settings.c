@@ -108,6 +108,11 @@ static void stages_warn_of_what_does_nothing(void **state)
     assert_null(strstr(outcome.errors, "excavate[0] removes nothing"));
     program_expect_text(outcome.output, "the velocity of soil 'sand' has no effect");
     program_clear(&outcome);
+    outcome = program_run(
+        folder, (const char *[]){"explain", "case.cfg", "-t", "1", "-s", "walls[2].removed_at=10 ms", NULL}, 0);
+    program_expect_text(outcome.output, "removed                 wall 'gate' at 0.01 s");
+    program_expect_text(outcome.output, "stage                   soil 'sand': 96 particles taken over from ");
+    program_clear(&outcome);
 }
 
 /* Sand that is let go is still on its way after 0.4 s; beside a gate it rests. */
