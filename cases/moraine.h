@@ -342,14 +342,17 @@ mor_status mor_session_render(mor_session *session, const char *folder);
 
 /** Takes the maps of several runs together: the share of the runs that reach a value in a cell, in percent, and the
  *  ends of its 95 % interval after Wilson, as maps/exceed-NAME.tif, -low and -high, with a picture; prints the paths.
- *  @param runs   [in]  zero-terminated; folder that the folders of the runs lie in; other folders are passed over
+ *  Runs without the map, as those that failed or have not ended, are left out, named and counted in the text of the
+ *  maps.
+ *  @param runs   [in]  zero-terminated; folder that the folders of the runs lie in, other folders are passed over; or
+ *                      the folder of a sweep, whose members are taken
  *  @param map    [in]  zero-terminated; name of a map, as "depth_max"
  *  @param value  [in]  zero-terminated; from which on a cell counts (of an arrival: up to which), with its unit, as
  *                      "0.5 m"
  *  @param folder [in]  zero-terminated; of the results; made when missing
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are no runs, one of them lacks the map, as it does before its end, or
- *  has it on another grid, in another reference system, or of another end, spacing or depths, or for a name or a value
- *  that is none; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when there are no runs, none of them has the map, or one has it on another grid,
+ *  in another reference system, or of another end, spacing or depths, or for a name or a value that is none, or a time
+ *  of arrival after the end; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_session_combine_maps(mor_session *session, const char *runs, const char *map, const char *value,
                                     const char *folder);
 

@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/moraine.h"
+#include "tests/common/program.h"
 #include "tests/common/session_run.h"
 
 /* Which runs' maps may be taken together: those that have ended, at one time, and were measured alike. */
@@ -12,7 +13,7 @@ static const char moving[] =
     "soil = ( { name = 'block'; velocity = (2, 0, 0); shape = { type = 'box'; min = (0.3, 0.3, 0); max = (0.6, 0.6, "
     "0.2); }; material = { model = 'mohr_coulomb'; density = '2000 kg/m3'; youngs_modulus = '1 MPa';"
     "  poissons_ratio = 0.2; friction_angle = '30 deg'; cohesion = '50 kPa'; }; } );"
-    "maps = { cell = 0.2; threshold = 0.05; };"
+    "probes = ( { name = 'mass'; type = 'mass'; } ); maps = { cell = 0.2; threshold = 0.05; };"
     "output = { snapshots = 1; pictures = true; };";
 
 /* Runs into runs/NAME; setting NULL: none. */
@@ -71,7 +72,7 @@ static void a_run_that_goes_on_has_no_maps_until_it_ends(void **state)
         assert_false(has_file(folder, "runs/a", names[k]));
     }
     static const char *const words[] = {"runs/a'", "found no maps/depth_max.tif"};
-    combine(folder, MOR_ERROR_CONFIG, words, 2);
+    combine(folder, MOR_ERROR_CONFIG, words, 2); /* none is left */
     run_one(folder, "a", "end=0.1", NAN, true);
     for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
         assert_true(has_file(folder, "runs/a", names[k]));
@@ -106,6 +107,38 @@ static void maps_of_runs_that_differ_in_what_they_measure_are_refused(void **sta
     combine(folder, MOR_OK, NULL, 0);
 }
 
+/* Of four members the second loses soil over the edge of the domain on its way, the third is refused. */
+static void members_of_a_sweep_without_maps_are_left_out_and_named(void **state)
+{
+    run_folder *folder = *state;
+    static const char sweep[] =
+        "title = 'blocks'; case = 'case.cfg'; results = ( { probe = 'mass'; } ); set = ( 'output.pictures=false' );"
+        "vary = ( { name = 'how'; choices = ("
+        "  { label = 'as it is'; value = 1; set = ('seed=1'); },"
+        "  { label = 'edge'; value = 2; set = ('domain.max=(0.65, 1.2, 1)'); },"
+        "  { label = 'fast'; value = 3; set = ('soil[0].velocity=(500, 0, 0)'); },"
+        "  { label = 'slow'; value = 4; set = ('soil[0].velocity=(0, 0, 0)'); } ); } );";
+    const char *const run[] = {"sweep", "sweep.cfg", "-o", "study", "-t", "1", NULL};
+    const char *const combine_all[] = {"maps", "study", "--value", "0.05 m", NULL};
+    const char *const late[] = {"maps", "study", "--map", "arrival", "--value", "0.06 s", NULL};
+    char path[MOR_PATH_BYTES];
+    char other[MOR_PATH_BYTES];
+    finished_run_store_text(folder, sweep, path); /* with ' for ", as the case */
+    assert_int_equal(rename(path, run_folder_file(folder, other, "sweep.cfg")), 0);
+    finished_run_store_text(folder, moving, path);
+    program_outcome outcome = program_run(folder, run, 1);
+    program_clear(&outcome);
+    outcome = program_run(folder, combine_all, 0);
+    program_expect_text(outcome.output, "left out: study/members/002, which has no maps/depth_max.tif");
+    program_expect_text(outcome.output, "left out: study/members/003, which has no maps/depth_max.tif");
+    program_expect_text(outcome.output, "2 of 4 runs taken together");
+    program_expect_text(outcome.output, "study/maps/exceed-depth_max.tif");
+    program_clear(&outcome);
+    outcome = program_run(folder, late, 2); /* the runs know nothing of that time */
+    program_expect_text(outcome.errors, "found the value 0.06 s of the map arrival, of runs that end at 0.05 s");
+    program_clear(&outcome);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, run_folder_setup, run_folder_teardown)
 
 /* What the leak sanitizer is to ignore: Fontconfig keeps what it knows of fonts until the process ends. */
@@ -119,6 +152,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_run_that_goes_on_has_no_maps_until_it_ends),
         TEST(maps_of_runs_that_differ_in_what_they_measure_are_refused),
+        TEST(members_of_a_sweep_without_maps_are_left_out_and_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,6 +90,36 @@ static void rows_add_up_to_the_impulse(void **state)
     assert_true(fabs(it.impulse / sum - 1.0) < 0.12);
 }
 
+/* The number behind a member of a result. */
+static double find_number(const char *json, const char *result, const char *member)
+{
+    const char *at = strstr(json, result);
+    assert_non_null(at);
+    at = strstr(at, member);
+    assert_non_null(at);
+    return strtod(at + strlen(member) + 2, NULL); /* behind the quote's colon */
+}
+
+/* summary.json has the peak that a probe of the gauge has seen in every step, when it was, and how it was filtered. */
+static void summary_tells_peaks_and_filters(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    run_case(folder, "run", NAN, false, 1);
+    char *bytes = (char *)run_folder_load(finished_run_file(folder, path, "run", MOR_SUMMARY_FILE), &n_bytes);
+    assert_non_null(bytes);
+    const double largest = find_number(bytes, "\"gauge_normal\"", "\"maximum\"");
+    assert_true(largest > 0.0 && largest == find_number(bytes, "\"gauge.mean.peak_normal\"", "\"value\""));
+    assert_true(find_number(bytes, "\"gauge_normal\"", "\"time_of_maximum\"") ==
+                find_number(bytes, "\"gauge.mean.time_of_peak\"", "\"value\""));
+    assert_true(find_number(bytes, "\"gauge.mean.impulse_soil\"", "\"value\"") > 0.0);
+    assert_non_null(strstr(bytes, "filter: running mean over 0.007 s"));
+    assert_non_null(strstr(bytes, "filter: Butterworth low pass at 50 Hz"));
+    assert_non_null(strstr(bytes, "\"gauge.ball.peak_of_single_steps\""));
+    free(bytes);
+}
+
 /* boulders.csv holds what the probes tell of the one body. */
 static void boulders_have_a_line_each(void **state)
 {
@@ -151,6 +181,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(gauges_go_on_as_if_never_stopped, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(rows_add_up_to_the_impulse, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(summary_tells_peaks_and_filters, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(boulders_have_a_line_each, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(probes_of_the_start_cannot_be_appended, run_folder_setup, run_folder_teardown),
     };

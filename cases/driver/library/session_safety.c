@@ -9,6 +9,7 @@
 #include "cases/driver/safety/safety_files.h"
 #include "cases/driver/safety/safety_pictures.h"
 #include "core/base/memory.h"
+#include "core/base/units.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -77,6 +78,27 @@ static mor_status split_spacings(mor_context *context, const char *text, level *
     MOR_CHECK(context, *n > 0, MOR_ERROR_CONFIG,
               "found an empty list of spacings; allowed: lengths, as '1 m, 0.5 m, 0.25 m'");
     return MOR_OK;
+}
+
+/* All spacings are checked before the first is computed, by the words of the user. */
+static mor_status check_spacings(mor_context *context, const level *levels, int n)
+{
+    mor_units *units = NULL;
+    mor_status status = mor_units_new(context, &units);
+    for (int k = 0; k < n && status == MOR_OK; ++k) {
+        double spacing = 0.0;
+        const bool is_length =
+            levels[k].word[0] == '\0' ||
+            (mor_units_convert(context, units, levels[k].word, "m", &spacing) == MOR_OK && spacing > 0.0);
+        if (!is_length) {
+            status = MOR_FAIL(context, MOR_ERROR_CONFIG,
+                              "found '%s' in the spacings, which is no length above 0; allowed: lengths, separated by "
+                              "commas, as '1 m, 0.5 m, 0.25 m'",
+                              levels[k].word);
+        }
+    }
+    mor_units_free(context, &units);
+    return status;
 }
 
 /* Loads the case at one spacing; the override that says so is taken back. */
@@ -298,6 +320,7 @@ mor_status mor_session_find_safety(mor_session *session, const char *path, const
     *is_found = false;
     MOR_TRY(context, check_options(context, options));
     MOR_TRY(context, split_spacings(context, options->spacings, levels, &n));
+    MOR_TRY(context, check_spacings(context, levels, n));
     MOR_TRY(context, mor_run_folder_refuse_run(context, folder, "choose another folder"));
     MOR_TRY(context, refuse_search(context, folder));
     MOR_TRY(context, find_levels(session, path, options, folder, levels, n));

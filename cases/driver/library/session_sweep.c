@@ -5,6 +5,7 @@
 
 #include "cases/driver/run/wall_time.h"
 #include "cases/driver/sweep/sweep_charts.h"
+#include "cases/driver/sweep/sweep_keys.h"
 #include "cases/driver/sweep/sweep_pool.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
@@ -49,26 +50,53 @@ static void watch_nothing(void *user)
     (void)user; /* nothing is lost when a check is given up */
 }
 
+/* What is wrong, without the value that a member has: a wrong key is wrong with each of them. */
+static const char *skip_override(const char *reason)
+{
+    static const char start[] = "override '";
+    const char *end = strncmp(reason, start, sizeof start - 1) == 0 ? strstr(reason, "': ") : NULL;
+    return end != NULL ? end + 3 : reason;
+}
+
+static bool is_alike(const mor_sweep_outcome *one, const mor_sweep_outcome *other)
+{
+    return other->state == MOR_SWEEP_STATE_FAILED &&
+           strcmp(skip_override(one->reason), skip_override(other->reason)) == 0;
+}
+
+/* A reason with the place in the sweep file that it comes from. */
+static void log_reason(mor_session_sweeper *it, const char *who, const char *reason)
+{
+    const bool has_override = skip_override(reason) != reason;
+    const mor_sweep_variable *variable =
+        has_override ? mor_sweep_keys_find(&it->sweep, strchr(reason, '\'') + 1) : NULL;
+    if (variable != NULL) {
+        mor_context_log(&it->session->context, MOR_LOG_ERROR, "%s: %s:%d: variable '%s': %s", who, variable->place.file,
+                        variable->place.line, variable->name, reason);
+    } else {
+        mor_context_log(&it->session->context, MOR_LOG_ERROR, "%s: %s", who, reason);
+    }
+}
+
 /* Tells each reason once, with the members that it holds for. */
 static void log_refused(mor_session_sweeper *it)
 {
-    enum { REASONS_MAX = 50 };
+    enum { REASONS_MAX = 50, WHO_BYTES = 64 };
     const mor_sweep_outcome *outcomes = it->table.outcomes;
     int n_told = 0;
     for (int m = 0; m < it->design.n_members && n_told < REASONS_MAX; ++m) {
+        char who[WHO_BYTES];
         int n_alike = 0;
         bool is_new = outcomes[m].state == MOR_SWEEP_STATE_FAILED;
         for (int other = 0; other < m && is_new; ++other) {
-            is_new = strcmp(outcomes[other].reason, outcomes[m].reason) != 0;
+            is_new = !is_alike(&outcomes[m], &outcomes[other]);
         }
         for (int other = m + 1; other < it->design.n_members && is_new; ++other) {
-            n_alike += strcmp(outcomes[other].reason, outcomes[m].reason) == 0;
+            n_alike += is_alike(&outcomes[m], &outcomes[other]);
         }
-        if (is_new && n_alike > 0) {
-            mor_context_log(&it->session->context, MOR_LOG_ERROR, "member %d and %d more: %s", m + 1, n_alike,
-                            outcomes[m].reason);
-        } else if (is_new) {
-            mor_context_log(&it->session->context, MOR_LOG_ERROR, "member %d: %s", m + 1, outcomes[m].reason);
+        snprintf(who, sizeof who, n_alike > 0 ? "member %d and %d more" : "member %d", m + 1, n_alike);
+        if (is_new) {
+            log_reason(it, who, outcomes[m].reason);
         }
         n_told += is_new;
     }

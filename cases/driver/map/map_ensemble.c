@@ -59,6 +59,7 @@ typedef struct counting {
     mor_terrain_raster map;    /* of the first run; later the share and its interval */
     mor_terrain_raster ground; /* of the first run, where it has one */
     int *counts;               /* shape [cells]; runs that reach the value */
+    int n, first;              /* runs with the map, and the first of them */
     bool *is_seen;             /* shape [cells]; a run has data there */
 } counting;
 
@@ -73,7 +74,7 @@ static mor_status check_settings(mor_context *context, const counting *it, const
     MOR_CHECK(context, strcmp(map->settings, it->map.settings) == 0, MOR_ERROR_CONFIG,
               "found maps of runs that differ: '%s' has %s, '%s' has %s; allowed: runs of one end, spacing and depths; "
               "resume the shorter ones with the end of the others, or leave them out",
-              it->ensemble->folders[0], it->map.settings, it->ensemble->folders[run], map->settings);
+              it->ensemble->folders[it->first], it->map.settings, it->ensemble->folders[run], map->settings);
     return MOR_OK;
 }
 
@@ -88,15 +89,16 @@ static mor_status check_grid(mor_context *context, const counting *it, const mor
     MOR_CHECK(context, is_same, MOR_ERROR_CONFIG,
               "found maps on two grids: '%s' has %d x %d cells of %.9g m from (%.9g, %.9g) m on, '%s' %d x %d cells of "
               "%.9g m from (%.9g, %.9g) m on; allowed: runs whose maps have the same cells; leave one of them out",
-              it->ensemble->folders[0], first->n[0], first->n[1], first->cell[0], first->corner[0], first->corner[1],
-              it->ensemble->folders[run], map->n[0], map->n[1], map->cell[0], map->corner[0], map->corner[1]);
+              it->ensemble->folders[it->first], first->n[0], first->n[1], first->cell[0], first->corner[0],
+              first->corner[1], it->ensemble->folders[run], map->n[0], map->n[1], map->cell[0], map->corner[0],
+              map->corner[1]);
     const char *systems[] = {first->system != NULL ? first->system : "none",
                              map->system != NULL ? map->system : "none"};
     MOR_CHECK(
         context, strcmp(systems[0], systems[1]) == 0, MOR_ERROR_CONFIG,
         "found maps in two reference systems: '%s' has %.300s, '%s' has %.300s; allowed: runs whose maps have the "
         "same; leave one of them out",
-        it->ensemble->folders[0], systems[0], it->ensemble->folders[run], systems[1]);
+        it->ensemble->folders[it->first], systems[0], it->ensemble->folders[run], systems[1]);
     return MOR_OK;
 }
 
@@ -111,46 +113,67 @@ static void count_cells(counting *it, const mor_terrain_raster *map)
     }
 }
 
-static mor_status read_run(mor_context *context, counting *it, int run)
+/* Nothing is reached after the end of a run. */
+static mor_status check_time(mor_context *context, const counting *it)
+{
+    double end = NAN;
+    const double value = it->ensemble->value;
+    if (!it->kind->is_early_dark || sscanf(it->map.settings, "end %lf s", &end) != 1) {
+        return MOR_OK;
+    }
+    MOR_CHECK(context, value >= 0.0 && value <= end, MOR_ERROR_CONFIG,
+              "found the value %g s of the map %s, of runs that end at %g s; allowed: 0 s up to that end, beyond which "
+              "nothing is known",
+              value, it->kind->name, end);
+    return MOR_OK;
+}
+
+static mor_status take_first(mor_context *context, counting *it, int run, mor_terrain_raster *map)
+{
+    bool is_there = false;
+    it->first = run;
+    it->map = *map;
+    *map = (mor_terrain_raster){.values = NULL};
+    const int64_t n = (int64_t)it->map.n[0] * it->map.n[1];
+    MOR_TRY(context, check_settings(context, it, &it->map, run));
+    MOR_TRY(context, check_time(context, it));
+    MOR_TRY(context, MOR_NEW(context, &it->counts, n, "counts of runs"));
+    MOR_TRY(context, MOR_NEW(context, &it->is_seen, n, "counts of runs"));
+    return mor_map_read(context, it->ensemble->folders[run], "ground", &it->ground, &is_there);
+}
+
+/* A run without the map, which has failed or goes on, is left out and named. */
+static mor_status read_run(mor_context *context, counting *it, int run, FILE *output)
 {
     const char *folder = it->ensemble->folders[run];
     mor_terrain_raster map;
     bool is_there = false;
     mor_status status = mor_map_read(context, folder, it->kind->name, &map, &is_there);
     if (status == MOR_OK && !is_there) {
-        status = MOR_FAIL(context, MOR_ERROR_CONFIG,
-                          "found no " MOR_MAP_FOLDER "/%s.tif in '%s'; allowed: folders of runs that have ended, of "
-                          "cases with maps; run it, or leave it out",
-                          it->kind->name, folder);
-    }
-    if (status == MOR_OK && run == 0) {
-        it->map = map;
-        const int64_t n = (int64_t)map.n[0] * map.n[1];
-        map = (mor_terrain_raster){.values = NULL};
-        MOR_TRY(context, check_settings(context, it, &it->map, run));
-        MOR_TRY(context, MOR_NEW(context, &it->counts, n, "counts of runs"));
-        MOR_TRY(context, MOR_NEW(context, &it->is_seen, n, "counts of runs"));
-        MOR_TRY(context, mor_map_read(context, folder, "ground", &it->ground, &is_there));
-        count_cells(it, &it->map);
-        return MOR_OK;
-    }
-    if (status == MOR_OK) {
+        fprintf(output,
+                "left out: %s, which has no " MOR_MAP_FOLDER "/%s.tif: it failed, has not ended, or makes none\n",
+                folder, it->kind->name);
+    } else if (status == MOR_OK && it->n == 0) {
+        status = take_first(context, it, run, &map);
+        map = status == MOR_OK ? it->map : map;
+    } else if (status == MOR_OK) {
         status = check_grid(context, it, &map, run);
+        status = status == MOR_OK ? check_settings(context, it, &map, run) : status;
     }
-    if (status == MOR_OK) {
-        status = check_settings(context, it, &map, run);
-    }
-    if (status == MOR_OK) {
+    if (status == MOR_OK && is_there) {
         count_cells(it, &map);
+        it->n += 1;
     }
-    mor_terrain_raster_clear(context, &map);
+    if (map.values != it->map.values) {
+        mor_terrain_raster_clear(context, &map);
+    }
     return status;
 }
 
 /* part: 0: the share; -1 and 1: the ends of its interval. */
 static void fill_values(counting *it, int part)
 {
-    const int n = it->ensemble->n;
+    const int n = it->n;
     for (int64_t k = 0; k < (int64_t)it->map.n[0] * it->map.n[1]; ++k) {
         double low = 0.0;
         double high = 0.0;
@@ -171,8 +194,13 @@ static mor_status write_part(mor_context *context, counting *it, int part, const
     const mor_map_ensemble *ensemble = it->ensemble;
     snprintf(title, sizeof title, "%s%s %s %g %s", words[part + 1], it->kind->title,
              it->kind->is_early_dark ? "up to" : "of at least", ensemble->value, it->kind->unit);
-    snprintf(text, sizeof text, "Of %d runs; interval of 95 %% after Wilson; no data where no run has any [%%]",
-             ensemble->n);
+    const int n_left_out = ensemble->n - it->n;
+    size_t used = (size_t)snprintf(text, sizeof text, "Of %d run%s", it->n, it->n == 1 ? "" : "s");
+    if (n_left_out > 0) {
+        used += (size_t)snprintf(text + used, sizeof text - used, ", %d more left out without a map", n_left_out);
+    }
+    snprintf(text + used, sizeof text - used,
+             "; 95 %% interval (Wilson) in -low and -high; no data where no run had soil");
     const mor_map_kind kind = {.name = "exceed", .title = "share of runs", .unit = "%", .text = text};
     fill_values(it, part);
     snprintf(it->map.name, sizeof it->map.name, "%.*s", (int)sizeof it->map.name - 1, title);
@@ -213,8 +241,13 @@ static mor_status make_folders(mor_context *context, const char *folder)
 static mor_status write_all(mor_context *context, counting *it, const char *folder, FILE *output)
 {
     for (int run = 0; run < it->ensemble->n; ++run) {
-        MOR_TRY(context, read_run(context, it, run));
+        MOR_TRY(context, read_run(context, it, run, output));
     }
+    MOR_CHECK(context, it->n > 0, MOR_ERROR_CONFIG,
+              "found no " MOR_MAP_FOLDER "/%s.tif in '%s'%s; allowed: folders of runs that have ended, of cases with "
+              "maps; run it",
+              it->kind->name, it->ensemble->folders[0], it->ensemble->n > 1 ? " nor in the others" : "");
+    fprintf(output, "%d of %d run%s taken together\n", it->n, it->ensemble->n, it->ensemble->n == 1 ? "" : "s");
     MOR_TRY(context, make_folders(context, folder));
     for (int part = -1; part <= 1; ++part) {
         MOR_TRY(context, write_part(context, it, part, folder, output));

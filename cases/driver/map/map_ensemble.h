@@ -13,7 +13,7 @@
 
 /** What is asked. Strings are zero-terminated and borrowed. */
 typedef struct mor_map_ensemble {
-    const char *const *folders; /* shape [n]; of the runs; their maps are on the same grid */
+    const char *const *folders; /* shape [n]; of the runs; those with the map have one grid */
     int n;                      /* >= 1 */
     const char *map;            /* name of a map */
     double value;               /* a cell counts from it on, or, of an arrival, up to it; unit of the map, [1] */
@@ -39,8 +39,8 @@ void mor_map_ensemble_names(char *text, size_t n_bytes);
 /** Writes maps/exceed-<map>.tif, the share in percent, and -low and -high, the ends of its interval, with styles, and
  *  the picture images/map-exceed-<map>.png.
  *  @param folder [in]      zero-terminated; made when missing
- *  @param output [in,out]  one open stream; the paths are printed to it
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when a run lacks the map, or has it on another grid, in another
+ *  @param output [in,out]  one open stream; receives the paths, and the runs without the map, which are left out
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when no run has the map, or one has it on another grid, in another
  *  reference system, or of another end, spacing or depths, or does not tell these; MOR_ERROR_IO;
  *  MOR_ERROR_MEMORY. */
 mor_status mor_map_ensemble_write(mor_context *context, const mor_map_ensemble *ensemble, const char *folder,

@@ -230,6 +230,32 @@ static void warn_of_windows(mor_context *context, const mor_simulation *s)
     }
 }
 
+/* A run-out of soil that moves on is none: a hundredth of the soil would go by a spacing in a tenth of the run. */
+static void warn_of_motion(mor_context *context, const mor_simulation *s)
+{
+    static const char *const types[] = {"run_out", "toe", "angle_of_reach"};
+    const mor_case *c = s->the_case;
+    const double slow = c->spacing / (0.1 * c->end);
+    const char *probe = NULL;
+    int64_t n = 0;
+    for (int k = 0; k < c->n_probes && probe == NULL; ++k) {
+        for (size_t type = 0; type < sizeof types / sizeof *types; ++type) {
+            probe = strcmp(c->probes[k].type, types[type]) == 0 ? c->probes[k].name : probe;
+        }
+    }
+    for (int64_t i = 0; i < s->soil.set.n_particles && probe != NULL && s->has_soil; ++i) {
+        n += mor_vector_length(s->soil.set.data[MOR_FIELD_VELOCITY] + 3 * i) > slow;
+    }
+    if (probe != NULL && n * 100 > s->soil.set.n_particles) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            MOR_RUN_WARNING_AT_END
+            "%.3g %% of the soil still moved faster than %.3g m/s, a spacing in a tenth of the run: '%s' is "
+            "that of an instant, not of soil at rest; extend end, or report it with its time",
+            100.0 * (double)n / (double)s->soil.set.n_particles, slow, probe);
+    }
+}
+
 /* An energy balance that is violated means that forces were wrong, even where other results look right. */
 static mor_status warn_of_energy(mor_context *context, const mor_simulation *s)
 {
@@ -325,6 +351,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     warn_of_outflow(context, s);
     MOR_TRY(context, warn_of_density_drift(context, s));
     warn_of_windows(context, s);
+    warn_of_motion(context, s);
     MOR_TRY(context, warn_of_energy(context, s));
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
     fflush(options->output); /* a signal may end the program while it draws */

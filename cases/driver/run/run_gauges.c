@@ -121,6 +121,63 @@ static void write_peaks(const mor_gauges *gauges, FILE *stream)
     }
 }
 
+/* What summary.json tells of a gauge; where: in its numbers, and whether that is filtered. */
+typedef struct gauge_result {
+    const char *suffix, *unit, *unit_plane;
+    int at;
+    bool is_filtered;
+} gauge_result;
+
+enum { LAST = -1, IMPULSE_SOIL = -2, IMPULSE_BODIES = -3 };
+
+static const gauge_result gauge_results[MOR_RUN_GAUGE_RESULTS] = {
+    {"peak_normal", "N", "N/m", MOR_GAUGE_PEAK_NORMAL, true},
+    {"time_of_peak", "s", "s", MOR_GAUGE_PEAK_TIME, true},
+    {"soil_at_peak", "N", "N/m", MOR_GAUGE_PEAK_SOIL, true},
+    {"bodies_at_peak", "N", "N/m", MOR_GAUGE_PEAK_BODIES, true},
+    {"height_at_peak", "m", "m", MOR_GAUGE_PEAK_HEIGHT, true},
+    {"peak_shear", "N", "N/m", MOR_GAUGE_PEAK_SHEAR, true},
+    {"time_of_shear", "s", "s", MOR_GAUGE_PEAK_SHEAR_TIME, true},
+    {"peak_moment", "N m", "N", MOR_GAUGE_PEAK_MOMENT, true},
+    {"time_of_moment", "s", "s", MOR_GAUGE_PEAK_MOMENT_TIME, true},
+    {"peak_of_single_steps", "N", "N/m", MOR_GAUGE_PEAK_SINGLE, false},
+    {"time_of_single_steps", "s", "s", MOR_GAUGE_PEAK_SINGLE_TIME, false},
+    {"last_normal", "N", "N/m", LAST, true},
+    {"impulse_soil", "N s", "N s/m", IMPULSE_SOIL, false},
+    {"impulse_bodies", "N s", "N s/m", IMPULSE_BODIES, false}};
+
+static double read_result(const mor_gauge *gauge, int at)
+{
+    mor_gauge_reading it;
+    if (at >= 0) {
+        return gauge->numbers[MOR_GAUGE_PEAK + at];
+    }
+    mor_gauge_read(gauge, gauge->numbers + (at == LAST ? MOR_GAUGE_FILTERED : MOR_GAUGE_SUM), &it);
+    const double last = gauge->numbers[MOR_GAUGE_STEPS] > 0.0 ? it.normal : NAN;
+    return at == LAST ? last : it.of_source[at == IMPULSE_SOIL ? MOR_GAUGE_SOIL : MOR_GAUGE_BODIES];
+}
+
+int mor_run_gauges_results(const mor_gauges *gauges, mor_run_gauge_texts *texts, mor_summary_result *results)
+{
+    const bool is_plane = gauges->n > 0 && gauges->simulation->the_case->dimension == 2;
+    int n = 0;
+    for (int k = 0; k < gauges->n; ++k) {
+        const mor_gauge *gauge = &gauges->of[k];
+        char filter[MOR_GAUGE_FILTER_BYTES];
+        mor_gauge_describe_filter(gauge->asked, filter);
+        snprintf(texts->filters[k], sizeof texts->filters[k], "filter: %s", filter);
+        for (const gauge_result *row = gauge_results; row < gauge_results + MOR_RUN_GAUGE_RESULTS; ++row) {
+            snprintf(texts->names[n], sizeof texts->names[n], "gauge.%s.%s", gauge->asked->name, row->suffix);
+            results[n] = (mor_summary_result){.probe = texts->names[n],
+                                              .value = read_result(gauge, row->at),
+                                              .unit = is_plane ? row->unit_plane : row->unit,
+                                              .remark = row->is_filtered ? texts->filters[k] : NULL};
+            n += 1;
+        }
+    }
+    return n;
+}
+
 static void write_map(const mor_simulation *s, const mor_gauge *gauge, FILE *stream)
 {
     const mor_gauge_map *map = &gauge->map;

@@ -5,13 +5,24 @@
 
 #include "cases/driver/gauge/gauge.h"
 #include "cases/driver/gauge/gauge_table.h"
+#include "core/io/summary.h"
 #include "core/io/table.h"
 
 /** @file
  *  The files of gauges in the folder of a run: gauges.csv over time; gauge_peaks.csv and maps of pressure
- *  at its end. */
+ *  at its end. Their peaks are in summary.json, too. */
 
-enum { MOR_RUN_GAUGE_NAME_BYTES = MOR_CASE_NAME_BYTES + 32 };
+enum {
+    MOR_RUN_GAUGE_NAME_BYTES = MOR_CASE_NAME_BYTES + 32,
+    MOR_RUN_GAUGE_RESULTS = MOR_GAUGE_PEAKS + 3, /* of a gauge: its peaks, the last normal force, two impulses */
+    MOR_RUN_GAUGE_RESULTS_MAX = MOR_CASE_GAUGES_MAX * MOR_RUN_GAUGE_RESULTS
+};
+
+/** The texts of the results of gauges. */
+typedef struct mor_run_gauge_texts {
+    char names[MOR_RUN_GAUGE_RESULTS_MAX][MOR_RUN_GAUGE_NAME_BYTES];
+    char filters[MOR_CASE_GAUGES_MAX][MOR_GAUGE_FILTER_BYTES + 16];
+} mor_run_gauge_texts;
 
 /** The table of the gauges of a run. Zeroed: of none. Owner: the files of the run. */
 typedef struct mor_run_gauges {
@@ -44,6 +55,13 @@ void mor_run_gauges_close(mor_context *context, mor_run_gauges *it);
  *  @param folder  [in]      zero-terminated; of the run
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_run_gauges_conclude(mor_context *context, const mor_gauges *gauges, const char *folder);
+
+/** Lists the numbers of gauge_peaks.csv as results "gauge.NAME.peak_normal" and so on, each with the filter of its
+ *  gauge as a remark where it is filtered. No probe can have such a name.
+ *  @param texts   [out]  what the results borrow
+ *  @param results [out]  shape [MOR_RUN_GAUGE_RESULTS_MAX]; NaN where nothing was measured
+ *  Returns: how many there are. */
+int mor_run_gauges_results(const mor_gauges *gauges, mor_run_gauge_texts *texts, mor_summary_result *results);
 
 /** Prints the peaks as a table; nothing where there are no gauges.
  *  @param out     [in,out]  one open stream */

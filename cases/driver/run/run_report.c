@@ -239,8 +239,9 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
 {
     const mor_case *c = files->the_case;
     char path[MOR_PATH_BYTES];
-    mor_summary_result results[MOR_CASE_PROBES_MAX + MOR_MAP_RESULTS_MAX];
+    mor_summary_result results[MOR_CASE_PROBES_MAX + MOR_MAP_RESULTS_MAX + MOR_RUN_GAUGE_RESULTS_MAX];
     mor_map_results maps;
+    mor_run_gauge_texts gauge_texts;
     mor_summary_expectation expectations[MOR_CASE_EXPECTATIONS_MAX];
     mor_summary_input inputs[1 + INPUTS_MAX] = {{c->path, files->case_hash}};
     mor_case_input shapes[INPUTS_MAX];
@@ -270,6 +271,8 @@ mor_status mor_run_files_conclude(mor_context *context, mor_run_files *files, do
     MOR_TRY(context, fill_results(context, files, failure != NULL, results, statistics));
     *n_missed = compare(c, results, failure != NULL, expectations);
     MOR_TRY(context, write_maps(context, files, failure, &maps, results, &summary.n_results));
+    summary.n_results +=
+        mor_run_gauges_results(&files->simulation->probes->gauges, &gauge_texts, results + summary.n_results);
     mor_summary_integration integration;
     summary.integration = find_integration(files->simulation, &integration) ? &integration : NULL;
     mor_summary_settling settling;

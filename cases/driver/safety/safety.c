@@ -175,6 +175,35 @@ static mor_status find_body(mor_context *context, mor_safety *it)
     return mor_safety_body_find(context, it->mechanism, &it->setup.reference, largest, &it->body);
 }
 
+/* What the search found may hang on one of its limits, or on too few particles. */
+static void warn_of_result(mor_context *context, const mor_safety *it)
+{
+    const double near_limit = 0.8;
+    const double rows = 10.0; /* of particles in the height of a slope, docs/guide/factor_of_safety.md */
+    const int64_t particles = 30;
+    const mor_safety_reference *r = &it->setup.reference;
+    const double far = it->setup.rules.far;
+    for (int k = 0; k < it->n_trials; ++k) {
+        const mor_safety_trial *trial = &it->trials[k];
+        const double moved = trial->n_samples > 0 ? trial->samples[trial->n_samples - 1].displacement : 0.0;
+        if (trial->finding.verdict == MOR_SAFETY_STABLE && trial->factor == it->band.stable &&
+            moved > near_limit * far) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "the largest factor at which the slope stands, %.4g, came to %.3g m, %.0f %% of the "
+                            "displacement of failure, %.3g m: the result hangs on that limit; compare speed.png, and a "
+                            "finer spacing",
+                            trial->factor, moved * r->height, 100.0 * moved / far, far * r->height);
+        }
+    }
+    const double n_rows = r->height / it->setup.reduced->original->spacing;
+    if (n_rows + 1.0 < rows || (it->mechanism != NULL && it->body.n < particles)) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "the slope is %.3g spacings high and its critical body has %lld particles; at least %.0f and "
+                        "%lld are advisable: is it a slope, and is the spacing fine enough?",
+                        n_rows, (long long)it->body.n, rows, (long long)particles);
+    }
+}
+
 mor_status mor_safety_find(mor_context *context, const mor_safety_request *request, mor_safety *it)
 {
     memset(it, 0, sizeof *it);
@@ -188,7 +217,13 @@ mor_status mor_safety_find(mor_context *context, const mor_safety_request *reque
             "verdict", "speed", "displacement", "time", "steps", "[1]", "", "[m/s]", "", "[m]", "", "[s]", "[1]");
     MOR_TRY(context, start(context, request, it));
     MOR_TRY(context, search(context, request, it));
-    return it->mechanism != NULL ? find_body(context, it) : MOR_OK;
+    if (it->mechanism != NULL) {
+        MOR_TRY(context, find_body(context, it));
+    }
+    if (it->n_trials > 0) {
+        warn_of_result(context, it);
+    }
+    return MOR_OK;
 }
 
 void mor_safety_clear(mor_context *context, mor_safety *it)

@@ -27,6 +27,12 @@ enum {
     MOR_SIMULATION_SETTLED_NUMBERS
 };
 
+/** The narrowest gap between walls and prescribed bodies, below eight spacings. */
+typedef struct mor_simulation_gap {
+    double width;                               /* m; INFINITY: none is as narrow */
+    char between[2 * MOR_CASE_NAME_BYTES + 32]; /* which, in words */
+} mor_simulation_gap;
+
 /** A case made ready to run. Owner: the caller, who ends it with mor_simulation_clear. */
 typedef struct mor_simulation {
     const mor_case *the_case; /* borrowed; outlives the simulation */
@@ -46,7 +52,8 @@ typedef struct mor_simulation {
     double soil_depth; /* height of the highest column of the initial soil along up, m; 0 without */
     int64_t region_particles[MOR_CASE_SOILS_MAX]; /* particles of each soil region at the start */
     double particle_volumes[MOR_CASE_SOILS_MAX];  /* of each particle of a region at the start, m3 (m2) */
-    double first_step;                            /* length of the first time step, s */
+    mor_simulation_gap gap;
+    double first_step;     /* length of the first time step, s */
     uint64_t resumed_step; /* steps done when a state was put back, after which the forces of the last step are not
                               known; 0: none was */
     double settled[MOR_SIMULATION_SETTLED_NUMBERS]; /* how the initial stress settled, units of the enum above; time 0:

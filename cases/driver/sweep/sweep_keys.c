@@ -83,6 +83,22 @@ static mor_status refuse(mor_context *context, const mor_sweep_variable *variabl
                     other, where, has_label ? " '" : "", label, has_label ? "'" : "");
 }
 
+const mor_sweep_variable *mor_sweep_keys_find(const mor_sweep *sweep, const char *setting)
+{
+    for (int v = 0; v < sweep->n_variables; ++v) {
+        const mor_sweep_variable *variable = &sweep->variables[v];
+        for (walk w = {.text = NULL}; step_on(variable, &w);) {
+            /* of a variable its key alone; of a choice its key and value */
+            const size_t n = strlen(w.text);
+            const bool is_whole = strchr(w.text, '=') != NULL || setting[n] == '=';
+            if (strncmp(setting, w.text, n) == 0 && is_whole) {
+                return variable;
+            }
+        }
+    }
+    return NULL;
+}
+
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
 
 /* Settings of a variable against those of another one before it. */

@@ -17,4 +17,9 @@
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_sweep_keys_check(mor_context *context, const mor_sweep *sweep);
 
+/** Finds the variable that makes a setting.
+ *  @param setting [in]  begins with it, "key=value"; what follows is not looked at
+ *  Returns: borrowed; NULL when no variable does, as of what is set for all members. */
+const mor_sweep_variable *mor_sweep_keys_find(const mor_sweep *sweep, const char *setting);
+
 #endif

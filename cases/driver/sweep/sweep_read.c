@@ -196,6 +196,12 @@ static mor_status check_samples(const mor_case_reader *reader, const mor_case_no
 
 static mor_status read_root(const mor_case_reader *reader, const mor_case_node *root, mor_sweep *sweep)
 {
+    const mor_case_node *domain = mor_case_node_find(root, "domain");
+    if (domain != NULL && mor_case_node_find(root, "vary") == NULL) {
+        return MOR_CASE_NODE_FAIL(reader->context, domain,
+                                  "found 'domain', which a case has; allowed: a sweep file, which names a case and "
+                                  "what varies; run a case as it is");
+    }
     MOR_TRY(reader->context, mor_case_reader_names(reader, root, &mor_sweep_root_group, NULL, NULL));
     MOR_TRY(reader->context, mor_case_reader_group(reader, root, &mor_sweep_root_group, sweep));
     MOR_TRY(reader->context, mor_sweep_read_settings(reader, root, "set", &sweep->settings));

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GROUP_BYTES = 256, CELL = 12, FAILED_SHOWN_MAX = 20 };
+enum { GROUP_BYTES = 256, CELL = 12, FAILED_SHOWN_MAX = 20, WARNED_SHOWN_MAX = 8 };
 
 /* A number in a cell; "-" where there is none. */
 static void print_cell(double value, FILE *out)
@@ -128,6 +128,21 @@ static mor_status print_failed(mor_context *context, const mor_sweep_table *tabl
     return MOR_OK;
 }
 
+/* Which members have warnings, as many as fit a line. */
+static void print_warned(const mor_sweep_table *table, int n_warned, FILE *out)
+{
+    int n = 0;
+    fprintf(out, "; %d %s (", n_warned, n_warned == 1 ? "has warnings" : "have warnings");
+    for (int m = 0; m < table->design->n_members; ++m) {
+        char number[16];
+        if (mor_sweep_table_is_used(table, m) && table->outcomes[m].n_warnings > 0 && ++n <= WARNED_SHOWN_MAX) {
+            mor_sweep_write_number(m, number);
+            fprintf(out, "%s%s", n > 1 ? ", " : "", number);
+        }
+    }
+    fprintf(out, "%s), see members/NNN/summary.json", n > WARNED_SHOWN_MAX ? ", ..." : "");
+}
+
 static void print_counts(const mor_sweep_table *table, FILE *out)
 {
     mor_sweep_counts counts;
@@ -147,7 +162,7 @@ static void print_counts(const mor_sweep_table *table, FILE *out)
         fprintf(out, "; %d missed an expectation of their case and are used", n_missed);
     }
     if (n_warned > 0) {
-        fprintf(out, "; %d have warnings, see their summary.json", n_warned);
+        print_warned(table, n_warned, out);
     }
     fprintf(out, "\n");
 }

@@ -214,6 +214,12 @@ static mor_status read_range(const mor_case_reader *reader, const mor_case_node 
                                   it[0], it[1], it[2], variable->key);
     }
     const double n = floor((it[1] - it[0]) / it[2] + rounding) + 1.0;
+    if (fabs((it[1] - it[0]) / it[2] - (n - 1.0)) > rounding * fmax(n, 1.0)) {
+        return MOR_CASE_NODE_FAIL(reader->context, node,
+                                  "found the range from %g to %g by %g of '%s', whose steps end at %.9g and miss 'to'; "
+                                  "allowed: a whole number of steps between both ends; correct to or step",
+                                  it[0], it[1], it[2], variable->key, it[0] + (n - 1.0) * it[2]);
+    }
     MOR_TRY(reader->context, make_choices(reader, node, n < 1e6 ? (int)n : 1000000, variable));
     for (int k = 0; k < variable->n_choices; ++k) {
         mor_sweep_choice *choice = &variable->choices[k];
@@ -310,31 +316,59 @@ static mor_status check_numbers(const mor_case_reader *reader, const mor_case_no
     return MOR_OK;
 }
 
-static mor_status check_distribution(const mor_case_reader *reader, const mor_case_node *node,
-                                     const mor_sweep_distribution *it)
+/* The numbers that were given. */
+static void describe_distribution(const mor_sweep_distribution *it, char *text, size_t n_bytes)
 {
+    const struct {
+        const char *name;
+        double value;
+    } all[] = {{"mean", it->mean},
+               {"deviation", it->deviation},
+               {"mode", it->mode},
+               {"min", it->minimum},
+               {"max", it->maximum}};
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < sizeof all / sizeof *all && used < n_bytes; ++k) {
+        if (isfinite(all[k].value)) {
+            used += (size_t)snprintf(text + used, n_bytes - used, "%s%s %g", used > 0 ? ", " : "", all[k].name,
+                                     all[k].value);
+        }
+    }
+}
+
+static mor_status check_distribution(const mor_case_reader *reader, const mor_case_node *node,
+                                     const mor_sweep_variable *variable)
+{
+    const mor_sweep_distribution *it = &variable->distribution;
     const double least_share = 1.0e-6; /* beyond it the tails of double precision are cut, not the distribution */
     const double rare = 1.0e-9;
     const char *why = NULL;
     if (!(it->minimum < it->maximum)) {
-        why = "min is not below max; exchange or correct them";
+        why = "min is not below its max; exchange or correct them";
     } else if (it->law == MOR_SWEEP_LAW_TRIANGULAR && !(it->mode >= it->minimum && it->mode <= it->maximum)) {
         why = "mode lies outside of min and max; correct it";
     } else if (it->law == MOR_SWEEP_LAW_NORMAL || it->law == MOR_SWEEP_LAW_LOGNORMAL) {
         if (!(it->deviation > 0.0)) {
-            why = "the deviation is not above zero; correct it, or give one value";
+            why = "deviation is not above zero; correct it, or give one value";
         } else if (it->law == MOR_SWEEP_LAW_LOGNORMAL && !(it->mean > 0.0)) {
-            why = "the mean of a lognormal variable is not above zero; correct it";
+            why = "mean is not above zero, as it is of a lognormal variable; correct it";
         } else if (!(mor_sweep_distribution_below(it, it->maximum) - mor_sweep_distribution_below(it, it->minimum) >=
                      least_share)) {
-            why = "less than a millionth of the distribution lies between min and max; correct them";
+            why = "range from min to max holds less than a millionth of it; correct them";
         }
     }
     if (why == NULL && !(isfinite(mor_sweep_distribution_quantile(it, rare)) &&
                          isfinite(mor_sweep_distribution_quantile(it, 1.0 - rare)))) {
         why = "values are beyond the range of numbers; correct mean and deviation";
     }
-    return why == NULL ? MOR_OK : MOR_CASE_NODE_FAIL(reader->context, node, "found a distribution whose %s", why);
+    if (why != NULL) {
+        char told[MOR_CASE_NODE_TEXT_BYTES];
+        describe_distribution(it, told, sizeof told);
+        return MOR_CASE_NODE_FAIL(reader->context, node, "found a distribution of '%s' with %s%s%s, whose %s",
+                                  variable->name, told, variable->unit[0] != '\0' ? " in " : "", variable->unit, why);
+    }
+    return MOR_OK;
 }
 
 static mor_status read_distribution(const mor_case_reader *reader, const mor_case_node *node,
@@ -352,7 +386,7 @@ static mor_status read_distribution(const mor_case_reader *reader, const mor_cas
     it->maximum = isnan(numbers[LARGEST]) ? INFINITY : numbers[LARGEST];
     variable->is_number = true;
     variable->is_replicate = true;
-    return check_distribution(reader, node, it);
+    return check_distribution(reader, node, variable);
 }
 
 /* ---- One of them ------------------------------------------------------------------------------------------------- */

@@ -174,6 +174,11 @@ static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, 
     reader->dimension = peek_dimension(root);
     reader->scheme = peek_scheme(root);
     snprintf(the_case->path, sizeof the_case->path, "%s", root->origin);
+    const mor_case_node *vary = mor_case_node_find(root, "vary");
+    if (vary != NULL && mor_case_node_find(root, "case") != NULL) {
+        return MOR_CASE_NODE_FAIL(reader->context, vary,
+                                  "found 'vary', which a sweep file has; allowed: a case; run it as a sweep");
+    }
     MOR_TRY(reader->context, mor_case_reader_names(reader, root, &mor_case_root_group, NULL, NULL));
     MOR_TRY(reader->context, mor_case_reader_plugins(reader, root, the_case));
     MOR_TRY(reader->context, read_scale(reader, root, the_case));

@@ -95,6 +95,8 @@ static mor_status read_file(const mor_case_reader *reader, const mor_case_node *
 
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
+static const double degrees = 57.295779513082320877; /* in a radian */
+
 static bool is_zero(const mor_motion_row *row)
 {
     return mor_vector_length(row->translation) == 0.0 && row->angle == 0.0;
@@ -107,19 +109,19 @@ static mor_status check_path(const mor_case_reader *reader, const mor_case_node 
     bool moves = false;
     if (!is_zero(first)) {
         return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found a path whose first row is translated by (%g, %g, %g) m and rotated by %g rad; "
+                                  "found a path whose first row is translated by (%g, %g, %g) m and rotated by %g deg; "
                                   "allowed: zero for both, because the shape is where it is at the start; put a row of "
                                   "zeros first, or place the shape there",
-                                  first->translation[0], first->translation[1], first->translation[2], first->angle);
+                                  first->translation[0], first->translation[1], first->translation[2],
+                                  first->angle * degrees);
     }
     for (int k = 0; k < path->n_rows; ++k) {
         moves = moves || !is_zero(&path->rows[k]);
     }
     if (!moves) {
         return MOR_CASE_NODE_FAIL(reader->context, node,
-                                  "found a path on which nothing moves%s; allowed: at least one row with a translation "
-                                  "or an angle; add one or remove the path",
-                                  "");
+                                  "found a path on which nothing moves; allowed: at least one row with a translation "
+                                  "or an angle; add one or remove the path");
     }
     return MOR_OK;
 }

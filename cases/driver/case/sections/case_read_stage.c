@@ -175,8 +175,16 @@ static mor_status locate_run(const mor_case_reader *reader, const mor_case_node 
                                   "found a path of %d letters to a run; allowed: fewer than %d; shorten it", n,
                                   (int)sizeof file);
     }
-    MOR_TRY(reader->context, mor_case_reader_locate(reader, node, "a run to start from without a checkpoint, or one",
-                                                    file, &stage->hash));
+    const mor_status status =
+        mor_case_reader_locate(reader, node, "a run to start from without a checkpoint, or one", file, &stage->hash);
+    if (status == MOR_ERROR_CONFIG) {
+        mor_context *context = reader->context;
+        const size_t used = strlen(context->message);
+        snprintf(context->message + used, sizeof context->message - used,
+                 ": start_from names the folder of the stage before, which has to run first; of a sweep, that of a "
+                 "member");
+    }
+    MOR_TRY(reader->context, status);
     snprintf(stage->run, sizeof stage->run, "%.*s", (int)(strlen(file) - strlen("/" MOR_CHECKPOINT_FILE)), file);
     return MOR_OK;
 }

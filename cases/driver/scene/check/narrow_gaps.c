@@ -10,7 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Spacings. Narrower gaps are refused or warned of, thinner walls likewise. */
+/* Spacings. Narrower gaps are refused or warned of, thinner walls likewise; those below GAP_FOUND are told. */
+#define GAP_FOUND 8.0
 #define GAP_LEAST 2.0
 #define GAP_ADVISED 4.0
 #define WALL_LEAST 1.0
@@ -236,7 +237,7 @@ static double find_ball(const gap_scene *s, const ray *it)
 static void look(const gap_scene *s, const ray *start, sight *found)
 {
     ray it = *start;
-    const double width = (GAP_ADVISED - SLACK) * s->spacing;
+    const double width = (GAP_FOUND - SLACK) * s->spacing;
     if (shoot(s, 1.0, width, &it) && narrow_down(s, width, &it)) {
         keep_sight(&it, fmin(it.width, find_ball(s, &it)), found);
     }
@@ -499,7 +500,20 @@ static mor_status report_thin_wall(mor_context *context, const gap_scene *s, con
     return MOR_OK;
 }
 
-mor_status mor_narrow_gaps_check(mor_context *context, const mor_simulation *simulation)
+/* The narrowest of the gaps becomes part of what is known of the scene. */
+static void note_narrowest(const gap_scene *s, const sight *gaps, int n_gaps, mor_simulation_gap *gap)
+{
+    for (int k = 0; k < n_gaps; ++k) {
+        const solid *a = &s->solids[gaps[k].own];
+        const solid *b = &s->solids[gaps[k].other];
+        if (gaps[k].width < gap->width) {
+            gap->width = gaps[k].width;
+            snprintf(gap->between, sizeof gap->between, a != b ? "between '%s' and '%s'" : "in '%s'", a->name, b->name);
+        }
+    }
+}
+
+mor_status mor_narrow_gaps_check(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
     gap_scene s = {.the_case = c, .spacing = c->spacing, .dimension = c->dimension};
@@ -507,6 +521,7 @@ mor_status mor_narrow_gaps_check(mor_context *context, const mor_simulation *sim
     sight thin[FINDINGS_MAX];
     int n_gaps = 0;
     int n_thin = 0;
+    simulation->gap.width = INFINITY;
     if (!simulation->has_soil) {
         return MOR_OK;
     }
@@ -514,8 +529,11 @@ mor_status mor_narrow_gaps_check(mor_context *context, const mor_simulation *sim
     add_walls(&s, simulation);
     add_bodies(&s, simulation);
     mor_status status = search(context, &s, gaps, &n_gaps, thin, &n_thin);
+    note_narrowest(&s, gaps, n_gaps, &simulation->gap);
     for (int k = 0; k < n_gaps && status == MOR_OK; ++k) {
-        status = report_gap(context, &s, &gaps[k]);
+        if (gaps[k].width < (GAP_ADVISED - SLACK) * s.spacing) {
+            status = report_gap(context, &s, &gaps[k]);
+        }
     }
     for (int k = 0; k < n_thin && status == MOR_OK; ++k) {
         status = report_thin_wall(context, &s, &thin[k]);

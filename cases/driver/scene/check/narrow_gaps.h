@@ -11,9 +11,9 @@
 
 /** Finds narrow gaps and thin walls at the start; terrain is compared with what stands on it, not with itself.
  *  @param context    [in,out]  gaps below four spacings and walls below three are logged as warnings
- *  @param simulation [in]      built; without soil nothing is checked
+ *  @param simulation [in,out]  built; receives the narrowest gap; without soil nothing is checked
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line for a gap below two spacings, unless the case allows it, and
  *  for a wall below one; MOR_ERROR_MEMORY. Threads: parallel inside. */
-mor_status mor_narrow_gaps_check(mor_context *context, const mor_simulation *simulation);
+mor_status mor_narrow_gaps_check(mor_context *context, mor_simulation *simulation);
 
 #endif

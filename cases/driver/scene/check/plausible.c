@@ -110,6 +110,7 @@ static void warn_of_frictions(mor_context *context, const mor_case *c)
 static void warn_of_cohesions(mor_context *context, const mor_case *c)
 {
     static const double largest = 1.0e6; /* Pa */
+    static const double least = 100.0;   /* Pa; less than that of moist sand, and than any that is measured */
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
         const mor_schema *schema = it->law->parameters;
@@ -121,6 +122,12 @@ static void warn_of_cohesions(mor_context *context, const mor_case *c)
                             "soil '%s' has %s = %.4g Pa beside its friction, more than any soil but rock: it will "
                             "hardly yield; a bare number is in Pa; give the unit, such as \"5 kPa\"",
                             it->name, schema[entry].key, cohesion);
+        }
+        if (entry >= 0 && cohesion > 0.0 && cohesion < least) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s' has %s = %.4g Pa, less than any that is measured: a bare number is in Pa; give "
+                            "the unit, such as \"%g kPa\", or write 0",
+                            it->name, schema[entry].key, cohesion, cohesion);
         }
     }
 }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/check/simulation_resolution.h"
 
+#include "cases/driver/scene/check/resolution_cost.h"
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/geometry/shape_moments.h"
@@ -263,8 +264,12 @@ double mor_simulation_depth_error(double n, bool is_reconstructed)
     return of[k - 1].error + fmax(share, 0.0) * (of[k].error - of[k - 1].error);
 }
 
-/* Half the shortest side of a body in its own frame, m. */
-static double find_radius(const mor_body *body, int dimension)
+double mor_simulation_radius_enough(bool is_reconstructed)
+{
+    return find_shortfalls(is_reconstructed)[N_SHORTFALLS - 1].n;
+}
+
+double mor_simulation_body_radius(const mor_body *body, int dimension)
 {
     mor_bounds bounds;
     double least = INFINITY;
@@ -275,9 +280,9 @@ static double find_radius(const mor_body *body, int dimension)
     return least;
 }
 
-/* Whether a body lies in soil and moves with it, so that it does not displace soil. */
-static bool is_carried(const mor_simulation *s, const mor_body_group *group, const mor_body *body)
+bool mor_simulation_is_carried(const mor_simulation *simulation, const mor_body_group *group, const mor_body *body)
 {
+    const mor_simulation *s = simulation;
     const mor_case *c = s->the_case;
     for (int k = 0; k < c->n_soils; ++k) {
         mor_soil_region whole;
@@ -292,41 +297,84 @@ static bool is_carried(const mor_simulation *s, const mor_body_group *group, con
     return false;
 }
 
-static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
+/* The coarsest of the bodies with fewer spacings from the center to the side than are enough. */
+typedef struct coarse_bodies {
+    const mor_body *coarsest; /* borrowed; NULL: there is none */
+    double least;             /* its spacings */
+    int n;
+} coarse_bodies;
+
+static void find_coarse_bodies(const mor_simulation *s, bool are_carried, double enough, coarse_bodies *found)
 {
     const mor_case *c = s->the_case;
-    const bool is_reconstructed = c->numerics.reconstruction == 1;
-    const double enough = find_shortfalls(is_reconstructed)[N_SHORTFALLS - 1].n;
-    const mor_body *coarsest = NULL;
-    double least = enough;
-    int n_coarse = 0;
+    *found = (coarse_bodies){NULL, enough, 0};
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];
         for (int b = 0; b < group->n_bodies; ++b) {
             const mor_body *body = &group->bodies[b];
-            const double n = find_radius(body, c->dimension) / c->spacing * (1.0 + 1.0e-9);
-            if (n >= enough || body->is_held || is_carried(s, group, body)) {
+            const double n = mor_simulation_body_radius(body, c->dimension) / c->spacing * (1.0 + 1.0e-9);
+            if (n >= enough || body->is_held || mor_simulation_is_carried(s, group, body) != are_carried) {
                 continue;
             }
-            n_coarse += 1;
-            coarsest = n < least ? body : coarsest;
-            least = fmin(least, n);
+            found->n += 1;
+            found->coarsest = n < found->least ? body : found->coarsest;
+            found->least = fmin(found->least, n);
         }
     }
-    if (coarsest == NULL) {
+}
+
+static void name_coarse_bodies(const coarse_bodies *it, char *text, size_t n_bytes)
+{
+    snprintf(text, n_bytes, "%d bodies are coarse: '%s' has", it->n, it->coarsest->name);
+    if (it->n == 1) {
+        snprintf(text, n_bytes, "body '%s' has", it->coarsest->name);
+    }
+}
+
+static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    const bool is_reconstructed = c->numerics.reconstruction == 1;
+    const double enough = mor_simulation_radius_enough(is_reconstructed);
+    coarse_bodies found;
+    char which[MOR_CASE_NAME_BYTES + 64];
+    char cost[ADVICE_BYTES];
+    find_coarse_bodies(s, false, enough, &found);
+    if (found.coarsest == NULL) {
         return;
     }
-    char which[MOR_CASE_NAME_BYTES + 64];
-    snprintf(which, sizeof which, "%d bodies are coarse: '%s' has", n_coarse, coarsest->name);
-    if (n_coarse == 1) {
-        snprintf(which, sizeof which, "body '%s' has", coarsest->name);
-    }
+    name_coarse_bodies(&found, which, sizeof which);
+    mor_resolution_describe_cost(s, found.least * c->spacing / enough, cost, sizeof cost);
     mor_context_log(
         context, MOR_LOG_WARNING,
         "%s %.3g spacings from the center to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
-        "too little into sand (docs/validation/crater.md); use a spacing of at most %.3g m%s",
-        which, least, enough, 100.0 * mor_simulation_depth_error(least, is_reconstructed), least * c->spacing / enough,
+        "too little into sand (docs/validation/crater.md); use a spacing of at most %s, or fewer and larger bodies%s",
+        which, found.least, enough, 100.0 * mor_simulation_depth_error(found.least, is_reconstructed), cost,
         is_reconstructed ? "" : ", or from 4.2 spacings on numerics.reconstruction = \"linear\"");
+}
+
+/* Bodies that soil carries push little of it aside, so that the error of the depth does not hold for them as it is. */
+static void warn_of_coarse_carried_bodies(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    coarse_bodies found;
+    char which[MOR_CASE_NAME_BYTES + 64];
+    char cost[ADVICE_BYTES];
+    find_coarse_bodies(s, true, MOR_RESOLUTION_RADIUS, &found);
+    if (found.coarsest == NULL) {
+        return;
+    }
+    name_coarse_bodies(&found, which, sizeof which);
+    mor_resolution_describe_cost(s, found.least * c->spacing / MOR_RESOLUTION_RADIUS, cost, sizeof cost);
+    mor_context_log(
+        context, MOR_LOG_WARNING,
+        "%s %.3g spacings across and is carried by soil; nothing was measured below five, where balls sink up to "
+        "%.0f %% too little into sand (docs/guide/resolution.md): whether it rises, is overtaken or passes a slit may "
+        "be "
+        "wrong; use a spacing of at most %s, or fewer bodies, of %.3g m and more",
+        which, 2.0 * found.least,
+        100.0 * mor_simulation_depth_error(MOR_RESOLUTION_RADIUS, c->numerics.reconstruction == 1), cost,
+        2.0 * MOR_RESOLUTION_RADIUS * c->spacing);
 }
 
 mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_simulation *simulation)
@@ -340,5 +388,6 @@ mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_sim
         }
     }
     warn_of_coarse_bodies(context, simulation);
+    warn_of_coarse_carried_bodies(context, simulation);
     return MOR_OK;
 }

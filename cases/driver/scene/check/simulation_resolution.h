@@ -42,8 +42,22 @@ mor_status mor_simulation_find_volume(mor_context *context, const mor_simulation
  *  Returns: 1; 0 from where on the depth is within its tolerance. */
 double mor_simulation_depth_error(double n, bool is_reconstructed);
 
+/** Spacings from the center to the side of the coarsest ball whose depth was measured, docs/validation/crater.md. */
+#define MOR_RESOLUTION_RADIUS 2.5
+
+/** Spacings from the center to the side of a ball from where on its depth is within its tolerance.
+ *  @param is_reconstructed [in]  as above */
+double mor_simulation_radius_enough(bool is_reconstructed);
+
+/** Half the shortest side of a body in its own frame, m. */
+double mor_simulation_body_radius(const mor_body *body, int dimension);
+
+/** Whether a body lies in soil and moves with it, so that it does not displace soil.
+ *  @param simulation [in]  as it begins */
+bool mor_simulation_is_carried(const mor_simulation *simulation, const mor_body_group *group, const mor_body *body);
+
 /** Logs a warning for each soil region whose particles weigh more than 1 % more or less than its shape, with what would
- *  fit, and one for bodies that are too coarse for the soil they move through.
+ *  fit, and one for bodies that are too coarse for the soil they move through, or are carried by.
  *  @param simulation [in]      as it begins
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_warn_of_resolution(mor_context *context, const mor_simulation *simulation);

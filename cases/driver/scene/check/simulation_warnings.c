@@ -2,7 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/check/simulation_warnings.h"
 
+#include "cases/driver/scene/check/idle_settings.h"
 #include "cases/driver/scene/check/plausible.h"
+#include "cases/driver/scene/check/resolution_advice.h"
 #include "cases/driver/scene/check/simulation_resolution.h"
 #include "cases/driver/scene/check/soil_neighbors.h"
 #include "cases/driver/scene/check/start_stress.h"
@@ -233,7 +235,9 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     mor_wall_thickness_warn(context, c);
     mor_wall_seams_warn(context, c);
     MOR_TRY(context, mor_simulation_warn_of_resolution(context, simulation));
+    mor_resolution_warn_of_layers(context, simulation);
     warn_of_outputs(context, simulation);
+    mor_idle_settings_warn(context, simulation);
     warn_of_free_fall(context, c);
     if (c->n_probes == 0) {
         mor_context_log(context, MOR_LOG_WARNING, "there is no probe; the run will report no result");

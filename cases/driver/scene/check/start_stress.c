@@ -170,6 +170,28 @@ static double find_pressure(const mor_simulation *s, int region)
     return largest;
 }
 
+/* Soil mostly in tension where a formula gives the stress: geotechnical tables count pressure positive. */
+static void warn_of_tension(mor_context *context, const mor_simulation *s, int region)
+{
+    const mor_case_soil *it = &s->the_case->soils[region];
+    const mor_soil *soil = &s->soil;
+    const double *of_region = soil->region_field >= 0 ? soil->set.data[soil->region_field] : NULL;
+    int64_t n = 0;
+    int64_t n_pulled = 0;
+    for (int64_t i = 0; i < soil->set.n_particles && it->initial_stress == MOR_CASE_STRESS_FORMULA; ++i) {
+        const double *stress = soil->set.data[MOR_FIELD_STRESS] + 6 * i;
+        const bool is_mine = of_region == NULL || (int)of_region[i] == region;
+        n += is_mine;
+        n_pulled += is_mine && stress[0] + stress[1] + stress[2] > 0.0;
+    }
+    if (2 * n_pulled > n) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: the initial stress of soil '%s' is tension in %lld of %lld particles: in formulas "
+                        "tension is positive and compression negative; see whether the sign is meant",
+                        it->place.file, it->place.line, it->name, (long long)n_pulled, (long long)n);
+    }
+}
+
 mor_status mor_start_stress_warn(mor_context *context, const mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
@@ -182,6 +204,9 @@ mor_status mor_start_stress_warn(mor_context *context, const mor_simulation *sim
         warn_of_softness(context, it, &at, weight, ratio);
         warn_of_lateral_stress(context, it, &at, find_pressure(simulation, k), ratio);
         MOR_FREE(context, &at.values);
+        if (!mor_case_takes_over(c, k)) {
+            warn_of_tension(context, simulation, k);
+        }
     }
     return MOR_OK;
 }

@@ -328,11 +328,32 @@ static mor_status apply_field(mor_context *context, const mor_taken_soil *taken,
     return MOR_OK;
 }
 
+/* An excavation that holds no soil of the run is misplaced, or was done before. */
+static void warn_of_empty_excavations(mor_context *context, const mor_taken_soil *taken)
+{
+    const mor_case *c = taken->the_case;
+    for (int k = 0; k < c->stage.n_excavations; ++k) {
+        bool is_empty = true;
+        for (int64_t i = 0; i < taken->n && is_empty; ++i) {
+            double place[3];
+            mor_simulation_take_point_back(c, taken->positions + 3 * i, place);
+            is_empty = !(mor_shape_distance(c->stage.excavations[k], place) < 0.0);
+        }
+        if (is_empty) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "%s:%d: excavate[%d] removes nothing: no soil of the run '%s' is in it; correct its place, "
+                            "or remove it",
+                            c->stage.place.file, c->stage.place.line, k, c->stage.run);
+        }
+    }
+}
+
 mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation)
 {
     enum { WIDTH_MAX = 9 };
     mor_soil *soil = &simulation->soil;
     double *values = NULL;
+    warn_of_empty_excavations(context, taken);
     mor_status status = MOR_NEW(context, &values, WIDTH_MAX * taken->n, "a field of the run before");
     for (int field = 0; field < soil->set.n_fields && status == MOR_OK; ++field) {
         const bool is_placed = field == MOR_FIELD_POSITION || field == soil->region_field;

@@ -1,0 +1,193 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/scene/check/idle_settings.h"
+
+#include "core/base/math.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- After the end ----------------------------------------------------------------------------------------------- */
+
+static void warn_of_removal(mor_context *context, const mor_case *c, const mor_case_place *place, const char *what,
+                            const char *name, double removed_at)
+{
+    if (removed_at >= c->end) { /* NaN: never */
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: %s '%s' is removed at %g s, but the run ends at %g s: it stays; correct removed_at, or "
+                        "extend end",
+                        place->file, place->line, what, name, removed_at, c->end);
+    }
+}
+
+/* Whether a path says nothing before a time but that there is no motion yet. */
+static bool begins_after(const mor_case_path *path, double time)
+{
+    int k = 0;
+    while (k < path->n_rows && path->rows[k].angle == 0.0 && mor_vector_length(path->rows[k].translation) == 0.0) {
+        ++k;
+    }
+    return path->n_rows > 0 && (k == path->n_rows || (k > 0 && path->rows[k - 1].time >= time));
+}
+
+static void warn_of_path(mor_context *context, const mor_case *c, const mor_case_place *place, const char *what,
+                         const char *name, const mor_case_path *path)
+{
+    if (begins_after(path, c->end)) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: %s '%s' does not move on its path before the run ends at %g s; correct the times of "
+                        "the path, or extend end",
+                        place->file, place->line, what, name, c->end);
+    }
+}
+
+static void warn_of_late_events(mor_context *context, const mor_case *c)
+{
+    for (int w = 0; w < c->n_walls; ++w) {
+        const mor_case_wall *it = &c->walls[w];
+        warn_of_removal(context, c, &it->place, "wall", it->name, it->removed_at);
+        warn_of_path(context, c, &it->place, "wall", it->name, &it->path);
+    }
+    for (int b = 0; b < c->n_listed_bodies; ++b) {
+        const mor_case_body *it = &c->bodies[b];
+        warn_of_removal(context, c, &it->place, "body", it->name, it->removed_at);
+        warn_of_path(context, c, &it->place, "body", it->name, &it->path);
+    }
+    if (c->numerics.sleep_after >= c->end) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "numerics.sleep_after = %g s is no shorter than the run, %g s: no soil will sleep; shorten it, "
+                        "or leave it out",
+                        c->numerics.sleep_after, c->end);
+    }
+}
+
+static void warn_of_maps(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    const double n_steps = ceil(c->end / s->first_step);
+    if (c->maps.is_wanted && c->maps.interval > n_steps) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "maps.interval = %d is more than the run has steps, about %.3g: maps hold the state at the end "
+                        "alone; leave it out, and it is chosen",
+                        c->maps.interval, n_steps);
+    }
+}
+
+/* ---- Gauges ------------------------------------------------------------------------------------------------------ */
+
+static void warn_of_filter(mor_context *context, const mor_simulation *s, const mor_case_gauge *it)
+{
+    const double end = s->the_case->end;
+    const double fastest = 0.5 / s->first_step; /* of what steps can hold, 1/s */
+    if (it->filter >= end) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: gauge '%s' has a filter of %g s, no shorter than the run, %g s: each value is the mean "
+                        "since the start, and the peak is no peak; shorten it",
+                        it->place.file, it->place.line, it->name, it->filter, end);
+    }
+    if (it->cutoff * end <= 1.0) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: gauge '%s' has a cutoff of %g Hz, of which the run of %g s is no period: forces hardly "
+                        "pass it; raise it",
+                        it->place.file, it->place.line, it->name, it->cutoff, end);
+    }
+    if (it->cutoff > fastest) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s:%d: gauge '%s' has a cutoff of %g Hz, above half the rate of the steps, %.3g Hz: it filters "
+            "nothing, and its peak is that of single steps; lower it",
+            it->place.file, it->place.line, it->name, it->cutoff, fastest);
+    }
+}
+
+/* Points of a structure: shape [n, stride], placed, m; NULL: they are not known. */
+typedef struct structure_points {
+    const double *points;
+    int64_t n;
+    int stride;
+} structure_points;
+
+static structure_points find_structure(const mor_simulation *s, const mor_case_gauge *gauge)
+{
+    const mor_case *c = s->the_case;
+    for (int w = 0; w < c->n_walls && s->has_soil; ++w) {
+        if (strcmp(c->walls[w].name, gauge->wall) == 0) {
+            const mor_soil_contact *contact = &s->soil.walls[w];
+            return (structure_points){contact->boundary->records + MOR_BOUNDARY_POSITION, contact->n_points,
+                                      MOR_BOUNDARY_RECORD};
+        }
+    }
+    for (int b = 0; b < c->n_bodies; ++b) {
+        if (strcmp(c->bodies[b].name, gauge->body) == 0) {
+            const mor_body_group *group = s->bodies.of[b].group;
+            const mor_body *body = &group->bodies[s->bodies.of[b].index];
+            return (structure_points){group->node_reference + 3 * body->first_node, body->n_nodes, 3};
+        }
+    }
+    return (structure_points){NULL, 0, 0};
+}
+
+/* What moves may come into the region later. */
+static bool is_moving(const mor_simulation *s, const mor_case_gauge *gauge)
+{
+    const mor_case *c = s->the_case;
+    for (int w = 0; w < c->n_walls; ++w) {
+        if (strcmp(c->walls[w].name, gauge->wall) == 0) {
+            return c->walls[w].path.n_rows > 0 || mor_vector_length(c->walls[w].velocity) > 0.0;
+        }
+    }
+    for (int b = 0; b < c->n_bodies; ++b) {
+        if (strcmp(c->bodies[b].name, gauge->body) == 0) {
+            return !c->bodies[b].is_prescribed || c->bodies[b].path.n_rows > 0 ||
+                   mor_vector_length(c->bodies[b].velocity) > 0.0;
+        }
+    }
+    return false;
+}
+
+static void warn_of_region(mor_context *context, const mor_simulation *s, const mor_case_gauge *it)
+{
+    const mor_case *c = s->the_case;
+    const structure_points at = find_structure(s, it);
+    double nearest = INFINITY;
+    if (it->region == NULL || at.points == NULL || is_moving(s, it)) {
+        return;
+    }
+    for (int64_t k = 0; k < at.n && nearest > c->spacing; ++k) {
+        nearest = fmin(nearest, mor_simulation_placed_distance(it->region, c->rotation, c->translation,
+                                                               at.points + at.stride * k));
+    }
+    if (nearest > c->spacing) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: gauge '%s' has a region that is %.3g m away from '%s': it will measure nothing; "
+                        "correct the region",
+                        it->place.file, it->place.line, it->name, nearest, it->wall[0] != '\0' ? it->wall : it->body);
+    }
+}
+
+/* ---- All --------------------------------------------------------------------------------------------------------- */
+
+static void warn_of_velocity(mor_context *context, const mor_case *c)
+{
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        if (mor_case_takes_over(c, k) && mor_vector_length(it->velocity) > 0.0) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "%s:%d: the velocity of soil '%s' has no effect: it is taken over from '%s' as it moved "
+                            "there; remove it",
+                            it->place.file, it->place.line, it->name, c->stage.run);
+        }
+    }
+}
+
+void mor_idle_settings_warn(mor_context *context, const mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    warn_of_late_events(context, c);
+    warn_of_maps(context, simulation);
+    warn_of_velocity(context, c);
+    for (int k = 0; k < c->n_gauges; ++k) {
+        warn_of_filter(context, simulation, &c->gauges[k]);
+        warn_of_region(context, simulation, &c->gauges[k]);
+    }
+}
