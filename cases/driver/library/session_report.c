@@ -151,6 +151,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     mor_contact_report_print(c, out);
     mor_rocks_report_print(c, out);
     mor_session_print_soils(out, s);
+    mor_session_print_fields(out, s);
 }
 
 /* Length and cost of a common step: at the start, or once bodies touch. */
