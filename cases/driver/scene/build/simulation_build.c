@@ -8,6 +8,7 @@
 #include "cases/driver/scene/build/simulation_relax.h"
 #include "cases/driver/scene/check/narrow_gaps.h"
 #include "cases/driver/scene/check/simulation_check.h"
+#include "cases/driver/scene/simulation_fields.h"
 #include "cases/driver/scene/simulation_motion.h"
 #include "cases/driver/scene/start/simulation_field.h"
 #include "cases/driver/scene/start/simulation_formula.h"

@@ -3,6 +3,7 @@
 /* Parameters of soil that vary in space. docs/theory/random_fields.md. */
 #include "cases/driver/scene/start/simulation_field.h"
 
+#include "cases/driver/scene/simulation_fields.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
@@ -18,32 +19,7 @@
 /* Particles of which a thread finds random numbers at once. */
 enum { CHUNK = 64 };
 
-/* ---- Which parameters -------------------------------------------------------------------------------------------- */
-
-int mor_simulation_field_entries(const mor_case *the_case, int soil, int *entries)
-{
-    static const mor_role limited[] = {MOR_ROLE_DILATION_ANGLE, MOR_ROLE_RESIDUAL_DILATION_ANGLE};
-    const mor_case_soil *it = &the_case->soils[soil];
-    const mor_schema *schema = it->law->parameters;
-    bool has_friction = false;
-    int n = 0;
-    for (int k = 0; k < it->n_fields; ++k) {
-        const mor_role role = schema[it->fields[k].entry].role;
-        has_friction = has_friction || role == MOR_ROLE_FRICTION_ANGLE || role == MOR_ROLE_RESIDUAL_FRICTION_ANGLE;
-        entries[n++] = it->fields[k].entry;
-    }
-    for (size_t k = 0; k < sizeof limited / sizeof *limited && has_friction && the_case->reduction.reduce != NULL; ++k) {
-        const int entry = mor_params_find_role(schema, limited[k]);
-        bool is_listed = entry < 0;
-        for (int other = 0; other < n; ++other) {
-            is_listed = is_listed || entries[other] == entry;
-        }
-        if (!is_listed) {
-            entries[n++] = entry;
-        }
-    }
-    return n;
-}
+/* ---- Materials ---------------------------------------------------------------------------------------------------- */
 
 mor_status mor_simulation_vary_material(mor_context *context, const mor_case *the_case, int soil,
                                         mor_material_instance **instance)
@@ -217,16 +193,6 @@ static mor_status find_parameters(mor_context *context, region_fields *it, int64
 
 /* ---- Values of all particles ------------------------------------------------------------------------------------- */
 
-/* The field of the set that holds a parameter; -1: none does. */
-static int find_set_field(const mor_soil *soil, const char *key)
-{
-    int found = -1;
-    for (int k = 0; k < soil->material->n_state; ++k) {
-        found = strcmp(soil->material->material->state[k].key, key) == 0 ? soil->state_fields[k] : found;
-    }
-    return found;
-}
-
 /* The instance of a region's material that knows the parameters which vary. */
 static mor_material_instance *find_material(const mor_simulation *simulation, int soil)
 {
@@ -251,7 +217,7 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
         for (int k = 0; k < n_entries; ++k) {
             const int offset = mor_params_offset(schema, entries[k]);
             used[offset] = given[offset];
-            simulation->soil.set.data[find_set_field(&simulation->soil, schema[entries[k]].key)][it->first + i] =
+            simulation->soil.set.data[mor_simulation_find_field(simulation, schema[entries[k]].key)][it->first + i] =
                 given[offset];
         }
         if (mor_varied_check(context, find_material(simulation, soil), used) != MOR_OK) {

@@ -10,15 +10,6 @@
  *  Parameters of soil that vary in space: values of the particles by formulas and random fields of their places at the
  *  start. The particles carry them from then on as state variables of the soil. */
 
-enum { MOR_SIMULATION_ENTRIES_MAX = MOR_CASE_FIELDS_MAX + 2 };
-
-/** The parameters of a region that vary: those of its fields; where strength is reduced and the friction angle varies,
- *  the dilation angles, too, which the reduced friction angle limits.
- *  @param soil    [in]   index of the region
- *  @param entries [out]  shape [MOR_SIMULATION_ENTRIES_MAX]; places in the law's schema
- *  Returns: their number. */
-int mor_simulation_field_entries(const mor_case *the_case, int soil, int *entries);
-
 /** Makes the material of a region one of parameters that vary, where the region has fields.
  *  @param soil     [in]      index of the region
  *  @param instance [in,out]  the address of one pointer; replaced

@@ -2,11 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/start/simulation_stage.h"
 
+#include "cases/driver/scene/simulation_fields.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/material/composite.h"
-#include "core/material/params.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -304,16 +304,6 @@ static bool is_state_of_law(const mor_soil *soil, int field)
     return is;
 }
 
-/* A parameter that varies in this case alone keeps the value of the place that its particle is at now. */
-static bool is_parameter(const mor_simulation *simulation, const char *name)
-{
-    bool is = false;
-    for (int k = 0; k < simulation->the_case->n_soils; ++k) {
-        is = is || mor_params_find(simulation->laws[k]->parameters, name) >= 0;
-    }
-    return is;
-}
-
 static mor_status apply_field(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation, int field,
                               double *values)
 {
@@ -324,8 +314,9 @@ static mor_status apply_field(mor_context *context, const mor_taken_soil *taken,
     int64_t to = 0;
     bool is_there = false;
     MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, info->name, width, values, &is_there));
-    MOR_CHECK(context, is_there || !is_state_of_law(soil, field) || is_parameter(simulation, info->name),
-              MOR_ERROR_CONFIG,
+    /* A parameter that varies in this case alone has the value of the place where its particle is now. */
+    const bool is_needed = is_state_of_law(soil, field) && !mor_simulation_is_parameter(simulation, field);
+    MOR_CHECK(context, is_there || !is_needed, MOR_ERROR_CONFIG,
               "%s:%d: found no state variable '%s' of the soil in the run '%s', which a law of this case needs; "
               "allowed: the laws of the run; give soils that are new other names",
               c->stage.place.file, c->stage.place.line, info->name, c->stage.run);
