@@ -45,8 +45,9 @@ void mor_random_field_free(mor_context *context, mor_random_field **field);
 double mor_random_field_value(const mor_random_field *field, const double *place);
 
 /** The correlation of two places by the prescription, 1.
- *  @param lengths [in]  shape [3]; as above
- *  @param lag     [in]  shape [3]; from one place to the other; unit as of the lengths */
+ *  @param correlation [in]  which
+ *  @param lengths     [in]  shape [3]; as above; unit m, or any other length
+ *  @param lag         [in]  shape [3]; from one place to the other; unit as of the lengths */
 double mor_random_correlation_at(mor_random_correlation correlation, const double *lengths, const double *lag);
 
 #endif

@@ -361,10 +361,11 @@ static mor_status try_local(mor_context *context, const varied *it)
     memcpy(local.parameters, it->inner->parameters, (size_t)it->inner->n_values * sizeof(double));
     const mor_status status = open_local(it, &local);
     close_local(it, &local);
-    MOR_CHECK(context, status == MOR_OK, MOR_ERROR_ARGUMENT,
-              "the law '%s' cannot have parameters that vary in space: its constants need more than %d bytes of memory; "
-              "allowed are laws with fewer, as all built-in ones; divide the soil into regions instead",
-              it->inner->material->name, ROOM_BYTES);
+    MOR_CHECK(
+        context, status == MOR_OK, MOR_ERROR_ARGUMENT,
+        "the law '%s' cannot have parameters that vary in space: its constants need more than %d bytes of memory; "
+        "allowed are laws with fewer, as all built-in ones; divide the soil into regions instead",
+        it->inner->material->name, ROOM_BYTES);
     return MOR_OK;
 }
 

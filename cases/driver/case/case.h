@@ -518,7 +518,7 @@ typedef struct mor_case {
     double translation[3];    /* m */
     /* Powers of two multiplying lengths, times and masses, for the unit-change check. */
     double scale_length, scale_time, scale_mass; /* 1 */
-    mor_case_reduction reduction; /* of the strength of all soils */
+    mor_case_reduction reduction;                /* of the strength of all soils */
     uint64_t written, written_domain, written_lattice, written_placement, written_scale, written_numerics;
     uint64_t written_output;
     mor_registry *registry; /* the models that the case was read with, those of its plug-ins among them; owned */

@@ -41,8 +41,8 @@ void mor_session_print_fields(FILE *out, const mor_simulation *s)
     for (int soil = 0; soil < c->n_soils; ++soil) {
         for (int k = 0; k < c->soils[soil].n_fields; ++k) {
             if (!has_title) {
-                fprintf(out, "  %-*s %-*s %12s %12s %12s %12s %10s\n", NAME_WIDTH + 7, "fields of particles", UNIT_WIDTH,
-                        "unit", "mean", "deviation", "least", "largest", "clipped");
+                fprintf(out, "  %-*s %-*s %12s %12s %12s %12s %10s\n", NAME_WIDTH + 7, "fields of particles",
+                        UNIT_WIDTH, "unit", "mean", "deviation", "least", "largest", "clipped");
                 has_title = true;
             }
             print_field(out, &c->soils[soil], k, &s->fields[soil][k], mor_case_takes_over(c, soil));

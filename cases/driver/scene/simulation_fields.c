@@ -18,7 +18,8 @@ int mor_simulation_field_entries(const mor_case *the_case, int soil, int *entrie
         has_friction = has_friction || role == MOR_ROLE_FRICTION_ANGLE || role == MOR_ROLE_RESIDUAL_FRICTION_ANGLE;
         entries[n++] = it->fields[k].entry;
     }
-    for (size_t k = 0; k < sizeof limited / sizeof *limited && has_friction && the_case->reduction.reduce != NULL; ++k) {
+    for (size_t k = 0; k < sizeof limited / sizeof *limited && has_friction && the_case->reduction.reduce != NULL;
+         ++k) {
         const int entry = mor_params_find_role(schema, limited[k]);
         bool is_listed = entry < 0;
         for (int other = 0; other < n; ++other) {
@@ -29,6 +30,14 @@ int mor_simulation_field_entries(const mor_case *the_case, int soil, int *entrie
         }
     }
     return n;
+}
+
+bool mor_simulation_has_same_fields(const mor_case *the_case, int a, int b)
+{
+    int of_a[MOR_SIMULATION_ENTRIES_MAX];
+    int of_b[MOR_SIMULATION_ENTRIES_MAX];
+    const int n = mor_simulation_field_entries(the_case, a, of_a);
+    return n == mor_simulation_field_entries(the_case, b, of_b) && memcmp(of_a, of_b, (size_t)n * sizeof *of_a) == 0;
 }
 
 /* Whether a parameter of that key varies in a region. */

@@ -17,6 +17,11 @@ enum { MOR_SIMULATION_ENTRIES_MAX = MOR_CASE_FIELDS_MAX + 2 };
  *  Returns: their number. */
 int mor_simulation_field_entries(const mor_case *the_case, int soil, int *entries);
 
+/** Whether the same parameters of two regions vary.
+ *  @param a [in]  index of one region
+ *  @param b [in]  index of the other one */
+bool mor_simulation_has_same_fields(const mor_case *the_case, int a, int b);
+
 /** The field of the particles of soil that holds a parameter which varies.
  *  @param key [in]  zero-terminated; of the parameter
  *  Returns: its index in the set; -1: the parameter varies in no region. */

@@ -15,11 +15,16 @@
  * integrated. */
 static bool may_vary(const mor_schema *parameter)
 {
-    static const mor_role roles[] = {MOR_ROLE_COHESION,          MOR_ROLE_FRICTION_ANGLE,
-                                     MOR_ROLE_DILATION_ANGLE,    MOR_ROLE_TENSION_RATIO,
-                                     MOR_ROLE_RESIDUAL_COHESION, MOR_ROLE_RESIDUAL_FRICTION_ANGLE,
-                                     MOR_ROLE_RESIDUAL_DILATION_ANGLE, MOR_ROLE_YOUNGS_MODULUS,
-                                     MOR_ROLE_SHEAR_MODULUS,     MOR_ROLE_BULK_MODULUS};
+    static const mor_role roles[] = {MOR_ROLE_COHESION,
+                                     MOR_ROLE_FRICTION_ANGLE,
+                                     MOR_ROLE_DILATION_ANGLE,
+                                     MOR_ROLE_TENSION_RATIO,
+                                     MOR_ROLE_RESIDUAL_COHESION,
+                                     MOR_ROLE_RESIDUAL_FRICTION_ANGLE,
+                                     MOR_ROLE_RESIDUAL_DILATION_ANGLE,
+                                     MOR_ROLE_YOUNGS_MODULUS,
+                                     MOR_ROLE_SHEAR_MODULUS,
+                                     MOR_ROLE_BULK_MODULUS};
     bool may = false;
     for (size_t k = 0; k < sizeof roles / sizeof *roles; ++k) {
         may = may || (parameter->role == roles[k] && parameter->kind == MOR_SCHEMA_REAL);
@@ -43,11 +48,12 @@ static mor_status find_parameter(const mor_case_reader *reader, const mor_case_n
         }
     }
     if (n_words == 0) {
-        return MOR_CASE_NODE_FAIL(reader->context, name,
-                                  "found 'fields' of soil '%s', whose law '%s' has no parameter that may vary in space: "
-                                  "none has the role of a strength or a stiffness; take another law, or divide the "
-                                  "soil into regions",
-                                  soil->name, soil->law->name);
+        return MOR_CASE_NODE_FAIL(
+            reader->context, name,
+            "found 'fields' of soil '%s', whose law '%s' has no parameter that may vary in space: "
+            "none has the role of a strength or a stiffness; take another law, or divide the "
+            "soil into regions",
+            soil->name, soil->law->name);
     }
     if (field->entry < 0) {
         return mor_case_reader_refuse(reader, name, "parameter of the law that may vary in space", words, n_words);
@@ -89,10 +95,10 @@ static mor_status read_numbers(const mor_case_reader *reader, const mor_case_nod
     MOR_TRY(reader->context, mor_case_reader_scale(reader, parameter->unit, &field->unit, 1, 1));
     MOR_TRY(reader->context, read_number(reader, node, parameter, "standard_deviation",
                                          "standard deviation of the parameter", 0.0, &field->standard_deviation));
-    MOR_TRY(reader->context, read_number(reader, node, parameter, "minimum", "smallest value of the field", -INFINITY,
-                                         &field->minimum));
-    MOR_TRY(reader->context, read_number(reader, node, parameter, "maximum", "largest value of the field", -INFINITY,
-                                         &field->maximum));
+    MOR_TRY(reader->context,
+            read_number(reader, node, parameter, "minimum", "smallest value of the field", -INFINITY, &field->minimum));
+    MOR_TRY(reader->context,
+            read_number(reader, node, parameter, "maximum", "largest value of the field", -INFINITY, &field->maximum));
     if (!(field->minimum <= field->maximum)) {
         return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(node, "maximum"),
                                   "found a maximum of %.6g below the minimum of %.6g of '%s'; allowed: at least that; "
@@ -148,10 +154,9 @@ static mor_status check_keys(const mor_case_reader *reader, const mor_case_node 
                                       uses[k].key, field->parameter, uses[k].condition);
         }
         if (child == NULL && uses[k].is_needed) {
-            return MOR_CASE_NODE_FAIL(reader->context, node,
-                                      "found no '%s' in the field of '%s', where it is needed with %s; add it%s",
-                                      uses[k].key, field->parameter, uses[k].condition,
-                                      k == 0 ? ", or a distribution" : "");
+            return MOR_CASE_NODE_FAIL(
+                reader->context, node, "found no '%s' in the field of '%s', where it is needed with %s; add it%s",
+                uses[k].key, field->parameter, uses[k].condition, k == 0 ? ", or a distribution" : "");
         }
     }
     return MOR_OK;

@@ -139,15 +139,14 @@ static mor_status write_field(mor_case_writer *w, const mor_case_field *field, c
     const struct {
         const char *key;
         double value;
-    } numbers[] = {{"standard_deviation", field->standard_deviation},
-                   {"minimum", field->minimum},
-                   {"maximum", field->maximum}};
+    } numbers[] = {
+        {"standard_deviation", field->standard_deviation}, {"minimum", field->minimum}, {"maximum", field->maximum}};
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_field_group, field, presence_of_field_key));
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
         char value[MOR_CASE_VALUE_BYTES];
         if (isfinite(numbers[k].value)) {
-            MOR_TRY(w->reader.context, mor_case_writer_numbers(w, parameter, false, &numbers[k].value, 1, value,
-                                                               sizeof value));
+            MOR_TRY(w->reader.context,
+                    mor_case_writer_numbers(w, parameter, false, &numbers[k].value, 1, value, sizeof value));
             mor_case_writer_line(w, numbers[k].key, value, false);
         }
     }

@@ -24,15 +24,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the same parameters of two regions vary. */
-static bool has_same_fields(const mor_case *c, int a, int b)
-{
-    int of_a[MOR_SIMULATION_ENTRIES_MAX];
-    int of_b[MOR_SIMULATION_ENTRIES_MAX];
-    const int n = mor_simulation_field_entries(c, a, of_a);
-    return n == mor_simulation_field_entries(c, b, of_b) && memcmp(of_a, of_b, (size_t)n * sizeof *of_a) == 0;
-}
-
 /* First region that the scheme makes no difference from: law, parameters, density and K0 are equal. */
 static int find_same(const mor_simulation *simulation, int region)
 {
@@ -42,7 +33,8 @@ static int find_same(const mor_simulation *simulation, int region)
     int k = 0;
     while (k < region &&
            !(simulation->laws[k] == simulation->laws[region] && c->soils[k].density == it->density &&
-             memcmp(c->soils[k].parameters, it->parameters, n_bytes) == 0 && has_same_fields(c, k, region) &&
+             memcmp(c->soils[k].parameters, it->parameters, n_bytes) == 0 &&
+             mor_simulation_has_same_fields(c, k, region) &&
              mor_simulation_lateral_ratio(simulation, k) == mor_simulation_lateral_ratio(simulation, region))) {
         k += 1;
     }

@@ -56,7 +56,7 @@ static void warn_of_field(mor_context *context, const mor_case *c, const mor_cas
                             "soil '%s', field of '%s': its correlation length along %c is %.3g spacings, so that "
                             "neighbors are hardly correlated; at least %g are advisable: a smaller spacing or a longer "
                             "correlation length",
-                            soil->name, field->parameter, "xyz"[a], field->correlation_length[a] / c->spacing,
+                            soil->name, field->parameter, "xyz"[a], field -> correlation_length[a] / c -> spacing,
                             resolved);
             return;
         }

@@ -19,7 +19,7 @@
 /* Particles of which a thread finds random numbers at once. */
 enum { CHUNK = 64 };
 
-/* ---- Materials ---------------------------------------------------------------------------------------------------- */
+/* ---- Materials --------------------------------------------------------------------------------------------------- */
 
 mor_status mor_simulation_vary_material(mor_context *context, const mor_case *the_case, int soil,
                                         mor_material_instance **instance)
@@ -42,10 +42,10 @@ typedef struct region_fields {
     const mor_case *the_case;
     const mor_case_soil *soil;
     int64_t first, n;
-    mor_formula *formulas[MOR_CASE_FIELDS_MAX];    /* NULL: the value of the material */
-    mor_random_field *waves[MOR_CASE_FIELDS_MAX];  /* NULL: not random */
-    double *normals;                               /* shape [n_fields, n]; standard normal numbers of the particles */
-    double *places;                                /* shape [n, 3]; in the frame of the case, m */
+    mor_formula *formulas[MOR_CASE_FIELDS_MAX];   /* NULL: the value of the material */
+    mor_random_field *waves[MOR_CASE_FIELDS_MAX]; /* NULL: not random */
+    double *normals;                              /* shape [n_fields, n]; standard normal numbers of the particles */
+    double *places;                               /* shape [n, 3]; in the frame of the case, m */
     mor_simulation_field reports[MOR_CASE_FIELDS_MAX];
 } region_fields;
 
@@ -141,7 +141,8 @@ static double distribute(const mor_case_field *field, double mean, double normal
 {
     const bool has_deviation = !isnan(field->standard_deviation);
     if (field->distribution == MOR_CASE_DISTRIBUTION_NORMAL) {
-        const double deviation = has_deviation ? field->standard_deviation : field->coefficient_of_variation * fabs(mean);
+        const double deviation =
+            has_deviation ? field->standard_deviation : field->coefficient_of_variation * fabs(mean);
         return mean + deviation * normal;
     }
     if (field->distribution == MOR_CASE_DISTRIBUTION_LOGNORMAL) {
@@ -153,7 +154,8 @@ static double distribute(const mor_case_field *field, double mean, double normal
 }
 
 /* Values beyond the limits of the case, and of random ones beyond the range of the law, are set to them and counted. */
-static double limit(const mor_case_field *field, const mor_schema *parameter, double value, mor_simulation_field *report)
+static double limit(const mor_case_field *field, const mor_schema *parameter, double value,
+                    mor_simulation_field *report)
 {
     const bool is_random = field->distribution != MOR_CASE_DISTRIBUTION_NONE;
     const double least = is_random ? fmax(field->minimum, parameter->minimum) : field->minimum;
@@ -183,8 +185,8 @@ static mor_status find_parameters(mor_context *context, region_fields *it, int64
         const mor_case_field *field = &it->soil->fields[k];
         double mean = 0.0;
         MOR_TRY(context, find_mean(context, it, k, it->places + 3 * i, nominal, &mean));
-        const double value = limit(field, &schema[field->entry], distribute(field, mean, it->normals[k * it->n + i]),
-                                   &it->reports[k]);
+        const double value =
+            limit(field, &schema[field->entry], distribute(field, mean, it->normals[k * it->n + i]), &it->reports[k]);
         parameters[mor_params_offset(schema, field->entry)] = value;
         add_to_report(&it->reports[k], value);
     }
@@ -203,7 +205,8 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
 {
     const mor_case_reduction *reduction = &it->the_case->reduction;
     const mor_schema *schema = it->soil->law->parameters;
-    const double *nominal = reduction->reduce != NULL ? reduction->nominal->soils[soil].parameters : it->soil->parameters;
+    const double *nominal =
+        reduction->reduce != NULL ? reduction->nominal->soils[soil].parameters : it->soil->parameters;
     int entries[MOR_SIMULATION_ENTRIES_MAX];
     const int n_entries = mor_simulation_field_entries(it->the_case, soil, entries);
     for (int64_t i = 0; i < it->n; ++i) {
@@ -232,10 +235,8 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
 
 static mor_status set_region(mor_context *context, mor_simulation *simulation, int soil, int64_t first, int64_t n)
 {
-    region_fields it = {.the_case = simulation->the_case,
-                        .soil = &simulation->the_case->soils[soil],
-                        .first = first,
-                        .n = n};
+    region_fields it = {
+        .the_case = simulation->the_case, .soil = &simulation->the_case->soils[soil], .first = first, .n = n};
     mor_status status = make_region(context, &it);
     if (status == MOR_OK) {
         find_normals(context, &it, simulation->soil.set.data[MOR_FIELD_POSITION]);

@@ -17,12 +17,12 @@
 mor_status mor_simulation_vary_material(mor_context *context, const mor_case *the_case, int soil,
                                         mor_material_instance **instance);
 
-/** Gives the particles of all regions the values of their parameters that vary, reduced where the case says so; those of
- *  regions without such a field get the value of their material. Keeps what was found in simulation->fields.
+/** Gives the particles of all regions the values of their parameters that vary, reduced where the case says so; those
+ *  of regions without such a field get the value of their material. Keeps what was found in simulation->fields.
  *  @param simulation [in,out]  particles in the order of the regions
  *  @param regions    [in]      shape [regions of the case]; their points
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for a value that is not finite, a mean of a lognormal field that is not above zero,
- *  and parameters that the law refuses, naming the place; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for a value that is not finite, a mean of a lognormal field that is not above
+ *  zero, and parameters that the law refuses, naming the place; MOR_ERROR_MEMORY. */
 mor_status mor_simulation_set_fields(mor_context *context, mor_simulation *simulation,
                                      const mor_lattice_points *regions);
 

@@ -8,10 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Random fields: mean, variance, distribution and correlation of many independent fields are those prescribed; one field
- * has in space what the ensemble has; seeds and purposes are independent; nothing depends on what else is asked for. */
+/* Random fields: mean, variance, distribution and correlation of many independent fields are those prescribed; one
+ * field has in space what the ensemble has; seeds and purposes are independent; nothing depends on what else is asked
+ * for. */
 
-enum { FIELDS = 3000, LAGS = 4 };
+enum { FIELDS = 1500, LAGS = 4 };
 
 /* A bound that a right program breaks once in 16 000 tries, standard errors. */
 static const double sure = 4.0;
@@ -71,7 +72,8 @@ static void check_ensemble(const ensemble *it, mor_random_correlation correlatio
                                places[at][2] - places[0][2]};
         const double expected = mor_random_correlation_at(correlation, lengths, lag);
         const double found = mean_product(it->values[0], it->values[at]);
-        assert_near(found, expected, error * sqrt(1.0 + expected * expected)); /* Isserlis: of a product of normal ones */
+        assert_near(found, expected,
+                    error * sqrt(1.0 + expected * expected)); /* Isserlis: of a product of normal ones */
     }
 }
 
@@ -101,7 +103,8 @@ static void the_correlation_length_is_the_scale_of_fluctuation(void **state)
                 lag[a] = i * step;
                 sum += step * mor_random_correlation_at((mor_random_correlation)k, lengths, lag);
             }
-            assert_near(sum / lengths[a], 1.0, 1.0e-5); /* the sum's error is of the step squared; the tails are e^-16 */
+            assert_near(sum / lengths[a], 1.0,
+                        1.0e-5); /* the sum's error is of the step squared; the tails are e^-16 */
         }
     }
 }
