@@ -277,7 +277,7 @@ static void the_particles_have_the_statistics_prescribed(void **state)
 /* What the log said last. */
 static void note_warning(void *user, mor_log_level level, const char *text)
 {
-    if (level == MOR_LOG_WARNING && strstr(text, "were raised to its minimum") != NULL) {
+    if (level == MOR_LOG_WARNING && strstr(text, "'cohesion'") != NULL) {
         snprintf(user, MOR_CONTEXT_MESSAGE_BYTES, "%s", text);
     }
 }
@@ -391,6 +391,15 @@ static void the_next_stage_keeps_what_particles_are_made_of(void **state)
     qsort(before.cohesion, (size_t)before.n, sizeof(double), compare_numbers);
     qsort(after.cohesion, (size_t)after.n, sizeof(double), compare_numbers);
     assert_memory_equal(after.cohesion, before.cohesion, (size_t)before.n * sizeof(double)); /* exact: copied */
+    /* Without a field they are lost, which is said. */
+    char warning[MOR_CONTEXT_MESSAGE_BYTES] = "";
+    mor_session *session = open_session();
+    mor_session_set_log(session, note_warning, warning);
+    snprintf(stage, sizeof stage, "start_from = \"%s\";\n%s", path, column("", text));
+    assert_int_equal(mor_session_load_text(session, "fields.cfg", stage), MOR_OK);
+    assert_int_equal(mor_session_build(session), MOR_OK);
+    assert_non_null(strstr(warning, "'cohesion' varied in the run"));
+    mor_session_free(&session);
     free_soil(&before);
     free_soil(&after);
 }

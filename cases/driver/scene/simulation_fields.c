@@ -40,16 +40,22 @@ bool mor_simulation_has_same_fields(const mor_case *the_case, int a, int b)
     return n == mor_simulation_field_entries(the_case, b, of_b) && memcmp(of_a, of_b, (size_t)n * sizeof *of_a) == 0;
 }
 
-/* Whether a parameter of that key varies in a region. */
-static bool is_varied(const mor_case *the_case, const char *key)
+bool mor_simulation_varies(const mor_case *the_case, int soil, const char *key)
+{
+    int entries[MOR_SIMULATION_ENTRIES_MAX];
+    const int n = mor_simulation_field_entries(the_case, soil, entries);
+    bool is = false;
+    for (int k = 0; k < n; ++k) {
+        is = is || strcmp(the_case->soils[soil].law->parameters[entries[k]].key, key) == 0;
+    }
+    return is;
+}
+
+static bool varies_anywhere(const mor_case *the_case, const char *key)
 {
     bool is = false;
     for (int soil = 0; soil < the_case->n_soils; ++soil) {
-        int entries[MOR_SIMULATION_ENTRIES_MAX];
-        const int n = mor_simulation_field_entries(the_case, soil, entries);
-        for (int k = 0; k < n; ++k) {
-            is = is || strcmp(the_case->soils[soil].law->parameters[entries[k]].key, key) == 0;
-        }
+        is = is || mor_simulation_varies(the_case, soil, key);
     }
     return is;
 }
@@ -58,7 +64,7 @@ int mor_simulation_find_field(const mor_simulation *simulation, const char *key)
 {
     const mor_soil *soil = &simulation->soil;
     int found = -1;
-    for (int k = 0; k < soil->material->n_state && is_varied(simulation->the_case, key); ++k) {
+    for (int k = 0; k < soil->material->n_state && varies_anywhere(simulation->the_case, key); ++k) {
         found = strcmp(soil->material->material->state[k].key, key) == 0 ? soil->state_fields[k] : found;
     }
     return found;

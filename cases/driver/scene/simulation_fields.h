@@ -22,6 +22,11 @@ int mor_simulation_field_entries(const mor_case *the_case, int soil, int *entrie
  *  @param b [in]  index of the other one */
 bool mor_simulation_has_same_fields(const mor_case *the_case, int a, int b);
 
+/** Whether a parameter varies in a region.
+ *  @param soil [in]  index of the region
+ *  @param key  [in]  zero-terminated; of the parameter */
+bool mor_simulation_varies(const mor_case *the_case, int soil, const char *key);
+
 /** The field of the particles of soil that holds a parameter which varies.
  *  @param key [in]  zero-terminated; of the parameter
  *  Returns: its index in the set; -1: the parameter varies in no region. */
