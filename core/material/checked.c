@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/material/composite.h"
+#include "core/material/varied.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -154,8 +155,9 @@ static void add_output(guard *g, int which, double *host, int64_t first, int n_c
 static void add_states(guard *g, const mor_material_instance *inner, const call *c, int64_t first)
 {
     const unsigned uses = PROFILES[c->operation].uses;
-    /* A composite finds there which part a particle is of, and what it passes on, whatever the operation. */
-    const bool has_input = (uses & USES_STATE) != 0 || mor_composite_is(inner);
+    /* A composite finds there which part a particle is of, and what it passes on, whatever the operation; a varied law
+     * the parameters. */
+    const bool has_input = (uses & USES_STATE) != 0 || mor_composite_is(inner) || mor_varied_is(inner);
     for (int k = 0; k < inner->n_state; ++k) {
         const int n_components = inner->material->state[k].n_components;
         if (has_input) {

@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_CASE_CASE_H
 #define MOR_CASES_DRIVER_CASE_CASE_H
 
+#include "cases/driver/case/case_field.h"
 #include "core/geometry/motion.h"
 #include "core/geometry/shape.h"
 #include "core/material/plugin.h"
@@ -160,7 +161,9 @@ typedef struct mor_case_soil {
     mor_case_external external;                 /* of an interface; else zeroed */
     double density;                             /* initial density, kg/m3 */
     double parameters[MOR_CASE_PARAMETERS_MAX]; /* in the order of the model's parameter schema, SI */
-    double velocity[3];                         /* initial velocity, m/s */
+    mor_case_field fields[MOR_CASE_FIELDS_MAX]; /* shape [n_fields]; parameters that vary in space */
+    int n_fields;
+    double velocity[3]; /* initial velocity, m/s */
     /* Formulas of a place in the frame of the case in m, before the scale; "": none. */
     char velocity_formula[3][MOR_CASE_TEXT_BYTES]; /* initial velocity in place of the above, m/s */
     char stress_formula[6][MOR_CASE_TEXT_BYTES];   /* initial stress: xx, yy, zz, xy, yz, zx; tension positive, Pa */
@@ -515,6 +518,7 @@ typedef struct mor_case {
     double translation[3];    /* m */
     /* Powers of two multiplying lengths, times and masses, for the unit-change check. */
     double scale_length, scale_time, scale_mass; /* 1 */
+    mor_case_reduction reduction;                /* of the strength of all soils */
     uint64_t written, written_domain, written_lattice, written_placement, written_scale, written_numerics;
     uint64_t written_output;
     mor_registry *registry; /* the models that the case was read with, those of its plug-ins among them; owned */

@@ -185,6 +185,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     mor_rocks_report_print(c, out);
     mor_session_print_soils(out, s);
     print_events(out, s);
+    mor_session_print_fields(out, s);
 }
 
 /* Length and cost of a common step: at the start, or once bodies touch. */

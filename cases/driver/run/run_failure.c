@@ -5,6 +5,7 @@
 #include "cases/driver/element/element_point.h"
 #include "cases/driver/picture/pictures.h"
 #include "core/material/composite.h"
+#include "core/material/varied.h"
 
 #include <math.h>
 #include <string.h>
@@ -72,14 +73,14 @@ static mor_status write_point(mor_context *context, const mor_run_files *files)
                                .step = (int64_t)failure->step,
                                .time_step = failure->time_step,
                                .density = failure->density};
-    const mor_material_instance *law = mor_composite_find_part(soil->material, failure->state, point.state);
+    const mor_material_instance *part = mor_composite_find_part(soil->material, failure->state, point.state);
+    const mor_material_instance *law = mor_varied_find_law(part, point.state, point.parameters);
     point.reference_density = law->density;
     snprintf(point.model, sizeof point.model, "%.63s", law->material->name);
     snprintf(point.set, sizeof point.set, "%.63s", soil->set.name);
     memcpy(point.stress, failure->stress, sizeof point.stress);
     memcpy(point.velocity_gradient, failure->velocity_gradient, sizeof point.velocity_gradient);
     memcpy(point.extra_stress_rate, failure->extra_stress_rate, sizeof point.extra_stress_rate);
-    memcpy(point.parameters, law->parameters, (size_t)law->n_values * sizeof *law->parameters);
     MOR_TRY(context, mor_durable_file_join(context, path, files->options->folder, MOR_ELEMENT_POINT_FILE));
     return mor_element_point_write(context, law->material, &point, path);
 }

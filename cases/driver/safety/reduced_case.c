@@ -173,6 +173,7 @@ void mor_reduced_case_set_factor(mor_reduced_case *it, double factor)
 {
     const mor_case *from = it->original;
     mor_case *to = &it->the_case;
+    to->reduction = (mor_case_reduction){.reduce = mor_strength_reduce, .factor = factor, .nominal = from};
     for (int k = 0; k < from->n_soils; ++k) {
         mor_strength_reduce(from->soils[k].law->parameters, from->soils[k].parameters, factor, to->soils[k].parameters);
     }

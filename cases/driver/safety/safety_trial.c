@@ -3,6 +3,7 @@
 #include "cases/driver/safety/safety_trial.h"
 
 #include "cases/driver/scene/build/simulation_build.h"
+#include "cases/driver/scene/simulation_fields.h"
 #include "core/base/memory.h"
 
 #include <math.h>
@@ -50,14 +51,53 @@ void mor_safety_setup_clear(mor_context *context, mor_safety_setup *setup)
     mor_safety_reference_clear(context, &setup->reference);
 }
 
+/* Puts a parameter that varies back after the state was loaded: of each particle by its number. */
+typedef struct kept_parameter {
+    int field;      /* index in the set */
+    double *values; /* shape [n_particles], by the number of the particle; units of the parameter; owned */
+} kept_parameter;
+
+/* The strength of each particle is part of the state, but belongs to the trial. */
+static mor_status keep_parameters(mor_context *context, const mor_simulation *simulation, kept_parameter *kept)
+{
+    const mor_set *set = &simulation->soil.set;
+    int n = 0;
+    for (int field = 0; field < set->n_fields; ++field) {
+        if (!mor_simulation_is_parameter(simulation, field)) {
+            continue;
+        }
+        MOR_TRY(context, MOR_NEW(context, &kept[n].values, set->n_particles, "the strength of a trial"));
+        for (int64_t i = 0; i < set->n_particles; ++i) {
+            kept[n].values[set->id[i]] = set->data[field][i];
+        }
+        kept[n++].field = field;
+    }
+    return MOR_OK;
+}
+
+static void put_parameters(mor_context *context, const mor_simulation *simulation, kept_parameter *kept)
+{
+    const mor_set *set = &simulation->soil.set;
+    for (int k = 0; k < MOR_MATERIAL_STATES_MAX; ++k) {
+        for (int64_t i = 0; i < set->n_particles && kept[k].values != NULL; ++i) {
+            set->data[kept[k].field][i] = kept[k].values[set->id[i]];
+        }
+        MOR_FREE(context, &kept[k].values);
+    }
+}
+
 /* What was built anew with another strength gets the state at the start. */
 static mor_status restore(mor_context *context, const mor_safety_setup *setup, mor_simulation *simulation)
 {
+    kept_parameter kept[MOR_MATERIAL_STATES_MAX] = {{0}};
     MOR_CHECK(
         context, mor_state_bytes(&simulation->state) == setup->state_bytes, MOR_ERROR_UNSUPPORTED,
         "with its strength reduced, soils of the case that differ become the same, so that the state at the start "
         "does not fit any more; give soils that differ in the dilation angle alone the same one");
+    const mor_status status = keep_parameters(context, simulation, kept);
     mor_state_load(&simulation->state, setup->state);
+    put_parameters(context, simulation, kept);
+    MOR_TRY(context, status);
     return mor_simulation_resume(context, simulation);
 }
 

@@ -33,6 +33,14 @@ typedef struct mor_simulation_gap {
     char between[2 * MOR_CASE_NAME_BYTES + 32]; /* which, in words */
 } mor_simulation_gap;
 
+/** What a parameter that varies came to in the particles of a region at the start. Values: unit of the parameter. */
+typedef struct mor_simulation_field {
+    int64_t n;                   /* particles; 0: the parameter does not vary */
+    int64_t n_raised, n_lowered; /* values that were set to the smallest and to the largest that are allowed */
+    double mean, squares;        /* mean, and sum of the squares of the differences from it */
+    double least, largest;
+} mor_simulation_field;
+
 /** A case made ready to run. Owner: the caller, who ends it with mor_simulation_clear. */
 typedef struct mor_simulation {
     const mor_case *the_case; /* borrowed; outlives the simulation */
@@ -40,6 +48,7 @@ typedef struct mor_simulation {
     mor_material_instance *material;                  /* of the soil; a composite when regions differ; NULL without */
     const mor_material *laws[MOR_CASE_SOILS_MAX];     /* shape [n_soils]; models of the soil regions; borrowed */
     mor_material_instance *parts[MOR_CASE_SOILS_MAX]; /* shape [n_soils]; of the composite; NULL without */
+    mor_simulation_field fields[MOR_CASE_SOILS_MAX][MOR_CASE_FIELDS_MAX]; /* of the fields of each region */
     mor_boundary_friction *frictions; /* shape [n_walls + n_bodies, n_soils]; with each soil; owned; NULL: each wall and
                                          body has one friction with all soils */
     mor_soil soil;                    /* zeroed without soil */

@@ -209,6 +209,7 @@ void mor_case_schema_print(const mor_registry *registry, mor_case_probe_catalog 
     print_group(stream, 2, &mor_case_soil_group, NULL);
     print_group(stream, 3, &mor_case_material_group, NULL);
     print_group(stream, 3, &mor_case_external_group, NULL);
+    print_group(stream, 3, &mor_case_field_group, NULL);
     print_group(stream, 3, &mor_case_stress_group, NULL);
     print_group(stream, 2, &mor_case_wall_group, NULL);
     print_group(stream, 3, &mor_case_friction_group, NULL);

@@ -220,6 +220,7 @@ static const mor_case_key soil_keys[] = {
 static const mor_case_part soil_parts[] = {
     {"shape", true, "shape", "region to be filled with particles"},
     {"material", true, "group", "model, density, and the parameters of the model"},
+    {"fields", false, "list of groups", "parameters that vary in space, by formulas or at random"},
     {"initial_stress", false, "group", "initial stress"},
     {"velocity_formula", false, "list of texts",
      "initial velocity in place of velocity: a formula of x, y, z (m) for each component (m/s), as (\"0.1*y\", \"0\")"},

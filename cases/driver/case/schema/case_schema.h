@@ -110,6 +110,9 @@ extern const char *const mor_case_rigid_words[];
 extern const mor_case_group mor_case_soil_group, mor_case_material_group, mor_case_stress_group, mor_case_wall_group,
     mor_case_gauge_group, mor_case_probe_group, mor_case_expectation_group;
 
+/** Members of the list fields of a soil; record mor_case_field. */
+extern const mor_case_group mor_case_field_group;
+
 /** The group path of walls and bodies, and the members of its list table; records mor_case_path and
  *  mor_case_path_row. */
 extern const mor_case_group mor_case_path_group, mor_case_path_row_group;

@@ -171,6 +171,7 @@ static mor_status read_soil(const mor_case_reader *reader, const mor_case_node *
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_soil_group, soil));
     MOR_TRY(reader->context, read_velocity(reader, node, soil));
     MOR_TRY(reader->context, read_material(reader, node, soil));
+    MOR_TRY(reader->context, mor_case_reader_fields(reader, node, soil));
     MOR_TRY(reader->context, read_stress(reader, node, the_case, soil));
     MOR_TRY(reader->context, mor_case_reader_member(reader, node, "shape", MOR_CASE_NODE_GROUP, &shape));
     MOR_TRY(reader->context, mor_case_reader_shape(reader, shape, &soil->outline, &soil->shape));

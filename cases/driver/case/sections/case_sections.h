@@ -69,6 +69,12 @@ mor_status mor_case_reader_frictions(const mor_case_reader *reader, const mor_ca
 mor_status mor_case_reader_formulas(const mor_case_reader *reader, const mor_case_node *owner, const char *name,
                                     const char *what, int n, char (*formulas)[MOR_CASE_TEXT_BYTES]);
 
+/** Reads the list fields of a soil: parameters that vary in space.
+ *  @param owner [in]      the soil
+ *  @param soil  [in,out]  its law and parameters are read; zeroed fields
+ *  Returns: MOR_OK, also when there is none; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_case_reader_fields(const mor_case_reader *reader, const mor_case_node *owner, mor_case_soil *soil);
+
 /** Reads the run that a case starts from, and compares both.
  *  @param the_case [in,out]  its soils and settings are read
  *  Returns: MOR_OK, also when there is none; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */

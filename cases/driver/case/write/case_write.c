@@ -110,6 +110,65 @@ static void write_external(const mor_case_writer *w, const mor_case_external *ex
     mor_case_writer_hash(w, external->file_hash);
 }
 
+static mor_case_presence presence_of_field_key(const mor_case_key *key, const void *record)
+{
+    const mor_case_field *field = record;
+    const char *name = key->schema.key;
+    const bool is_random = field->distribution != MOR_CASE_DISTRIBUTION_NONE;
+    const bool is_correlated = field->other >= 0;
+    const struct {
+        const char *key;
+        bool is_written;
+    } rules[] = {{"formula", field->formula[0] != '\0'},
+                 {"coefficient_of_variation", is_random && isnan(field->standard_deviation)},
+                 {"correlation", is_random && !is_correlated},
+                 {"correlation_length", is_random && !is_correlated},
+                 {"seed", is_random && !is_correlated},
+                 {"correlated_with", is_correlated},
+                 {"cross_correlation", is_correlated}};
+    for (size_t k = 0; k < sizeof rules / sizeof *rules; ++k) {
+        if (strcmp(name, rules[k].key) == 0) {
+            return rules[k].is_written ? MOR_CASE_WRITE : MOR_CASE_OMIT;
+        }
+    }
+    return MOR_CASE_WRITE;
+}
+
+static mor_status write_field(mor_case_writer *w, const mor_case_field *field, const mor_schema *parameter)
+{
+    const struct {
+        const char *key;
+        double value;
+    } numbers[] = {
+        {"standard_deviation", field->standard_deviation}, {"minimum", field->minimum}, {"maximum", field->maximum}};
+    MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_field_group, field, presence_of_field_key));
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
+        char value[MOR_CASE_VALUE_BYTES];
+        if (isfinite(numbers[k].value)) {
+            MOR_TRY(w->reader.context,
+                    mor_case_writer_numbers(w, parameter, false, &numbers[k].value, 1, value, sizeof value));
+            mor_case_writer_line(w, numbers[k].key, value, false);
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status write_fields(mor_case_writer *w, const mor_case_soil *soil)
+{
+    if (soil->n_fields == 0) {
+        return MOR_OK;
+    }
+    mor_case_writer_open(w, "fields", "(");
+    for (int k = 0; k < soil->n_fields; ++k) {
+        const mor_case_field *field = &soil->fields[k];
+        mor_case_writer_open(w, "", "{");
+        MOR_TRY(w->reader.context, write_field(w, field, &soil->law->parameters[field->entry]));
+        mor_case_writer_close(w, k + 1 < soil->n_fields ? "}," : "}");
+    }
+    mor_case_writer_close(w, ");");
+    return MOR_OK;
+}
+
 static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
 {
     const bool is_external = soil->external.made != NULL;
@@ -124,6 +183,7 @@ static mor_status write_soil(mor_case_writer *w, const mor_case_soil *soil)
         write_external(w, &soil->external);
     }
     mor_case_writer_close(w, "};");
+    MOR_TRY(w->reader.context, write_fields(w, soil));
     mor_case_writer_open(w, "initial_stress", "{");
     MOR_TRY(w->reader.context, mor_case_writer_keys(w, &mor_case_stress_group, soil, presence_of_stress_key));
     mor_case_writer_formulas(w, "formula", soil->stress_formula, 6);

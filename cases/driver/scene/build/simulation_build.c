@@ -8,7 +8,9 @@
 #include "cases/driver/scene/build/simulation_relax.h"
 #include "cases/driver/scene/check/narrow_gaps.h"
 #include "cases/driver/scene/check/simulation_check.h"
+#include "cases/driver/scene/simulation_fields.h"
 #include "cases/driver/scene/simulation_motion.h"
+#include "cases/driver/scene/start/simulation_field.h"
 #include "cases/driver/scene/start/simulation_formula.h"
 #include "cases/driver/scene/start/simulation_stage.h"
 #include "core/base/math.h"
@@ -32,6 +34,7 @@ static int find_same(const mor_simulation *simulation, int region)
     while (k < region &&
            !(simulation->laws[k] == simulation->laws[region] && c->soils[k].density == it->density &&
              memcmp(c->soils[k].parameters, it->parameters, n_bytes) == 0 &&
+             mor_simulation_has_same_fields(c, k, region) &&
              mor_simulation_lateral_ratio(simulation, k) == mor_simulation_lateral_ratio(simulation, region))) {
         k += 1;
     }
@@ -65,8 +68,11 @@ static mor_status create_material(mor_context *context, const mor_simulation *si
                                   mor_material_instance **instance)
 {
     const mor_case_soil *it = &simulation->the_case->soils[k];
-    const mor_status status = mor_material_create(context, simulation->laws[k], it->density, it->parameters, instance);
+    mor_status status = mor_material_create(context, simulation->laws[k], it->density, it->parameters, instance);
     mor_rate_integration_set_guard(*instance, find_guard(context, simulation));
+    if (status == MOR_OK) {
+        status = mor_simulation_vary_material(context, simulation->the_case, k, instance);
+    }
     return place_refusal(context, it, status);
 }
 
@@ -176,6 +182,7 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
         simulation->soil.largest_speed = fmax(simulation->soil.largest_speed, mor_vector_length(velocity));
         first += n;
     }
+    MOR_TRY(context, mor_simulation_set_fields(context, simulation, regions));
     MOR_TRY(context, mor_simulation_set_stress(context, simulation, regions));
     return mor_simulation_set_by_formulas(context, simulation, regions);
 }

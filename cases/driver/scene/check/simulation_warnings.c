@@ -36,6 +36,47 @@ static void warn_of_gas(mor_context *context, const mor_simulation *s)
     }
 }
 
+/* Values that were changed to lie within limits, and fields that change from one particle to the next. */
+static void warn_of_field(mor_context *context, const mor_case *c, const mor_case_soil *soil, int k,
+                          const mor_simulation_field *found)
+{
+    const double resolved = 2.0; /* spacings; Nyquist's wave length */
+    const mor_case_field *field = &soil->fields[k];
+    if (found->n_raised + found->n_lowered > 0) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "soil '%s', field of '%s': of %lld values %lld (%.3g %%) were raised to its minimum and %lld "
+                        "(%.3g %%) lowered to its maximum, so that mean and deviation are not those asked for: they "
+                        "are %.5g and %.5g in SI units",
+                        soil->name, field->parameter, (long long)found->n, (long long)found->n_raised,
+                        100.0 * (double)found->n_raised / (double)found->n, (long long)found->n_lowered,
+                        100.0 * (double)found->n_lowered / (double)found->n, found->mean,
+                        sqrt(found->squares / (double)found->n));
+    }
+    for (int a = 0; a < c->dimension && field->distribution != MOR_CASE_DISTRIBUTION_NONE; ++a) {
+        if (field->correlation_length[a] < resolved * c->spacing) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s', field of '%s': its correlation length along %c is %.3g spacings, so that "
+                            "neighbors are hardly correlated; at least %g are advisable: a smaller spacing or a longer "
+                            "correlation length",
+                            soil->name, field->parameter, "xyz"[a], field -> correlation_length[a] / c -> spacing,
+                            resolved);
+            return;
+        }
+    }
+}
+
+static void warn_of_fields(mor_context *context, const mor_simulation *s)
+{
+    const mor_case *c = s->the_case;
+    for (int soil = 0; soil < c->n_soils; ++soil) {
+        for (int k = 0; k < c->soils[soil].n_fields; ++k) {
+            if (s->fields[soil][k].n > 0) {
+                warn_of_field(context, c, &c->soils[soil], k, &s->fields[soil][k]);
+            }
+        }
+    }
+}
+
 /* Largest ratio of the speed of waves in the soil as it begins to the one that step and impedance assume; 1 where the
  * law does not tell. */
 static double find_stiffening(const mor_soil *soil, int64_t *stiffest)
@@ -229,6 +270,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     MOR_TRY(context, mor_start_stress_warn(context, simulation));
     if (simulation->has_soil) {
         warn_of_gas(context, simulation);
+        warn_of_fields(context, simulation);
         warn_of_stiffening(context, simulation);
     }
     mor_plausible_warn(context, c);

@@ -32,11 +32,12 @@ typedef struct point {
 
 static mor_status new_point(mor_context *context, const mor_simulation *s, int region, point *it)
 {
-    const mor_schema *schema = s->laws[region]->state;
     *it = (point){.law = s->parts[region] != NULL ? s->parts[region] : s->material,
                   .up = s->up,
                   .density = s->the_case->soils[region].density};
+    const mor_schema *schema = it->law->material->state;
     MOR_TRY(context, MOR_NEW(context, &it->values, mor_params_count(schema) + 1, "state of a particle"));
+    mor_params_defaults(schema, it->values); /* of parameters that vary: those of the material */
     for (int k = 0; k < it->law->n_state; ++k) {
         it->state[k] = it->values + mor_params_offset(schema, k);
     }

@@ -2,10 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/start/simulation_stage.h"
 
+#include "cases/driver/scene/simulation_fields.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/material/composite.h"
+#include "core/material/params.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -313,13 +315,17 @@ static mor_status apply_field(mor_context *context, const mor_taken_soil *taken,
     int64_t to = 0;
     bool is_there = false;
     MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, info->name, width, values, &is_there));
-    MOR_CHECK(context, is_there || !is_state_of_law(soil, field), MOR_ERROR_CONFIG,
+    /* A parameter that varies in this case alone has the value of the place where its particle is now. */
+    const bool is_needed = is_state_of_law(soil, field) && !mor_simulation_is_parameter(simulation, field);
+    MOR_CHECK(context, is_there || !is_needed, MOR_ERROR_CONFIG,
               "%s:%d: found no state variable '%s' of the soil in the run '%s', which a law of this case needs; "
               "allowed: the laws of the run; give soils that are new other names",
               c->stage.place.file, c->stage.place.line, info->name, c->stage.run);
     for (int k = 0; k < c->n_soils && is_there; ++k) {
         const int64_t n = mor_taken_soil_has(taken, k) ? taken->count[k] : 0;
-        for (int64_t i = 0; i < n; ++i) {
+        /* What varies in another soil only shows the constant of this one. */
+        const bool is_kept = !mor_simulation_is_parameter(simulation, field) || mor_simulation_varies(c, k, info->name);
+        for (int64_t i = 0; i < n && is_kept; ++i) {
             memcpy(soil->set.data[field] + width * (to + i), values + width * taken->sources[taken->first[k] + i],
                    (size_t)width * sizeof *values);
         }
@@ -348,6 +354,44 @@ static void warn_of_empty_excavations(mor_context *context, const mor_taken_soil
     }
 }
 
+/* Says where a parameter of a soil varied in the run before, but does not any more. */
+static mor_status warn_of_lost_field(mor_context *context, const mor_taken_soil *taken, int soil, int entry,
+                                     double *values)
+{
+    const mor_case *c = taken->the_case;
+    const mor_case_soil *it = &c->soils[soil];
+    const mor_schema *parameter = &it->law->parameters[entry];
+    const int64_t *sources = taken->sources + taken->first[soil];
+    bool is_there = false;
+    bool is_varied = false;
+    if (parameter->kind != MOR_SCHEMA_REAL || mor_simulation_varies(c, soil, parameter->key) ||
+        mor_params_find(it->law->state, parameter->key) >= 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, parameter->key, 1, values, &is_there));
+    for (int64_t i = 1; i < taken->count[soil] && is_there; ++i) {
+        is_varied = is_varied || values[sources[i]] != values[sources[0]];
+    }
+    if (is_varied) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "soil '%s': '%s' varied in the run that this case starts from, but is the same everywhere from "
+                        "here on, because the soil has no field of it; list it in 'fields' to keep its values",
+                        it->name, parameter->key);
+    }
+    return MOR_OK;
+}
+
+static mor_status warn_of_lost_fields(mor_context *context, const mor_taken_soil *taken, double *values)
+{
+    const mor_case *c = taken->the_case;
+    for (int soil = 0; soil < c->n_soils; ++soil) {
+        for (int k = 0; mor_taken_soil_has(taken, soil) && c->soils[soil].law->parameters[k].key != NULL; ++k) {
+            MOR_TRY(context, warn_of_lost_field(context, taken, soil, k, values));
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation)
 {
     enum { WIDTH_MAX = 9 };
@@ -362,6 +406,7 @@ mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *take
             status = apply_field(context, taken, simulation, field, values);
         }
     }
+    status = status == MOR_OK ? warn_of_lost_fields(context, taken, values) : status;
     MOR_FREE(context, &values);
     for (int64_t i = 0; i < soil->set.n_particles && status == MOR_OK; ++i) {
         const double speed = mor_vector_length(soil->set.data[MOR_FIELD_VELOCITY] + 3 * i);
