@@ -9,8 +9,8 @@
 #include <string.h>
 
 /* BITS: of a double that places have; the others are for periods beyond the box and for sums of places.
- * SHIFTS: images of a point at most, beside itself. */
-enum { BITS = 48, SHIFTS = 27 };
+ * FARTHEST: periods by which an image may lie away. SHIFTS: images of a point at most, and itself. */
+enum { BITS = 48, FARTHEST = 2, SHIFTS = 125 };
 
 void mor_period_init(mor_period *period, const double *minimum, const double *maximum, const bool *is_periodic)
 {
@@ -94,9 +94,9 @@ static mor_status make_room(mor_context *context, mor_images *images, int64_t ca
     images->capacity = 0;
     MOR_TRY(context, MOR_NEW(context, &images->owner, capacity, "images beyond periodic faces"));
     MOR_TRY(context, MOR_NEW(context, &images->shift, 3 * capacity, "images beyond periodic faces"));
-    MOR_TRY(context, MOR_NEW(context, &images->places, 3 * (images->n_most + capacity + MOR_CLUSTER),
+    MOR_TRY(context, MOR_NEW(context, &images->places, 3 * (images->n_most + capacity + 2 * MOR_CLUSTER),
                              "images beyond periodic faces"));
-    MOR_TRY(context, mor_tree_init(context, &images->tree, images->n_most + capacity));
+    MOR_TRY(context, mor_tree_init(context, &images->tree, images->n_most + capacity + MOR_CLUSTER));
     images->capacity = capacity;
     return MOR_OK;
 }
@@ -123,23 +123,38 @@ void mor_images_clear(mor_context *context, mor_images *images)
     memset(images, 0, sizeof *images);
 }
 
-/* The shifts of the images of a place that are within reach of the box; returns their number. */
-static int find_shifts(const mor_period *period, const double *place, double reach, double shifts[SHIFTS][3])
+/* The box of all places, wider by the reach. */
+typedef struct extent {
+    double low[3], high[3]; /* m */
+} extent;
+
+static extent find_extent(const mor_images *images, const double *looking, double reach)
+{
+    extent box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (int a = 0; a < 3 && looking != NULL; ++a) {
+        box.low[a] = looking[a] - reach;
+        box.high[a] = looking[3 + a] + reach;
+    }
+    for (int64_t k = 0; k < 3 * images->n_own && looking == NULL; ++k) {
+        box.low[k % 3] = fmin(box.low[k % 3], images->places[k] - reach);
+        box.high[k % 3] = fmax(box.high[k % 3], images->places[k] + reach);
+    }
+    return box;
+}
+
+/* The shifts of the images of a place that are within reach of others, zero first; returns their number. */
+static int find_shifts(const mor_period *period, const double *place, const extent *box, double shifts[SHIFTS][3])
 {
     int n = 1;
     memset(shifts[0], 0, sizeof shifts[0]);
     for (int a = 0; a < 3; ++a) {
         const double length = period->length[a];
-        const double above = place[a] - period->minimum[a];
         const int before = n;
-        /* A place is near one face at most of each axis, for the period is at least twice the reach; on the limit,
-         * both. */
-        for (int side = -1; side <= 1 && length > 0.0; side += 2) {
-            if (side > 0 ? above <= reach : above >= length - reach) {
-                for (int k = 0; k < before; ++k) {
-                    memcpy(shifts[n], shifts[k], sizeof shifts[n]);
-                    shifts[n++][a] = side * length;
-                }
+        for (int side = -FARTHEST; side <= FARTHEST && length > 0.0; ++side) {
+            const double image = place[a] + side * length;
+            for (int k = 0; k < before && side != 0 && image >= box->low[a] && image <= box->high[a]; ++k) {
+                memcpy(shifts[n], shifts[k], sizeof shifts[n]);
+                shifts[n++][a] = side * length;
             }
         }
     }
@@ -147,13 +162,13 @@ static int find_shifts(const mor_period *period, const double *place, double rea
 }
 
 /* Counts the images; notes those there is room for. */
-static int64_t walk_points(mor_images *images, double reach)
+static int64_t walk_points(mor_images *images, const extent *box)
 {
     int64_t n = 0;
     double shifts[SHIFTS][3];
     for (int64_t i = 0; i < images->n_own; ++i) {
         const double *own = images->places + 3 * i;
-        const int n_shifts = find_shifts(images->period, own, reach, shifts);
+        const int n_shifts = find_shifts(images->period, own, box, shifts);
         for (int k = 1; k < n_shifts; ++k, ++n) {
             if (n < images->capacity) {
                 images->owner[n] = (int32_t)i;
@@ -164,30 +179,42 @@ static int64_t walk_points(mor_images *images, double reach)
     return n;
 }
 
-/* Where the lists see the points. */
+/* Where the lists see the points; what pads them is seen by none. */
 static void place_points(mor_images *images, const double *points, int stride)
 {
     for (int64_t i = 0; i < images->n_own; ++i) {
-        mor_period_find_shift(images->period, points + i * stride, images->wrap + 3 * i);
-        for (int a = 0; a < 3; ++a) {
-            images->places[3 * i + a] = points[i * stride + a] + images->wrap[3 * i + a];
+        const double *point = points + i * stride;
+        double *place = images->places + 3 * i;
+        if (i % MOR_CLUSTER == 0) {
+            mor_period_wrap(images->period, point, place);
+        } else {
+            memcpy(place, point, 3 * sizeof *place);
+            mor_period_approach(images->period, place, images->places + 3 * (i - i % MOR_CLUSTER));
         }
+        for (int a = 0; a < 3; ++a) {
+            images->wrap[3 * i + a] = place[a] - point[a];
+        }
+    }
+    for (int64_t k = 3 * images->n_own; k < 3 * images->first; ++k) {
+        images->places[k] = NAN;
     }
 }
 
 mor_status mor_images_find(mor_context *context, mor_images *images, const double *points, int64_t n, int stride,
-                           double reach)
+                           const double *looking, double reach)
 {
     images->n_own = n;
+    images->first = (n + MOR_CLUSTER - 1) / MOR_CLUSTER * MOR_CLUSTER;
     place_points(images, points, stride);
-    images->n = walk_points(images, reach);
+    const extent box = find_extent(images, looking, reach);
+    images->n = walk_points(images, &box);
     if (images->n > images->capacity) {
         MOR_TRY(context, make_room(context, images, images->n + images->n / 4));
         place_points(images, points, stride);
-        walk_points(images, reach);
+        walk_points(images, &box);
     }
     mor_images_follow(context, images, images->places, 3, 0);
-    mor_tree_resize(&images->tree, n + images->n);
+    mor_tree_resize(&images->tree, images->first + images->n);
     mor_tree_fit(&images->tree, images->places, 3);
     return MOR_OK;
 }
@@ -197,7 +224,7 @@ mor_status mor_images_find(mor_context *context, mor_images *images, const doubl
 static void merge_list(const mor_images *images, const int32_t *copy, int32_t count, int32_t *list)
 {
     int32_t next_image = count;
-    while (next_image > 0 && copy[next_image - 1] >= images->n_own) {
+    while (next_image > 0 && copy[next_image - 1] >= images->first) {
         --next_image;
     }
     const int32_t n_points = next_image;
@@ -215,7 +242,7 @@ void mor_images_sort(mor_context *context, const mor_images *images, mor_relatio
     MOR_PARALLEL_FOR (context, cluster, relation->n_clusters, MOR_BLOCK / MOR_CLUSTER) {
         const int32_t count = relation->counts[cluster];
         int32_t *list = relation->lists[cluster];
-        if (count > 0 && list[count - 1] >= images->n_own) {
+        if (count > 0 && list[count - 1] >= images->first) {
             /* The short list is a copy of the list at first. */
             int32_t *copy = mor_relation_near(relation, cluster);
             merge_list(images, copy, count, list);
@@ -227,7 +254,7 @@ void mor_images_sort(mor_context *context, const mor_images *images, mor_relatio
 void mor_images_follow(mor_context *context, const mor_images *images, double *data, int width, int place)
 {
     MOR_PARALLEL_FOR (context, k, images->n, MOR_BLOCK) {
-        double *image = data + (images->n_own + k) * width;
+        double *image = data + (images->first + k) * width;
         memcpy(image, data + (int64_t)images->owner[k] * width, (size_t)width * sizeof *image);
         for (int a = 0; a < 3 && place >= 0; ++a) {
             image[place + a] += images->shift[3 * k + a];

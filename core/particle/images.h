@@ -24,12 +24,13 @@ typedef struct mor_period {
 typedef struct mor_images {
     const mor_period *period; /* borrowed; NULL: none */
     int64_t n_own, n_most;    /* points, and how many there may be */
+    int64_t first;            /* entry of the first image: the points, padded to 8 */
     int64_t n;                /* images */
     int64_t capacity;         /* images there is room for */
     double *wrap;             /* shape [n_own, 3]; what leads from a point to where the lists see it, m */
     int32_t *owner;           /* shape [capacity]; rising */
     double *shift;            /* shape [capacity, 3]; of each from where the lists see its owner, m */
-    double *places;           /* shape [n_own + capacity padded to 8, 3]; where the lists see points and images, m */
+    double *places;           /* shape [first + capacity padded to 8, 3]; where the lists see points and images, m */
     mor_tree tree;            /* of points and images */
 } mor_images;
 
@@ -81,14 +82,16 @@ static inline bool mor_images_are_used(const mor_images *images)
     return images->period != NULL;
 }
 
-/** Finds where lists are to see the points, between the faces, and all images within reach of them; fits the tree.
+/** Finds where lists are to see the points, and all images within reach of who looks; fits the tree. The first point of each
+ *  cluster is seen between the faces, the others beside it, so that no cluster is torn apart.
  *  @param points [in]      shape [n, stride]; x, y, z first, rounded, in tree order, unit m
  *  @param n      [in]      points, at most those there is room for
  *  @param stride [in]      doubles from one to the next, >= 3
+ *  @param looking [in]     shape [6]; lowest and highest corner of where those are who look, unit m; NULL: the points
  *  @param reach  [in]      of the lists, at most half of each period, unit m
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more images than ever before. */
 mor_status mor_images_find(mor_context *context, mor_images *images, const double *points, int64_t n, int stride,
-                           double reach);
+                           const double *looking, double reach);
 
 /** Points and images as the target of lists; of the points alone, in places, whoever owns them has a tree. */
 static inline mor_relation_points mor_images_targets(const mor_images *images)
@@ -104,11 +107,11 @@ void mor_images_sort(mor_context *context, const mor_images *images, mor_relatio
  *  @param entry [in]  of a list */
 static inline int64_t mor_images_owner(const mor_images *images, int64_t entry)
 {
-    return entry < images->n_own ? entry : images->owner[entry - images->n_own];
+    return entry < images->first ? entry : images->owner[entry - images->first];
 }
 
 /** Gives images what their owners have; nothing without images.
- *  @param data  [in,out]  shape [n_own + n, width], any unit; images follow the points
+ *  @param data  [in,out]  shape [first + n, width], any unit; images follow the points
  *  @param width [in]      numbers each
  *  @param place [in]      which of them begins the place, which is shifted; -1: none */
 void mor_images_follow(mor_context *context, const mor_images *images, double *data, int width, int place);

@@ -53,7 +53,7 @@ void mor_soil_clear_images(mor_context *context, mor_soil *soil)
 /* Room for images behind the particles; what was in it is lost, and packed anew after a build. */
 static mor_status make_room(mor_context *context, mor_soil *soil)
 {
-    const int64_t n = soil->images.n_most + soil->images.capacity + MOR_CLUSTER;
+    const int64_t n = soil->images.n_most + soil->images.capacity + 2 * MOR_CLUSTER;
     const struct {
         double **array;
         int width;
@@ -83,7 +83,7 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
         mor_tree_fit(&soil->tree, position, 3);
         return mor_relation_build(context, &soil->inner, points, points, reach);
     }
-    MOR_TRY(context, mor_images_find(context, images, position, soil->set.n_particles, 3, reach));
+    MOR_TRY(context, mor_images_find(context, images, position, soil->set.n_particles, 3, NULL, reach));
     if (images->capacity > soil->image_room) {
         MOR_TRY(context, make_room(context, soil));
     }

@@ -425,7 +425,7 @@ static void sort_slots(mor_soil_contact *contact)
 /* Room for images behind the points of a wall. */
 static mor_status make_image_room(mor_context *context, mor_soil_contact *contact)
 {
-    const int64_t n = contact->n_points + contact->images.capacity + MOR_CLUSTER;
+    const int64_t n = contact->n_points + contact->images.capacity + 2 * MOR_CLUSTER;
     const struct {
         double **array;
         int width;
@@ -444,10 +444,12 @@ static mor_status make_image_room(mor_context *context, mor_soil_contact *contac
 }
 
 /* Puts the points of a wall between the faces, and their images beyond them. */
-static mor_status find_images(mor_context *context, mor_soil_contact *contact, double reach)
+static mor_status find_images(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
+                              double reach)
 {
     mor_images *images = &contact->images;
-    MOR_TRY(context, mor_images_find(context, images, contact->boundary->records, contact->n_points, RECORD, reach));
+    MOR_TRY(context, mor_images_find(context, images, contact->boundary->records, contact->n_points, RECORD,
+                                     soil->tree->boxes, reach));
     if (images->capacity > contact->image_room) {
         MOR_TRY(context, make_image_room(context, contact));
     }
@@ -462,8 +464,8 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
                                   double reach)
 {
     mor_boundary *boundary = contact->boundary;
-    if (mor_images_are_used(&contact->images) && (contact->built != NULL || contact->relation.n_builds == 0)) {
-        MOR_TRY(context, find_images(context, contact, reach));
+    if (mor_images_are_used(&contact->images)) {
+        MOR_TRY(context, find_images(context, contact, soil, reach));
     }
     if (contact->built != NULL) {
         mor_tree_fit(&contact->tree, boundary->records, RECORD);
