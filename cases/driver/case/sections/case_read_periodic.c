@@ -4,6 +4,7 @@
 #include "cases/driver/case/sections/case_sections.h"
 
 #include "core/base/math.h"
+#include "core/particle/kernel.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,6 +24,22 @@ static mor_status check_extents(const mor_case_reader *reader, const mor_case_no
                 "face; give an extent of %.10g m or change the spacing",
                 c->domain_maximum[a] - c->domain_minimum[a], "xyz"[a], spacings, c -> spacing,
                 rint(spacings) * c -> spacing);
+        }
+    }
+    return MOR_OK;
+}
+
+static mor_status check_reach(const mor_case_reader *reader, const mor_case_node *domain, const mor_case *c)
+{
+    const double reach = MOR_KERNEL_SUPPORT * c->numerics.smoothing_ratio + c->numerics.skin_ratio;
+    for (int a = 0; a < 3; ++a) {
+        const double length = c->domain_maximum[a] - c->domain_minimum[a];
+        if (mor_case_is_periodic(c, a) && length < 2.0 * reach * c->spacing) {
+            return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(domain, "periodic"),
+                                      "found domain.periodic with an extent of %.4g m along %c; allowed are at least "
+                                      "%.4g m, twice the reach of the neighbor lists, so that no particle sees another "
+                                      "twice; make the domain longer along %c or the spacing smaller",
+                                      length, "xyz"[a], 2.0 * reach * c -> spacing, "xyz"[a]);
         }
     }
     return MOR_OK;
@@ -122,6 +139,14 @@ mor_status mor_case_reader_periodic(const mor_case_reader *reader, const mor_cas
         return MOR_OK;
     }
     MOR_TRY(reader->context, check_extents(reader, domain, c));
+    MOR_TRY(reader->context, check_reach(reader, domain, c));
+    if (c->numerics.sleep_after > 0.0) {
+        return MOR_CASE_NODE_FAIL(
+            reader->context, node,
+            "found domain.periodic with numerics.sleep_after = %g s; allowed is one of both, for "
+            "soil that sleeps does not see what moves beyond a periodic face; leave sleep_after out",
+            c->numerics.sleep_after);
+    }
     if (c->dimension == 2 && mor_case_is_periodic(c, 2)) {
         return MOR_CASE_NODE_FAIL(reader->context, node,
                                   "found domain.periodic along z in plane strain; allowed: none, x, y, xy; correct it");
