@@ -219,6 +219,23 @@ mor_status mor_images_find(mor_context *context, mor_images *images, const doubl
     return MOR_OK;
 }
 
+mor_status mor_images_make_room(mor_context *context, const mor_images *images, int64_t *room,
+                                const mor_images_array *arrays, int n_arrays)
+{
+    const int64_t n = images->n_most + images->capacity + 2 * MOR_CLUSTER;
+    for (int k = 0; k < n_arrays && images->capacity > *room; ++k) {
+        double *larger = NULL;
+        if (*arrays[k].data != NULL) {
+            MOR_TRY(context, MOR_NEW(context, &larger, n * arrays[k].width, "values of images"));
+            memcpy(larger, *arrays[k].data, (size_t)(images->n_own * arrays[k].width) * sizeof *larger);
+            MOR_FREE(context, arrays[k].data);
+            *arrays[k].data = larger;
+        }
+    }
+    *room = images->capacity > *room ? images->capacity : *room;
+    return MOR_OK;
+}
+
 /* A list holds points, then images, each by rising owner: merges both.
  *  list: shape [count], written; copy: shape [count], the same before */
 static void merge_list(const mor_images *images, const int32_t *copy, int32_t count, int32_t *list)
@@ -258,6 +275,32 @@ void mor_images_follow(mor_context *context, const mor_images *images, double *d
         memcpy(image, data + (int64_t)images->owner[k] * width, (size_t)width * sizeof *image);
         for (int a = 0; a < 3 && place >= 0; ++a) {
             image[place + a] += images->shift[3 * k + a];
+        }
+    }
+}
+
+const double *mor_images_extend(mor_context *context, const mor_images *images, const double *data, int width,
+                                double *room)
+{
+    if (data == NULL || !mor_images_are_used(images)) {
+        return data;
+    }
+    memcpy(room, data, (size_t)(images->n_own * width) * sizeof *room);
+    mor_images_follow(context, images, room, width, -1);
+    return room;
+}
+
+void mor_images_put_inside(mor_context *context, mor_images *images, int64_t n, double *points, double *crossings)
+{
+    MOR_PARALLEL_FOR (context, i, mor_images_are_used(images) ? n : 0, MOR_BLOCK) {
+        double shift[3];
+        mor_period_find_shift(images->period, points + 3 * i, shift);
+        for (int a = 0; a < 3; ++a) {
+            points[3 * i + a] += shift[a];
+            images->wrap[3 * i + a] -= shift[a];
+            if (crossings != NULL && shift[a] != 0.0) {
+                crossings[3 * i + a] -= rint(shift[a] / images->period->length[a]);
+            }
         }
     }
 }

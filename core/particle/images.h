@@ -46,13 +46,15 @@ void mor_period_init(mor_period *period, const double *minimum, const double *ma
 double mor_period_round(const mor_period *period, double x);
 
 /** Rounds the coordinates of places along periodic axes.
+ *  @param n      [in]      number of places
  *  @param places [in,out]  shape [n, stride]; x, y, z first, unit m
  *  @param stride [in]      doubles from one to the next, >= 3 */
 void mor_period_round_places(const mor_period *period, int64_t n, int stride, double *places);
 
 /** Finds what puts a place back between the faces, the highest one excluded.
  *  @param place [in]   shape [3], unit m; rounded
- *  @param shift [out]  shape [3], unit m; a multiple of the period, zero along other axes, and for what is not finite */
+ *  @param shift [out]  shape [3], unit m; a multiple of the period, zero along other axes and for what is not
+ *                      finite */
 void mor_period_find_shift(const mor_period *period, const double *place, double *shift);
 
 /** Puts a place between the faces.
@@ -82,8 +84,8 @@ static inline bool mor_images_are_used(const mor_images *images)
     return images->period != NULL;
 }
 
-/** Finds where lists are to see the points, and all images within reach of who looks; fits the tree. The first point of each
- *  cluster is seen between the faces, the others beside it, so that no cluster is torn apart.
+/** Finds where lists are to see the points, and all images within reach of who looks; fits the tree. The first point of
+ *  each cluster is seen between the faces, the others beside it, so that no cluster is torn apart.
  *  @param points [in]      shape [n, stride]; x, y, z first, rounded, in tree order, unit m
  *  @param n      [in]      points, at most those there is room for
  *  @param stride [in]      doubles from one to the next, >= 3
@@ -92,6 +94,20 @@ static inline bool mor_images_are_used(const mor_images *images)
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more images than ever before. */
 mor_status mor_images_find(mor_context *context, mor_images *images, const double *points, int64_t n, int stride,
                            const double *looking, double reach);
+
+/** An array of points that is to hold images, too. */
+typedef struct mor_images_array {
+    double **data; /* shape [n, width], owned by who owns the points, any unit; NULL in it: it is not used */
+    int width;     /* numbers each */
+} mor_images_array;
+
+/** Makes room for all images behind the points of arrays, whose values stay.
+ *  @param room     [in,out]  one number; images that there is room for
+ *  @param arrays   [in,out]  shape [n_arrays]
+ *  @param n_arrays [in]      number of arrays
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more images than ever before. */
+mor_status mor_images_make_room(mor_context *context, const mor_images *images, int64_t *room,
+                                const mor_images_array *arrays, int n_arrays);
 
 /** Points and images as the target of lists; of the points alone, in places, whoever owns them has a tree. */
 static inline mor_relation_points mor_images_targets(const mor_images *images)
@@ -115,5 +131,18 @@ static inline int64_t mor_images_owner(const mor_images *images, int64_t entry)
  *  @param width [in]      numbers each
  *  @param place [in]      which of them begins the place, which is shifted; -1: none */
 void mor_images_follow(mor_context *context, const mor_images *images, double *data, int width, int place);
+
+/** Returns values of points with those of their images where there are any, the values themselves otherwise.
+ *  @param data  [in]   shape [n_own, width], any unit; NULL: returned
+ *  @param width [in]   numbers each
+ *  @param room  [out]  shape [first + n, width], unit of the values; NULL: there are no images */
+const double *mor_images_extend(mor_context *context, const mor_images *images, const double *data, int width,
+                                double *room);
+
+/** Puts points between the faces; where the lists see them does not change. Nothing without periodic axes.
+ *  @param n         [in]      number of points
+ *  @param points    [in,out]  shape [n, 3]; rounded, unit m
+ *  @param crossings [in,out]  shape [n, 3], unit 1; what was crossed is added; NULL: it is not counted */
+void mor_images_put_inside(mor_context *context, mor_images *images, int64_t n, double *points, double *crossings);
 
 #endif

@@ -399,7 +399,9 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
         mor_soil_contact_clear(context, mor_soil_contact_at(soil, k));
     }
     mor_soil_clear_energy(context, soil);
-    mor_soil_clear_images(context, soil);
+    mor_images_clear(context, &soil->images);
+    MOR_FREE(context, &soil->image_stress);
+    MOR_FREE(context, &soil->image_strains);
     mor_relation_clear(context, &soil->inner);
     mor_tree_clear(context, &soil->tree);
     mor_reduce_room_clear(context, &soil->room);

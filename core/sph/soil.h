@@ -124,12 +124,11 @@ typedef struct mor_soil {
     mor_soil_energy *energy; /* the audit; NULL: none */
     mor_tree tree;
     mor_relation inner;
-    mor_period period;    /* of the domain */
-    mor_images images;    /* of the particles; of no period: zeroed */
-    int64_t image_room;   /* images that the records and the next two have room for */
-    double *image_stress; /* shape [n_particles + image_room padded to 8, 6]; artificial stress with images, Pa; or NULL
-                             */
-    double *image_strains; /* same shape; strain rate of the last step with images, 1/s; or NULL */
+    mor_period period;     /* of the domain */
+    mor_images images;     /* of the particles; of no period: zeroed */
+    int64_t image_room;    /* images that the records and the next two have room for */
+    double *image_stress;  /* shape [n + image_room padded to 8, 6]; artificial stress with images, Pa; or NULL */
+    double *image_strains; /* shape [n + image_room padded to 8, 6]; last strain rate with images, 1/s; or NULL */
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];
     int n_walls;
     mor_soil_contact boundaries[MOR_SOIL_BOUNDARIES_MAX]; /* moved by others */

@@ -240,10 +240,10 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
     mor_pair_constants none = soil->constants;
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
-    arrays.artificial_stress =
-        mor_soil_extend(context, soil, mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS), soil->image_stress);
+    arrays.artificial_stress = mor_images_extend(
+        context, &soil->images, mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS), 6, soil->image_stress);
     arrays.strain_rate =
-        mor_soil_extend(context, soil, mor_view_read(view, MOR_FIELD_STRAIN_RATE), soil->image_strains);
+        mor_images_extend(context, &soil->images, mor_view_read(view, MOR_FIELD_STRAIN_RATE), 6, soil->image_strains);
     arrays.acceleration = soil->energy->scratch;
     none.diffusion_rate = 0.0;
     none.has_artificial_stress = none.has_hourglass = none.has_spin = false;

@@ -4,7 +4,6 @@
 #include "core/sph/soil_internal.h"
 
 #include "core/base/memory.h"
-#include "core/base/parallel.h"
 #include "core/particle/kernel.h"
 
 #include <math.h>
@@ -26,67 +25,32 @@ mor_status mor_soil_allocate_images(mor_context *context, mor_soil *soil)
         return MOR_OK;
     }
     for (int a = 0; a < 3; ++a) {
-        MOR_CHECK(
-            context, !s->is_periodic[a] || soil->period.length[a] >= least, MOR_ERROR_CONFIG,
-            "found domain.periodic with a domain of %g m along %c; allowed are at least %.4g m, twice the reach of "
-            "the neighbor lists, so that no particle sees another twice; make the domain longer along %c or the "
-            "spacing smaller",
-            soil->period.length[a], "xyz"[a], least, "xyz"[a]);
+        MOR_CHECK(context, !s->is_periodic[a] || soil->period.length[a] >= least, MOR_ERROR_CONFIG,
+                  "found a period of %g m along %c; allowed are at least %.4g m, twice the reach of the neighbor lists",
+                  soil->period.length[a], "xyz"[a], least);
     }
-    MOR_CHECK(context, s->placement == NULL, MOR_ERROR_CONFIG,
-              "found domain.periodic with a placement; allowed is a domain that is neither rotated nor translated; "
-              "incline gravity in place of the scene");
-    MOR_CHECK(context, s->scheme.sleep_after == 0.0, MOR_ERROR_CONFIG,
-              "found numerics.sleep_after = %g s with domain.periodic; allowed: 0, for soil that sleeps does not see "
-              "what moves beyond a periodic face; leave it out",
-              s->scheme.sleep_after);
-    return mor_images_init(context, &soil->images, &soil->period, soil->set.n_particles);
-}
-
-void mor_soil_clear_images(mor_context *context, mor_soil *soil)
-{
-    mor_images_clear(context, &soil->images);
-    MOR_FREE(context, &soil->image_stress);
-    MOR_FREE(context, &soil->image_strains);
-}
-
-/* Room for images behind the particles; what was in it is lost, and packed anew after a build. */
-static mor_status make_room(mor_context *context, mor_soil *soil)
-{
-    const int64_t n = soil->images.n_most + soil->images.capacity + 2 * MOR_CLUSTER;
-    const struct {
-        double **array;
-        int width;
-        bool is_new;
-    } arrays[] = {{&soil->records, MOR_RECORD_SIZE, false},
-                  {&soil->of_soil, MOR_PAIR_OF_SOIL_SIZE, false},
-                  {&soil->extra, MOR_EXTRA_SIZE, false},
-                  {&soil->field_records, MOR_PAIR_FIELD_SIZE, false},
-                  {&soil->image_stress, 6, soil->set.data[MOR_FIELD_ARTIFICIAL_STRESS] != NULL},
-                  {&soil->image_strains, 6, soil->set.data[MOR_FIELD_STRAIN_RATE] != NULL}};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
-        if (*arrays[k].array != NULL || arrays[k].is_new) {
-            MOR_FREE(context, arrays[k].array);
-            MOR_TRY(context, MOR_NEW(context, arrays[k].array, n * arrays[k].width, "records of images"));
-        }
-    }
-    soil->image_room = soil->images.capacity;
-    return MOR_OK;
+    MOR_CHECK(context, s->placement == NULL && s->scheme.sleep_after == 0.0, MOR_ERROR_CONFIG,
+              "found a periodic domain that is placed, or whose soil may sleep; allowed is neither; take one of both");
+    const int64_t n = soil->set.n_particles;
+    MOR_TRY(context, MOR_NEW(context, &soil->image_stress, s->scheme.artificial_stress ? 6 * n : 0, "images"));
+    MOR_TRY(context, MOR_NEW(context, &soil->image_strains, s->scheme.reconstruction == 1 ? 6 * n : 0, "images"));
+    return mor_images_init(context, &soil->images, &soil->period, n);
 }
 
 mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const double *position, double reach,
                                 mor_relation_points *points)
 {
     mor_images *images = &soil->images;
+    const mor_images_array arrays[] = {{&soil->records, MOR_RECORD_SIZE}, {&soil->of_soil, MOR_PAIR_OF_SOIL_SIZE},
+                                       {&soil->extra, MOR_EXTRA_SIZE},    {&soil->field_records, MOR_PAIR_FIELD_SIZE},
+                                       {&soil->image_stress, 6},          {&soil->image_strains, 6}};
     *points = (mor_relation_points){&soil->tree, position, 3};
     if (!mor_images_are_used(images)) {
         mor_tree_fit(&soil->tree, position, 3);
         return mor_relation_build(context, &soil->inner, points, points, reach);
     }
     MOR_TRY(context, mor_images_find(context, images, position, soil->set.n_particles, 3, NULL, reach));
-    if (images->capacity > soil->image_room) {
-        MOR_TRY(context, make_room(context, soil));
-    }
+    MOR_TRY(context, mor_images_make_room(context, images, &soil->image_room, arrays, 6));
     points->records = images->places;
     mor_tree_fit(&soil->tree, points->records, 3);
     const mor_relation_points targets = mor_images_targets(images);
@@ -103,34 +67,6 @@ void mor_soil_follow_records(mor_context *context, const mor_soil *soil)
     }
 }
 
-const double *mor_soil_extend(mor_context *context, const mor_soil *soil, const double *field, double *room)
-{
-    if (field == NULL || !mor_images_are_used(&soil->images)) {
-        return field;
-    }
-    memcpy(room, field, (size_t)(6 * soil->set.n_particles) * sizeof *room);
-    mor_images_follow(context, &soil->images, room, 6, -1);
-    return room;
-}
-
-void mor_soil_put_inside(mor_context *context, mor_soil *soil, double *position, double *crossings)
-{
-    const mor_period *period = &soil->period;
-    MOR_PARALLEL_FOR (context, i, period->is_any ? soil->set.n_particles : 0, MOR_BLOCK) {
-        double *x = position + 3 * i;
-        double shift[3];
-        mor_period_find_shift(period, x, shift);
-        for (int a = 0; a < 3; ++a) {
-            x[a] += shift[a];
-            /* Where the lists see it does not change. */
-            soil->images.wrap[3 * i + a] -= shift[a];
-            if (crossings != NULL && shift[a] != 0.0) {
-                crossings[3 * i + a] -= rint(shift[a] / period->length[a]);
-            }
-        }
-    }
-}
-
 void mor_soil_find_unwrapped(const mor_soil *soil, int64_t particle, double *place)
 {
     const double *crossings = soil->set.data[MOR_FIELD_CROSSINGS];
@@ -140,37 +76,11 @@ void mor_soil_find_unwrapped(const mor_soil *soil, int64_t particle, double *pla
     }
 }
 
-static mor_status check_patch(mor_context *context, const mor_soil *soil, const mor_boundary *boundary, int p,
-                              bool is_start, double time)
-{
-    const mor_boundary_patch *patch = &boundary->patches[p];
-    const double reach = find_reach(soil);
-    for (int64_t j = patch->first; j < patch->first + patch->n_points; ++j) {
-        for (int a = 0; a < 3; ++a) {
-            const double length = soil->period.length[a];
-            const double above = boundary->records[j * MOR_BOUNDARY_RECORD + a] - soil->period.minimum[a];
-            MOR_CHECK(context, !(length > 0.0) || (above >= reach && above <= length - reach),
-                      is_start ? MOR_ERROR_CONFIG : MOR_ERROR_NUMERIC,
-                      "body %d of '%s' comes to %.4g m from the periodic face %c = %g m at t = %.6g s; bodies are not "
-                      "continued beyond periodic faces and must stay %.4g m away from them, the reach of the neighbor "
-                      "lists; move or hold it, make the domain longer along %c, or take %c out of domain.periodic",
-                      p, boundary->name, fmin(above, length - above), "xyz"[a],
-                      soil -> period.minimum[a] + (above < 0.5 * length ? 0.0 : length), time, reach, "xyz"[a],
-                      "xyz"[a]);
-        }
-    }
-    return MOR_OK;
-}
-
 mor_status mor_soil_check_images(mor_context *context, const mor_soil *soil, bool is_start, double time)
 {
     for (int k = 0; k < soil->n_boundaries && soil->period.is_any; ++k) {
-        const mor_boundary *boundary = soil->boundaries[k].boundary;
-        for (int p = 0; p < boundary->n_patches; ++p) {
-            if (!boundary->patches[p].is_removed) {
-                MOR_TRY(context, check_patch(context, soil, boundary, p, is_start, time));
-            }
-        }
+        MOR_TRY(context, mor_soil_contact_check_period(context, &soil->boundaries[k], &soil->period, find_reach(soil),
+                                                       is_start ? MOR_ERROR_CONFIG : MOR_ERROR_NUMERIC, time));
     }
     return MOR_OK;
 }

@@ -193,9 +193,6 @@ static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
 mor_status mor_soil_allocate_images(mor_context *context, mor_soil *soil);
 
-/** Frees what mor_soil_allocate_images and later builds allocated. */
-void mor_soil_clear_images(mor_context *context, mor_soil *soil);
-
 /** Builds the lists of the particles.
  *  @param position [in]   shape [n_particles, 3], unit m
  *  @param reach    [in]   of the lists, unit m
@@ -206,16 +203,6 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
 
 /** Gives images the records of their owners, and what the momentum loop reads beside them. */
 void mor_soil_follow_records(mor_context *context, const mor_soil *soil);
-
-/** Returns a field with its images where there are any, the field itself otherwise.
- *  @param field [in]   shape [n_particles, 6], any unit; NULL: returned
- *  @param room  [out]  shape [n_particles + images, 6]; NULL: there are none */
-const double *mor_soil_extend(mor_context *context, const mor_soil *soil, const double *field, double *room);
-
-/** Rounds places to multiples of the quantum of a period and puts them between its faces; nothing without period.
- *  @param position  [in,out]  shape [n_particles, 3], unit m
- *  @param crossings [in,out]  shape [n_particles, 3], unit 1; what was crossed is added; NULL: it is not counted */
-void mor_soil_put_inside(mor_context *context, mor_soil *soil, double *position, double *crossings);
 
 /** What all pair loops need, without fields; borrowed until the next resize or permute.
  *  @param lists [in]  MOR_RESOURCE_LISTS or MOR_RESOURCE_SHORT_LISTS, which the loop reads */

@@ -66,8 +66,8 @@ mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *vi
 {
     mor_soil *soil = owner;
     drift_half(context, soil, view, 0.5 * step->length);
-    mor_soil_put_inside(context, soil, mor_view_write(view, MOR_FIELD_POSITION),
-                        mor_view_write(view, MOR_FIELD_CROSSINGS));
+    mor_images_put_inside(context, &soil->images, soil->set.n_particles, mor_view_write(view, MOR_FIELD_POSITION),
+                          mor_view_write(view, MOR_FIELD_CROSSINGS));
     return mor_soil_check_domain(context, soil, view, step);
 }
 
@@ -86,7 +86,7 @@ void mor_soil_sort(mor_context *context, mor_soil *soil)
     if (soil->period.is_any) {
         double *position = mor_view_write(&view, MOR_FIELD_POSITION);
         mor_period_round_places(&soil->period, soil->set.n_particles, 3, position);
-        mor_soil_put_inside(context, soil, position, NULL);
+        mor_images_put_inside(context, &soil->images, soil->set.n_particles, position, NULL);
     }
     sort_particles(soil, &view);
 }

@@ -5,8 +5,8 @@
 
 #include <stdio.h>
 
-/* Cases whose domain repeats itself: a run that is stopped and resumed gives the bits of one that went through, and what
- * does not go with such a domain is refused. */
+/* Cases whose domain repeats itself: a run that is stopped and resumed gives the bits of one that went through, and
+ * what does not go with such a domain is refused. */
 
 #define MATERIAL                                                                                                       \
     " density = '2000 kg/m3'; youngs_modulus = '0.2 MPa'; poissons_ratio = 0.3; friction_angle = '25 deg'; }; }"

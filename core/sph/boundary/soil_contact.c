@@ -241,26 +241,6 @@ static void pose_points(mor_soil_contact *contact, const mor_pose *pose)
     }
 }
 
-static void follow_images(mor_context *context, mor_soil_contact *contact)
-{
-    mor_images_follow(context, &contact->images, contact->boundary->records, RECORD, MOR_BOUNDARY_POSITION);
-    if (contact->normals != NULL && contact->is_wall) {
-        mor_images_follow(context, &contact->images, contact->normals, 3, -1);
-        mor_images_follow(context, &contact->images, contact->depths, 1, -1);
-    }
-}
-
-/* What has moved is left where the lists see it, on whichever side of a face that is. */
-static void approach_lists(mor_context *context, mor_soil_contact *contact)
-{
-    for (int64_t i = 0; i < contact->n_points && contact->images.n_own > 0; ++i) {
-        double *record = contact->boundary->records + RECORD * i;
-        mor_period_round_places(contact->period, 1, RECORD, record);
-        mor_period_approach(contact->period, record, contact->built + 3 * i);
-    }
-    follow_images(context, contact);
-}
-
 void mor_soil_contact_move(mor_context *context, mor_soil_contact *contact, double time)
 {
     contact->boundary->patches[0].is_removed = contact->removed_at > 0.0 && time >= contact->removed_at;
@@ -275,7 +255,7 @@ void mor_soil_contact_move(mor_context *context, mor_soil_contact *contact, doub
         translate_points(contact, displacement);
     }
     if (contact->period != NULL && contact->base != NULL) {
-        approach_lists(context, contact);
+        mor_soil_contact_approach_lists(context, contact);
     }
 }
 
@@ -422,50 +402,12 @@ static void sort_slots(mor_soil_contact *contact)
     first[0] = 0;
 }
 
-/* Room for images behind the points of a wall. */
-static mor_status make_image_room(mor_context *context, mor_soil_contact *contact)
-{
-    const int64_t n = contact->n_points + contact->images.capacity + 2 * MOR_CLUSTER;
-    const struct {
-        double **array;
-        int width;
-    } arrays[] = {{&contact->boundary->records, RECORD}, {&contact->normals, 3}, {&contact->depths, 1}};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
-        double *larger = NULL;
-        if (*arrays[k].array != NULL) {
-            MOR_TRY(context, MOR_NEW(context, &larger, n * arrays[k].width, "images of wall points"));
-            memcpy(larger, *arrays[k].array, (size_t)(contact->n_points * arrays[k].width) * sizeof *larger);
-            MOR_FREE(context, arrays[k].array);
-            *arrays[k].array = larger;
-        }
-    }
-    contact->image_room = contact->images.capacity;
-    return MOR_OK;
-}
-
-/* Puts the points of a wall between the faces, and their images beyond them. */
-static mor_status find_images(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
-                              double reach)
-{
-    mor_images *images = &contact->images;
-    MOR_TRY(context, mor_images_find(context, images, contact->boundary->records, contact->n_points, RECORD,
-                                     soil->tree->boxes, reach));
-    if (images->capacity > contact->image_room) {
-        MOR_TRY(context, make_image_room(context, contact));
-    }
-    for (int64_t i = 0; i < contact->n_points; ++i) {
-        memcpy(contact->boundary->records + RECORD * i, images->places + 3 * i, 3 * sizeof *images->places);
-    }
-    follow_images(context, contact);
-    return MOR_OK;
-}
-
 mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
                                   double reach)
 {
     mor_boundary *boundary = contact->boundary;
     if (mor_images_are_used(&contact->images)) {
-        MOR_TRY(context, find_images(context, contact, soil, reach));
+        MOR_TRY(context, mor_soil_contact_find_images(context, contact, soil, reach));
     }
     if (contact->built != NULL) {
         mor_tree_fit(&contact->tree, boundary->records, RECORD);

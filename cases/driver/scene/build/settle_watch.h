@@ -3,7 +3,7 @@
 #ifndef MOR_CASES_DRIVER_SCENE_BUILD_SETTLE_WATCH_H
 #define MOR_CASES_DRIVER_SCENE_BUILD_SETTLE_WATCH_H
 
-#include "core/sph/soil.h"
+#include "cases/driver/scene/simulation.h"
 
 /** @file
  *  How soil settles under damping, and why it does not come to rest in the time given: because it is not stable under

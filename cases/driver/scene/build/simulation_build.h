@@ -80,15 +80,6 @@ mor_status mor_simulation_set_frictions(mor_context *context, mor_simulation *si
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
                                     mor_lattice_points *points, double **shares);
 
-/** Leaves of a wall what lies between the faces of a domain that repeats itself, and checks that it goes on beyond them;
- *  nothing for another domain.
- *  @param wall   [in]      index of the wall
- *  @param points [in,out]  its points, in the frame of the case
- *  @param shares [in,out]  shape [points->n_points], unit 1; thinned out with them; NULL: none
- *  Returns: MOR_OK; MOR_ERROR_CONFIG for a wall that ends at a face. */
-mor_status mor_simulation_repeat_wall(mor_context *context, const mor_case *the_case, int wall,
-                                      mor_lattice_points *points, double *shares);
-
 /** Fills one soil region of a case with particles, in the placed frame, where no body is.
  *  @param soil     [in]      index of the region
  *  @param n_before [in]      particles of earlier regions, for which memory is kept

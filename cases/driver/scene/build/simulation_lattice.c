@@ -6,6 +6,7 @@
 #include "cases/driver/scene/build/memory_room.h"
 #include "cases/driver/scene/build/simulation_terrain.h"
 #include "cases/driver/scene/start/simulation_stage.h"
+#include "cases/driver/scene/wall_period.h"
 #include "cases/driver/scene/wall_sweep.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -182,7 +183,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
         mor_wall_sweep_clear(context, &sweep);
     }
     MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
-    MOR_TRY(context, mor_simulation_repeat_wall(context, the_case, wall, points, *shares));
+    MOR_TRY(context, mor_wall_period_keep(context, the_case, wall, &points->n_points, points->positions, *shares));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
               "inside the domain and outside earlier walls; make the wall thicker or move it",

@@ -1,7 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Walls of a domain that repeats itself. */
-#include "cases/driver/scene/build/simulation_build.h"
+#include "cases/driver/scene/wall_period.h"
 
 #include <string.h>
 
@@ -16,24 +15,24 @@ static bool is_between(const mor_case *c, const double *point)
     return is;
 }
 
-static void keep_between(const mor_case *c, mor_lattice_points *points, double *shares)
+static int64_t keep_between(const mor_case *c, int64_t n_points, double *points, double *shares)
 {
     int64_t n_kept = 0;
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        if (is_between(c, points->positions + 3 * i)) {
-            memmove(points->positions + 3 * n_kept, points->positions + 3 * i, 3 * sizeof *points->positions);
+    for (int64_t i = 0; i < n_points; ++i) {
+        if (is_between(c, points + 3 * i)) {
+            memmove(points + 3 * n_kept, points + 3 * i, 3 * sizeof *points);
             if (shares != NULL) {
                 shares[n_kept] = shares[i];
             }
             n_kept += 1;
         }
     }
-    points->n_points = n_kept;
+    return n_kept;
 }
 
-/* The face of a wall near its end would be the end itself. A wall with points next to a face goes on beyond it where one
- * of them does. */
-static mor_status check_end(mor_context *context, const mor_case *c, int wall, const mor_lattice_points *points,
+/* The face of a wall near its end would be the end itself. A wall with points next to a periodic face goes on beyond it
+ * where one of them does. */
+static mor_status check_end(mor_context *context, const mor_case *c, int wall, int64_t n_points, const double *points,
                             int axis, int side)
 {
     const mor_case_wall *it = &c->walls[wall];
@@ -41,9 +40,9 @@ static mor_status check_end(mor_context *context, const mor_case *c, int wall, c
     const double face = side > 0 ? c->domain_maximum[axis] : c->domain_minimum[axis];
     bool is_near = false;
     bool goes_on = false;
-    for (int64_t i = 0; i < points->n_points && !goes_on; ++i) {
+    for (int64_t i = 0; i < n_points && !goes_on; ++i) {
         double point[3];
-        memcpy(point, points->positions + 3 * i, sizeof point);
+        memcpy(point, points + 3 * i, sizeof point);
         if (side * (face - point[axis]) < c->spacing) {
             is_near = true;
             point[axis] = face + side * beyond;
@@ -58,16 +57,16 @@ static mor_status check_end(mor_context *context, const mor_case *c, int wall, c
     return MOR_OK;
 }
 
-mor_status mor_simulation_repeat_wall(mor_context *context, const mor_case *the_case, int wall,
-                                      mor_lattice_points *points, double *shares)
+mor_status mor_wall_period_keep(mor_context *context, const mor_case *the_case, int wall, int64_t *n_points,
+                                double *points, double *shares)
 {
     if (the_case->periodic == 0) {
         return MOR_OK;
     }
-    keep_between(the_case, points, shares);
+    *n_points = keep_between(the_case, *n_points, points, shares);
     for (int a = 0; a < 3; ++a) {
         for (int side = -1; side <= 1 && mor_case_is_periodic(the_case, a); side += 2) {
-            MOR_TRY(context, check_end(context, the_case, wall, points, a, side));
+            MOR_TRY(context, check_end(context, the_case, wall, *n_points, points, a, side));
         }
     }
     return MOR_OK;
