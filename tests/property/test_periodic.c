@@ -152,7 +152,7 @@ static void faces_change_no_more_than_rounding_where_soil_is_sorted(void **state
     scene_free(moved);
 }
 
-/* The oracle of all that is above: with the faces far from the soil, whose places are rounded to 1e-15 m, it moves as
+/* The oracle of all that is above: with the faces far from the soil, whose places are rounded to 4e-15 m, it moves as
  * in a domain that does not repeat itself. Rounding grows over the steps by less than a million. */
 static void soil_far_from_the_faces_moves_as_without_them(void **state)
 {
