@@ -119,11 +119,11 @@ static inline mor_relation_points mor_images_targets(const mor_images *images)
  *  @param relation [in,out]  built with targets of these images */
 void mor_images_sort(mor_context *context, const mor_images *images, mor_relation *relation);
 
-/** Returns the point that an entry of a list stands for.
+/** Returns the point that an entry of a list stands for; without images the entry itself.
  *  @param entry [in]  of a list */
 static inline int64_t mor_images_owner(const mor_images *images, int64_t entry)
 {
-    return entry < images->first ? entry : images->owner[entry - images->first];
+    return images->owner == NULL || entry < images->first ? entry : images->owner[entry - images->first];
 }
 
 /** Gives images what their owners have; nothing without images.

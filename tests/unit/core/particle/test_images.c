@@ -149,6 +149,7 @@ static void without_axes_nothing_is_made(void **state)
     assert_false(mor_images_are_used(&images));
     assert_int_equal(context.memory_bytes, 0);
     mor_images_follow(&context, &images, NULL, 3, 0);
+    assert_int_equal(mor_images_owner(&images, 17), 17);
 }
 
 /* Exact: the lengths are multiples of a power of two. */
