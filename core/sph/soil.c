@@ -130,7 +130,8 @@ static const mor_stage soil_stages[] = {
      SHARED(REGULARIZATION), BIT(POSITION) | BIT(VELOCITY) | SHARED(BOUNDS), "XSPH and shifting, when switched on",
      has_regularization},
     {"second drift", mor_soil_drift_second, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
-     BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDS), "positions and densities to the end of the step", NULL},
+     BIT(POSITION) | BIT(DENSITY) | BIT(CROSSINGS) | SHARED(BOUNDS), "positions and densities to the end of the step",
+     NULL},
     {"nonlocal field", mor_soil_diffuse_fields, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS), 0, SHARED(STATE),
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS),
@@ -150,15 +151,15 @@ static const mor_stage soil_stages[] = {
      0, SHARED(ENERGY_SUMS), "energy dissipated by the stress update, at an interval, when a probe needs it",
      has_audit},
     {"outflow", mor_soil_remove_outflow,
-     BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS) | SHARED(STATE), 0, SHARED(ORDER),
-     "removes particles that left the domain, when outflow is allowed", NULL},
+     BIT(CROSSINGS) | BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(STRESS) | SHARED(STATE), 0,
+     SHARED(ORDER), "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
 static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) |
                                         BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
                                         BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) |
-                                        BIT(SPIN_STRESS) | SHARED(STATE) | SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) |
-                                        SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+                                        BIT(SPIN_STRESS) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
+                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles; nor what is closed for clusters at walls only. */
@@ -319,6 +320,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (mor_soil_has_density_sums(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
     }
+    MOR_TRY(context, mor_soil_allocate_images(context, soil));
     MOR_TRY(context, mor_soil_check_sleep(context, s));
     if (s->scheme.sleep_after > 0.0) {
         MOR_TRY(context, mor_sleep_init(context, &soil->sleep, n_particles));
@@ -369,6 +371,8 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
     fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~(BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN));
+    fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? ~(uint64_t)0
+                                                                                               : ~BIT(CROSSINGS);
     fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
@@ -395,6 +399,9 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
         mor_soil_contact_clear(context, mor_soil_contact_at(soil, k));
     }
     mor_soil_clear_energy(context, soil);
+    mor_images_clear(context, &soil->images);
+    MOR_FREE(context, &soil->image_stress);
+    MOR_FREE(context, &soil->image_strains);
     mor_relation_clear(context, &soil->inner);
     mor_tree_clear(context, &soil->tree);
     mor_reduce_room_clear(context, &soil->room);
@@ -430,7 +437,8 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
     MOR_CHECK(context, soil->n_walls < MOR_SOIL_WALLS_MAX, MOR_ERROR_ARGUMENT,
               "wall '%s' is one too many; at most %d walls are allowed: join some with a union", request->name,
               MOR_SOIL_WALLS_MAX);
-    MOR_TRY(context, mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, soil->tree.n_clusters));
+    MOR_TRY(context,
+            mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, &soil->period, soil->tree.n_clusters));
     soil->n_walls += 1;
     return request->normals != NULL ? make_corners(context, soil) : MOR_OK;
 }

@@ -7,6 +7,7 @@
 #include "core/geometry/domain.h"
 #include "core/material/composite.h"
 #include "core/material/kit/material.h"
+#include "core/particle/images.h"
 #include "core/particle/set.h"
 #include "core/scheme/scheme.h"
 #include "core/sph/boundary/soil_contact.h"
@@ -40,6 +41,7 @@ typedef struct mor_soil_settings {
     double gravity[3];                 /* m/s2 */
     double domain_minimum[3];          /* m, before the placement */
     double domain_maximum[3];          /* likewise */
+    bool is_periodic[3];               /* space repeats itself along the axis, by the extent of the domain */
     const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither rotated nor translated */
     mor_guard guard;                   /* around updates of a material whose code may crash; NULL: none */
     bool removes_outflow;              /* what leaves the domain is removed; else it stops the run */
@@ -122,6 +124,11 @@ typedef struct mor_soil {
     mor_soil_energy *energy; /* the audit; NULL: none */
     mor_tree tree;
     mor_relation inner;
+    mor_period period;     /* of the domain */
+    mor_images images;     /* of the particles; of no period: zeroed */
+    int64_t image_room;    /* images that the records and the next two have room for */
+    double *image_stress;  /* shape [n + image_room padded to 8, 6]; artificial stress with images, Pa; or NULL */
+    double *image_strains; /* shape [n + image_room padded to 8, 6]; last strain rate with images, 1/s; or NULL */
     mor_soil_contact walls[MOR_SOIL_WALLS_MAX];
     int n_walls;
     mor_soil_contact boundaries[MOR_SOIL_BOUNDARIES_MAX]; /* moved by others */
@@ -198,7 +205,7 @@ mor_status mor_soil_init_state(mor_context *context, mor_soil *soil);
 
 /** Sorts the particles into clusters. To be called once when positions have been set, not after a resume.
  *  Gives: a new generation of the set; the lists are rebuilt in the next step. */
-void mor_soil_sort(mor_soil *soil);
+void mor_soil_sort(mor_context *context, mor_soil *soil);
 
 /** Divides kernel sums, and kernel gradients where the scheme asks for it, by their means over the particles that soil
  *  surrounds in place of those of the lattice, for particles that stand on none. After mor_soil_sort, also before a
@@ -210,6 +217,17 @@ mor_status mor_soil_normalize(mor_context *context, mor_soil *soil);
  *  @param soil [in,out]  set.n_particles is at most set.n_created
  *  Gives: the lists are rebuilt in the next step. */
 void mor_soil_fit(mor_soil *soil);
+
+/** Finds where a particle would be had periodic faces not put it back.
+ *  @param particle [in]   index in the set
+ *  @param place    [out]  shape [3], unit m */
+void mor_soil_find_unwrapped(const mor_soil *soil, int64_t particle, double *place);
+
+/** Checks that no rock comes so near to a periodic face that soil beyond it would see it: rocks have no images.
+ *  @param is_start [in]  the case is to be refused, not the run to be stopped
+ *  @param time     [in]  for the message, unit s
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG at the start, MOR_ERROR_NUMERIC later. */
+mor_status mor_soil_check_images(mor_context *context, const mor_soil *soil, bool is_start, double time);
 
 /** Finds the energy of what has left the domain, each particle as it was when it left: kinetic, potential, elastic.
  *  @param datum    [in]   shape [3]; potential energy counts from here, unit m

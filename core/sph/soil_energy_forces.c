@@ -185,6 +185,7 @@ static void strip_records(mor_context *context, const mor_soil_powers *job)
         }
         memset(record + MOR_RECORD_STRESS, 0, 6 * sizeof *record);
     }
+    mor_soil_follow_records(context, job->soil);
 }
 
 /* Takes away the skew part, too. */
@@ -193,6 +194,7 @@ static void strip_skew(mor_context *context, const mor_soil *soil)
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
         memset(soil->extra + i * MOR_EXTRA_SIZE + MOR_EXTRA_LOWER, 0, 5 * sizeof *soil->extra);
     }
+    mor_soil_follow_records(context, soil);
 }
 
 /* The stress of the start of the step, beside the velocities that the momentum loop saw. */
@@ -201,6 +203,7 @@ static void restore_stress(mor_context *context, const mor_soil_powers *job)
     MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
         memcpy(job->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS, job->stress + 6 * i, 6 * sizeof *job->records);
     }
+    mor_soil_follow_records(context, job->soil);
 }
 
 static void restore_records(mor_context *context, const mor_soil_powers *job)
@@ -237,8 +240,10 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
     mor_pair_constants none = soil->constants;
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
-    arrays.artificial_stress = mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS);
-    arrays.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
+    arrays.artificial_stress = mor_images_extend(
+        context, &soil->images, mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS), 6, soil->image_stress);
+    arrays.strain_rate =
+        mor_images_extend(context, &soil->images, mor_view_read(view, MOR_FIELD_STRAIN_RATE), 6, soil->image_strains);
     arrays.acceleration = soil->energy->scratch;
     none.diffusion_rate = 0.0;
     none.has_artificial_stress = none.has_hourglass = none.has_spin = false;

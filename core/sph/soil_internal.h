@@ -189,6 +189,21 @@ static inline mor_soil_contact *mor_soil_contact_at(mor_soil *soil, int index)
     return index < soil->n_walls ? &soil->walls[index] : &soil->boundaries[index - soil->n_walls];
 }
 
+/** Makes period and images of the particles, and refuses what does not go with them.
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. */
+mor_status mor_soil_allocate_images(mor_context *context, mor_soil *soil);
+
+/** Builds the lists of the particles.
+ *  @param position [in]   shape [n_particles, 3], unit m
+ *  @param reach    [in]   of the lists, unit m
+ *  @param points   [out]  the particles as lists see them
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const double *position, double reach,
+                                mor_relation_points *points);
+
+/** Gives images the records of their owners, and what the momentum loop reads beside them. */
+void mor_soil_follow_records(mor_context *context, const mor_soil *soil);
+
 /** What all pair loops need, without fields; borrowed until the next resize or permute.
  *  @param lists [in]  MOR_RESOURCE_LISTS or MOR_RESOURCE_SHORT_LISTS, which the loop reads */
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int lists);

@@ -37,8 +37,12 @@ static void drift_half(mor_context *context, mor_soil *soil, mor_view *view, dou
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         const int64_t first = block * MOR_BLOCK;
         const int64_t last = mor_block_end(block, n);
-        for (int64_t k = 3 * first; k < 3 * last; ++k) {
+        for (int64_t k = 3 * first; k < 3 * last && !soil->period.is_any; ++k) {
             position[k] += half_step * velocity[k];
+        }
+        for (int64_t k = 3 * first; k < 3 * last && soil->period.is_any; ++k) {
+            const double way = half_step * velocity[k];
+            position[k] += soil->period.length[k % 3] > 0.0 ? mor_period_round(&soil->period, way) : way;
         }
         for (int64_t i = first; i < last; ++i) {
             density[i] += half_step * rate[i];
@@ -53,7 +57,7 @@ mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *vie
     drift_half(context, soil, view, 0.5 * step->length);
     const double middle = step->time + 0.5 * step->length;
     for (int w = 0; w < soil->n_walls; ++w) {
-        mor_soil_contact_move(mor_view_write_shared(view, MOR_RESOURCE_BOUNDARIES, &soil->walls[w]), middle);
+        mor_soil_contact_move(context, mor_view_write_shared(view, MOR_RESOURCE_BOUNDARIES, &soil->walls[w]), middle);
     }
     return MOR_OK;
 }
@@ -62,6 +66,8 @@ mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *vi
 {
     mor_soil *soil = owner;
     drift_half(context, soil, view, 0.5 * step->length);
+    mor_images_put_inside(context, &soil->images, soil->set.n_particles, mor_view_write(view, MOR_FIELD_POSITION),
+                          mor_view_write(view, MOR_FIELD_CROSSINGS));
     return mor_soil_check_domain(context, soil, view, step);
 }
 
@@ -74,9 +80,14 @@ static void sort_particles(mor_soil *soil, mor_view *view)
     soil->has_lists = false;
 }
 
-void mor_soil_sort(mor_soil *soil)
+void mor_soil_sort(mor_context *context, mor_soil *soil)
 {
     mor_view view = mor_view_open(&soil->set, NULL);
+    if (soil->period.is_any) {
+        double *position = mor_view_write(&view, MOR_FIELD_POSITION);
+        mor_period_round_places(&soil->period, soil->set.n_particles, 3, position);
+        mor_images_put_inside(context, &soil->images, soil->set.n_particles, position, NULL);
+    }
     sort_particles(soil, &view);
 }
 
@@ -90,6 +101,7 @@ static void pack_soils(mor_context *context, const mor_soil *soil, const double 
         of_soil[MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * soil->pair_soils[index].limiter_rate;
         of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
     }
+    mor_images_follow(context, &soil->images, soil->of_soil, MOR_PAIR_OF_SOIL_SIZE, -1);
     MOR_PARALLEL_FOR (context, block, mor_block_count(soil->tree.n_clusters), 1) {
         mor_pair_find_one_soil(&soil->inner, soil->of_soil, block * MOR_BLOCK,
                                mor_block_end(block, soil->tree.n_clusters), soil->one_soil);
@@ -112,11 +124,11 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
 {
     const double reach =
         MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
-    const mor_relation_points points = {&soil->tree, mor_view_read(view, MOR_FIELD_POSITION), 3};
+    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
+    mor_relation_points points;
     mor_relation *inner = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
     const int n_regions = soil->settings.n_regions > 1 ? soil->settings.n_regions : 1;
-    mor_tree_fit(&soil->tree, points.records, 3);
-    MOR_TRY(context, mor_relation_build(context, inner, &points, &points, reach));
+    MOR_TRY(context, mor_soil_build_inner(context, soil, position, reach, &points));
     inner->generation = soil->set.generation;
     const double *state[MOR_MATERIAL_STATES_MAX];
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, state);
@@ -154,13 +166,18 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
         soil->has_lists = !mor_soil_contact_is_stale(mor_soil_contact_at(soil, k));
     }
     const bool is_fit = *drift + other <= soil->settings.scheme.skin_ratio * soil->settings.spacing;
-    return soil->has_lists && is_fit ? MOR_OK : build_lists(context, soil, view);
+    if (soil->has_lists && is_fit) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_soil_check_images(context, soil, false, step->time));
+    return build_lists(context, soil, view);
 }
 
 /* What packing reads and writes. */
 typedef struct packing {
     const mor_soil *soil;
     const double *position, *velocity, *density, *stress, *mass;
+    const double *wrap; /* shape [n_particles, 3]; to where the lists see particles, m; NULL: where they are */
     const double *state[MOR_MATERIAL_STATES_MAX];
     double *records;
 } packing;
@@ -209,6 +226,9 @@ static mor_status pack_range(void *job, int64_t first, int64_t last)
         double *record = p->records + i * MOR_RECORD_SIZE;
         const double density = p->density[i];
         memcpy(record + MOR_RECORD_POSITION, p->position + 3 * i, 3 * sizeof *record);
+        for (int a = 0; a < 3 && p->wrap != NULL; ++a) {
+            record[MOR_RECORD_POSITION + a] += p->wrap[3 * i + a];
+        }
         record[MOR_RECORD_VOLUME] = p->mass[i] / density;
         memcpy(record + MOR_RECORD_VELOCITY, p->velocity + 3 * i, 3 * sizeof *record);
         record[MOR_RECORD_IMPEDANCE] = density * mor_soil_kind_of(soil, i)->sound_speed;
@@ -229,6 +249,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
                    .density = mor_view_read(view, MOR_FIELD_DENSITY),
                    .stress = mor_view_read(view, MOR_FIELD_STRESS),
                    .mass = mor_view_read(view, MOR_FIELD_MASS),
+                   .wrap = soil->images.wrap,
                    .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
     const mor_blocks blocks = mor_soil_blocks(soil, GRAIN, 4);
@@ -249,6 +270,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
         memcpy(job.records + i * MOR_RECORD_SIZE, job.records + (n - 1) * MOR_RECORD_SIZE,
                MOR_RECORD_SIZE * sizeof(double));
     }
+    mor_soil_follow_records(context, soil);
     return MOR_OK;
 }
 
@@ -356,6 +378,7 @@ mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, cons
     mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, soil->wall_force);
     soil->largest_speed = sqrt(largest[KICK_SPEED]);
     soil->largest_acceleration = sqrt(largest[KICK_STRENGTH]);
+    mor_soil_follow_records(context, soil);
     if (!(soil->largest_speed < soil->sound_speed) || !isfinite(soil->largest_acceleration)) {
         return report_runaway(context, soil, view, step);
     }

@@ -113,6 +113,7 @@ static mor_status diffuse(mor_context *context, diffusing *it, const mor_pair_ar
     const mor_soil *soil = it->soil;
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
     double largest = 0.0;
+    mor_images_follow(context, &soil->images, soil->field_records, MOR_PAIR_FIELD_SIZE, -1);
     mor_soil_run_pairs(context, &soil->constants, arrays, soil->table->diffuse);
     mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 1, find_largest, it, soil->room.values, &largest);
     const double parts = ceil(step->length * largest);
@@ -124,6 +125,7 @@ static mor_status diffuse(mor_context *context, diffusing *it, const mor_pair_ar
     it->part = step->length / (parts > 1.0 ? parts : 1.0);
     for (int k = 0; k < (int)parts; ++k) {
         if (k > 0) {
+            mor_images_follow(context, &soil->images, soil->field_records, MOR_PAIR_FIELD_SIZE, -1);
             mor_soil_run_pairs(context, &soil->constants, arrays, soil->table->diffuse);
         }
         add_diffusion(context, it);

@@ -23,7 +23,8 @@ static void pack_places(mor_soil *soil)
         const double *position = soil->set.data[MOR_FIELD_POSITION] + 3 * from;
         double *record = soil->records + i * MOR_RECORD_SIZE;
         for (int a = 0; a < 3; ++a) {
-            record[MOR_RECORD_POSITION + a] = position[a];
+            record[MOR_RECORD_POSITION + a] =
+                position[a] + (soil->images.wrap != NULL ? soil->images.wrap[3 * from + a] : 0.0);
         }
         record[MOR_RECORD_VOLUME] = soil->set.data[MOR_FIELD_MASS][from] / soil->set.data[MOR_FIELD_DENSITY][from];
     }
@@ -51,7 +52,8 @@ static int64_t sum_inner(const mor_soil *soil, const place *places, place *sum)
     for (int64_t cluster = 0; cluster < soil->tree.n_clusters; ++cluster) {
         bool is_inner = (cluster + 1) * MOR_CLUSTER <= soil->set.n_particles;
         for (int32_t k = 0; k < soil->inner.counts[cluster] && is_inner; ++k) {
-            is_inner = places[soil->inner.lists[cluster][k]].value >= AT_SURFACE * soil->lattice_sum;
+            is_inner = places[mor_images_owner(&soil->images, soil->inner.lists[cluster][k])].value >=
+                       AT_SURFACE * soil->lattice_sum;
         }
         for (int64_t lane = 0; lane < MOR_CLUSTER && is_inner; ++lane) {
             sum->value += places[cluster * MOR_CLUSTER + lane].value;
@@ -64,16 +66,16 @@ static int64_t sum_inner(const mor_soil *soil, const place *places, place *sum)
 
 mor_status mor_soil_normalize(mor_context *context, mor_soil *soil)
 {
-    const mor_relation_points points = {&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3};
+    const double reach = MOR_KERNEL_SUPPORT * soil->smoothing_length;
+    mor_relation_points points;
     const double factor = mor_kernel_gradient_factor(soil->smoothing_length, soil->settings.dimension);
     mor_pair_constants constants = soil->constants;
     place *places = NULL;
     place sum = {0.0, 0.0};
     constants.gradient_factor = factor;
+    MOR_TRY(context, mor_soil_build_inner(context, soil, soil->set.data[MOR_FIELD_POSITION], reach, &points));
     pack_places(soil);
-    mor_tree_fit(&soil->tree, points.records, 3);
-    MOR_TRY(context,
-            mor_relation_build(context, &soil->inner, &points, &points, MOR_KERNEL_SUPPORT * soil->smoothing_length));
+    mor_soil_follow_records(context, soil);
     soil->has_lists = false;
     MOR_TRY(context, MOR_NEW(context, &places, soil->tree.n_clusters * MOR_CLUSTER, "kernel sums of the start"));
     find_places(soil, &constants, places);

@@ -92,6 +92,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
         const double divisor = soil->of_soil != NULL ? mor_soil_kind_of(soil, i)->reference_density : 1.0;
         records[i * MOR_RECORD_SIZE + MOR_RECORD_VOLUME] = mass[i] / divisor;
     }
+    mor_soil_follow_records(context, soil);
     mor_soil_sum_kernels(context, soil, view, records, keep_density, soil->density_sums);
     for (int64_t i = 0; i < n && soil->of_soil != NULL; ++i) {
         sum[i] *= mor_soil_kind_of(soil, i)->reference_density;
@@ -113,6 +114,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
         record[MOR_RECORD_IMPEDANCE] = density[i] * mor_soil_kind_of(soil, i)->sound_speed;
         record[MOR_RECORD_DENSITY] = density[i];
     }
+    mor_soil_follow_records(context, soil);
     return MOR_OK;
 }
 
@@ -182,6 +184,7 @@ mor_status mor_soil_store_strain_rate(mor_context *context, void *owner, mor_vie
 typedef struct regularization {
     double xsph, shifting; /* parts of the sums, times the length of the step where they are velocities */
     const double *sums, *velocity_gradient;
+    const mor_period *period; /* NULL: none */
     double *position, *velocity;
 } regularization;
 
@@ -202,6 +205,9 @@ static void regularize_block(void *job, int64_t first, int64_t last, double *val
         for (int a = 0; a < 3; ++a) {
             shift[a] = it->shifting * speed * sums[3 + a];
             translation[a] = it->xsph * sums[a] + shift[a];
+            if (it->period != NULL && it->period->length[a] > 0.0) {
+                translation[a] = mor_period_round(it->period, translation[a]);
+            }
             it->position[3 * i + a] += translation[a];
         }
         for (int a = 0; a < 3; ++a) {
@@ -225,6 +231,7 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view
     regularization job = {.xsph = step->length * soil->settings.scheme.xsph,
                           .shifting = soil->settings.scheme.shifting ? step->length : 0.0,
                           .sums = arrays.regularization,
+                          .period = soil->images.period,
                           .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
                           .position = mor_view_write(view, MOR_FIELD_POSITION),
                           .velocity = mor_view_write(view, MOR_FIELD_VELOCITY)};

@@ -114,9 +114,10 @@ static double find_stored(const mor_soil *soil, const outflow_fields *from, int6
 static void count_out(mor_soil *soil, const outflow_fields *from, int64_t i)
 {
     const double mass = from->mass[i];
-    const double *x = from->position + 3 * i;
     const double *v = from->velocity + 3 * i;
     double *out = soil->outflow;
+    double x[3];
+    mor_soil_find_unwrapped(soil, i, x);
     soil->n_outflow += 1;
     out[MOR_SOIL_OUTFLOW_MASS] += mass;
     out[MOR_SOIL_OUTFLOW_KINETIC] += 0.5 * mass * mor_vector_dot(v, v);

@@ -70,7 +70,7 @@ static inline mor_wall_request floor_request(const floor_case *f, mor_wall_frict
 static inline void floor_add(floor_case *f, const mor_wall_request *request)
 {
     mor_soil_contact_clear(&f->soil.context, &f->wall);
-    assert_int_equal(mor_soil_contact_init(&f->soil.context, &f->wall, request, f->soil.tree.n_clusters), MOR_OK);
+    assert_int_equal(mor_soil_contact_init(&f->soil.context, &f->wall, request, NULL, f->soil.tree.n_clusters), MOR_OK);
 }
 
 /** Puts the floor below the soil, which is open. */

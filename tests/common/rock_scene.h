@@ -169,7 +169,7 @@ static inline void rock_scene_start(rock_scene *it, double end)
     mor_stepper stepper;
     uint64_t evolving = 0;
     rock_scene_require(it, mor_soil_init_state(&it->context, &it->soil));
-    mor_soil_sort(&it->soil);
+    mor_soil_sort(&it->context, &it->soil);
     rock_scene_require(it, mor_schedule_init(&it->context, &it->schedule, end));
     mor_soil_stepper(&it->soil, &stepper, &evolving);
     rock_scene_require(it, mor_schedule_add(&it->context, &it->schedule, &stepper, evolving));

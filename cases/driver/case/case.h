@@ -509,6 +509,7 @@ typedef struct mor_case {
     double domain_minimum[3]; /* m */
     double domain_maximum[3]; /* m */
     int outflow;              /* of soil from the domain: 0 stops the run, 1 is removed */
+    int periodic;             /* axes along which the domain repeats itself, see mor_case_is_periodic */
     uint64_t seed;
     double jitter_ratio; /* random displacement of the lattice / spacing */
     /* Placement of the whole scene (geometry, lattice, gravity): x -> rotation * x + translation. */
@@ -545,6 +546,14 @@ typedef struct mor_case {
     mor_case_maps maps;
     mor_case_output output;
 } mor_case;
+
+/** Whether the domain repeats itself along an axis.
+ *  @param axis [in]  0 to 2: x, y, z */
+static inline bool mor_case_is_periodic(const mor_case *the_case, int axis)
+{
+    static const int masks[] = {0, 1, 2, 4, 3, 6, 5, 7}; /* in the order of the words of domain.periodic */
+    return (masks[the_case->periodic] >> axis & 1) != 0;
+}
 
 /** Whether the particles of a soil region come from the run that a case starts from.
  *  @param soil [in]  index of the region */

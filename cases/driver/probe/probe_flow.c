@@ -54,14 +54,27 @@ static mor_status deposit_volume(mor_context *context, const view *v, double *va
 
 /* ---- Through a plane --------------------------------------------------------------------------------------------- */
 
+/* The period of the domain along the direction of a probe, m; 0: there is none. */
+static double find_period(const view *v)
+{
+    const double *length = v->simulation->soil.period.length;
+    double period = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        period = v->frame.direction[a] != 0.0 ? fmax(period, length[a]) : period;
+    }
+    return period;
+}
+
 /* Mass times velocity over the slab of two spacings around the plane, by its thickness. */
 static mor_status mass_flow(mor_context *context, const view *v, double *value)
 {
     const double reach = v->points.spacing;
+    const double period = find_period(v);
     double sum = 0.0;
     (void)context;
     for (int64_t i = 0; i < v->points.n_points; ++i) {
-        if (fabs(find_distance(v, v->points.position + 3 * i)) <= reach) {
+        const double distance = find_distance(v, v->points.position + 3 * i);
+        if (fabs(period > 0.0 ? distance - period * rint(distance / period) : distance) <= reach) {
             sum += v->points.mass[i] * mor_vector_dot(v->velocity + 3 * i, v->frame.direction);
         }
     }
@@ -69,10 +82,19 @@ static mor_status mass_flow(mor_context *context, const view *v, double *value)
     return MOR_OK;
 }
 
-/* The net mass, then the side of each particle by its number: 1 beyond the plane. */
+/* The net mass, then the side of each particle by its number: 1 beyond the plane, or beyond how many planes it has come
+ * that are a period apart. */
 static int64_t count_sides(const view *v)
 {
     return 1 + v->simulation->soil.set.n_created;
+}
+
+static double find_side(const view *v, int64_t i, double period)
+{
+    double place[3];
+    mor_soil_find_unwrapped(&v->simulation->soil, i, place);
+    const double distance = find_distance(v, place);
+    return period > 0.0 ? ceil(distance / period) : (distance > 0.0 ? 1.0 : 0.0);
 }
 
 /* All particles are followed, and counted where they are found inside the region after a change of side. */
@@ -80,11 +102,12 @@ static void remember_sides(const view *v, bool is_start, double *memory)
 {
     const mor_soil *soil = &v->simulation->soil;
     double *const *data = soil->set.data;
+    const double period = find_period(v);
     memory[0] = is_start ? 0.0 : memory[0];
     for (int64_t i = 0; i < soil->set.n_particles; ++i) {
         const double *place = data[MOR_FIELD_POSITION] + 3 * i;
         double *side = &memory[1 + soil->set.id[i]];
-        const double now = find_distance(v, place) > 0.0 ? 1.0 : 0.0;
+        const double now = find_side(v, i, period);
         const bool is_counted = v->soil < 0 || soil->region_field < 0 || (int)data[soil->region_field][i] == v->soil;
         if (!is_start && now != *side && is_counted && mor_probe_is_inside(v, place)) {
             memory[0] += (now - *side) * data[MOR_FIELD_MASS][i];
@@ -112,7 +135,7 @@ static void remember_starts(const view *v, bool is_start, double *memory)
 {
     const mor_set *set = &v->simulation->soil.set;
     for (int64_t i = 0; is_start && i < set->n_particles; ++i) {
-        memcpy(memory + 3 * set->id[i], set->data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof *memory);
+        mor_soil_find_unwrapped(&v->simulation->soil, i, memory + 3 * set->id[i]);
     }
 }
 
@@ -127,7 +150,8 @@ static void fill_displacements(const void *argument, int64_t first, int64_t n, d
     const mor_set *set = &v->simulation->soil.set;
     for (int64_t k = 0; k < n; ++k) {
         const int64_t i = v->index != NULL ? v->index[first + k] : first + k;
-        const double *now = set->data[MOR_FIELD_POSITION] + 3 * i;
+        double now[3];
+        mor_soil_find_unwrapped(&v->simulation->soil, i, now);
         const double *then = v->memory + 3 * set->id[i];
         const double offset[3] = {now[0] - then[0], now[1] - then[1], now[2] - then[2]};
         values[k] = mor_vector_length(offset);

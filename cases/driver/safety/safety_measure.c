@@ -64,17 +64,19 @@ static void set_scales(const mor_simulation *simulation, double height, mor_safe
     reference->percent = 100.0 * (1.0 - fmin(fmax(cells, 1.0) / n, 0.5));
 }
 
-static mor_status copy_state(mor_context *context, const mor_set *set, mor_safety_reference *reference)
+static mor_status copy_state(mor_context *context, const mor_simulation *simulation, mor_safety_reference *reference)
 {
+    const mor_set *set = &simulation->soil.set;
     const int field = mor_set_find_field(set, "plastic_strain");
     reference->n = set->n_created;
+    memcpy(reference->repeat, simulation->soil.period.length, sizeof reference->repeat);
     MOR_TRY(context, MOR_NEW(context, &reference->position, 3 * reference->n, "positions at the start of trials"));
     MOR_TRY(context, MOR_NEW(context, &reference->values, reference->n, "displacements of a trial"));
     if (field >= 0 && set->data[field] != NULL) {
         MOR_TRY(context, MOR_NEW(context, &reference->plastic_strain, reference->n, "strains at the start of trials"));
     }
     for (int64_t i = 0; i < set->n_particles; ++i) {
-        memcpy(reference->position + 3 * set->id[i], set->data[MOR_FIELD_POSITION] + 3 * i, 3 * sizeof(double));
+        mor_soil_find_unwrapped(&simulation->soil, i, reference->position + 3 * set->id[i]);
         if (reference->plastic_strain != NULL) {
             reference->plastic_strain[set->id[i]] = set->data[field][i];
         }
@@ -90,7 +92,7 @@ mor_status mor_safety_reference_init(mor_context *context, const mor_simulation 
         MOR_TRY(context, find_height(context, simulation, &height));
     }
     set_scales(simulation, height, reference);
-    const mor_status status = copy_state(context, &simulation->soil.set, reference);
+    const mor_status status = copy_state(context, simulation, reference);
     if (status != MOR_OK) {
         mor_safety_reference_clear(context, reference);
     }
@@ -119,7 +121,12 @@ double mor_safety_displacement(const mor_safety_reference *reference, const mor_
 {
     const double *start = reference->position + 3 * set->id[particle];
     const double *now = set->data[MOR_FIELD_POSITION] + 3 * particle;
-    const double way[3] = {now[0] - start[0], now[1] - start[1], now[2] - start[2]};
+    const double *crossings = set->data[MOR_FIELD_CROSSINGS];
+    double way[3];
+    for (int a = 0; a < 3; ++a) {
+        way[a] = now[a] - start[a];
+        way[a] += crossings != NULL ? crossings[3 * particle + a] * reference->repeat[a] : 0.0;
+    }
     return mor_vector_length(way);
 }
 

@@ -16,6 +16,7 @@ typedef struct mor_safety_reference {
     double *plastic_strain; /* shape [n], by number, 1; NULL: the law tells none */
     double *values;         /* shape [n]; scratch */
     int64_t n;              /* particles at creation */
+    double repeat[3];       /* periods of the domain, m; 0: the axis has none */
     double height;          /* of the slope, H, m */
     double gravity;         /* m/s2 */
     double settlement;      /* elastic settlement of the soil under its weight, about, m */

@@ -76,6 +76,20 @@ static void fill_elastic(const void *argument, int64_t start, int64_t n, double 
     }
 }
 
+/* Potential energy that particles have because periodic faces put them back, J (J/m). */
+static void fill_crossings(const void *argument, int64_t start, int64_t n, double *terms)
+{
+    const mor_soil *soil = argument;
+    for (int64_t i = start; i < start + n; ++i) {
+        const double *crossings = soil->set.data[MOR_FIELD_CROSSINGS] + 3 * i;
+        double gained = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            gained += soil->settings.gravity[a] * soil->period.length[a] * crossings[a];
+        }
+        terms[i - start] = -soil->set.data[MOR_FIELD_MASS][i] * gained;
+    }
+}
+
 void mor_simulation_energies(const mor_simulation *simulation, int n_threads, double *energies)
 {
     double datum[3];
@@ -86,6 +100,9 @@ void mor_simulation_energies(const mor_simulation *simulation, int n_threads, do
         points.n_threads = n_threads;
         energies[0] += mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]);
         energies[1] += mor_measure_potential_energy(&points, simulation->soil.settings.gravity, datum);
+        if (simulation->soil.period.is_any) {
+            energies[1] += mor_sum_over(points.n_points, n_threads, fill_crossings, &simulation->soil);
+        }
         energies[2] += mor_sum_over(points.n_points, n_threads, fill_elastic, &simulation->soil);
     }
 }

@@ -27,7 +27,7 @@ static mor_status prepare_contact(mor_context *context, mor_soil_contact *contac
         MOR_TRY(context, MOR_NEW(context, &contact->built, 3 * n, "boundary points of the lists"));
     }
     mor_tree_fit(&contact->tree, contact->boundary->records, RECORD);
-    return MOR_OK;
+    return contact->is_wall ? mor_images_init(context, &contact->images, contact->period, n) : MOR_OK;
 }
 
 /* Of any point of a wall at any time, m/s. */
@@ -94,14 +94,18 @@ static mor_status copy_points(mor_context *context, mor_soil_contact *contact, c
             memcpy(contact->base + 3 * i, record + MOR_BOUNDARY_POSITION, 3 * sizeof *record);
         }
     }
+    if (contact->period != NULL) {
+        mor_period_round_places(contact->period, request->n_points, RECORD, contact->boundary->records);
+    }
     MOR_FREE(context, &order);
     return MOR_OK;
 }
 
 mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request,
-                                 int64_t n_soil_clusters)
+                                 const mor_period *period, int64_t n_soil_clusters)
 {
     memset(contact, 0, sizeof *contact);
+    contact->period = period != NULL && period->is_any ? period : NULL;
     strncpy(contact->name, request->name, sizeof contact->name - 1);
     contact->n_points = request->n_points;
     contact->is_wall = true;
@@ -210,6 +214,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->farthest);
     MOR_FREE(context, &contact->first_slot);
     MOR_FREE(context, &contact->first_of_patch);
+    mor_images_clear(context, &contact->images);
     mor_tree_clear(context, &contact->tree);
     mor_relation_clear(context, &contact->relation);
     memset(contact, 0, sizeof *contact);
@@ -236,7 +241,7 @@ static void pose_points(mor_soil_contact *contact, const mor_pose *pose)
     }
 }
 
-void mor_soil_contact_move(mor_soil_contact *contact, double time)
+void mor_soil_contact_move(mor_context *context, mor_soil_contact *contact, double time)
 {
     contact->boundary->patches[0].is_removed = contact->removed_at > 0.0 && time >= contact->removed_at;
     if (contact->motion != NULL && contact->base != NULL) {
@@ -248,6 +253,9 @@ void mor_soil_contact_move(mor_soil_contact *contact, double time)
         const double displacement[3] = {time * contact->velocity[0], time * contact->velocity[1],
                                         time * contact->velocity[2]};
         translate_points(contact, displacement);
+    }
+    if (contact->period != NULL && contact->base != NULL) {
+        mor_soil_contact_approach_lists(context, contact);
     }
 }
 
@@ -325,7 +333,9 @@ static int64_t cut_lists(mor_soil_contact *contact)
         contact->first_slot[place] = (int32_t)n_slots;
         for (int32_t k = 0; k < count; ++n_slots) {
             const int patch = find_patch(contact->boundary, list[k]);
-            const int64_t end = contact->boundary->patches[patch].first + contact->boundary->patches[patch].n_points;
+            /* Images follow the last patch. */
+            const int64_t end =
+                patch + 1 < contact->boundary->n_patches ? contact->boundary->patches[patch + 1].first : INT64_MAX;
             const int32_t first = k;
             /* Usually all remaining points belong to one patch. */
             k = list[count - 1] < end ? count : k + 1;
@@ -396,14 +406,22 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
                                   double reach)
 {
     mor_boundary *boundary = contact->boundary;
+    if (mor_images_are_used(&contact->images)) {
+        MOR_TRY(context, mor_soil_contact_find_images(context, contact, soil, reach));
+    }
     if (contact->built != NULL) {
         mor_tree_fit(&contact->tree, boundary->records, RECORD);
         for (int64_t i = 0; i < contact->n_points; ++i) {
             memcpy(contact->built + 3 * i, boundary->records + RECORD * i, 3 * sizeof *contact->built);
         }
     }
-    const mor_relation_points points = {&contact->tree, boundary->records, RECORD};
+    const bool has_images = mor_images_are_used(&contact->images);
+    const mor_relation_points points = has_images ? mor_images_targets(&contact->images)
+                                                  : (mor_relation_points){&contact->tree, boundary->records, RECORD};
     MOR_TRY(context, mor_relation_build(context, &contact->relation, soil, &points, reach));
+    if (has_images) {
+        mor_images_sort(context, &contact->images, &contact->relation);
+    }
     contact->n_removed = count_removed(boundary);
     const int64_t needed = cut_lists(contact);
     if (needed > contact->capacity) {

@@ -5,6 +5,7 @@
 
 #include "core/geometry/motion.h"
 #include "core/particle/boundary.h"
+#include "core/particle/images.h"
 #include "core/sph/pair/pair.h"
 #include "core/sph/sleep/sleep.h"
 
@@ -85,6 +86,9 @@ typedef struct mor_soil_contact {
     double deepest;     /* that soil lay in it in the last step, m; 0: none does */
     double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
     double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
+    const mor_period *period; /* of space; borrowed; NULL: none */
+    mor_images images;        /* of a wall's points, behind them in all arrays of points; of no period: zeroed */
+    int64_t image_room;       /* images that those arrays have room for */
     mor_tree tree;
     mor_relation relation;    /* soil -> boundary */
     mor_pair_slot *slots;     /* shape [capacity]; by rising cluster, then patch */
@@ -117,10 +121,12 @@ typedef struct mor_soil_contact {
 } mor_soil_contact;
 
 /** Makes a wall. Sorts its points into clusters.
+ *  @param period          [in]      of space, outlives the wall; NULL: none. What a wall is beyond a periodic face
+ *                                   follows from its points between them
  *  @param n_soil_clusters [in]      clusters of the soil set
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request,
-                                 int64_t n_soil_clusters);
+                                 const mor_period *period, int64_t n_soil_clusters);
 
 /** Makes the relation of the soil to a boundary that is moved by another solver.
  *  @param boundary        [in,out]  borrowed; with normals or without, as it will stay
@@ -144,7 +150,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact);
  *  docs/theory/motion.md; takes it away from the time on at which it is removed.
  *  @param contact [in,out]  a wall
  *  @param time    [in]      since the start, unit s */
-void mor_soil_contact_move(mor_soil_contact *contact, double time);
+void mor_soil_contact_move(mor_context *context, mor_soil_contact *contact, double time);
 
 /** Whether patches were removed since the lists were built, which are then to be built anew. */
 bool mor_soil_contact_is_stale(const mor_soil_contact *contact);
@@ -162,6 +168,16 @@ double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact);
 
 /** Returns the largest speed of a point, unit m/s. */
 double mor_soil_contact_speed(const mor_soil_contact *contact);
+
+/** Checks that no patch of a boundary comes so near to a periodic face that soil beyond it would see it.
+ *  @param contact [in]  not a wall
+ *  @param period  [in]  of space
+ *  @param reach   [in]  of the lists, unit m
+ *  @param refusal [in]  what is returned where one does
+ *  @param time    [in]  for the message, unit s
+ *  Returns: MOR_OK; refusal. */
+mor_status mor_soil_contact_check_period(mor_context *context, const mor_soil_contact *contact,
+                                         const mor_period *period, double reach, mor_status refusal, double time);
 
 /** Sums kernel values over the boundary, slot by slot, and finds its velocity as the particles see it.
  *  @param table     [in]      pair routines
@@ -249,7 +265,7 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
 /** A force of the soil on a patch: that of one particle. */
 typedef struct mor_soil_contact_load {
     int patch;
-    const double *place;    /* shape [3]; of the particle, m */
+    double place[3];        /* of the particle, m */
     const double *gradient; /* shape [3]; of the kernel over the patch, towards it, 1/m */
     double force[3];        /* on the patch, N (N/m) */
 } mor_soil_contact_load;

@@ -324,7 +324,9 @@ static void sum_patch(mor_soil_contact *contact, int patch, const double *record
                 part[a] = repulsion != NULL ? mass * own[a] + repulsion[a] : mass * own[a];
                 force[a] -= part[a];
             }
-            mor_vector_cross_add(-1.0, record, part, moment);
+            double place[3];
+            mor_period_wrap(contact->period, record, place);
+            mor_vector_cross_add(-1.0, place, part, moment);
         }
     }
     memcpy(contact->boundary->patches[patch].force, force, sizeof force);

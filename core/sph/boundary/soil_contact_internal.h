@@ -63,6 +63,18 @@ static inline mor_boundary_friction mor_soil_contact_friction(const mor_boundary
                                            : (mor_boundary_friction){patch->friction, patch->friction_coefficient};
 }
 
+/** Leaves the points of a wall that has moved where the lists see them, on whichever side of a periodic face that is.
+ *  @param contact [in,out]  a wall with images, whose points are where the motion has put them */
+void mor_soil_contact_approach_lists(mor_context *context, mor_soil_contact *contact);
+
+/** Puts the points of a wall between periodic faces, and their images beyond them.
+ *  @param contact [in,out]  a wall with images
+ *  @param soil    [in]      who is to see them
+ *  @param reach   [in]      of the lists, unit m
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_soil_contact_find_images(mor_context *context, mor_soil_contact *contact,
+                                        const mor_relation_points *soil, double reach);
+
 /** Finds the barrier's force on each particle and the longest step it allows.
  *  @param records     [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
  *  @param n_particles [in]      number of soil particles */

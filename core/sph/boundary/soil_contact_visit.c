@@ -20,7 +20,7 @@ static void visit_slot(const mor_soil_contact *contact, int64_t slot, const doub
             is_any = is_any || load.force[a] != 0.0;
         }
         if (is_any) {
-            load.place = record;
+            mor_period_wrap(contact->period, record, load.place);
             load.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
             take(job, &load);
         }

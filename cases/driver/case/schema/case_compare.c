@@ -17,7 +17,7 @@
 /* Over before a run begins; its default follows the end. */
 #define SETTLE_TIME ".settle_time"
 
-enum { DEPTH_MAX = 32, PATH_BYTES = 192, LINE_BYTES = 4096 };
+enum { DEPTH_MAX = 32, PATH_BYTES = 192, LINE_BYTES = 4096, PERIOD_BYTES = 3 * LINE_BYTES + 16 };
 
 /* In place of a number of probes: nothing may differ. */
 enum { NOTHING_IS_FREE = -1 };
@@ -250,6 +250,37 @@ static bool is_smaller(const char *given, const char *saved, double sign)
     return is_inwards;
 }
 
+/* What a domain that repeats itself is, and its corners, in one text. */
+static void read_period(const char *text, char *period, size_t n_bytes)
+{
+    static const char *const paths[] = {"domain.periodic", "domain.min", "domain.max"};
+    char values[3][LINE_BYTES];
+    for (int k = 0; k < 3; ++k) {
+        if (!find_value(text, paths[k], values[k])) {
+            snprintf(values[k], sizeof values[k], "%s", k == 0 ? "\"none\"" : "");
+        }
+    }
+    const bool has_none = strcmp(values[0], "\"none\"") == 0;
+    snprintf(period, n_bytes, "%s%s%s%s%s", values[0], has_none ? "" : " from ", has_none ? "" : values[1],
+             has_none ? "" : " to ", has_none ? "" : values[2]);
+}
+
+/* Whether a domain repeats itself otherwise. */
+static bool compare_periods(const char *given, const char *saved, mor_case_difference *it)
+{
+    char one[PERIOD_BYTES];
+    char other[PERIOD_BYTES];
+    read_period(given, one, sizeof one);
+    read_period(saved, other, sizeof other);
+    if (strcmp(one, other) == 0) {
+        return false;
+    }
+    *it = (mor_case_difference){.is_found = true, .reason = "; a run goes on with the period it began with"};
+    snprintf(it->found, sizeof it->found, "domain.periodic = %.*s", MOR_CASE_DIFFERENCE_BYTES - 24, one);
+    snprintf(it->expected, sizeof it->expected, "domain.periodic = %.*s", MOR_CASE_DIFFERENCE_BYTES - 24, other);
+    return true;
+}
+
 /* A value of the domain that is not what a run may go on with. */
 static bool compare_domain(const char *given, const char *saved, mor_case_difference *it)
 {
@@ -304,7 +335,7 @@ void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, con
     const int n_given = count_probes(probe_types, given, n_probes, &has_audit, &has_past);
     *difference = (mor_case_difference){.is_found = false};
     compare_fixed(given, saved, n_probes, difference);
-    if (difference->is_found || compare_domain(given, saved, difference)) {
+    if (difference->is_found || compare_domain(given, saved, difference) || compare_periods(given, saved, difference)) {
         return;
     }
     if (has_past) {

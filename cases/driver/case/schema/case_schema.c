@@ -68,6 +68,12 @@ static const mor_case_key domain_keys[] = {
       "energy are counted; rocks that leave always end the run with an error"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case, outflow)},
+    {{"periodic", CHOICE, "1", DEFAULT(0.0), ANY, "none|x|y|z|xy|yz|xz|xyz",
+      "axes along which the domain repeats itself: soil that leaves through one face comes in through the other and "
+      "sees what is there, walls continue; the extent along them is a whole number of spacings"},
+     MOR_CASE_STORE_CHOICE,
+     AT(mor_case, periodic),
+     .needs = MOR_CASE_NEEDS_SOIL},
     END};
 
 static const mor_case_key lattice_keys[] = {

@@ -198,7 +198,8 @@ static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, 
     MOR_TRY(reader->context, mor_case_reader_stage(reader, root, the_case));
     MOR_TRY(reader->context, mor_case_reader_check(reader, root, the_case));
     MOR_TRY(reader->context, mor_case_reader_results(reader, root, the_case));
-    return mor_case_reader_maps(reader, root, the_case);
+    MOR_TRY(reader->context, mor_case_reader_maps(reader, root, the_case));
+    return mor_case_reader_periodic(reader, root, the_case);
 }
 
 /* ---- The whole --------------------------------------------------------------------------------------------------- */

@@ -123,6 +123,11 @@ mor_status mor_case_reader_rocks(const mor_case_reader *reader, const mor_case_n
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);
 
+/** Refuses a domain that repeats itself where the scene cannot.
+ *  @param the_case [in]  read whole
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_periodic(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);
+
 /** Refuses the name of a wall, soil, gauge or body that the case does not have.
  *  @param node     [in]  the group that holds the key
  *  @param the_case [in]  walls, soils, bodies and gauges are known

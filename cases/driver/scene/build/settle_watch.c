@@ -23,15 +23,15 @@ static const double noticeable = 0.1;
 /* Fewer samples than this are not evaluated. */
 enum { SAMPLES_LEAST = 8 };
 
-mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_set *set)
+mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_soil *soil)
 {
-    const double *position = set->data[MOR_FIELD_POSITION];
+    const mor_set *set = &soil->set;
     memset(watch, 0, sizeof *watch);
     watch->stride = 1;
     MOR_TRY(context, MOR_NEW(context, &watch->moved, set->n_particles, "displacements while settling"));
     MOR_TRY(context, MOR_NEW(context, &watch->start, 3 * set->n_particles, "positions before settling"));
     for (int64_t i = 0; i < set->n_particles; ++i) {
-        memcpy(watch->start + 3 * set->id[i], position + 3 * i, 3 * sizeof *position);
+        mor_soil_find_unwrapped(soil, i, watch->start + 3 * set->id[i]);
     }
     return MOR_OK;
 }
@@ -59,19 +59,20 @@ void mor_settle_watch_keep(mor_settle_watch *watch, const mor_settle_sample *sam
     watch->samples[watch->n++] = *sample;
 }
 
-mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set,
+mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_soil *soil,
                                 const mor_settle_sample *known)
 {
+    const mor_set *set = &soil->set;
     mor_settle_sample sample = *known;
     sample.plastic_strain = NAN;
     sample.strained = NAN;
-    const double *position = set->data[MOR_FIELD_POSITION];
     const int field = mor_set_find_field(set, "plastic_strain");
     for (int64_t i = 0; i < set->n_particles; ++i) {
         const double *start = watch->start + 3 * set->id[i];
         double way[3];
+        mor_soil_find_unwrapped(soil, i, way);
         for (int a = 0; a < 3; ++a) {
-            way[a] = position[3 * i + a] - start[a];
+            way[a] -= start[a];
         }
         watch->moved[i] = mor_vector_length(way);
     }

@@ -3,7 +3,7 @@
 #ifndef MOR_CASES_DRIVER_SCENE_BUILD_SETTLE_WATCH_H
 #define MOR_CASES_DRIVER_SCENE_BUILD_SETTLE_WATCH_H
 
-#include "core/particle/set.h"
+#include "cases/driver/scene/simulation.h"
 
 /** @file
  *  How soil settles under damping, and why it does not come to rest in the time given: because it is not stable under
@@ -49,18 +49,18 @@ typedef struct mor_settle_result {
 } mor_settle_result;
 
 /** Starts sampling.
- *  @param set     [in]      the soil's particles, with ids from 0 to their number - 1
+ *  @param soil    [in]      its particles have ids from 0 to their number - 1
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
-mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_set *set);
+mor_status mor_settle_watch_init(mor_context *context, mor_settle_watch *watch, const mor_soil *soil);
 
 /** Frees what is owned; accepts a zeroed one. */
 void mor_settle_watch_clear(mor_context *context, mor_settle_watch *watch);
 
 /** Adds a sample of the soil.
- *  @param set     [in]      the same particles in any order
+ *  @param soil    [in]      the same particles in any order
  *  @param sample  [in]      what is known of it but for plastic strains and displacement, which are found here
  *  Returns: MOR_OK; MOR_ERROR_MEMORY; MOR_ERROR_NUMERIC. */
-mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_set *set,
+mor_status mor_settle_watch_add(mor_context *context, mor_settle_watch *watch, const mor_soil *soil,
                                 const mor_settle_sample *sample);
 
 /** Keeps a sample, or leaves it out where samples are thinned. */

@@ -136,6 +136,9 @@ static void set_settings(const mor_simulation *simulation, mor_soil_kind *kinds,
     memcpy(s->gravity, frame->gravity, sizeof s->gravity);
     memcpy(s->domain_minimum, frame->domain_minimum, sizeof s->domain_minimum);
     memcpy(s->domain_maximum, frame->domain_maximum, sizeof s->domain_maximum);
+    for (int a = 0; a < 3; ++a) {
+        s->is_periodic[a] = mor_case_is_periodic(c, a);
+    }
     s->placement = frame->is_placed ? &frame->placement : NULL;
     s->removes_outflow = c->outflow == 1;
     for (int k = 0; k < c->n_soils && mor_composite_is(simulation->material); ++k) {
@@ -355,7 +358,7 @@ static mor_status build_soil_with(mor_context *context, mor_simulation *simulati
     if (taken->the_case == NULL) {
         MOR_TRY(context, place_refusal(context, &c->soils[0], mor_soil_init_state(context, &simulation->soil)));
     }
-    mor_soil_sort(&simulation->soil);
+    mor_soil_sort(context, &simulation->soil);
     return mor_simulation_has_relaxed_soil(c) ? mor_soil_normalize(context, &simulation->soil) : MOR_OK;
 }
 

@@ -6,6 +6,7 @@
 #include "cases/driver/scene/build/memory_room.h"
 #include "cases/driver/scene/build/simulation_terrain.h"
 #include "cases/driver/scene/start/simulation_stage.h"
+#include "cases/driver/scene/wall_period.h"
 #include "cases/driver/scene/wall_sweep.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -116,6 +117,10 @@ static mor_status fill_wall(mor_context *context, const mor_wall_sweep *sweep, i
     for (int a = 0; a < 3; ++a) {
         request.domain.minimum[a] -= margin;
         request.domain.maximum[a] += margin;
+        if (mor_case_is_periodic(c, a)) { /* what is beyond follows from what is between the faces */
+            request.domain.minimum[a] = c->domain_minimum[a];
+            request.domain.maximum[a] = c->domain_maximum[a];
+        }
     }
     return fill_shape(context, &wanted, &request, points, shares);
 }
@@ -178,6 +183,7 @@ mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_ca
         mor_wall_sweep_clear(context, &sweep);
     }
     MOR_TRY(context, annotate_error(context, status, &it->place, it->name));
+    MOR_TRY(context, mor_wall_period_keep(context, the_case, wall, &points->n_points, points->positions, *shares));
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found wall '%s' without a single particle; allowed are walls at least one spacing (%g m) thick "
               "inside the domain and outside earlier walls; make the wall thicker or move it",

@@ -190,7 +190,7 @@ static mor_status measure(mor_context *context, const mor_simulation *simulation
         sample.mean_speed = motion.mean;
     }
     sample.speed = it->is_relaxed ? it->residual / it->ratio * it->limit : it->speed;
-    return mor_settle_watch_add(context, &it->watch, &simulation->soil.set, &sample);
+    return mor_settle_watch_add(context, &it->watch, &simulation->soil, &sample);
 }
 
 /* Soil that is being loaded, or has only just begun to move, is not at rest. */
@@ -267,7 +267,7 @@ static mor_status settle(mor_context *context, mor_simulation *simulation, mor_s
                          const mor_settle_observer *observer)
 {
     const double tick = simulation->schedule.tick;
-    mor_status status = mor_settle_watch_init(context, &it->watch, &simulation->soil.set);
+    mor_status status = mor_settle_watch_init(context, &it->watch, &simulation->soil);
     if (status == MOR_OK) {
         status = run_settling(context, simulation, it, observer);
     }

@@ -160,6 +160,7 @@ mor_status mor_simulation_check(mor_context *context, mor_simulation *simulation
     const mor_case *c = simulation->the_case;
     char place[MOR_CASE_TEXT_BYTES + 16];
     MOR_TRY(context, check_walls(context, simulation));
+    MOR_TRY(context, mor_soil_check_images(context, &simulation->soil, true, 0.0));
     MOR_TRY(context, check_speeds(context, simulation));
     MOR_TRY(context, check_damping(context, simulation));
     MOR_TRY(context, find_first_step(context, simulation));

@@ -226,7 +226,7 @@ static void open_sandbox(sandbox *box)
     }
     add_floor(box);
     assert_int_equal(mor_soil_init_state(&box->context, &box->soil), MOR_OK);
-    mor_soil_sort(&box->soil);
+    mor_soil_sort(&box->context, &box->soil);
     mor_stepper stepper;
     uint64_t evolving = 0;
     mor_soil_stepper(&box->soil, &stepper, &evolving);

@@ -276,10 +276,9 @@ static void particle_that_a_writer_leaves_out_is_named(void **state)
 
 static mor_status sort_in_secret(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
-    (void)context;
     (void)view;
     (void)step;
-    mor_soil_sort(owner);
+    mor_soil_sort(context, owner);
     return MOR_OK;
 }
 

@@ -322,7 +322,7 @@ static void rock_that_moves_as_one_is_a_wall(void **state)
                                           .velocity = {velocity[0], velocity[1], velocity[2]},
                                           .dimension = m->soil.constants.dimension,
                                           .stress = stress};
-        assert_int_equal(mor_soil_contact_init(&m->soil.context, &m->contact, &request, m->soil.tree.n_clusters),
+        assert_int_equal(mor_soil_contact_init(&m->soil.context, &m->contact, &request, NULL, m->soil.tree.n_clusters),
                          MOR_OK);
         run(m, mor_pair_select(NULL));
         memcpy(wall_acceleration, m->acceleration, sizeof wall_acceleration);

@@ -307,8 +307,8 @@ static void moved_wall_is_the_wall_made_there(void **state)
     floor_add(&made, &request);
     floor_set_stress(&moved, -8e3, 5e3);
     floor_set_stress(&made, -8e3, 5e3);
-    mor_soil_contact_move(&moved.wall, 7.0); /* the path there does not count */
-    mor_soil_contact_move(&moved.wall, 1.0);
+    mor_soil_contact_move(&moved.soil.context, &moved.wall, 7.0); /* the path there does not count */
+    mor_soil_contact_move(&moved.soil.context, &moved.wall, 1.0);
     floor_run(&moved, MOR_DISSIPATION_BOTH);
     floor_run(&made, MOR_DISSIPATION_BOTH);
     /* Rounding may sort the points of the two otherwise, and so change the order of the sums. */
