@@ -432,7 +432,17 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
               MOR_SOIL_WALLS_MAX);
     MOR_TRY(context, mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, soil->tree.n_clusters));
     soil->n_walls += 1;
-    return request->normals != NULL ? make_corners(context, soil) : MOR_OK;
+    return soil->walls[soil->n_walls - 1].normals != NULL ? make_corners(context, soil) : MOR_OK;
+}
+
+mor_status mor_soil_fill_walls(mor_context *context, mor_soil *soil)
+{
+    mor_tree_fit(&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3);
+    for (int w = 0; w < soil->n_walls; ++w) {
+        MOR_TRY(context, mor_soil_contact_fill(context, &soil->walls[w], &soil->tree, mor_soil_reach(soil)));
+        mor_soil_contact_forget_start(context, &soil->walls[w]);
+    }
+    return MOR_OK;
 }
 
 mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_boundary *boundary, mor_wall_stress stress)

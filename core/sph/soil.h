@@ -162,6 +162,11 @@ void mor_soil_clear(mor_context *context, mor_soil *soil);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
 
+/** Fills the walls that hold particles where soil is near alone, and forgets where all of them would be, as the lists
+ *  fill them later, when soil comes near. To be called when all is checked that asks for all particles of walls.
+ *  Returns: MOR_OK; as mor_soil_contact_fill. */
+mor_status mor_soil_fill_walls(mor_context *context, mor_soil *soil);
+
 /** Adds a boundary that is moved by another solver; core/particle/boundary.h says what is read and written when.
  *  @param boundary [in,out]  borrowed, outlives the soil's steps; its points are in place
  *  @param stress   [in]      stress that a soil particle sees in it

@@ -6,6 +6,7 @@
 #include "core/base/eigen.h"
 #include "core/base/parallel.h"
 #include "core/material/checked.h"
+#include "core/sph/boundary/soil_wall.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -84,9 +85,14 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view,
     mor_soil *soil = owner;
     const double *records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
+    const mor_relation_points points = {&soil->tree, records, MOR_RECORD_SIZE};
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         mor_view_compare(view, MOR_RESOURCE_LISTS, contact->relation.generation);
+        if (context->is_checked) {
+            MOR_TRY(context, mor_wall_blocks_check(context, contact, &points,
+                                                   MOR_KERNEL_SUPPORT * soil->smoothing_length, step->time));
+        }
         mor_soil_contact_sum(context, contact, soil->table, &soil->constants, records);
     }
     use_normals(context, soil);

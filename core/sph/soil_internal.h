@@ -4,6 +4,7 @@
 #define MOR_CORE_SPH_SOIL_INTERNAL_H
 
 #include "core/base/math.h"
+#include "core/particle/kernel.h"
 #include "core/sph/soil.h"
 
 /** @file
@@ -64,6 +65,12 @@ mor_status mor_soil_list_sleep(mor_context *context, mor_soil *soil, mor_state_l
 static inline bool mor_soil_is_asleep(const mor_soil *soil, int64_t particle)
 {
     return mor_sleep_is(soil->sleep.states, particle / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+}
+
+/** Reach of the lists: kernel support plus skin, unit m. */
+static inline double mor_soil_reach(const mor_soil *soil)
+{
+    return MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
 }
 
 /** Sizes of reductions over particles: particles handed to a material at once, most values of a block. */

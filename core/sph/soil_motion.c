@@ -110,8 +110,7 @@ static void find_clusters_at_walls(mor_soil *soil)
 
 static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view)
 {
-    const double reach =
-        MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
+    const double reach = mor_soil_reach(soil);
     const mor_relation_points points = {&soil->tree, mor_view_read(view, MOR_FIELD_POSITION), 3};
     mor_relation *inner = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
     const int n_regions = soil->settings.n_regions > 1 ? soil->settings.n_regions : 1;

@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/particle/kernel.h"
+#include "core/sph/boundary/soil_wall.h"
 
 #include <math.h>
 #include <string.h>
@@ -88,6 +89,19 @@ static double find_patch_box(const mor_boundary *boundary, const mor_boundary_pa
     return sqrt(fastest2);
 }
 
+/* Likewise of a wall, whose particles may not all be there. */
+static double find_wall_box(const mor_soil_contact *contact, mor_sleep_box *box)
+{
+    double all[6];
+    if (contact->blocks == NULL) {
+        return find_patch_box(contact->boundary, &contact->boundary->patches[0], box);
+    }
+    mor_wall_blocks_bound(contact, all);
+    memcpy(box->minimum, all, sizeof box->minimum);
+    memcpy(box->maximum, all + 3, sizeof box->maximum);
+    return mor_vector_length(contact->velocity);
+}
+
 /* Whether a body has stayed where it is, as soil has that sleeps. */
 static bool has_stayed(mor_soil *soil, const mor_boundary *boundary, const mor_boundary_patch *patch, double *rest,
                        double length)
@@ -116,7 +130,8 @@ static int find_moving(mor_soil *soil, double speed, double length)
             double *rest = contact->is_wall ? NULL : soil->sleep.rests + MOR_SLEEP_REST * body++;
             const bool stays = rest == NULL || has_stayed(soil, contact->boundary, patch, rest, length);
             if (patch->is_removed || may_move || (is_free && !stays)) {
-                const double fastest = find_patch_box(contact->boundary, patch, &soil->moving[n]);
+                const double fastest = contact->is_wall ? find_wall_box(contact, &soil->moving[n])
+                                                        : find_patch_box(contact->boundary, patch, &soil->moving[n]);
                 n += patch->is_removed || fastest > (is_free ? speed : 0.0) || (is_free && !stays);
             }
         }
