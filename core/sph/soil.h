@@ -11,7 +11,7 @@
 #include "core/scheme/scheme.h"
 #include "core/sph/boundary/soil_contact.h"
 #include "core/sph/lanes/soil_lanes.h"
-#include "core/sph/sleep/sleep.h"
+#include "core/sph/sleep/hold.h"
 #include "core/sph/soil_energy.h"
 #include "core/time/stepper.h"
 
@@ -49,6 +49,9 @@ typedef struct mor_soil_settings {
     int n_kinds;
     int n_regions; /* parts that the state variable MOR_COMPOSITE_INDEX_KEY tells apart, whether or not their
                       materials differ; of a composite the number of its parts; 0 or 1: one */
+    double
+        released[MOR_HOLD_REGIONS_MAX]; /* shape [regions]; time until which each stands as it was placed, s; 0: it is
+                                              released from the start */
 } mor_soil_settings;
 
 /** What has left the domain since the start. */
@@ -116,6 +119,8 @@ typedef struct mor_soil {
     double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
     mor_reduce_room room;        /* of reductions over particles */
     mor_sleep sleep;             /* soil at rest that is left out of steps */
+    mor_hold hold;               /* soil that is not released */
+    bool is_settling;            /* the initial stress settles: all soil is released, whatever is to be held later */
     mor_sleep_box *moving;       /* shape [n_moving_room]; scratch, boxes of what moves beside it; NULL without */
     int n_moving_room;
     int32_t *order;          /* shape [n_particles]; scratch of the sort */

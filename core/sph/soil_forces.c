@@ -198,6 +198,9 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     set_diffusion(context, soil, step, arrays.stress_diffusion);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
+    mor_hold_stop(&soil->hold, arrays.acceleration, 3);
+    mor_hold_stop(&soil->hold, arrays.stress_diffusion, 6);
+    mor_hold_stop(&soil->hold, arrays.hourglass_moment, 3);
     return MOR_OK;
 }
 
@@ -239,6 +242,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
     arrays.moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
+    mor_hold_stop(&soil->hold, arrays.hourglass_rate, 3);
     return MOR_OK;
 }
 
@@ -258,6 +262,8 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
         mor_soil_contact_update_velocity(context, contact, soil->table, &soil->constants, records);
         mor_soil_contact_sum_gradient(context, contact, records, soil->set.n_particles, gradient, rate);
     }
+    mor_hold_stop(&soil->hold, gradient, 9);
+    mor_hold_stop(&soil->hold, rate, 1);
     return MOR_OK;
 }
 

@@ -132,6 +132,9 @@ static void set_settings(const mor_simulation *simulation, mor_soil_kind *kinds,
     memcpy(s->domain_maximum, frame->domain_maximum, sizeof s->domain_maximum);
     s->placement = frame->is_placed ? &frame->placement : NULL;
     s->removes_outflow = c->outflow == 1;
+    for (int k = 0; k < c->n_soils; ++k) {
+        s->released[k] = c->soils[k].released;
+    }
     for (int k = 0; k < c->n_soils && mor_composite_is(simulation->material); ++k) {
         kinds[k] = (mor_soil_kind){.reference_density = c->soils[k].density,
                                    .lateral_ratio = mor_simulation_lateral_ratio(simulation, k),

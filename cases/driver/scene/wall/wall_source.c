@@ -105,8 +105,11 @@ mor_status mor_wall_source_make(mor_context *context, const mor_wall_filling *fi
                                 int64_t **numbers)
 {
     const mor_scheme *numerics = &filling->the_case->numerics;
-    const bool is_sleeping = numerics->sleep_after > 0.0;
+    bool is_sleeping = numerics->sleep_after > 0.0;
     bool is_whole = false;
+    for (int k = 0; k < filling->the_case->n_soils; ++k) {
+        is_sleeping = is_sleeping || filling->the_case->soils[k].released > 0.0;
+    }
     *numbers = NULL;
     *source = (mor_wall_source){.place = place, .owner = filling, .has_normals = numerics->wall_normals == 1};
     if (numerics->wall_particles != 0 || points->n_points < LEAST || (rotates && is_sleeping)) {
