@@ -246,6 +246,9 @@ static mor_status find_wall_data(mor_context *context, const mor_simulation *sim
     MOR_TRY(context, mor_wall_source_make(context, &simulation->wall_fillings[wall],
                                           motion->n_rows > 0 && mor_motion_rotates(motion), points, found->shares,
                                           &found->source, &found->numbers));
+    if (found->numbers != NULL) {
+        MOR_FREE(context, &found->shares); /* the source finds them again */
+    }
     if (found->numbers == NULL && c->numerics.wall_normals == 1) {
         MOR_TRY(context, MOR_NEW(context, &found->normals, 3 * n, "normals of a wall"));
         MOR_TRY(context, MOR_NEW(context, &found->depths, n, "normals of a wall"));
